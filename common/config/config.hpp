@@ -1,0 +1,67 @@
+#pragma once
+// Loading, validating and addressing configuration. One reflection-based validator for all messages.
+// Messages: proto/config.proto. Errors name file, line and column, or the field's path; the value; what is allowed.
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "master/master_config.hpp"
+#include "proto/config.pb.h"
+#include "slave/slave_config.hpp"
+
+namespace longreach {
+
+/// One sentence that says which file and line or field, which value, why not, and what is allowed.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Parses a protobuf text file into `message` and validates it. Throws ConfigError ("FILE:LINE:COLUMN: ...").
+void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
+
+/// Checks ranges, counts, finiteness and unknown enum values of every field that is set. Throws ConfigError with the
+/// field's path.
+void validate(const google::protobuf::Message& message);
+
+/// Sets one field from text, e.g. "estimator.forgetting" "0.995"; a repeated message is addressed by index or by its
+/// `name` ("scene.material.wall.exponent"), a repeated number by a comma-separated list. Throws ConfigError, and then
+/// `message` is unchanged.
+void set_field(google::protobuf::Message& message, std::string_view path, std::string_view value);
+
+/// A field or sub-message as text; the whole for an empty path. Fields that are not set print their default.
+std::string get_field(const google::protobuf::Message& message, std::string_view path);
+
+/// A setting "path=value" for a laboratory run: as set_field, but `master.` or `slave.` may be left out where only one
+/// of them (or the LabConfig itself) has the path. Throws ConfigError; an ambiguous path names both.
+void set_lab_field(proto::LabConfig& config, std::string_view setting);
+
+/// Paths of the fields that differ between two messages of one type and may not change with `engaged` (or, for
+/// AT_START fields, while the program runs).
+std::vector<std::string> refused_changes(const google::protobuf::Message& before,
+                                         const google::protobuf::Message& after, bool engaged);
+
+/// deploy folder: $LONGREACH_HOME, else the nearest `deploy` beside or above the program, else above the working
+/// directory. Throws ConfigError that says what to do.
+std::filesystem::path find_deploy_folder();
+
+/// Reads robots/ and scenes/ files that a slave configuration names into its `robot` and `scene`, unless they are
+/// given in place; checks that names refer to something (materials, six joints, limit order). Throws ConfigError.
+void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
+
+/// deploy/links/NAME.txtpb. Throws ConfigError that lists the known names.
+proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
+
+// Plain structs from validated messages, and back. A test proves that no field is forgotten.
+MasterConfig to_struct(const proto::MasterConfig& message);
+SlaveConfig to_struct(const proto::SlaveConfig& message);
+ImpairmentConfig to_struct(const proto::Impairment& message);
+proto::MasterConfig to_message(const MasterConfig& config);
+proto::SlaveConfig to_message(const SlaveConfig& config);
+proto::Impairment to_message(const ImpairmentConfig& config);
+
+}  // namespace longreach

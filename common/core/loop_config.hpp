@@ -1,0 +1,19 @@
+#pragma once
+// Parameters that both programs share. Meaning, unit and range: proto/config.proto; the same names.
+
+#include <cstdint>
+#include <string>
+
+namespace longreach {
+
+struct LoopConfig {
+  double rate_hz = 1000.0;
+  std::uint32_t priority = 50;
+  bool lock_memory = true;
+};
+
+struct RpcServerConfig {
+  std::string listen;   // empty: 127.0.0.1:47010 (master), 127.0.0.1:47020 (slave)
+};
+
+}  // namespace longreach

@@ -1,0 +1,42 @@
+#pragma once
+// What a side lets the RPC service do. One implementation a side; called from RPC threads, one call at a time.
+// A call that changes something returns nothing when it was carried out as a whole, or why it was refused; then
+// nothing has changed.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "proto/config.pb.h"
+#include "proto/control.pb.h"
+
+namespace longreach {
+
+struct Refusal {
+  enum class Kind { kInvalid, kPrecondition, kUnavailable };  // bad value; not now or not here; no answer in time
+  Kind kind = Kind::kInvalid;
+  std::string message;   // one sentence: which field, why, what to do
+};
+
+using Assignments = std::vector<std::pair<std::string, std::string>>;   // field path, value as text
+
+class ControlBackend {
+ public:
+  virtual ~ControlBackend() = default;
+
+  virtual proto::Status status() = 0;
+  /// A copy of the effective configuration (MasterConfig or SlaveConfig).
+  virtual std::unique_ptr<google::protobuf::Message> config() = 0;
+  virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
+  virtual proto::Impairment link() = 0;
+  /// The complete, validated impairment of what this side receives.
+  virtual std::optional<Refusal> set_link(const proto::Impairment& impairment) = 0;
+  virtual std::optional<Refusal> set_mode(proto::Mapping::Mode mode) = 0;
+  virtual std::optional<Refusal> set_scale(double scale) = 0;
+  virtual std::optional<Refusal> engage() = 0;
+  virtual std::optional<Refusal> stop() = 0;
+};
+
+}  // namespace longreach

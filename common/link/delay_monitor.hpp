@@ -1,0 +1,52 @@
+#pragma once
+// What the link is like, seen from one side: round-trip time, variation of the one-way time, loss, reordering, age.
+// RTT of a sample = now - echo.sent - echo.held, all but `held` on this side's clock; `held` is a duration of the
+// peer's. One-way variation is taken about the running minimum of (received - sent), whose unknown clock offset
+// cancels. Windows are short (2 s) so that a changed link shows at once. Pure: time comes in.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/core/ring.hpp"
+#include "common/core/time.hpp"
+#include "common/link/envelope.hpp"
+
+namespace longreach {
+
+struct LinkFigures {
+  std::optional<double> rtt_s{};   // median of the window; none until an echo came
+  double rtt_min_s = 0.0;          // least of the window
+  double jitter_s = 0.0;           // standard deviation of the one-way time over the window
+  double loss = 0.0;               // fraction of the datagrams of the window that never came
+  double reorder = 0.0;            // fraction that came after a newer one of its type
+  double silence_s = 0.0;          // since the last accepted datagram (infinite before the first)
+  double rate_hz = 0.0;            // accepted datagrams a second
+  double bytes_per_s = 0.0;        // accepted bytes a second, without UDP and IP headers
+};
+
+class DelayMonitor {
+ public:
+  DelayMonitor();
+
+  /// Books an accepted datagram. `rtt` where its echo allowed to compute one.
+  void on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt, std::size_t bytes);
+
+  [[nodiscard]] LinkFigures figures(Time now) const;
+  [[nodiscard]] std::optional<Time> last_heard() const { return last_heard_; }
+  void clear();
+
+ private:
+  struct Sample {
+    Time received{};
+    std::int64_t transit_ns = 0;   // received - sent, across two clocks: only differences mean something
+    std::int64_t rtt_ns = -1;      // -1: none
+    std::uint64_t sequence = 0;
+    DatagramType type{};
+    std::uint32_t bytes = 0;
+    bool late = false;             // came after a newer one of its type
+  };
+  Ring<Sample> samples_;
+  std::optional<Time> last_heard_{};
+};
+
+}  // namespace longreach

@@ -1,0 +1,26 @@
+#pragma once
+// Accepts each sequence number once. Numbers older than `width` below the newest are refused, because nobody can
+// tell any more (RFC 6479's idea: a ring of bits).
+
+#include <cstdint>
+#include <vector>
+
+namespace longreach {
+
+class ReplayWindow {
+ public:
+  explicit ReplayWindow(std::uint32_t width = 8192);
+
+  /// True the first time a number (>= 1) within the window is seen. Zero is never accepted.
+  bool accept(std::uint64_t sequence);
+
+  [[nodiscard]] std::uint64_t newest() const { return newest_; }   // 0: none yet
+  void clear();
+
+ private:
+  std::uint32_t width_;
+  std::uint64_t newest_ = 0;
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace longreach

@@ -1,0 +1,47 @@
+#pragma once
+// Slave to master: the only haptic quantity that crosses the link, the estimated stiffness, and where in the
+// operator's own motion it was met. The renderer sees this type and nothing else from the far side.
+
+#include <cstdint>
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+/// States of the safety machine; both sides show them.
+enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
+
+/// First cause of leaving Engaged.
+enum class HoldCause : std::uint8_t {
+  kNone,
+  kOperator,        // asked for by the operator
+  kLinkSilent,      // gap timer: nothing heard
+  kLinkStale,       // age bound: what the other side acts on is too old
+  kPeerRestarted,   // the other side began a new session
+  kPeerHolds,       // the other side holds or stopped
+  kRobotFault,
+  kDeviceFault
+};
+
+/// One contact, in translation or in rotation.
+struct ContactStiffness {
+  // Symmetric, positive semidefinite, in W: N/m (translation) or N m/rad (rotation); zero without contact.
+  Matrix3 stiffness = Matrix3::Zero();
+  // Which command's goal is the place of the surface, between sequences; 0 without a touch. Refined while the
+  // contact lasts.
+  double touch_sequence = 0.0;
+  std::uint32_t touch = 0;   // counts touches from 1; a new number is a new contact
+  bool in_contact = false;
+};
+
+struct StiffnessReport {
+  std::uint32_t engagement = 0;      // engagement that the slave follows or last followed
+  SafetyState state = SafetyState::kIdle;
+  HoldCause cause = HoldCause::kNone;
+  ContactStiffness translation{};
+  ContactStiffness rotation{};
+  // Newest command whose goal the tool has reached without contact: what lies up to there is free space.
+  std::uint64_t reached_sequence = 0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,56 @@
+#pragma once
+// Slave to master, 30 to 60 Hz: for the eyes and the log only. Nothing that moves a motor may read it.
+
+#include <array>
+#include <cstdint>
+
+#include "common/link/stiffness_report.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+constexpr int kMaxJoints = 6;
+
+/// What the slave had to clamp since the last datagram.
+struct Clamps {
+  bool tool_speed = false;
+  bool joint_speed = false;
+  bool joint_position = false;
+  bool workspace = false;
+  bool force_guard = false;
+  bool singularity = false;
+  bool unreachable = false;
+};
+
+/// The estimator's present answer.
+struct ContactEstimate {
+  double stiffness_n_per_m = 0.0;     // secant f/p at `depth_m`
+  double stiffness_sd_n_per_m = 0.0;  // one standard deviation
+  double k = 0.0;                     // N/m^n
+  double lambda = 0.0;                // N s/m^(n+1)
+  double n = 1.0;                     // exponent
+  double depth_m = 0.0;               // depth that the reported stiffness belongs to
+  bool valid = false;                 // false: not yet, or no contact
+};
+
+struct Telemetry {
+  SafetyState state = SafetyState::kIdle;
+  HoldCause cause = HoldCause::kNone;
+  std::uint32_t engagement = 0;
+  Pose X_WE{};                                   // measured tool pose
+  Pose X_WE_goal{};                              // goal that is being followed
+  std::array<double, kMaxJoints> joint_rad{};    // measured
+  Wrench F_E_W{};                                // measured, by the environment on the tool
+  ContactEstimate estimate{};
+  double penetration_m = 0.0;                    // measured depth below the estimated surface; 0 without contact
+  Clamps clamps{};
+  // The slave's view of the way from the master.
+  double up_loss = 0.0;                          // fraction
+  double up_jitter_s = 0.0;                      // standard deviation of the one-way time
+  double playout_delay_s = 0.0;
+  std::uint64_t rejected = 0;                    // datagrams dropped, all reasons
+  std::uint64_t limit_violations = 0;
+  std::uint64_t late_ticks = 0;                  // ticks late by over 100 ms
+};
+
+}  // namespace longreach

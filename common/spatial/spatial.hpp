@@ -1,0 +1,54 @@
+#pragma once
+// Poses, twists, wrenches and the exponential coordinates of rotations.
+// Frames: W slave world, M master base, H handle, S robot base, E tool, F force sensor, C contact.
+// X_AB is the pose of B in A; V_AB a twist [angular; linear]; F_E_W a wrench [moment; force] at E in W, by the
+// environment on the tool.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace longreach {
+
+using Vector3 = Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix3 = Eigen::Matrix3d;
+using Quaternion = Eigen::Quaterniond;
+
+struct Pose {
+  Vector3 p = Vector3::Zero();                       // position, m
+  Quaternion q = Quaternion::Identity();             // orientation, unit quaternion
+};
+
+struct Twist {
+  Vector3 angular = Vector3::Zero();  // rad/s
+  Vector3 linear = Vector3::Zero();   // m/s
+};
+
+struct Wrench {
+  Vector3 moment = Vector3::Zero();  // N m
+  Vector3 force = Vector3::Zero();   // N
+};
+
+/// Rotation vector (axis times angle, rad) to unit quaternion; exact at zero, valid for every finite vector.
+Quaternion exp_rotation(const Vector3& rotation_rad);
+
+/// Unit quaternion to the shortest rotation vector, |result| <= pi; accurate near zero and near pi.
+Vector3 log_rotation(const Quaternion& q);
+
+/// `a` composed with `b`: X_AC = X_AB * X_BC.
+inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {
+  return {X_AB.p + X_AB.q * X_BC.p, (X_AB.q * X_BC.q).normalized()};
+}
+
+inline Pose inverse(const Pose& X_AB) {
+  const Quaternion q = X_AB.q.conjugate();
+  return {-(q * X_AB.p), q};
+}
+
+/// `v` shortened to at most `limit` (>= 0); direction kept; a zero vector stays zero.
+inline Vector3 clamp_norm(const Vector3& v, double limit) {
+  const double n = v.stableNorm();
+  return n > limit ? Vector3(v * (limit / n)) : v;
+}
+
+}  // namespace longreach

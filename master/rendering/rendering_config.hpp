@@ -1,0 +1,29 @@
+#pragma once
+// What the hand feels. Meaning, unit and range: proto/config.proto; the same names.
+
+#include <cstdint>
+
+namespace longreach {
+
+enum class RenderingLaw : std::uint8_t { kStiffness = 0, kNaive = 1 };
+
+struct RenderingConfig {
+  RenderingLaw law = RenderingLaw::kStiffness;
+  double ke = 1.0;
+  double contact_damping_n_s_per_m = 3.0;
+  double stiffness_max_n_per_m = 7000.0;
+  double fade_s = 0.2;
+  double tank_max_j = 0.02;
+  double rate_stiffness_n_per_m = 60.0;
+  double rate_damping_n_s_per_m = 4.0;
+  double friction_n = 0.1;
+  double friction_stiffness_n_per_m = 1000.0;
+  double rotational_stiffness_nm_per_rad = 0.45837;
+  double rotational_damping_nm_s_per_rad = 1.05e-2;
+  double force_max_n = 15.0;
+  double moment_max_nm = 0.3;
+  double ramp_s = 0.05;
+  double forget_depth_m = 0.005;
+};
+
+}  // namespace longreach

@@ -1,0 +1,20 @@
+#pragma once
+// Limits on what the robot is asked for. Meaning, unit and range: proto/config.proto; the same names.
+
+#include <cstdint>
+
+namespace longreach {
+
+struct CommandConfig {
+  double speed_max_m_per_s = 0.25;
+  double acceleration_max_m_per_s2 = 1.25;
+  double speed_max_rad_per_s = 0.3;
+  double acceleration_max_rad_per_s2 = 2.0;
+  double force_guard_n = 20.0;
+  double guard_stiffness_n_per_m = 2e4;
+  double workspace_m = 3.0;
+  double tolerance_m = 1e-10;
+  std::uint32_t iterations_max = 20;
+};
+
+}  // namespace longreach

@@ -1,0 +1,28 @@
+#pragma once
+// The one interface between the loop and a robot: measured state out, joint setpoint in.
+
+#include <array>
+
+#include "common/core/time.hpp"
+#include "common/link/telemetry.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+using JointVector = Eigen::Matrix<double, kMaxJoints, 1>;
+
+struct RobotState {
+  JointVector joint_rad = JointVector::Zero();    // measured
+  JointVector joint_rad_per_s = JointVector::Zero();
+  Wrench F_F_W{};                                 // force sensor, in W, by the environment on the tool
+  bool ok = true;                                 // false: the robot has stopped by itself
+};
+
+class Robot {
+ public:
+  virtual ~Robot() = default;
+  virtual RobotState read(Time now) = 0;
+  virtual void write(const JointVector& joint_setpoint_rad) = 0;
+};
+
+}  // namespace longreach

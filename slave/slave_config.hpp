@@ -1,0 +1,47 @@
+#pragma once
+// Every parameter of the slave as plain values. Meaning, unit, default and range: proto/config.proto; the same names.
+
+#include <cstdint>
+#include <string>
+
+#include "common/link/impairment.hpp"
+#include "common/link/playout.hpp"
+#include "common/core/loop_config.hpp"
+#include "slave/robot/robot_config.hpp"
+#include "slave/scene/scene_config.hpp"
+#include "slave/command/command_config.hpp"
+#include "slave/estimation/estimator_config.hpp"
+#include "slave/sensing/sensing_config.hpp"
+
+namespace longreach {
+
+struct SlaveLinkConfig {
+  std::string listen = "127.0.0.1:47001";
+  double telemetry_hz = 30.0;
+  double heartbeat_contact_hz = 10.0;
+  double heartbeat_free_hz = 2.0;
+  ImpairmentConfig impairment{};
+};
+
+struct SlaveSafetyConfig {
+  double gap_s = 0.15;
+  double age_max_s = 30.0;
+  double resume_s = 1.0;
+};
+
+struct SlaveConfig {
+  SlaveLinkConfig link{};
+  LoopConfig loop{};
+  PlayoutConfig playout{};
+  CommandConfig command{};
+  std::string robot_file = "robots/space_arm.txtpb";
+  RobotConfig robot{};
+  std::string scene_file = "scenes/wall.txtpb";
+  SceneConfig scene{};
+  SensingConfig sensing{};
+  EstimatorConfig estimator{};
+  SlaveSafetyConfig safety{};
+  RpcServerConfig rpc{};
+};
+
+}  // namespace longreach
