@@ -1,0 +1,60 @@
+#pragma once
+// Running least squares of a straight line, y = intercept + slope x, one pass and no memory of the samples:
+//   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
+// with the centred moments updated as in Welford (1962), so that a large mean costs no digits.
+// A sample that is not finite is left out and counted. Does not forget, weigh or reject outliers.
+
+#include <cmath>
+#include <cstdint>
+
+namespace longreach {
+
+class LineFit {
+ public:
+  void add(double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) {
+      ++ignored_;
+      return;
+    }
+    ++count_;
+    const double n = static_cast<double>(count_);
+    const double dx = x - mean_x_;
+    const double dy = y - mean_y_;
+    mean_x_ += dx / n;
+    mean_y_ += dy / n;
+    sxx_ += dx * (x - mean_x_);
+    sxy_ += dx * (y - mean_y_);
+    syy_ += dy * (y - mean_y_);
+  }
+  void clear() { *this = LineFit{}; }
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
+  [[nodiscard]] double mean_x() const { return mean_x_; }
+  [[nodiscard]] double mean_y() const { return mean_y_; }
+
+  /// False while the samples do not determine a line (fewer than two, all at one x, or out of the range of a
+  /// double); then slope, intercept and slope_sd are zero.
+  [[nodiscard]] bool valid() const {
+    return count_ >= 2 && sxx_ > 0.0 && std::isfinite(sxx_) && std::isfinite(sxy_ / sxx_);
+  }
+  [[nodiscard]] double slope() const { return valid() ? sxy_ / sxx_ : 0.0; }
+  [[nodiscard]] double intercept() const { return valid() ? mean_y_ - slope() * mean_x_ : 0.0; }
+  /// Standard deviation of the slope under independent errors of y; zero with fewer than three samples.
+  [[nodiscard]] double slope_sd() const {
+    if (!valid() || count_ < 3) return 0.0;
+    const double rest = std::fmax(syy_ - slope() * sxy_, 0.0);
+    return std::sqrt(rest / (static_cast<double>(count_ - 2) * sxx_));
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  std::uint64_t ignored_ = 0;
+  double mean_x_ = 0.0;
+  double mean_y_ = 0.0;
+  double sxx_ = 0.0;
+  double sxy_ = 0.0;
+  double syy_ = 0.0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,68 @@
+#pragma once
+// From the bytes of a terminal to what they ask for. Pure. Escape sequences may be split over reads; unknown
+// bytes and sequences do nothing.
+//
+// Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
+// the large step; space: let go, home; m mode; + - scale; c clutch; e engage; x stop; q quit; ? keys.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/spatial/spatial.hpp"
+#include "master/master_node.hpp"
+
+namespace longreach {
+
+enum class KeyAction {
+  kMove,  // by `steps` along `axis`
+  kHome,
+  kMode,
+  kScaleUp,
+  kScaleDown,
+  kClutch,
+  kEngage,
+  kStop,
+  kQuit,
+  kHelp
+};
+
+struct Key {
+  KeyAction action = KeyAction::kHome;
+  int axis = 0;        // 0 x, 1 y, 2 z of M
+  int sign = 0;        // -1, 0, +1
+  bool large = false;  // the large step
+
+  bool operator==(const Key&) const = default;
+};
+
+class KeyParser {
+ public:
+  /// The keys that these bytes complete.
+  std::vector<Key> feed(std::string_view bytes);
+
+ private:
+  std::string pending_;  // an escape sequence that has begun; at most kPendingMax bytes
+};
+
+struct KeyboardConfig {
+  double step_m = 0.001;
+  double large_step_m = 0.005;
+  double workspace_m = 0.075;  // radius that the target stays within
+};
+
+struct KeyboardState {
+  Vector3 target_m = Vector3::Zero();  // where the hand wants to be, from handle home, M
+  OperatorRequests requests{};         // since the last poll; clutch is a level
+  bool show_keys = false;
+  bool quit = false;  // latched
+};
+
+/// `state` after `key`; `mode` is the present one, which the mode key changes.
+void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, KeyboardState& state);
+
+/// One line that lists the keys.
+std::string_view key_line();
+
+}  // namespace longreach

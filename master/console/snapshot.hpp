@@ -1,0 +1,27 @@
+#pragma once
+// What the console shows: one consistent picture of the master, taken outside the loop.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/link/delay_monitor.hpp"
+#include "common/link/envelope.hpp"
+#include "master/master_node.hpp"
+
+namespace longreach {
+
+struct ConsoleSnapshot {
+  MasterView view{};
+  LinkFigures link{};
+  std::uint64_t late_ticks = 0;          // late by over 100 ms
+  std::uint64_t missed_ticks = 0;        // periods in which no tick ran
+  RejectionCounts rejected{};            // datagrams dropped on this side, by reason
+  std::string operator_phase{};          // what the operator is doing, in words; empty: not known
+  double seconds = 0.0;                  // since the start
+  std::optional<double> seconds_left{};  // none: runs until it is ended
+  double force_max_n = 15.0;             // full length of the force bars
+  bool show_keys = false;                // list the keys below the view
+};
+
+}  // namespace longreach

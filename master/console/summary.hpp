@@ -1,0 +1,86 @@
+#pragma once
+// The end of a run in figures and a verdict.
+//
+// Displayed stiffness: least-squares slope of the contact spring's force on the handle's position, both along
+// the inward normal, over the samples in position mode with a spring force over 0.2 N, nothing clamped, from
+// RTT + 1 s after the first touch. It should be ke times the slave's estimate. add() allocates nothing and
+// may be called once a tick or at any lower, steady rate.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/regression.hpp"
+#include "common/core/ring.hpp"
+#include "master/console/snapshot.hpp"
+
+namespace longreach {
+
+struct SummaryConfig {
+  double ke = 1.0;                    // rendered over estimated stiffness
+  bool contact_expected = false;      // the script touches; a person need not
+  double stiffness_error_max = 0.10;  // fraction; differences under 8 to 20 % are not felt
+  double energy_floor_j = -1e-3;      // encoder steps let the port read this low without a leak
+  double force_step_max_n = 0.5;      // 7 to 10 % of 5 N is not felt
+};
+
+/// Counters at the end of the run.
+struct RunCounters {
+  std::uint64_t late_ticks = 0;  // of both sides, late by over 100 ms
+  std::uint64_t missed_ticks = 0;
+  std::uint64_t false_holds = 0;
+  std::uint64_t rejected_values = 0;     // of messages that were otherwise good
+  std::uint64_t rejected_datagrams = 0;  // of both sides, all reasons
+  std::uint64_t limit_violations = 0;    // of the slave
+};
+
+struct SummaryCheck {
+  std::string text;
+  bool ok = false;
+};
+
+struct Summary {
+  std::optional<double> rtt_s{};  // median over the run
+  double engaged_s = 0.0;         // time in Engaged
+  bool touched = false;
+  std::optional<double> displayed_stiffness_n_per_m{};
+  std::optional<double> expected_stiffness_n_per_m{};  // ke times the estimate, mean over the same samples
+  std::uint64_t stiffness_samples = 0;
+  double port_energy_min_j = 0.0;
+  double force_step_max_n = 0.0;
+  RunCounters counters{};
+  std::vector<SummaryCheck> checks{};
+
+  [[nodiscard]] bool passed() const;
+  /// Several lines and the verdict, each ended by '\n'.
+  [[nodiscard]] std::string text() const;
+};
+
+class RunSummary {
+ public:
+  explicit RunSummary(const SummaryConfig& config);
+
+  /// Books a moment of the run; `seconds` since the start must not fall.
+  void add(double seconds, const MasterView& view, std::optional<double> rtt_s);
+  /// `last`: the final picture, for the counters.
+  [[nodiscard]] Summary finish(const ConsoleSnapshot& last) const;
+
+ private:
+  void add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s);
+  void add_checks(Summary& summary) const;
+
+  SummaryConfig config_;
+  Ring<double> rtt_s_;  // ten a second, the last hour
+  double next_rtt_s_ = 0.0;
+  double last_s_ = 0.0;
+  double engaged_s_ = 0.0;
+  std::optional<double> touched_at_s_{};
+  LineFit fit_;
+  double estimate_sum_n_per_m_ = 0.0;
+  std::uint64_t estimates_ = 0;
+  double energy_min_j_ = 0.0;
+  double force_step_max_n_ = 0.0;
+};
+
+}  // namespace longreach
