@@ -11,8 +11,8 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  /// Takes the next datagram into `buffer` and returns its true size, which may exceed the buffer's (then it was cut);
-  /// none when nothing is there. Never waits.
+  /// Takes the next datagram into `buffer` and returns its true size, which may exceed the buffer's (then it
+  /// was cut); none when nothing is there. Never waits.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
 
   /// Sends, or drops when that is not possible now. Never waits.

@@ -1,58 +1,113 @@
 #pragma once
-// The shell between a node and a channel: impairment, header checks, session and replay, decoding, values; and the way
-// back. Both programs and the laboratory use it, so the laboratory's bytes are real bytes.
+// The shell between a node and a channel: impairment, header checks, session and replay, decoding, values;
+// and the way back. Both programs and the laboratory use it, so the laboratory's bytes are real bytes.
 //
-// receive() drains the channel through the impairment; what was accepted stays available until the next receive().
-// A rejected datagram changes nothing but its counter. Nothing allocates after construction.
+// receive() drains the channel through the impairment; what was accepted stays available until the next
+// receive(). A rejected datagram changes nothing but its counter. Nothing allocates after construction.
+// Bounded: at most kDatagramsPerReceive datagrams a call; of what was accepted the newest kInboxCapacity of a
+// type.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/link/endpoint.hpp"
+#include "common/link/header.hpp"
 #include "common/link/impairment.hpp"
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
 #include "common/wire/channel.hpp"
+#include "common/wire/codec.hpp"
+#include "common/wire/inbox.hpp"
 
 namespace longreach {
+
+constexpr int kDatagramsPerReceive = 1024;
+constexpr std::size_t kInboxCapacity = 256;
 
 /// What both sides' ports share.
 class Port {
  public:
+  /// `channel` must outlive the port. `session`: see Endpoint.
   Port(Channel& channel, std::uint64_t session, const ImpairmentConfig& impairment, Random random);
   virtual ~Port();
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
 
   void receive(Time now);
 
   [[nodiscard]] const Endpoint& endpoint() const { return endpoint_; }
   [[nodiscard]] const RejectionCounts& rejected() const { return rejected_; }
   [[nodiscard]] std::uint64_t rejected_total() const;
+  /// Datagrams that passed every check.
+  [[nodiscard]] std::uint64_t accepted_total() const { return accepted_; }
   Impairment& impairment() { return impairment_; }
 
  protected:
-  void send_bytes(Time now, DatagramType type, std::uint64_t sequence);   // encodes through the side's codec
+  /// Whether this side takes datagrams of this type.
+  [[nodiscard]] virtual bool takes(DatagramType type) const = 0;
+  /// Decodes, commits and keeps the message of a judged datagram of `bytes` bytes.
+  virtual std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
+                                          std::size_t bytes) = 0;
+  /// Forgets what the last receive() accepted, and puts what this one accepted in order.
+  virtual void open_inboxes() = 0;
+  virtual void close_inboxes() = 0;
+
+  template <class Message>
+  std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Header& header,
+                                       std::span<const std::byte> body, std::size_t bytes);
+  template <class Message>
+  void send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
+
+ private:
+  std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram);
+  void count(std::optional<Rejection> rejection);
+
   Channel& channel_;
   Endpoint endpoint_;
   Impairment impairment_;
+  Codec codec_;
   RejectionCounts rejected_{};
+  std::uint64_t accepted_ = 0;
+  std::array<std::byte, kDatagramMaxBytes> buffer_{};
 };
 
 class MasterPort : public Port {
  public:
   using Port::Port;
-  [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const;
-  [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const;
+  [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
+  [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
   void send(Time now, std::uint64_t sequence, const MotionCommand& command);
+
+ private:
+  [[nodiscard]] bool takes(DatagramType type) const override;
+  std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
+                                  std::size_t bytes) override;
+  void open_inboxes() override;
+  void close_inboxes() override;
+
+  Inbox<Received<StiffnessReport>> reports_{kInboxCapacity};
+  Inbox<Received<Telemetry>> telemetry_{kInboxCapacity};
 };
 
 class SlavePort : public Port {
  public:
   using Port::Port;
-  [[nodiscard]] std::span<const Received<MotionCommand>> commands() const;
+  [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
   void send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
+
+ private:
+  [[nodiscard]] bool takes(DatagramType type) const override;
+  std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
+                                  std::size_t bytes) override;
+  void open_inboxes() override;
+  void close_inboxes() override;
+
+  Inbox<Received<MotionCommand>> commands_{kInboxCapacity};
 };
 
 }  // namespace longreach

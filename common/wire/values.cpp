@@ -1,0 +1,268 @@
+#include "common/wire/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/wire/codec.hpp"
+
+namespace longreach {
+namespace {
+
+using Doubles = google::protobuf::RepeatedField<double>;
+using Floats = google::protobuf::RepeatedField<float>;
+
+constexpr double kSequenceMax = 9e15;    // below 2^53: a fractional sequence still has its fraction's halves
+constexpr double kScaleRounding = 1e-9;  // steps of 0.05 do not add up exactly
+constexpr double kUnitTolerance = 1e-6;  // of a quaternion's norm
+
+bool within(double value, double low, double high) { return value >= low && value <= high; }  // false for NaN
+
+template <class Field>
+bool all_within(const Field& values, double limit) {
+  return std::all_of(values.begin(), values.end(),
+                     [limit](auto v) { return within(static_cast<double>(v), -limit, limit); });
+}
+
+/// An enumeration whose values run from zero to `last`.
+template <class Enum>
+std::optional<Enum> to_enum(std::uint32_t value, Enum last) {
+  if (value > static_cast<std::uint32_t>(last)) return std::nullopt;
+  return static_cast<Enum>(value);
+}
+
+template <class Field>
+Vector3 to_vector(const Field& values) {
+  return {static_cast<double>(values.Get(0)), static_cast<double>(values.Get(1)),
+          static_cast<double>(values.Get(2))};
+}
+
+template <class Field, class Vector>
+void assign(const Vector& values, Field& out) {
+  out.Clear();
+  for (const double v : values) out.Add(static_cast<typename Field::value_type>(v));
+}
+
+// Upper triangle of the symmetric part; a zero matrix takes no bytes.
+void write(const ContactStiffness& contact, proto::ContactStiffness& out) {
+  out.mutable_stiffness()->Clear();
+  if (!contact.stiffness.isZero(0.0)) {
+    for (int row = 0; row < 3; ++row) {
+      for (int column = row; column < 3; ++column) {
+        out.add_stiffness(0.5 * (contact.stiffness(row, column) + contact.stiffness(column, row)));
+      }
+    }
+  }
+  out.set_touch_sequence(contact.touch_sequence);
+  out.set_touch(contact.touch);
+  out.set_in_contact(contact.in_contact);
+}
+
+std::optional<ContactStiffness> read_contact(const proto::ContactStiffness& in) {
+  ContactStiffness out;
+  const auto& k = in.stiffness();
+  if (k.size() != 0 && k.size() != 6) return std::nullopt;
+  if (!all_within(k, kStiffnessMaxNPerM)) return std::nullopt;
+  if (k.size() == 6) {
+    out.stiffness << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+  }
+  if (!within(in.touch_sequence(), 0.0, kSequenceMax)) return std::nullopt;
+  out.touch_sequence = in.touch_sequence();
+  out.touch = in.touch();
+  out.in_contact = in.in_contact();
+  return out;
+}
+
+void write(const Pose& pose, proto::PoseXyzw& out) {
+  assign(pose.p, *out.mutable_position_m());
+  assign(pose.q.coeffs(), *out.mutable_quaternion());
+}
+
+std::optional<Pose> read_pose(const proto::PoseXyzw& in) {
+  if (in.position_m_size() != 3 || in.quaternion_size() != 4) return std::nullopt;
+  if (!all_within(in.position_m(), 1e9) || !all_within(in.quaternion(), 1.0 + kUnitTolerance))
+    return std::nullopt;
+  const auto& q = in.quaternion();
+  Pose out{to_vector(in.position_m()), Quaternion(q[3], q[0], q[1], q[2])};
+  if (!within(out.q.norm(), 1.0 - kUnitTolerance, 1.0 + kUnitTolerance)) return std::nullopt;
+  out.q.normalize();
+  return out;
+}
+
+std::uint32_t to_bits(const Clamps& c) {
+  const bool flags[] = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,
+                        c.force_guard, c.singularity, c.unreachable};
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < std::size(flags); ++i) bits |= static_cast<std::uint32_t>(flags[i]) << i;
+  return bits;
+}
+
+std::optional<Clamps> to_clamps(std::uint32_t bits) {
+  if (bits >= 1u << 7) return std::nullopt;
+  const auto bit = [bits](int i) { return ((bits >> i) & 1u) != 0; };
+  return Clamps{bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6)};
+}
+
+// An estimator that knows nothing yet may have an infinite variance: that is "not valid", not a damaged
+// datagram.
+ContactEstimate sendable(const ContactEstimate& e) {
+  const bool finite = std::isfinite(e.stiffness_n_per_m) && std::isfinite(e.stiffness_sd_n_per_m) &&
+                      std::isfinite(e.k) && std::isfinite(e.lambda) && std::isfinite(e.n) &&
+                      std::isfinite(e.depth_m);
+  return e.valid && finite ? e : ContactEstimate{};
+}
+
+void write(const ContactEstimate& e, proto::Telemetry& out) {
+  out.set_stiffness_n_per_m(e.stiffness_n_per_m);
+  out.set_stiffness_sd_n_per_m(e.stiffness_sd_n_per_m);
+  out.set_k(e.k);
+  out.set_lambda(e.lambda);
+  out.set_n(e.n);
+  out.set_depth_m(e.depth_m);
+  out.set_estimate_valid(e.valid);
+}
+
+std::optional<ContactEstimate> read_estimate(const proto::Telemetry& in) {
+  const double values[] = {
+      in.stiffness_n_per_m(), in.stiffness_sd_n_per_m(), in.k(), in.lambda(), in.n(), in.depth_m()};
+  if (!std::all_of(std::begin(values), std::end(values), [](double v) { return std::isfinite(v); })) {
+    return std::nullopt;
+  }
+  return ContactEstimate{values[0], values[1], values[2],          values[3],
+                         values[4], values[5], in.estimate_valid()};
+}
+
+bool link_figures_possible(const proto::Telemetry& in) {
+  return within(in.penetration_m(), -1e9, 1e9) && within(in.up_loss(), 0.0, 1.0) &&
+         within(in.up_jitter_s(), 0.0, 1e9) && within(in.playout_delay_s(), 0.0, 1e9);
+}
+
+}  // namespace
+
+void write(const Stamp& stamp, proto::Stamp& out) {
+  out.set_sent_ns(stamp.sent.time_since_epoch().count());
+  out.set_echo_session(stamp.echo.session);
+  out.set_echo_sent_ns(stamp.echo.sent_ns);
+  out.set_echo_held_ns(stamp.echo.held.count());
+}
+
+std::optional<Stamp> read_stamp(const proto::Stamp& in) {
+  const auto possible = [](std::int64_t ns) { return ns >= -kInstantMaxNs && ns <= kInstantMaxNs; };
+  if (!possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return std::nullopt;
+  if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return std::nullopt;
+  return Stamp{PeerTime(Duration(in.sent_ns())),
+               Echo{in.echo_session(), in.echo_sent_ns(), Duration(in.echo_held_ns())}};
+}
+
+void write(const MotionCommand& command, proto::MotionCommand& out) {
+  out.set_engagement(command.engagement);
+  out.set_request(static_cast<std::uint32_t>(command.request));
+  out.set_mode(static_cast<std::uint32_t>(command.mode));
+  out.set_scale(command.scale);
+  out.mutable_position_m()->Clear();
+  out.mutable_rotation_rad()->Clear();
+  if (command.goal_kind == GoalKind::kPosition) {
+    assign(command.position_m, *out.mutable_position_m());
+  } else {
+    assign(command.rotation_rad, *out.mutable_rotation_rad());
+  }
+}
+
+std::optional<MotionCommand> read(const proto::MotionCommand& in) {
+  const auto request = to_enum(in.request(), Request::kStop);
+  const auto mode = to_enum(in.mode(), MotionMode::kPosition);
+  if (!request || !mode) return std::nullopt;
+  if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return std::nullopt;
+  MotionCommand out;
+  out.engagement = in.engagement();
+  out.request = *request;
+  out.mode = *mode;
+  out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
+  if (in.position_m_size() == 3 && in.rotation_rad_size() == 0) {
+    if (!all_within(in.position_m(), kGoalMaxM)) return std::nullopt;
+    out.goal_kind = GoalKind::kPosition;
+    out.position_m = to_vector(in.position_m());
+    return out;
+  }
+  if (in.rotation_rad_size() == 3 && in.position_m_size() == 0) {
+    if (!all_within(in.rotation_rad(), kGoalMaxRad)) return std::nullopt;
+    out.goal_kind = GoalKind::kOrientation;
+    out.rotation_rad = to_vector(in.rotation_rad());
+    return out;
+  }
+  return std::nullopt;
+}
+
+void write(const StiffnessReport& report, proto::StiffnessReport& out) {
+  out.set_engagement(report.engagement);
+  out.set_state(static_cast<std::uint32_t>(report.state));
+  out.set_cause(static_cast<std::uint32_t>(report.cause));
+  write(report.translation, *out.mutable_translation());
+  write(report.rotation, *out.mutable_rotation());
+  out.set_reached_sequence(report.reached_sequence);
+}
+
+std::optional<StiffnessReport> read(const proto::StiffnessReport& in) {
+  const auto state = to_enum(in.state(), SafetyState::kFault);
+  const auto cause = to_enum(in.cause(), HoldCause::kDeviceFault);
+  const auto translation = read_contact(in.translation());
+  const auto rotation = read_contact(in.rotation());
+  if (!state || !cause || !translation || !rotation) return std::nullopt;
+  return StiffnessReport{in.engagement(), *state, *cause, *translation, *rotation, in.reached_sequence()};
+}
+
+void write(const Telemetry& telemetry, proto::Telemetry& out) {
+  out.set_state(static_cast<std::uint32_t>(telemetry.state));
+  out.set_cause(static_cast<std::uint32_t>(telemetry.cause));
+  out.set_engagement(telemetry.engagement);
+  write(telemetry.X_WE, *out.mutable_tool());
+  write(telemetry.X_WE_goal, *out.mutable_goal());
+  assign(telemetry.joint_rad, *out.mutable_joint_rad());
+  assign(telemetry.F_E_W.force, *out.mutable_force_n());
+  assign(telemetry.F_E_W.moment, *out.mutable_moment_nm());
+  write(sendable(telemetry.estimate), out);
+  out.set_penetration_m(telemetry.penetration_m);
+  out.set_clamps(to_bits(telemetry.clamps));
+  out.set_up_loss(static_cast<float>(telemetry.up_loss));
+  out.set_up_jitter_s(static_cast<float>(telemetry.up_jitter_s));
+  out.set_playout_delay_s(static_cast<float>(telemetry.playout_delay_s));
+  out.set_rejected(telemetry.rejected);
+  out.set_limit_violations(telemetry.limit_violations);
+  out.set_late_ticks(telemetry.late_ticks);
+}
+
+std::optional<Telemetry> read(const proto::Telemetry& in) {
+  const auto state = to_enum(in.state(), SafetyState::kFault);
+  const auto cause = to_enum(in.cause(), HoldCause::kDeviceFault);
+  const auto tool = read_pose(in.tool());
+  const auto goal = read_pose(in.goal());
+  const auto estimate = read_estimate(in);
+  const auto clamps = to_clamps(in.clamps());
+  if (!state || !cause || !tool || !goal || !estimate || !clamps || !link_figures_possible(in))
+    return std::nullopt;
+  if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3)
+    return std::nullopt;
+  if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
+      !all_within(in.moment_nm(), 1e12)) {
+    return std::nullopt;
+  }
+  Telemetry out;
+  out.state = *state;
+  out.cause = *cause;
+  out.engagement = in.engagement();
+  out.X_WE = *tool;
+  out.X_WE_goal = *goal;
+  std::copy(in.joint_rad().begin(), in.joint_rad().end(), out.joint_rad.begin());
+  out.F_E_W = {to_vector(in.moment_nm()), to_vector(in.force_n())};
+  out.estimate = *estimate;
+  out.penetration_m = in.penetration_m();
+  out.clamps = *clamps;
+  out.up_loss = static_cast<double>(in.up_loss());
+  out.up_jitter_s = static_cast<double>(in.up_jitter_s());
+  out.playout_delay_s = static_cast<double>(in.playout_delay_s());
+  out.rejected = in.rejected();
+  out.limit_violations = in.limit_violations();
+  out.late_ticks = in.late_ticks();
+  return out;
+}
+
+}  // namespace longreach

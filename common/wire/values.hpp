@@ -1,0 +1,45 @@
+#pragma once
+// The values of a body: structs of common/link to protobuf messages, and back with every value checked.
+// Private to the codec. `read` returns none when a value is missing, not finite or out of range.
+
+#include <optional>
+
+#include "common/link/envelope.hpp"
+#include "common/link/motion_command.hpp"
+#include "common/link/stiffness_report.hpp"
+#include "common/link/telemetry.hpp"
+#include "proto/motion.pb.h"
+#include "proto/stiffness.pb.h"
+#include "proto/telemetry.pb.h"
+
+namespace longreach {
+
+template <class Message>
+struct WireMessageOf;
+template <>
+struct WireMessageOf<MotionCommand> {
+  using Type = proto::MotionCommand;
+};
+template <>
+struct WireMessageOf<StiffnessReport> {
+  using Type = proto::StiffnessReport;
+};
+template <>
+struct WireMessageOf<Telemetry> {
+  using Type = proto::Telemetry;
+};
+template <class Message>
+using WireMessage = typename WireMessageOf<Message>::Type;
+
+// Every field of `out` is overwritten but its stamp; its memory is used again.
+void write(const Stamp& stamp, proto::Stamp& out);
+void write(const MotionCommand& command, proto::MotionCommand& out);
+void write(const StiffnessReport& report, proto::StiffnessReport& out);
+void write(const Telemetry& telemetry, proto::Telemetry& out);
+
+std::optional<Stamp> read_stamp(const proto::Stamp& in);
+std::optional<MotionCommand> read(const proto::MotionCommand& in);
+std::optional<StiffnessReport> read(const proto::StiffnessReport& in);
+std::optional<Telemetry> read(const proto::Telemetry& in);
+
+}  // namespace longreach
