@@ -1,1 +1,190 @@
-// placeholder
+#include "master/master_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "master/mapping/mapping.hpp"
+#include "master/master_safety.hpp"
+#include "master/rendering/goal_history.hpp"
+#include "master/rendering/renderer.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kScaleStep = 0.05;
+constexpr double kHistory_s = 60.0;  // longer than any round trip a person works over
+
+std::size_t history_capacity(double send_hz) {
+  return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
+}
+
+RenderedDevice rendered_device(const MasterConfig& c) {
+  return {.handle_mass_kg = c.device.mass_kg,
+          .damping_n_s_per_m = c.device.damping_n_s_per_m,
+          .period_s = 1.0 / c.loop.rate_hz};
+}
+
+}  // namespace
+
+struct MasterNode::State {
+  explicit State(const MasterConfig& c)
+      : config(c),
+        safety(c.safety),
+        mapping(c.mapping),
+        renderer(c.rendering, rendered_device(c)),
+        history(history_capacity(c.link.send_hz)),
+        period_s(1.0 / c.loop.rate_hz) {
+    view.mode = c.mapping.mode;
+    view.scale = c.mapping.scale;
+  }
+
+  void take_requests(const OperatorRequests& r);
+  void take_reports(const MasterInput& input, const RendererInput& at);
+  MotionCommand command();
+  void publish(const MasterInput& input, const Wrench& F);
+
+  MasterConfig config;
+  MasterSafety safety;
+  Mapping mapping;
+  Renderer renderer;
+  GoalHistory history;
+  double period_s;
+  std::uint64_t sequence = 0;
+  std::uint32_t idle_turns = 0;  // datagrams since the goal that did not move was sent
+  double send_phase = 1.0;       // of the send period
+  MasterView view;
+};
+
+MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
+MasterNode::~MasterNode() = default;
+
+void MasterNode::State::take_requests(const OperatorRequests& r) {
+  if (r.mode) view.mode = *r.mode;
+  double scale = r.scale.value_or(view.scale);
+  if (!(scale >= kScaleStep - 1e-12 && scale <= 1.0)) {
+    ++view.rejected_values;
+    scale = view.scale;
+  }
+  // Steps land on multiples of 0.05, whatever scale was set before.
+  if (r.scale_steps != 0) scale = std::round(scale / kScaleStep + r.scale_steps) * kScaleStep;
+  view.scale = std::clamp(scale, kScaleStep, 1.0);
+  view.clutched = r.clutch;
+}
+
+void MasterNode::State::take_reports(const MasterInput& input, const RendererInput& at) {
+  for (const auto& received : input.reports) {
+    if (!received.newest) continue;
+    const StiffnessReport& report = received.message;
+    safety.on_report(report);
+    view.in_contact = report.translation.in_contact;
+    if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
+    if (renderer.on_report(report, history, at, mapping)) {
+      ++view.reports;
+      view.force_step_n = renderer.force_step_n();
+    } else {
+      ++view.rejected_values;
+    }
+  }
+  for (const auto& received : input.telemetry) {
+    if (!received.newest) continue;
+    view.far = received.message;
+    view.far_known = true;
+  }
+}
+
+MotionCommand MasterNode::State::command() {
+  const Goal& goal = mapping.goal();
+  MotionCommand c;
+  c.engagement = safety.engagement();
+  c.request = safety.request();
+  c.mode = view.mode;
+  c.scale = view.scale;
+  c.position_m = goal.position_m;
+  c.rotation_rad = log_rotation(goal.rotation);
+  // One device a period; translation wins. The other's last goal takes every eighth turn, so its loss loses
+  // nothing.
+  const bool rotation_first = goal.rotation_moved && !goal.translation_moved;
+  const bool others_turn = ++idle_turns >= 8;
+  if (others_turn) idle_turns = 0;
+  c.goal_kind = rotation_first != others_turn ? GoalKind::kOrientation : GoalKind::kPosition;
+  return c;
+}
+
+MasterOutput MasterNode::step(const MasterInput& input) {
+  State& s = *state_;
+  s.take_requests(input.requests);
+  const bool begun = s.safety.step({.now = input.now,
+                                    .last_heard = input.last_heard,
+                                    .peer_restarts = input.peer_restarts,
+                                    .device_ok = input.handle.ok,
+                                    .engage = input.requests.engage,
+                                    .hold = input.requests.hold,
+                                    .stop = input.requests.stop});
+  if (begun) {
+    s.mapping.reset(input.handle);
+    s.renderer.reset(input.handle);
+    s.history.clear();
+  }
+  const SafetyState state = s.safety.state();
+  const bool engaged = state == SafetyState::kEngaged;
+  s.mapping.step({input.handle, s.view.mode, s.view.scale, !engaged || s.view.clutched}, s.period_s);
+
+  const RendererInput at{.handle = input.handle,
+                         .mode = s.view.mode,
+                         .scale = s.view.scale,
+                         .live = engaged || state == SafetyState::kHolding,
+                         .stale = s.safety.stale()};
+  s.take_reports(input, at);
+  MasterOutput out;
+  out.F_H_M = s.renderer.step(at, s.mapping);
+
+  s.send_phase += s.config.link.send_hz * s.period_s;
+  if (s.send_phase >= 1.0) {
+    s.send_phase = std::min(s.send_phase - 1.0, 1.0);
+    out.sequence = ++s.sequence;
+    out.command = s.command();
+    s.history.push(out.sequence, s.mapping.goal().position_m);
+  }
+  s.publish(input, out.F_H_M);
+  return out;
+}
+
+void MasterNode::State::publish(const MasterInput& input, const Wrench& F) {
+  view.state = safety.state();
+  view.cause = safety.cause();
+  view.far_state = safety.far_state();
+  view.engagement = safety.engagement();
+  view.p_MH = input.handle.p_MH;
+  view.goal_m = mapping.goal().position_m;
+  view.goal_rad = log_rotation(mapping.goal().rotation);
+  view.F_H_M = F;
+  view.spring_force_n = -renderer.spring_force_n() * renderer.surface().inward();
+  view.surface_known = renderer.surface().known();
+  view.surface_m = renderer.surface_handle_m();
+  view.inward = renderer.surface().inward();
+  view.stiffness_n_per_m = renderer.stiffness_n_per_m();
+  view.port_energy_j = renderer.contact_energy_j();
+  view.port_energy_min_j = renderer.contact_energy_min_j();
+  view.stored_energy_j = renderer.stored_energy_j();
+  view.energy_drawdown_j = renderer.guard().deficit_max_j();
+  view.tank_j = renderer.spring().tank_j();
+  view.force_clamped = renderer.guard().force_clamped() || renderer.spring().yielding();
+  view.stiffness_clamped = renderer.spring().clamped();
+  view.damping_injected = renderer.guard().injecting();
+  view.false_holds = safety.false_holds();
+}
+
+void MasterNode::configure(const MasterConfig& config) {
+  State& s = *state_;
+  s.safety.configure(config.safety);
+  s.mapping.configure(config.mapping);
+  s.renderer.configure(config.rendering);
+  if (config.mapping.mode != s.config.mapping.mode) s.view.mode = config.mapping.mode;
+  if (config.mapping.scale != s.config.mapping.scale) s.view.scale = config.mapping.scale;
+  s.config = config;
+}
+
+const MasterView& MasterNode::view() const { return state_->view; }
+bool MasterNode::engaged() const { return state_->safety.state() == SafetyState::kEngaged; }
+
+}  // namespace longreach

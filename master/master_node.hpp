@@ -1,7 +1,7 @@
 #pragma once
-// The master without I/O: strings mapping and rendering together, decides about engagement, numbers the commands.
-// step() is pure but for the node's own state: time, handle and messages come in; wrench and command go out. It
-// allocates nothing and throws nothing.
+// The master without I/O: strings mapping and rendering together, decides about engagement, numbers the
+// commands. step() is pure but for the node's own state: time, handle and messages come in; wrench and
+// command go out. It allocates nothing and throws nothing.
 
 #include <cstdint>
 #include <memory>
@@ -20,13 +20,13 @@ namespace longreach {
 
 /// What buttons, keys or RPC ask for in this tick.
 struct OperatorRequests {
-  bool engage = false;                    // begin a new engagement
-  bool hold = false;                      // stop following, resume with engage
-  bool stop = false;                      // latched stop of the robot
+  bool engage = false;  // begin a new engagement
+  bool hold = false;    // stop following, resume with engage
+  bool stop = false;    // latched stop of the robot
   std::optional<MotionMode> mode{};
-  std::optional<double> scale{};          // 0.05 to 1; others are ignored and counted
-  int scale_steps = 0;                    // of 0.05
-  bool clutch = false;                    // level: while true the handle moves without the robot
+  std::optional<double> scale{};  // 0.05 to 1; others are ignored and counted
+  int scale_steps = 0;            // of 0.05
+  bool clutch = false;            // level: while true the handle moves without the robot
 };
 
 struct MasterInput {
@@ -35,7 +35,7 @@ struct MasterInput {
   std::span<const Received<StiffnessReport>> reports{};
   std::span<const Received<Telemetry>> telemetry{};
   OperatorRequests requests{};
-  std::optional<Time> last_heard{};       // of any valid datagram
+  std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
 };
 
@@ -48,35 +48,36 @@ struct MasterView {
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
-  Vector3 p_MH = Vector3::Zero();                 // handle, m
-  Vector3 goal_m = Vector3::Zero();               // goal minus anchor, W
+  Vector3 p_MH = Vector3::Zero();    // handle, m
+  Vector3 goal_m = Vector3::Zero();  // goal minus anchor, W
   Vector3 goal_rad = Vector3::Zero();
-  Wrench F_H_M{};                                 // rendered, on the hand
-  Vector3 spring_force_n = Vector3::Zero();       // the contact spring's part of it
-  bool in_contact = false;                        // as reported
+  Wrench F_H_M{};                            // rendered, on the hand
+  Vector3 spring_force_n = Vector3::Zero();  // the contact spring's part of it
+  bool in_contact = false;                   // as reported
   bool surface_known = false;
-  double surface_m = 0.0;                         // registered surface along the inward normal, from handle home, m
-  Vector3 inward = Vector3::Zero();               // unit, into the surface, M
-  double stiffness_n_per_m = 0.0;                 // rendered now, along the inward normal
-  double force_step_n = 0.0;                      // of the spring force, by the last report that was applied
-  double port_energy_j = 0.0;                     // net energy from the hand into the contact, f[k-1] (x[k] - x[k-1])
+  double surface_m = 0.0;            // registered surface along the inward normal, from handle home, m
+  Vector3 inward = Vector3::Zero();  // unit, into the surface, M
+  double stiffness_n_per_m = 0.0;    // rendered now, along the inward normal
+  double force_step_n = 0.0;         // of the spring force, by the last report that was applied
+  double port_energy_j = 0.0;        // net energy from the hand into the contact, f[k-1] (x[k] - x[k-1])
   double port_energy_min_j = 0.0;
   double stored_energy_j = 0.0;
+  double energy_drawdown_j = 0.0;  // largest fall of E_port - E_stored so far, J
   double tank_j = 0.0;
   bool force_clamped = false;
   bool stiffness_clamped = false;
   bool damping_injected = false;
-  std::uint64_t reports = 0;                      // applied
-  std::uint64_t rejected_values = 0;              // ignored: not finite, out of range
-  std::uint64_t false_holds = 0;                  // holds that ended by themselves within resume_s
-  Telemetry far{};                                // newest telemetry
+  std::uint64_t reports = 0;          // applied
+  std::uint64_t rejected_values = 0;  // ignored: not finite, out of range
+  std::uint64_t false_holds = 0;      // holds that ended by themselves within resume_s
+  Telemetry far{};                    // newest telemetry
   bool far_known = false;
 };
 
 struct MasterOutput {
-  Wrench F_H_M{};                                 // wrench on the hand
-  std::optional<MotionCommand> command{};         // to send now
-  std::uint64_t sequence = 0;                     // its number
+  Wrench F_H_M{};                          // wrench on the hand
+  std::optional<MotionCommand> command{};  // to send now
+  std::uint64_t sequence = 0;              // its number
 };
 
 class MasterNode {

@@ -1,6 +1,6 @@
 #pragma once
-// The simulated devices, the simulated hand and who moves it. Meaning, unit and range: proto/config.proto; the same
-// names.
+// The simulated devices, the simulated hand and who moves it. Meaning, unit and range: proto/config.proto;
+// the same names.
 
 #include <cstdint>
 
@@ -31,7 +31,7 @@ enum class OperatorKind : std::uint8_t { kNone = 0, kScript = 1, kKeyboard = 2 }
 
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::kScript;
-  double rate_distance_m = 0.2;
+  double rate_distance_m = 0.1;
   double approach_speed_m_per_s = 0.002;
   double press_n = 3.0;
   double probe_n = 1.5;

@@ -1,5 +1,6 @@
 #pragma once
-// From the motion of the handle to the goal of the robot. Meaning, unit and range: proto/config.proto; the same names.
+// From the motion of the handle to the goal of the robot. Meaning, unit and range: proto/config.proto; the
+// same names.
 
 #include <cstdint>
 

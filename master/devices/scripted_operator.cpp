@@ -1,0 +1,157 @@
+#include "master/devices/scripted_operator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace longreach {
+namespace {
+
+constexpr double kFelt_n = 0.5;       // a contact that a person notices
+constexpr double kBackOff_m = 0.002;  // of the handle, in front of the surface
+constexpr double kReleased_m = 0.010;
+constexpr double kFast_m_per_s = 0.02;    // unhurried motion of the hand
+constexpr double kCoarse_m_per_s = 0.08;  // at the slave, in rate mode
+constexpr double kRest_s = 2.0;
+
+}  // namespace
+
+std::string_view to_string(ScriptPhase phase) {
+  constexpr std::array<std::string_view, 12> kNames = {"waiting", "coarse",  "settle",  "approach",
+                                                       "react",   "retreat", "pause",   "return",
+                                                       "press",   "probe",   "release", "rest"};
+  return kNames[static_cast<std::size_t>(phase)];
+}
+
+ScriptedOperator::ScriptedOperator(const OperatorConfig& config, const MappingConfig& mapping, Grip grip)
+    : config_(config),
+      mapping_(mapping),
+      grip_(grip),
+      direction_(config.direction.stableNormalized()),
+      hand_stiffness_(std::max(hand_model(grip).stiffness_n_per_m, 1.0)) {}
+
+void ScriptedOperator::enter(ScriptPhase phase, Time now) {
+  phase_ = phase;
+  entered_ = now;
+}
+
+ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
+  const double dt_s = started_ ? std::clamp(to_seconds(input.now - now_), 0.0, 0.05) : 0.0;
+  if (!started_) entered_ = input.now;
+  started_ = true;
+  now_ = input.now;
+  ScriptOutput out;
+  if (!input.engaged && phase_ != ScriptPhase::kWaiting) enter(ScriptPhase::kWaiting, input.now);
+  out.mode = decide(input);
+  const double before_m = reach_m_;
+  move(input, dt_s);
+  speed_m_per_s_ = dt_s > 0.0 ? (reach_m_ - before_m) / dt_s : 0.0;
+  out.target.position_m = reach_m_ * direction_;
+  out.target.velocity_m_per_s = speed_m_per_s_ * direction_;
+  out.target.grip = grip_;
+  return out;
+}
+
+/// Changes of phase; returns the mode that the person switches to.
+std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
+  const double elapsed_s = to_seconds(in.now - entered_);
+  const double left_m = config_.rate_distance_m - direction_.dot(in.goal_m);
+  switch (phase_) {
+    case ScriptPhase::kWaiting:
+      if (!in.engaged) break;
+      if (left_m > 0.0) {
+        enter(ScriptPhase::kCoarse, in.now);
+        return MotionMode::kRate;
+      }
+      enter(in.surface_known ? ScriptPhase::kReturn : ScriptPhase::kApproach, in.now);
+      return MotionMode::kPosition;
+    case ScriptPhase::kCoarse:
+      if (left_m < 5e-4) enter(ScriptPhase::kSettle, in.now);
+      break;
+    case ScriptPhase::kSettle:
+      if (elapsed_s < 0.4 || std::abs(direction_.dot(in.handle_m)) > mapping_.dead_zone_m) break;
+      enter(ScriptPhase::kApproach, in.now);
+      return MotionMode::kPosition;
+    case ScriptPhase::kApproach:
+      if (in.felt_n > kFelt_n) enter(ScriptPhase::kReact, in.now);
+      break;
+    case ScriptPhase::kReact:
+      if (elapsed_s > config_.reaction_s) enter(ScriptPhase::kRetreat, in.now);
+      break;
+    case ScriptPhase::kRetreat:
+      if (in.depth_m < -kBackOff_m) enter(ScriptPhase::kPause, in.now);
+      break;
+    case ScriptPhase::kPause:
+      if (elapsed_s > config_.reaction_s) enter(ScriptPhase::kReturn, in.now);
+      break;
+    case ScriptPhase::kReturn:
+      if (in.felt_n > kFelt_n) enter(ScriptPhase::kPress, in.now);
+      break;
+    case ScriptPhase::kPress:
+      if (elapsed_s < 1.5) break;
+      probe_centre_m_ = reach_m_;
+      enter(ScriptPhase::kProbe, in.now);
+      break;
+    case ScriptPhase::kProbe:
+      if (elapsed_s < config_.probe_cycles / config_.probe_hz) break;
+      ++cycles_;
+      enter(ScriptPhase::kRelease, in.now);
+      break;
+    case ScriptPhase::kRelease:
+      if (in.depth_m < -kReleased_m || elapsed_s > 3.0) enter(ScriptPhase::kRest, in.now);
+      break;
+    case ScriptPhase::kRest:
+      if (elapsed_s > kRest_s) enter(ScriptPhase::kReturn, in.now);
+      break;
+  }
+  return std::nullopt;
+}
+
+double ScriptedOperator::coarse_deflection(double left_m) const {
+  const double speed = std::min(kCoarse_m_per_s, 2.0 * left_m);
+  return mapping_.dead_zone_m + speed / mapping_.kv_per_s;
+}
+
+/// Moves the hand's target along the direction.
+void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
+  const double handle_m = direction_.dot(in.handle_m);
+  const double approach = std::min(config_.approach_speed_m_per_s / in.scale, kFast_m_per_s);
+  double speed = 0.0;
+  switch (phase_) {
+    case ScriptPhase::kCoarse: {
+      const double left_m = config_.rate_distance_m - direction_.dot(in.goal_m);
+      speed = 8.0 * (coarse_deflection(left_m) - handle_m);
+      break;
+    }
+    case ScriptPhase::kWaiting:
+    case ScriptPhase::kSettle:
+      speed = -8.0 * reach_m_;
+      break;
+    case ScriptPhase::kApproach:
+    case ScriptPhase::kReact:
+      speed = approach;
+      break;
+    case ScriptPhase::kReturn:
+      speed = std::min(2.0 * approach, kFast_m_per_s);
+      break;
+    case ScriptPhase::kRetreat:
+    case ScriptPhase::kRelease:
+      speed = -kFast_m_per_s;
+      break;
+    case ScriptPhase::kPress:
+      speed = 3.0 * (config_.press_n - in.felt_n) / hand_stiffness_;
+      break;
+    case ScriptPhase::kProbe: {
+      const double angle = 2.0 * std::numbers::pi * config_.probe_hz * to_seconds(in.now - entered_);
+      reach_m_ = probe_centre_m_ + config_.probe_n / hand_stiffness_ * std::sin(angle);
+      return;
+    }
+    case ScriptPhase::kPause:
+    case ScriptPhase::kRest:
+      break;
+  }
+  reach_m_ += dt_s * std::clamp(speed, -0.1, 0.1);
+}
+
+}  // namespace longreach

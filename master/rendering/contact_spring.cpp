@@ -1,0 +1,88 @@
+#include "master/rendering/contact_spring.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+
+void ContactSpring::begin(double s_m, double surface_m) {
+  target_ = fading_ = 0.0;
+  clamped_ = yielding_ = false;
+  surface_m_ = surface_m;
+  anchor_m_ = std::max(s_m, surface_m);
+}
+
+bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
+  if (!std::isfinite(stiffness_n_per_m)) return false;
+  const double wanted = std::clamp(stiffness_n_per_m, 0.0, config_.stiffness_max_n_per_m);
+  clamped_ = wanted < stiffness_n_per_m;
+  const double present = this->stiffness_n_per_m();
+  if (wanted > present) {
+    // Same force from less energy: f^2/2k falls with k.
+    const double depth = std::max(0.0, s_m - anchor_m_);
+    if (depth > 0.0) anchor_m_ = s_m - depth * (present / wanted);
+    fading_ = 0.0;
+  } else {
+    fading_ = present - wanted;
+  }
+  target_ = wanted;
+  return true;
+}
+
+bool ContactSpring::set_surface(double surface_m) {
+  if (!std::isfinite(surface_m)) return false;
+  surface_m_ = surface_m;
+  return true;
+}
+
+double ContactSpring::step(double s_m, double dt_s) {
+  const double share = -std::expm1(-dt_s / config_.fade_s);
+  fading_ -= share * fading_;
+  if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
+  const double k = stiffness_n_per_m();
+  yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
+  if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
+  return_anchor(s_m, share);
+  return force_n(s_m);
+}
+
+void ContactSpring::return_anchor(double s_m, double share) {
+  paid_j_ = 0.0;
+  const double k = stiffness_n_per_m();
+  const double depth = s_m - anchor_m_;
+  if (depth <= 0.0 || k <= 0.0) {
+    anchor_m_ = std::max(s_m, surface_m_);
+    return;
+  }
+  const double move = share * (surface_m_ - anchor_m_);
+  if (move >= 0.0) {
+    anchor_m_ += std::min(move, depth);
+    return;
+  }
+  if (yielding_) return;
+  // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
+  double out = -move;
+  const double cost = 0.5 * k * out * (2.0 * depth + out);
+  if (cost > tank_j_) out = (2.0 * tank_j_ / k) / (depth + std::sqrt(depth * depth + 2.0 * tank_j_ / k));
+  paid_j_ = std::min(0.5 * k * out * (2.0 * depth + out), tank_j_);
+  tank_j_ -= paid_j_;
+  anchor_m_ -= out;
+}
+
+double ContactSpring::fill_tank(double energy_j) {
+  const double level = std::clamp(tank_j_ + energy_j, 0.0, config_.tank_max_j);
+  const double left = tank_j_ + energy_j - level;
+  tank_j_ = level;
+  return left;
+}
+
+double ContactSpring::force_n(double s_m) const {
+  return stiffness_n_per_m() * std::max(0.0, s_m - anchor_m_);
+}
+
+double ContactSpring::energy_j(double s_m) const {
+  const double depth = std::max(0.0, s_m - anchor_m_);
+  return 0.5 * stiffness_n_per_m() * depth * depth;
+}
+
+}  // namespace longreach

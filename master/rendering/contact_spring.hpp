@@ -1,0 +1,70 @@
+#pragma once
+// The contact at the hand along one inward direction: a unilateral spring f = k (s - a), s > a, that no
+// sequence of updates can turn into a source of energy. s is the handle's position along the inward normal, a
+// the anchor, w the registered surface; E = k (s - a)^2 / 2. The rules (DESIGN: rendering that cannot inject
+// energy):
+//
+//   a higher k enters at once, with the anchor moved so that the force is continuous: a' = s - k (s - a)/k';
+//   a lower k enters with the time constant `fade_s`, anchor fixed: force eases, energy falls;
+//   without force the anchor returns to the surface for free: a = max(s, w);
+//   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy;
+//   above `force_max_n` the spring yields: the anchor gives way.
+//
+// Pure; every input may be anything, non-finite ones are refused by set_*.
+
+namespace longreach {
+
+struct ContactSpringConfig {
+  double fade_s = 0.2;
+  double stiffness_max_n_per_m = 7000.0;
+  double force_max_n = 15.0;
+  double tank_max_j = 0.02;
+};
+
+class ContactSpring {
+ public:
+  explicit ContactSpring(const ContactSpringConfig& config) : config_(config) {}
+  void configure(const ContactSpringConfig& config) { config_ = config; }
+
+  /// Begins at zero force: anchor at the surface, or at the handle if that is deeper.
+  void begin(double s_m, double surface_m);
+
+  /// Stiffness to reach, N/m; clamped to 0..stiffness_max. Returns false, changing nothing, if not finite.
+  bool set_stiffness(double s_m, double stiffness_n_per_m);
+
+  /// Registered surface, m. Returns false, changing nothing, if not finite.
+  bool set_surface(double surface_m);
+
+  /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor. Returns the
+  /// force >= 0, N, against the inward direction.
+  double step(double s_m, double dt_s);
+
+  /// Energy that dissipation elsewhere at the port makes available; kept up to tank_max_j. May be negative (a
+  /// debt paid from the tank). Returns what the tank could not take or pay.
+  double fill_tank(double energy_j);
+
+  [[nodiscard]] double force_n(double s_m) const;
+  [[nodiscard]] double energy_j(double s_m) const;  // stored in the spring
+  [[nodiscard]] double tank_j() const { return tank_j_; }
+  [[nodiscard]] double paid_j() const { return paid_j_; }  // from tank to spring, in the last step
+  [[nodiscard]] double stiffness_n_per_m() const { return target_ + fading_; }
+  [[nodiscard]] double anchor_m() const { return anchor_m_; }
+  [[nodiscard]] double surface_m() const { return surface_m_; }
+  [[nodiscard]] bool clamped() const { return clamped_; }  // stiffness was cut to what the device can render
+  [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
+
+ private:
+  void return_anchor(double s_m, double share);
+
+  ContactSpringConfig config_;
+  double target_ = 0.0;  // stiffness that stays, N/m
+  double fading_ = 0.0;  // stiffness that is on its way out, N/m
+  double anchor_m_ = 0.0;
+  double surface_m_ = 0.0;
+  double tank_j_ = 0.0;
+  double paid_j_ = 0.0;
+  bool clamped_ = false;
+  bool yielding_ = false;
+};
+
+}  // namespace longreach

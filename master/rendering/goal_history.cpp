@@ -1,0 +1,37 @@
+#include "master/rendering/goal_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+
+void GoalHistory::push(std::uint64_t sequence, const Vector3& goal_m) {
+  if (!goals_.empty() && sequence != first_ + goals_.size()) goals_.clear();
+  if (goals_.empty()) first_ = sequence;
+  if (goals_.full()) ++first_;
+  goals_.push(goal_m);
+}
+
+std::optional<Vector3> GoalHistory::at(double sequence) const {
+  if (goals_.empty() || !(sequence >= static_cast<double>(first_))) return std::nullopt;
+  const double offset = sequence - static_cast<double>(first_);
+  const double last = static_cast<double>(goals_.size() - 1);
+  if (offset > last) return std::nullopt;
+  const auto i = static_cast<std::size_t>(offset);
+  const std::size_t j = std::min(i + 1, goals_.size() - 1);
+  const double part = offset - std::floor(offset);
+  return Vector3((1.0 - part) * goals_[i] + part * goals_[j]);
+}
+
+Vector3 GoalHistory::motion_before(double sequence, double least_m) const {
+  const auto end = at(sequence);
+  if (!end) return Vector3::Zero();
+  for (double back = 16.0; back <= static_cast<double>(2 * goals_.size()); back *= 2.0) {
+    const auto begin = at(std::max(sequence - back, static_cast<double>(first_)));
+    const Vector3 motion = *end - begin.value_or(*end);
+    if (motion.norm() > least_m) return motion;
+  }
+  return Vector3::Zero();
+}
+
+}  // namespace longreach

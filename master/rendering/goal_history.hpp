@@ -1,0 +1,34 @@
+#pragma once
+// Which goal was sent with which command: the master's own motion, in which the slave's touch sequence finds
+// the place of the surface. Sequences are pushed one after the other; storage is allocated once.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/core/ring.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+class GoalHistory {
+ public:
+  explicit GoalHistory(std::size_t capacity) : goals_(capacity) {}
+
+  void clear() { goals_.clear(); }
+
+  /// `sequence` must be one above the last one; otherwise the history starts anew.
+  void push(std::uint64_t sequence, const Vector3& goal_m);
+
+  /// Goal at a fractional sequence, m, linear between two commands; none outside of what is remembered.
+  [[nodiscard]] std::optional<Vector3> at(double sequence) const;
+
+  /// Direction (not unit) in which the goal moved up to `sequence`: the displacement over the shortest reach
+  /// back, doubled from 16 commands on, that exceeds `least_m`; zero if there is none.
+  [[nodiscard]] Vector3 motion_before(double sequence, double least_m) const;
+
+ private:
+  std::uint64_t first_ = 0;  // sequence of goals_[0]
+  Ring<Vector3> goals_;
+};
+
+}  // namespace longreach
