@@ -3,9 +3,16 @@
 // RTT of a sample = now - echo.sent - echo.held, all but `held` on this side's clock; `held` is a duration of the
 // peer's. One-way variation is taken about the running minimum of (received - sent), whose unknown clock offset
 // cancels. Windows are short (2 s) so that a changed link shows at once. Pure: time comes in.
+//
+// Loss is 1 - came / sent over the datagrams that the peer sent in a window of 2 s, by the gaps of each type's numbers.
+// A datagram that was overtaken is not lost: where that happens, the window ends as much earlier (up to 1 s) as the
+// overtaken were late. Does not count what was sent before the first datagram of a session.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/core/ring.hpp"
 #include "common/core/time.hpp"
@@ -36,16 +43,32 @@ class DelayMonitor {
   void clear();
 
  private:
+  static constexpr std::size_t kTypes = 3;
+
   struct Sample {
     Time received{};
-    std::int64_t transit_ns = 0;   // received - sent, across two clocks: only differences mean something
+    PeerTime sent{};
     std::int64_t rtt_ns = -1;      // -1: none
     std::uint64_t sequence = 0;
-    DatagramType type{};
     std::uint32_t bytes = 0;
+    std::uint8_t type = 0;         // index, 0 to kTypes - 1
     bool late = false;             // came after a newer one of its type
   };
+  /// Place of a datagram in its type's numbers; sequence 0: none.
+  struct Mark {
+    std::uint64_t sequence = 0;
+    PeerTime sent{};
+  };
+
+  [[nodiscard]] std::size_t first_since(Time t) const;
+  [[nodiscard]] Duration settling(std::size_t first) const;
+  [[nodiscard]] double loss(std::size_t first) const;
+
   Ring<Sample> samples_;
+  mutable std::vector<std::int64_t> scratch_;
+  std::array<std::uint64_t, kTypes> newest_{};    // highest sequence of each type
+  std::array<Mark, kTypes> forgotten_{};          // of the samples that left the ring, the one with the highest sequence
+  std::optional<Time> first_heard_{};
   std::optional<Time> last_heard_{};
 };
 

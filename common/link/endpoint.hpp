@@ -42,12 +42,14 @@ class Endpoint {
   [[nodiscard]] std::uint32_t peer_restarts() const { return peer_restarts_; } // new sessions after the first
 
  private:
+  void follow(std::uint64_t peer_session);
+
   std::uint64_t session_;
   std::uint64_t peer_session_ = 0;
   std::uint32_t peer_restarts_ = 0;
   std::array<ReplayWindow, 3> windows_;   // one a type
   DelayMonitor monitor_;
-  Time heard_at_{};                       // of the datagram that is echoed
+  Time heard_at_{};                       // of the datagram that is echoed: the last sent of those received
   PeerTime heard_sent_{};
 };
 

@@ -17,6 +17,9 @@ constexpr std::uint8_t kWireVersion = 1;
 constexpr std::size_t kHeaderBytes = 22;
 constexpr std::size_t kDatagramMaxBytes = 508;   // passes any IPv4 path unfragmented
 
+/// CRC-32 of `bytes`; `before` is that of what went before them, so that pieces can be chained.
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
+
 /// Writes the header in front of the body. `datagram` holds kHeaderBytes of room, then the body.
 void write_header(const Header& header, std::span<std::byte> datagram);
 

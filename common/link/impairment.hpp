@@ -4,6 +4,11 @@
 // corruption (one bit flipped), duplication, rate limit (a queue that drops when full), delay with steps, drift and
 // normal jitter (never below zero), reordering (a chosen datagram is let past its predecessors).
 // The same object serves the laboratory and, on the receiving side, the real UDP channel of both programs.
+//
+// Jitter is drawn for each datagram by itself, so that it changes the order, as tc netem does. Equal due times keep the
+// order of arrival. Each effect has its own random stream: switching one on does not change what another draws.
+// Bounded: 16384 datagrams under way (more count as queue_dropped), each kept up to 600 bytes: longer ones come out
+// cut to 600, which every receiver refuses by its length.
 
 #include <array>
 #include <cstddef>
@@ -59,8 +64,54 @@ class Impairment {
   [[nodiscard]] const ImpairmentCounts& counts() const { return counts_; }
 
  private:
-  struct Parcel;                    // bytes with their due time: fixed slots, allocated once
-  // implementation's choice: a bounded heap of slots ordered by (due time, arrival number)
+  static constexpr std::size_t kSlots = 16384;
+  static constexpr std::size_t kSlotBytes = 600;
+  static constexpr std::size_t kCopies = 2;
+
+  /// A datagram under way: its bytes lie in a slot.
+  struct Parcel {
+    Time due{};
+    std::uint64_t arrival = 0;      // counts parcels: keeps the order of equal due times
+    std::uint32_t slot = 0;
+    std::uint32_t size = 0;         // bytes, at most kSlotBytes
+    // Orders a heap whose front is the first that is due.
+    bool operator<(const Parcel& other) const {
+      return due != other.due ? due > other.due : arrival > other.arrival;
+    }
+  };
+
+  /// What the random streams decide about one datagram, whether or not another effect took it away before.
+  struct Fate {
+    bool lost = false;
+    bool corrupted = false;
+    bool duplicated = false;
+    double flipped = 0.0;                      // place of the flipped bit, fraction of the datagram
+    std::array<double, kCopies> jitter{};      // normal deviates of the original and of its copy
+    std::array<bool, kCopies> let_past{};
+  };
+  struct Streams {
+    Random loss, corrupt, duplicate;
+    std::array<Random, kCopies> jitter, reorder;
+  };
+
+  Fate draw_fate();
+  bool draw_loss();
+  void start_clock(Time now);
+  [[nodiscard]] bool blacked_out(double t_s) const;
+  [[nodiscard]] double base_delay_s(double t_s) const;
+  std::optional<Time> leave_queue(Time now, std::size_t bytes);
+  bool store(Time due, std::span<const std::byte> datagram, const Fate& fate);
+
+  ImpairmentConfig config_;
+  ImpairmentCounts counts_{};
+  Streams streams_;
+  std::optional<bool> in_burst_{};     // Gilbert-Elliott state; none before the first draw
+  std::optional<Time> set_at_{};       // when the profile took effect; none before the first push or pop
+  Time queue_free_at_{};               // when the rate limit has sent all that it holds
+  std::uint64_t arrivals_ = 0;
+  std::vector<std::byte> bytes_;       // kSlots times kSlotBytes
+  std::vector<std::uint32_t> free_;    // slots without a parcel
+  std::vector<Parcel> heap_;
 };
 
 }  // namespace longreach

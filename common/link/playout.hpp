@@ -1,13 +1,17 @@
 #pragma once
 // Turns jittery arrivals into a smooth goal. Goals are played at earliest arrival + playout delay, linearly
 // interpolated between sequences; on silence the last goal is held. More delay: smoother motion, later.
-// The delay is fixed, or the `quantile` of the lateness seen in the last seconds (adaptive).
+// The delay is fixed, or the `quantile` of the lateness seen in the last 5 s (adaptive; lateness that `delay_max_s`
+// could not make up for is left out). It changes by at most 0.05 s/s while goals are being played, so that the goal
+// does not jump. What is later than that is played when it comes. A link whose transit falls by more than 0.25 s at
+// once is followed at once.
 // Also keeps the recent goals, to answer which command led to a given place.
 //
 // Does not handle orientation separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/core/ring.hpp"
 #include "common/core/time.hpp"
@@ -45,21 +49,40 @@ class Playout {
   /// with normal `n` (unit): where n . (position - point) changes its sign from negative, or is nearest to zero.
   [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence) const;
 
-  [[nodiscard]] double delay_s() const { return delay_s_; }   // playout delay in use
+  [[nodiscard]] double delay_s() const;   // playout delay in use
   void clear();
 
  private:
   struct Entry {
     std::uint64_t sequence = 0;
-    Time due{};                       // earliest arrival, without the playout delay
+    PeerTime sent{};
     Vector6 goal = Vector6::Zero();
   };
+  struct Lateness {
+    Time received{};
+    std::int64_t transit_ns = 0;      // received - sent, across two clocks
+    std::int64_t late_ns = 0;         // beyond the earliest arrival that was known then
+  };
+
+  bool insert(const Entry& entry);
+  void book_lateness(Time received, PeerTime sent);
+  void adapt(Time now);
+  [[nodiscard]] Duration offset() const;
+  [[nodiscard]] Duration wanted_delay(Time now);
+  [[nodiscard]] Duration lateness_quantile();
+  [[nodiscard]] PlayoutGoal goal_at(PeerTime instant) const;
+  [[nodiscard]] std::size_t first_beyond(double sequence) const;
+
   PlayoutConfig config_;
   ClockOffset offset_;
-  Ring<Entry> entries_;               // ascending in sequence
-  Ring<double> lateness_s_;           // arrival minus earliest arrival, last few seconds
-  double delay_s_ = 0.0;
-  double played_ = 0.0;               // fractional sequence played last
+  Ring<Entry> entries_;                  // ascending in sequence
+  Ring<Lateness> lateness_;              // of the last 5 s
+  std::vector<std::int64_t> scratch_;
+  Duration lag_{0};                      // now - lag_ is the send time that is played now: offset + playout delay
+  Duration quantile_{0};                 // adaptive delay as last computed
+  std::optional<Time> quantile_at_{};    // when
+  std::optional<Time> stepped_at_{};     // last play()
+  std::optional<PlayoutGoal> played_{};
 };
 
 }  // namespace longreach

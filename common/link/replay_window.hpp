@@ -1,6 +1,6 @@
 #pragma once
-// Accepts each sequence number once. Numbers older than `width` below the newest are refused, because nobody can
-// tell any more (RFC 6479's idea: a ring of bits).
+// Accepts each sequence number once. Numbers that lie `width` or more below the newest are refused, because nobody
+// can tell any more (RFC 6479's idea: a ring of words of bits, one word longer than the window).
 
 #include <cstdint>
 #include <vector>

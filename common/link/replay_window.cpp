@@ -1,0 +1,42 @@
+#include "common/link/replay_window.hpp"
+
+#include <algorithm>
+
+#include "common/core/check.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr std::uint64_t kWordBits = 64;
+
+}  // namespace
+
+// The window reaches at most ceil((width - 1) / 64) words below the newest number's word.
+ReplayWindow::ReplayWindow(std::uint32_t width)
+    : width_(width), bits_((std::uint64_t{width} + kWordBits - 2) / kWordBits + 1) {
+  CHECK(width > 0);
+}
+
+bool ReplayWindow::accept(std::uint64_t sequence) {
+  if (sequence == 0) return false;
+  const std::uint64_t word = sequence / kWordBits;
+  if (sequence > newest_) {
+    const std::uint64_t entered = std::min<std::uint64_t>(word - newest_ / kWordBits, bits_.size());
+    for (std::uint64_t i = 0; i < entered; ++i) bits_[(word - i) % bits_.size()] = 0;
+    newest_ = sequence;
+  } else if (newest_ - sequence >= width_) {
+    return false;
+  }
+  std::uint64_t& bits = bits_[word % bits_.size()];
+  const std::uint64_t bit = std::uint64_t{1} << (sequence % kWordBits);
+  if ((bits & bit) != 0) return false;
+  bits |= bit;
+  return true;
+}
+
+void ReplayWindow::clear() {
+  newest_ = 0;
+  std::fill(bits_.begin(), bits_.end(), 0);
+}
+
+}  // namespace longreach

@@ -1,0 +1,32 @@
+#pragma once
+// Sums and differences of nanoseconds, of which one may come from the peer and be anything: pinned at the
+// ends of the range instead of overflowing.
+
+#include <cstdint>
+#include <limits>
+
+#include "common/core/time.hpp"
+
+namespace longreach {
+
+constexpr std::int64_t saturating_add(std::int64_t a, std::int64_t b) {
+  std::int64_t sum = 0;
+  if (!__builtin_add_overflow(a, b, &sum)) return sum;
+  return a < 0 ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
+}
+
+constexpr std::int64_t saturating_sub(std::int64_t a, std::int64_t b) {
+  std::int64_t difference = 0;
+  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+  return a < 0 ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
+}
+
+constexpr std::int64_t to_ns(Time t) { return t.time_since_epoch().count(); }
+constexpr std::int64_t to_ns(PeerTime t) { return t.time_since_epoch().count(); }
+
+/// One-way time plus the unknown difference of the two clocks, ns: only differences of it mean something.
+constexpr std::int64_t transit_ns(Time received, PeerTime sent) {
+  return saturating_sub(to_ns(received), to_ns(sent));
+}
+
+}  // namespace longreach
