@@ -1,0 +1,147 @@
+#pragma once
+// Datagrams to try on a port: ordinary and extreme messages, and bytes made by hand with a valid header.
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/link/header.hpp"
+#include "common/wire/codec.hpp"
+
+namespace longreach::samples {
+
+constexpr std::uint64_t kPeerSession = 1000;
+
+inline Stamp stamp(std::int64_t sent_ns = 1'000'000) { return {PeerTime(Duration(sent_ns)), Echo{}}; }
+
+inline Stamp extreme_stamp() {
+  return {PeerTime(Duration(-kInstantMaxNs)),
+          Echo{std::numeric_limits<std::uint64_t>::max(), kInstantMaxNs, Duration(kHeldMaxNs)}};
+}
+
+inline MotionCommand command() {
+  MotionCommand c;
+  c.engagement = 3;
+  c.request = Request::kEngage;
+  c.mode = MotionMode::kRate;
+  c.scale = 0.35;
+  c.position_m = {0.1, -0.2, 0.3};
+  return c;
+}
+
+inline MotionCommand turn() {
+  MotionCommand c = command();
+  c.goal_kind = GoalKind::kOrientation;
+  c.position_m.setZero();
+  c.rotation_rad = {-0.4, 0.5, 3.0};
+  return c;
+}
+
+inline ContactStiffness contact(double scale) {
+  ContactStiffness c;
+  c.stiffness << 1, 2, 3, 2, 4, 5, 3, 5, 6;
+  c.stiffness *= scale;
+  c.touch_sequence = 1234.75;
+  c.touch = 7;
+  c.in_contact = true;
+  return c;
+}
+
+inline StiffnessReport report() {
+  return {5, SafetyState::kEngaged, HoldCause::kOperator, contact(1000.0), contact(0.25), 1230};
+}
+
+inline Telemetry telemetry() {
+  Telemetry t;
+  t.state = SafetyState::kHolding;
+  t.cause = HoldCause::kLinkSilent;
+  t.engagement = 5;
+  t.X_WE = {{10.0, -2.0, 0.5}, Quaternion(0.5, -0.5, 0.5, 0.5)};
+  t.X_WE_goal = {{10.1, -2.1, 0.6}, Quaternion(0.0, 0.6, 0.0, 0.8)};
+  t.joint_rad = {0.5, -0.25, 1.0, 2.0, -3.0, 0.125};
+  t.F_E_W = {{0.5, 0.25, -0.125}, {1.5, -2.5, 3.5}};
+  t.estimate = {1000.0, 10.0, 3e4, 3e3, 1.5, 0.002, true};
+  t.penetration_m = 0.0015;
+  t.clamps = {true, false, true, false, true, false, true};
+  t.up_loss = 0.25;
+  t.up_jitter_s = 0.5;
+  t.playout_delay_s = 0.125;
+  t.rejected = 11;
+  t.limit_violations = 12;
+  t.late_ticks = 13;
+  return t;
+}
+
+// Every field as long on the wire as it can be.
+inline MotionCommand extreme_command() {
+  MotionCommand c;
+  c.engagement = std::numeric_limits<std::uint32_t>::max();
+  c.request = Request::kStop;
+  c.position_m.setConstant(-kGoalMaxM);
+  return c;
+}
+
+inline StiffnessReport extreme_report() {
+  ContactStiffness c = contact(1.0);
+  c.stiffness.setConstant(-kStiffnessMaxNPerM);
+  c.touch_sequence = 9e15;
+  c.touch = std::numeric_limits<std::uint32_t>::max();
+  return {std::numeric_limits<std::uint32_t>::max(), SafetyState::kFault, HoldCause::kDeviceFault, c, c,
+          std::numeric_limits<std::uint64_t>::max()};
+}
+
+inline Telemetry extreme_telemetry() {
+  Telemetry t = telemetry();
+  t.state = SafetyState::kFault;
+  t.cause = HoldCause::kDeviceFault;
+  t.engagement = std::numeric_limits<std::uint32_t>::max();
+  const double big = std::numeric_limits<double>::max();
+  t.estimate = {-big, big, -big, big, -big, big, true};
+  t.joint_rad.fill(-1e9);
+  t.F_E_W = {Vector3::Constant(1e12), Vector3::Constant(-1e12)};
+  t.clamps = {true, true, true, true, true, true, true};
+  t.up_loss = 1.0;
+  t.up_jitter_s = t.playout_delay_s = 1e8;
+  t.rejected = t.limit_violations = t.late_ticks = std::numeric_limits<std::uint64_t>::max();
+  return t;
+}
+
+template <class Bytes>
+std::vector<std::byte> with_header(const Header& header, const Bytes& body) {
+  std::vector<std::byte> out(kHeaderBytes + body.size());
+  std::transform(body.begin(), body.end(), out.begin() + kHeaderBytes, [](auto c) { return std::byte(c); });
+  write_header(header, out);
+  return out;
+}
+
+template <class Message>
+constexpr DatagramType type_of();
+template <>
+constexpr DatagramType type_of<MotionCommand>() {
+  return DatagramType::kMotionCommand;
+}
+template <>
+constexpr DatagramType type_of<StiffnessReport>() {
+  return DatagramType::kStiffnessReport;
+}
+template <>
+constexpr DatagramType type_of<Telemetry>() {
+  return DatagramType::kTelemetry;
+}
+
+template <class Message>
+std::string body_of(const Message& message, const Stamp& at = stamp()) {
+  Codec codec;
+  std::array<std::byte, kBodyMaxBytes> body;
+  const std::size_t size = codec.encode(at, message, body);
+  return {reinterpret_cast<const char*>(body.data()), size};
+}
+
+template <class Message>
+std::vector<std::byte> datagram(const Message& message, std::uint64_t sequence,
+                                std::uint64_t session = kPeerSession) {
+  return with_header({type_of<Message>(), session, sequence}, body_of(message));
+}
+
+}  // namespace longreach::samples
