@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <numeric>
+
+#include "master/console/keys.hpp"
+#include "master/console/terminal_view.hpp"
+#include "master/console/words.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kWidthMin = 60;
+constexpr int kWidthMax = 110;
+constexpr int kLabel = 10;  // columns of the first column
+
+enum class Tone { kPlain, kDim, kGood, kWarn, kBad };
+
+// The only formatted print here; a figure that is not finite shows as it is.
+[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
+  std::array<char, 256> line{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line.data(), line.size(), format, arguments);
+  va_end(arguments);
+  return line.data();
+}
+
+std::string_view tone_code(Tone tone) {
+  switch (tone) {
+    case Tone::kDim:
+      return "\x1b[2m";
+    case Tone::kGood:
+      return "\x1b[32m";
+    case Tone::kWarn:
+      return "\x1b[33m";
+    case Tone::kBad:
+      return "\x1b[31m";
+    case Tone::kPlain:
+      break;
+  }
+  return "";
+}
+
+// Collects lines no longer than the width. Colour goes around what has been cut, so it never counts.
+class Page {
+ public:
+  Page(int width, bool color) : width_(static_cast<std::size_t>(width)), color_(color) {}
+
+  void line(std::string_view label, const std::string& content, Tone tone = Tone::kPlain) {
+    std::string row(label);
+    row.resize(kLabel, ' ');
+    const std::string body = content.substr(0, width_ - std::min<std::size_t>(width_, kLabel));
+    text_ += painted(row, Tone::kDim) + painted(body, tone) + "\n";
+  }
+  void whole(const std::string& content, Tone tone = Tone::kPlain) {
+    text_ += painted(content.substr(0, width_), tone) + "\n";
+  }
+  /// A sentence over as many lines as it needs.
+  void wrapped(std::string_view sentence, Tone tone) {
+    while (sentence.size() > width_) {
+      std::size_t end = sentence.rfind(' ', width_);
+      if (end == std::string_view::npos || end == 0) end = width_;
+      whole(std::string(sentence.substr(0, end)), tone);
+      sentence.remove_prefix(std::min(sentence.find_first_not_of(' ', end), sentence.size()));
+    }
+    whole(std::string(sentence), tone);
+  }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  [[nodiscard]] std::string painted(const std::string& content, Tone tone) const {
+    if (!color_ || tone == Tone::kPlain || content.empty()) return content;
+    return std::string(tone_code(tone)) + content + "\x1b[0m";
+  }
+
+  std::size_t width_;
+  bool color_;
+  std::string text_;
+};
+
+std::string bar(double value, double full, int length) {
+  const double share =
+      full > 0.0 && value > 0.0 ? std::min(value / full, 1.0) : 0.0;  // a NaN gives an empty bar
+  const int filled = static_cast<int>(std::lround(share * length));
+  return "[" + std::string(static_cast<std::size_t>(filled), '=') +
+         std::string(static_cast<std::size_t>(length - filled), '.') + "]";
+}
+
+std::string millimetres(const Vector3& p_m) {
+  return text("x %+8.2f  y %+8.2f  z %+8.2f mm", p_m.x() * 1e3, p_m.y() * 1e3, p_m.z() * 1e3);
+}
+
+Tone tone_of(SafetyState state) {
+  switch (state) {
+    case SafetyState::kEngaged:
+      return Tone::kGood;
+    case SafetyState::kHolding:
+      return Tone::kWarn;
+    case SafetyState::kStopped:
+    case SafetyState::kFault:
+      return Tone::kBad;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+std::string state_line(const ConsoleSnapshot& s) {
+  std::string line(state_in_words(s.view.state));
+  line += ", slave " + (s.view.far_known ? std::string(state_in_words(s.view.far_state)) : "not heard yet");
+  if (s.view.cause != HoldCause::kNone) line += " (" + std::string(cause_in_words(s.view.cause)) + ")";
+  return line;
+}
+
+std::string link_line(const LinkFigures& link) {
+  const std::string rtt = link.rtt_s ? text("RTT %.3f s", *link.rtt_s) : "RTT unknown";
+  const std::string silence =
+      std::isfinite(link.silence_s) ? text("silent %.2f s", link.silence_s) : "never heard";
+  return rtt + text("  jitter %.1f ms  loss %.1f %%  ", link.jitter_s * 1e3, link.loss * 100.0) + silence;
+}
+
+std::string tool_line(const ConsoleSnapshot& s) {
+  if (!s.view.far_known) return "not heard yet";
+  const Vector3& p = s.view.far.X_WE.p;
+  std::string line = text("x %+8.4f  y %+8.4f  z %+8.4f m", p.x(), p.y(), p.z());
+  if (s.link.rtt_s) line += text("  (%.1f s ago)", *s.link.rtt_s / 2.0);
+  return line;
+}
+
+std::string stiffness_line(const ConsoleSnapshot& s) {
+  const ContactEstimate& estimate = s.view.far.estimate;
+  std::string line = text("%.3f N/mm at the hand", s.view.stiffness_n_per_m * 1e-3);
+  if (s.view.far_known && estimate.valid) {
+    line += text(", slave measures %.3f", estimate.stiffness_n_per_m * 1e-3);
+  }
+  return line;
+}
+
+std::uint64_t total(const RejectionCounts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+std::string rejected_line(const ConsoleSnapshot& s) {
+  std::string line = text("%llu ticks late, %llu missed, ", static_cast<unsigned long long>(s.late_ticks),
+                          static_cast<unsigned long long>(s.missed_ticks));
+  line += text("%llu rejected", static_cast<unsigned long long>(total(s.rejected) + s.view.rejected_values));
+  for (std::size_t i = 0; i < s.rejected.size(); ++i) {
+    if (s.rejected[i] == 0) continue;
+    line += text(" %s %llu", std::string(to_string(static_cast<Rejection>(i))).c_str(),
+                 static_cast<unsigned long long>(s.rejected[i]));
+  }
+  return line;
+}
+
+void add_forces(Page& page, const ConsoleSnapshot& s, int width) {
+  const int length = std::clamp(width - kLabel - 24, 10, 50);
+  const double hand = s.view.F_H_M.force.norm();
+  const double robot = s.view.far_known ? s.view.far.F_E_W.force.norm() : 0.0;
+  page.line("hand",
+            text("%7.2f N ", hand) + bar(hand, s.force_max_n, length) + text(" %.0f N", s.force_max_n),
+            s.view.force_clamped ? Tone::kWarn : Tone::kPlain);
+  page.line("robot", text("%7.2f N ", robot) + bar(robot, s.force_max_n, length));
+}
+
+void add_clamps(Page& page, const MasterView& view) {
+  const std::vector<std::string> clamps = clamps_in_words(view);
+  if (clamps.empty()) page.line("clamped", "nothing", Tone::kDim);
+  for (std::size_t i = 0; i < clamps.size(); ++i) page.line(i == 0 ? "clamped" : "", clamps[i], Tone::kWarn);
+}
+
+std::string clock_line(const ConsoleSnapshot& s) {
+  std::string line = text("longreach master  %.1f s", s.seconds);
+  if (s.seconds_left) line += text(", %.0f s left", std::fmax(*s.seconds_left, 0.0));
+  if (!s.operator_phase.empty()) line += "  operator: " + s.operator_phase;
+  return line;
+}
+
+}  // namespace
+
+std::string render(const ConsoleSnapshot& s, int width, bool color) {
+  width = std::clamp(width, kWidthMin, kWidthMax);
+  Page page(width, color);
+  page.whole(clock_line(s), Tone::kDim);
+  page.whole("");
+  page.wrapped(happening(s), tone_of(s.view.state));
+  page.whole("");
+  page.line("state", state_line(s), tone_of(s.view.state));
+  page.line("link", link_line(s.link), s.view.cause == HoldCause::kLinkSilent ? Tone::kWarn : Tone::kPlain);
+  page.line("mode", text("%s, scale %.2f%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
+                         s.view.clutched ? ", clutched" : ""));
+  page.whole("");
+  page.line("hand at", millimetres(s.view.p_MH));
+  page.line("goal", millimetres(s.view.goal_m) + " of anchor");
+  page.line("tool at", tool_line(s));
+  page.whole("");
+  page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
+  add_forces(page, s, width);
+  page.line("energy", text("%+.2f mJ into the hand's port, least %+.2f mJ", s.view.port_energy_j * 1e3,
+                           s.view.port_energy_min_j * 1e3));
+  page.whole("");
+  add_clamps(page, s.view);
+  page.line("loop", rejected_line(s), s.late_ticks > 0 ? Tone::kWarn : Tone::kDim);
+  if (s.show_keys) {
+    page.whole("");
+    page.wrapped(key_line(), Tone::kDim);
+  }
+  return page.take();
+}
+
+std::string render_line(const ConsoleSnapshot& s) {
+  std::string line = text("%6.1f s  %s", s.seconds, std::string(state_in_words(s.view.state)).c_str());
+  line += s.link.rtt_s ? text("  rtt %.3f s", *s.link.rtt_s) : "  rtt -";
+  line += text("  loss %.1f %%  %s", s.link.loss * 100.0, std::string(mode_in_words(s.view.mode)).c_str());
+  line += text("  hand %+.1f %+.1f %+.1f mm", s.view.p_MH.x() * 1e3, s.view.p_MH.y() * 1e3,
+               s.view.p_MH.z() * 1e3);
+  line +=
+      text("  force %.2f N  stiffness %.2f N/mm", s.view.F_H_M.force.norm(), s.view.stiffness_n_per_m * 1e-3);
+  line += text("  energy %+.1f mJ  ", s.view.port_energy_j * 1e3);
+  return line + happening(s);
+}
+
+}  // namespace longreach

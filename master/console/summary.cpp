@@ -1,0 +1,143 @@
+#include "master/console/summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+namespace longreach {
+namespace {
+
+constexpr std::size_t kRttSamples = 36000;
+constexpr double kRttPeriodS = 0.1;
+constexpr double kSpringForceMinN = 0.2;
+constexpr double kSettleS = 1.0;  // beside one RTT, after the first touch
+constexpr std::uint64_t kSamplesMin = 50;
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  std::array<char, 256> line{};
+  std::snprintf(line.data(), line.size(), format, values...);
+  return line.data();
+}
+
+std::string count_text(std::uint64_t count, const char* what) {
+  return text("%llu ", static_cast<unsigned long long>(count)) + what;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+RunCounters counters_of(const ConsoleSnapshot& last) {
+  RunCounters counters;
+  counters.late_ticks = last.late_ticks;
+  counters.missed_ticks = last.missed_ticks;
+  counters.false_holds = last.view.false_holds;
+  counters.rejected_values =
+      last.view.rejected_values + last.rejected[static_cast<std::size_t>(Rejection::kValue)];
+  counters.rejected_datagrams = std::accumulate(last.rejected.begin(), last.rejected.end(), std::uint64_t{0});
+  if (!last.view.far_known) return counters;
+  counters.late_ticks += last.view.far.late_ticks;
+  counters.rejected_datagrams += last.view.far.rejected;
+  counters.limit_violations = last.view.far.limit_violations;
+  return counters;
+}
+
+}  // namespace
+
+RunSummary::RunSummary(const SummaryConfig& config) : config_(config), rtt_s_(kRttSamples) {}
+
+void RunSummary::add(double seconds, const MasterView& view, std::optional<double> rtt_s) {
+  const double dt_s = std::max(seconds - last_s_, 0.0);
+  last_s_ = std::max(seconds, last_s_);
+  if (rtt_s && seconds >= next_rtt_s_) {
+    rtt_s_.push(*rtt_s);
+    next_rtt_s_ = seconds + kRttPeriodS;
+  }
+  if (view.state == SafetyState::kEngaged) engaged_s_ += dt_s;
+  energy_min_j_ = std::fmin(energy_min_j_, view.port_energy_min_j);
+  force_step_max_n_ = std::fmax(force_step_max_n_, std::fabs(view.force_step_n));
+  add_contact(seconds, view, rtt_s);
+}
+
+void RunSummary::add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s) {
+  if (view.in_contact && !touched_at_s_) touched_at_s_ = seconds;
+  const bool settled = touched_at_s_ && rtt_s && seconds >= *touched_at_s_ + *rtt_s + kSettleS;
+  const bool clamped = view.force_clamped || view.stiffness_clamped;
+  if (!settled || clamped || view.mode != MotionMode::kPosition) return;
+  const double force_n = -view.inward.dot(view.spring_force_n);
+  if (!(force_n > kSpringForceMinN)) return;
+  fit_.add(view.inward.dot(view.p_MH), force_n);
+  if (!view.far_known || !view.far.estimate.valid) return;
+  estimate_sum_n_per_m_ += view.far.estimate.stiffness_n_per_m;
+  ++estimates_;
+}
+
+Summary RunSummary::finish(const ConsoleSnapshot& last) const {
+  Summary summary;
+  if (!rtt_s_.empty()) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < rtt_s_.size(); ++i) values.push_back(rtt_s_[i]);
+    summary.rtt_s = median(std::move(values));
+  }
+  summary.engaged_s = engaged_s_;
+  summary.touched = touched_at_s_.has_value();
+  summary.stiffness_samples = fit_.count();
+  if (fit_.valid() && fit_.count() >= kSamplesMin) summary.displayed_stiffness_n_per_m = fit_.slope();
+  if (estimates_ > 0) {
+    summary.expected_stiffness_n_per_m = config_.ke * estimate_sum_n_per_m_ / static_cast<double>(estimates_);
+  }
+  summary.port_energy_min_j = std::fmin(energy_min_j_, last.view.port_energy_min_j);
+  summary.force_step_max_n = force_step_max_n_;
+  summary.counters = counters_of(last);
+  add_checks(summary);
+  return summary;
+}
+
+void RunSummary::add_checks(Summary& s) const {
+  std::vector<SummaryCheck>& checks = s.checks;
+  checks.push_back({s.rtt_s ? text("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
+                    s.rtt_s.has_value()});
+  checks.push_back({text("engaged for %.1f s", s.engaged_s), s.engaged_s > 0.0});
+  const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
+  if (both) {
+    const double shown = *s.displayed_stiffness_n_per_m;
+    const double expected = *s.expected_stiffness_n_per_m;
+    const double error = shown / expected - 1.0;
+    checks.push_back({text("displayed stiffness %.3f N/mm, estimated %.3f N/mm (%+.1f %%)", shown * 1e-3,
+                           expected * 1e-3, error * 100.0),
+                      std::fabs(error) <= config_.stiffness_error_max});
+  } else if (config_.contact_expected) {
+    checks.push_back(
+        {s.touched ? "displayed stiffness: touched too shortly to measure it" : "no contact", false});
+  }
+  checks.push_back({text("port energy never below %.3f mJ", s.port_energy_min_j * 1e3),
+                    s.port_energy_min_j >= config_.energy_floor_j});
+  checks.push_back({text("largest force step by a report %.3f N", s.force_step_max_n),
+                    s.force_step_max_n <= config_.force_step_max_n});
+  const RunCounters& n = s.counters;
+  checks.push_back({count_text(n.late_ticks, "ticks late by over 100 ms"), n.late_ticks == 0});
+  checks.push_back({count_text(n.false_holds, "false holds"), n.false_holds == 0});
+  checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
+  checks.push_back({count_text(n.limit_violations, "limit violations"), n.limit_violations == 0});
+}
+
+bool Summary::passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const SummaryCheck& check) { return check.ok; });
+}
+
+std::string Summary::text() const {
+  std::string page;
+  for (const SummaryCheck& check : checks)
+    page += std::string(check.ok ? "  ok    " : "  FAIL  ") + check.text + "\n";
+  page += "        " + count_text(counters.missed_ticks, "ticks missed, ") +
+          count_text(counters.rejected_datagrams, "datagrams rejected\n");
+  return page + (passed() ? "verdict: all checks hold\n" : "verdict: at least one check FAILED\n");
+}
+
+}  // namespace longreach

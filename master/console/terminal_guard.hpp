@@ -1,0 +1,19 @@
+#pragma once
+// Gives the terminal back as it was, however the program ends: line mode, echo, cursor and screen. What is
+// kept here is given back by the calls below, at exit, and by signals that end the program; those then take
+// their course. A signal for which the program has its own answer is left to it. One terminal a program. Not
+// for several threads.
+
+struct termios;
+
+namespace longreach {
+
+/// Remembers `mode`, the present one of `fd`, before it is changed.
+void keep_terminal_mode(int fd, const termios& mode);
+void give_back_terminal_mode();
+
+/// Remembers that `fd` is about to show the other screen without a cursor.
+void keep_screen(int fd);
+void give_back_screen();
+
+}  // namespace longreach

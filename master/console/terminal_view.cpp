@@ -1,0 +1,91 @@
+#include "master/console/terminal_view.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include "master/console/terminal_guard.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kLivePeriodS = 0.1;
+constexpr double kPlainPeriodS = 1.0;
+constexpr std::string_view kEnter =
+    "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J";  // other screen, no cursor, no wrap, empty
+
+struct ScreenSize {
+  int columns = 80;
+  int rows = 24;
+};
+
+ScreenSize size_of(int fd) {
+  winsize size{};
+  if (::ioctl(fd, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return {};
+  return {size.ws_col, size.ws_row};
+}
+
+bool can_redraw(int fd) {
+  const char* term = std::getenv("TERM");
+  return ::isatty(fd) == 1 && term != nullptr && std::string_view(term) != "dumb" && *term != '\0';
+}
+
+// From the top corner; each line clears its rest, the end clears what lies below: nothing is blanked first,
+// so nothing flickers. Rows that do not fit are left out, or the screen would scroll.
+std::string in_place(std::string_view page, int rows) {
+  std::string text = "\x1b[H";
+  for (int row = 0; row < rows && !page.empty(); ++row) {
+    const std::size_t end = std::min(page.find('\n'), page.size());
+    if (row > 0) text += "\r\n";
+    text.append(page.substr(0, end)).append("\x1b[K");
+    page.remove_prefix(std::min(end + 1, page.size()));
+  }
+  return text + "\x1b[J";
+}
+
+}  // namespace
+
+TerminalView::TerminalView(ViewKind kind, int fd)
+    : fd_(fd), live_(kind == ViewKind::kAuto && can_redraw(fd)), plain_(kind != ViewKind::kNone && !live_) {
+  const char* no_color = std::getenv("NO_COLOR");  // no-color.org
+  color_ = live_ && (no_color == nullptr || *no_color == '\0');
+  if (!live_) return;
+  keep_screen(fd_);
+  write_all(std::string(kEnter));
+}
+
+TerminalView::~TerminalView() { close(); }
+
+void TerminalView::close() {
+  if (live_) give_back_screen();
+  live_ = plain_ = false;
+}
+
+void TerminalView::show(const ConsoleSnapshot& snapshot) {
+  if ((!live_ && !plain_) || snapshot.seconds < next_s_) return;
+  const double period_s = live_ ? kLivePeriodS : kPlainPeriodS;
+  next_s_ = (std::floor(snapshot.seconds / period_s + 1e-6) + 1.0) * period_s - 1e-6;
+  if (plain_) {
+    write_all(render_line(snapshot) + "\n");
+    return;
+  }
+  const ScreenSize size = size_of(fd_);
+  write_all(in_place(render(snapshot, size.columns, color_), size.rows));
+}
+
+void TerminalView::write_all(const std::string& text) const {
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const ssize_t n = ::write(fd_, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;  // a view that cannot be shown is no reason to stop
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,118 @@
+#include "master/console/words.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace longreach {
+namespace {
+
+template <class Enum, std::size_t N>
+std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {
+  const auto index = static_cast<std::size_t>(value);
+  return index < N ? names[index] : std::string_view("unknown");
+}
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), format, values...);
+  return line.data();
+}
+
+bool heard(const ConsoleSnapshot& s) { return s.view.far_known || std::isfinite(s.link.silence_s); }
+
+std::string touching(const ConsoleSnapshot& s) {
+  const double k = s.view.stiffness_n_per_m;
+  if (!(k > 0.0)) return "touching: the slave is still measuring the wall";
+  const double force = s.view.spring_force_n.norm();
+  if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
+    return text("the robot touches; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
+  }
+  return text("touching: the wall gives %.2f N/mm", k * 1e-3);
+}
+
+std::string following(const ConsoleSnapshot& s) {
+  if (s.view.far_state != SafetyState::kEngaged) {
+    return s.link.rtt_s ? text("engaging: the slave's answer takes %.2f s", *s.link.rtt_s)
+                        : "engaging: waiting for the slave's answer";
+  }
+  if (s.view.clutched) return "clutch: the hand moves freely, the robot keeps its place";
+  if (s.view.in_contact) return touching(s);
+  if (s.view.mode == MotionMode::kRate) return "moving freely: the hand's deflection sets the robot's speed";
+  return text("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale);
+}
+
+std::string holding(const ConsoleSnapshot& s) {
+  switch (s.view.cause) {
+    case HoldCause::kLinkSilent:
+      return text("holding: nothing has come from the slave for %.1f s", s.link.silence_s);
+    case HoldCause::kNone:
+    case HoldCause::kOperator:
+      return "holding: engage to go on";
+    default:
+      return "holding: " + std::string(cause_in_words(s.view.cause)) + "; engage to go on";
+  }
+}
+
+}  // namespace
+
+std::string_view state_in_words(SafetyState state) {
+  static constexpr std::array<std::string_view, 6> kNames = {"Idle",    "Observing", "Engaged",
+                                                             "Holding", "Stopped",   "Fault"};
+  return name_of(state, kNames);
+}
+
+std::string_view cause_in_words(HoldCause cause) {
+  static constexpr std::array<std::string_view, 8> kNames = {
+      "",
+      "asked for by the operator",
+      "the link is silent",
+      "the news that the other side acts on is too old",
+      "the other side has restarted",
+      "the other side holds",
+      "the robot reports a fault",
+      "the haptic device reports a fault"};
+  return name_of(cause, kNames);
+}
+
+std::string_view mode_in_words(MotionMode mode) { return mode == MotionMode::kRate ? "rate" : "position"; }
+
+std::vector<std::string> clamps_in_words(const MasterView& view) {
+  std::vector<std::string> words;
+  if (view.force_clamped) words.emplace_back("hand force: at its limit");
+  if (view.stiffness_clamped) words.emplace_back("stiffness: cut to what the device can render");
+  if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
+  if (!view.far_known) return words;
+  const Clamps& robot = view.far.clamps;
+  if (robot.tool_speed) words.emplace_back("robot: at its tool speed limit, it will catch up");
+  if (robot.joint_speed) words.emplace_back("robot: a joint is at its speed limit");
+  if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
+  if (robot.workspace) words.emplace_back("robot: the goal is outside of the workspace");
+  if (robot.force_guard) words.emplace_back("robot: the force guard lets it go no deeper");
+  if (robot.singularity) words.emplace_back("robot: slowed down near a singular pose");
+  if (robot.unreachable) words.emplace_back("robot: the goal is out of reach");
+  return words;
+}
+
+std::string happening(const ConsoleSnapshot& s) {
+  if (!heard(s)) return "waiting for the first news from the slave";
+  switch (s.view.state) {
+    case SafetyState::kIdle:
+    case SafetyState::kObserving:
+      return "observing: the robot is at rest; engage to take it";
+    case SafetyState::kEngaged:
+      return following(s);
+    case SafetyState::kHolding:
+      return holding(s);
+    case SafetyState::kStopped:
+    case SafetyState::kFault: {
+      std::string words = s.view.state == SafetyState::kStopped ? "stopped" : "fault";
+      if (s.view.cause != HoldCause::kNone) words += ": " + std::string(cause_in_words(s.view.cause));
+      return words + "; engage to begin anew";
+    }
+  }
+  return "unknown state";
+}
+
+}  // namespace longreach

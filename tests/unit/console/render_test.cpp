@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "master/console/terminal_view.hpp"
+#include "master/console/words.hpp"
+
+namespace longreach {
+namespace {
+
+ConsoleSnapshot touching() {
+  ConsoleSnapshot s;
+  s.seconds = 21.26;
+  s.seconds_left = 38.74;
+  s.operator_phase = "press";
+  s.view.state = s.view.far_state = SafetyState::kEngaged;
+  s.view.far_known = true;
+  s.view.scale = 0.8;
+  s.view.p_MH = Vector3(0.0123, -0.0005, 0.0);
+  s.view.goal_m = Vector3(0.00984, -0.0004, 0.0);
+  s.view.in_contact = true;
+  s.view.stiffness_n_per_m = 981.0;
+  s.view.F_H_M.force = Vector3(-3.0, 0.0, 0.0);
+  s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
+  s.view.port_energy_j = 4.6e-3;
+  s.view.port_energy_min_j = -1.2e-4;
+  s.view.far.X_WE.p = Vector3(9.8123, 0.0, 4.25);
+  s.view.far.F_E_W.force = Vector3(-2.9, 0.0, 0.0);
+  s.view.far.estimate.stiffness_n_per_m = 1002.0;
+  s.view.far.estimate.valid = true;
+  s.link.rtt_s = 2.602;
+  s.link.jitter_s = 0.0101;
+  s.link.loss = 0.012;
+  s.link.silence_s = 0.021;
+  return s;
+}
+
+std::string without_colors(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\x1b') {
+      i = text.find('m', i);
+      continue;
+    }
+    plain += text[i];
+  }
+  return plain;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(View, ShowsTheWholePictureOfAContact) {
+  const std::string expected =
+      "longreach master  21.3 s, 39 s left  operator: press\n"
+      "\n"
+      "touching: the wall gives 0.98 N/mm\n"
+      "\n"
+      "state     Engaged, slave Engaged\n"
+      "link      RTT 2.602 s  jitter 10.1 ms  loss 1.2 %  silent 0.02 s\n"
+      "mode      position, scale 0.80\n"
+      "\n"
+      "hand at   x   +12.30  y    -0.50  z    +0.00 mm\n"
+      "goal      x    +9.84  y    -0.40  z    +0.00 mm of anchor\n"
+      "tool at   x  +9.8123  y  +0.0000  z  +4.2500 m  (1.3 s ago)\n"
+      "\n"
+      "stiffness 0.981 N/mm at the hand, slave measures 1.002\n"
+      "hand         3.00 N [========................................] 15 N\n"
+      "robot        2.90 N [========................................]\n"
+      "energy    +4.60 mJ into the hand's port, least -0.12 mJ\n"
+      "\n"
+      "clamped   nothing\n"
+      "loop      0 ticks late, 0 missed, 0 rejected\n";
+  EXPECT_EQ(render(touching(), 74, false), expected);
+}
+
+TEST(View, SaysTheSameWithAndWithoutColor) {
+  const std::string colored = render(touching(), 90, true);
+  EXPECT_NE(colored, render(touching(), 90, false));
+  EXPECT_EQ(without_colors(colored), render(touching(), 90, false));
+}
+
+TEST(View, KeepsWithinTheWidth) {
+  ConsoleSnapshot s = touching();
+  s.operator_phase = std::string(300, 'x');
+  s.show_keys = true;
+  s.rejected.fill(std::numeric_limits<std::uint64_t>::max());
+  s.view.p_MH = Vector3::Constant(1e9);
+  for (int width = 0; width < 200; width += 7) {
+    std::istringstream lines(render(s, width, false));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), static_cast<std::size_t>(std::max(width, 60))) << line;
+    }
+  }
+}
+
+TEST(View, SurvivesFiguresThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -infinity, 1e300, -1e300, 5e-324}) {
+    ConsoleSnapshot s = touching();
+    s.seconds = s.force_max_n = s.view.scale = s.view.stiffness_n_per_m = bad;
+    s.seconds_left = s.link.rtt_s = bad;
+    s.view.F_H_M.force.setConstant(bad);
+    s.view.p_MH.setConstant(bad);
+    EXPECT_GT(render(s, 80, true).size(), 100u);
+    EXPECT_FALSE(contains(render_line(s), "\n"));
+  }
+}
+
+TEST(View, FillsTheBarWithTheForce) {
+  ConsoleSnapshot s = touching();
+  const auto filled = [&s](double force_n) {
+    s.view.F_H_M.force = Vector3(0.0, force_n, 0.0);
+    s.view.far.F_E_W.force.setZero();
+    const std::string page = render(s, 80, false);
+    return std::count(page.begin(), page.end(), '=');
+  };
+  EXPECT_EQ(filled(0.0), 0);
+  EXPECT_EQ(filled(15.0), 2 * filled(7.5));
+  EXPECT_EQ(filled(1e9), filled(15.0));
+}
+
+TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
+  ConsoleSnapshot s;
+  s.link.silence_s = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(happening(s), "waiting for the first news from the slave");
+  s = touching();
+  s.view.state = SafetyState::kObserving;
+  EXPECT_TRUE(contains(happening(s), "engage to take it"));
+  s.view.state = SafetyState::kEngaged;
+  s.view.far_state = SafetyState::kObserving;
+  EXPECT_EQ(happening(s), "engaging: the slave's answer takes 2.60 s");
+  s.view.far_state = SafetyState::kEngaged;
+  s.view.in_contact = false;
+  EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80");
+  s.view.in_contact = true;
+  s.view.stiffness_n_per_m = 0.0;
+  EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall");
+  s.view.stiffness_n_per_m = 981.0;
+  EXPECT_EQ(happening(s), "touching: the wall gives 0.98 N/mm");
+}
+
+TEST(Happening, SaysWhyTheRobotHolds) {
+  ConsoleSnapshot s = touching();
+  s.view.state = SafetyState::kHolding;
+  s.view.cause = HoldCause::kLinkSilent;
+  s.link.silence_s = 0.7;
+  EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s");
+  EXPECT_TRUE(contains(render(s, 80, false), "Holding, slave Engaged (the link is silent)"));
+}
+
+TEST(Words, NameEveryStateAndCauseDifferently) {
+  std::vector<std::string_view> seen;
+  for (int i = 0; i <= static_cast<int>(SafetyState::kFault); ++i) {
+    seen.push_back(state_in_words(static_cast<SafetyState>(i)));
+  }
+  for (int i = 0; i <= static_cast<int>(HoldCause::kDeviceFault); ++i) {
+    seen.push_back(cause_in_words(static_cast<HoldCause>(i)));
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), "unknown"), 0);
+  EXPECT_EQ(cause_in_words(static_cast<HoldCause>(200)), "unknown");
+}
+
+TEST(Words, NameEveryClamp) {
+  MasterView view;
+  EXPECT_TRUE(clamps_in_words(view).empty());
+  view.force_clamped = view.stiffness_clamped = view.damping_injected = true;
+  EXPECT_EQ(clamps_in_words(view).size(), 3u);
+  view.far_known = true;
+  view.far.clamps = {true, true, true, true, true, true, true};
+  EXPECT_EQ(clamps_in_words(view).size(), 10u);
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,144 @@
+#include "master/console/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "common/core/random.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kTouchS = 5.0;
+constexpr double kRttS = 2.6;
+
+using Change = std::function<void(double seconds, MasterView&)>;
+
+// 30 s at 100 Hz: touches at kTouchS, then probes a spring of 800 N/m behind x = 20 mm along a slanted
+// normal. Before the touch is settled the spring is another one, which must not count.
+RunSummary probing(const SummaryConfig& config, const Change& change = {}) {
+  RunSummary run(config);
+  for (int tick = 0; tick < 3000; ++tick) {
+    const double t = 0.01 * tick;
+    MasterView view;
+    view.state = SafetyState::kEngaged;
+    view.inward = Vector3(2.0, -1.0, 2.0) / 3.0;
+    view.far_known = true;
+    if (t >= kTouchS) {
+      const double depth_m = 0.004 + 0.002 * std::sin(1.5 * t);
+      const double k = t < kTouchS + kRttS + 1.0 ? 300.0 : 800.0;
+      view.in_contact = true;
+      view.p_MH = view.inward * (0.020 + depth_m);
+      view.spring_force_n = -view.inward * (k * depth_m);
+      view.far.estimate.stiffness_n_per_m = 800.0;
+      view.far.estimate.valid = true;
+    }
+    if (change) change(t, view);
+    run.add(t, view, t < 1.0 ? std::nullopt : std::optional(kRttS));
+  }
+  return run;
+}
+
+SummaryConfig script() {
+  SummaryConfig config;
+  config.contact_expected = true;
+  return config;
+}
+
+TEST(Summary, MeasuresTheSpringThatTheHandFelt) {
+  const Summary summary = probing(script()).finish({});
+  ASSERT_TRUE(summary.displayed_stiffness_n_per_m.has_value());
+  EXPECT_NEAR(*summary.displayed_stiffness_n_per_m, 800.0, 1e-6);
+  EXPECT_NEAR(*summary.expected_stiffness_n_per_m, 800.0, 1e-9);
+  EXPECT_NEAR(*summary.rtt_s, kRttS, 1e-12);
+  EXPECT_NEAR(summary.engaged_s, 29.99, 1e-6);
+  EXPECT_TRUE(summary.passed()) << summary.text();
+  EXPECT_NE(summary.text().find("verdict: all checks hold"), std::string::npos);
+}
+
+TEST(Summary, LeavesOutClampedAndRateModeSamples) {
+  const auto disturb = [](double t, MasterView& view) {
+    if (std::fmod(t, 1.0) > 0.5) return;
+    view.spring_force_n *= 3.0;
+    if (std::fmod(t, 1.0) < 0.2)
+      view.force_clamped = true;
+    else if (std::fmod(t, 1.0) < 0.4)
+      view.stiffness_clamped = true;
+    else
+      view.mode = MotionMode::kRate;
+  };
+  const Summary summary = probing(script(), disturb).finish({});
+  EXPECT_NEAR(summary.displayed_stiffness_n_per_m.value_or(0.0), 800.0, 1e-6);
+}
+
+TEST(Summary, ExpectsKeTimesTheEstimate) {
+  SummaryConfig config = script();
+  config.ke = 2.0;
+  const Summary summary = probing(config).finish({});
+  EXPECT_NEAR(*summary.expected_stiffness_n_per_m, 1600.0, 1e-9);
+  EXPECT_FALSE(summary.passed());
+}
+
+TEST(Summary, FailsForEachBrokenPromise) {
+  const std::vector<Change> breaks = {
+      [](double, MasterView& v) { v.spring_force_n *= 1.2; },
+      [](double, MasterView& v) { v.port_energy_min_j = -0.01; },
+      [](double t, MasterView& v) { v.force_step_n = t > 9.0 && t < 9.02 ? 2.0 : 0.0; },
+      [](double, MasterView& v) { v.state = SafetyState::kObserving; },
+      [](double, MasterView& v) { v.in_contact = false; },
+  };
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    EXPECT_FALSE(probing(script(), breaks[i]).finish({}).passed()) << "break " << i;
+  }
+}
+
+TEST(Summary, FailsForEachCounter) {
+  const RunSummary run = probing(script());
+  const std::vector<std::function<void(ConsoleSnapshot&)>> breaks = {
+      [](ConsoleSnapshot& s) { s.late_ticks = 1; },
+      [](ConsoleSnapshot& s) { s.view.far.late_ticks = 1; },
+      [](ConsoleSnapshot& s) { s.view.false_holds = 1; },
+      [](ConsoleSnapshot& s) { s.view.rejected_values = 1; },
+      [](ConsoleSnapshot& s) { s.rejected[static_cast<std::size_t>(Rejection::kValue)] = 1; },
+      [](ConsoleSnapshot& s) { s.view.far.limit_violations = 1; },
+  };
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    ConsoleSnapshot last;
+    last.view.far_known = true;
+    EXPECT_TRUE(run.finish(last).passed());
+    breaks[i](last);
+    const Summary summary = run.finish(last);
+    EXPECT_FALSE(summary.passed()) << "break " << i;
+    EXPECT_NE(summary.text().find("FAIL"), std::string::npos);
+  }
+}
+
+TEST(Summary, AsksAPersonForNoContact) {
+  SummaryConfig config;
+  RunSummary run(config);
+  MasterView view;
+  view.state = SafetyState::kEngaged;
+  for (int tick = 0; tick < 100; ++tick) run.add(0.1 * tick, view, 0.03);
+  EXPECT_TRUE(run.finish({}).passed());
+  config.contact_expected = true;
+  RunSummary scripted(config);
+  for (int tick = 0; tick < 100; ++tick) scripted.add(0.1 * tick, view, 0.03);
+  EXPECT_FALSE(scripted.finish({}).passed());
+}
+
+TEST(Summary, TakesTheMedianOfTheRoundTripSoThatASpikeDoesNotShow) {
+  RunSummary run({});
+  MasterView view;
+  for (int tick = 0; tick < 1000; ++tick) run.add(0.1 * tick, view, tick > 700 ? 12.0 : 0.8);
+  EXPECT_NEAR(*run.finish({}).rtt_s, 0.8, 1e-12);
+}
+
+TEST(Summary, FailsWithoutAnyNews) {
+  const Summary summary = RunSummary(SummaryConfig{}).finish({});
+  EXPECT_FALSE(summary.rtt_s.has_value());
+  EXPECT_FALSE(summary.passed());
+}
+
+}  // namespace
+}  // namespace longreach

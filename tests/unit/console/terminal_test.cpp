@@ -1,0 +1,166 @@
+// On a pseudo terminal: the keyboard and the view change it and give it back, however the program ends.
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "master/console/keyboard.hpp"
+#include "master/console/terminal_view.hpp"
+
+namespace longreach {
+namespace {
+
+struct Pty {
+  int outer = -1;  // what the person sees and types
+  int inner = -1;  // the program's side
+  Pty() {
+    winsize size{24, 80, 0, 0};
+    EXPECT_EQ(openpty(&outer, &inner, nullptr, nullptr, &size), 0);
+  }
+  ~Pty() {
+    ::close(outer);
+    ::close(inner);
+  }
+  [[nodiscard]] termios mode() const {
+    termios present{};
+    EXPECT_EQ(::tcgetattr(inner, &present), 0);
+    return present;
+  }
+  [[nodiscard]] std::string seen() const {
+    std::array<char, 65536> bytes{};
+    const ssize_t n = ::read(outer, bytes.data(), bytes.size());
+    return n > 0 ? std::string(bytes.data(), static_cast<std::size_t>(n)) : std::string();
+  }
+};
+
+bool same(const termios& a, const termios& b) {
+  return a.c_lflag == b.c_lflag && a.c_iflag == b.c_iflag && a.c_oflag == b.c_oflag &&
+         a.c_cc[VSUSP] == b.c_cc[VSUSP];
+}
+
+// Runs `end` in a child that has the terminal in raw mode and on the other screen; the status of its end.
+template <class End>
+int run_child(const Pty& pty, End end) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setenv("TERM", "xterm", 1);
+    for (const int signal : {SIGTERM, SIGABRT, SIGSEGV}) std::signal(signal, SIG_DFL);
+    ::close(STDERR_FILENO);
+    Keyboard keyboard({}, pty.inner);
+    TerminalView view(ViewKind::kAuto, pty.inner);
+    end();
+    ::_exit(99);
+  }
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return status;
+}
+
+void fail() { throw std::runtime_error("planted"); }
+
+TEST(Keyboard, ReadsKeysAtOnceAndWithoutEcho) {
+  const Pty pty;
+  Keyboard keyboard({}, pty.inner);
+  EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());  // and does not wait
+  ASSERT_EQ(::write(pty.outer, "w\x1b[", 3), 3);
+  EXPECT_DOUBLE_EQ(keyboard.poll(MotionMode::kRate).target_m.x(), 0.001);
+  ASSERT_EQ(::write(pty.outer, "Axq", 3), 3);
+  const KeyboardState state = keyboard.poll(MotionMode::kRate);
+  EXPECT_DOUBLE_EQ(state.target_m.x(), 0.002);
+  EXPECT_TRUE(state.requests.stop);
+  EXPECT_TRUE(state.quit);
+  EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.stop);  // once a press
+  EXPECT_EQ(pty.mode().c_lflag & (ICANON | ECHO), 0u);
+}
+
+TEST(Keyboard, GivesTheTerminalBack) {
+  const Pty pty;
+  const termios before = pty.mode();
+  {
+    const Keyboard keyboard({}, pty.inner);
+    EXPECT_FALSE(same(pty.mode(), before));
+  }
+  EXPECT_TRUE(same(pty.mode(), before));
+}
+
+TEST(Keyboard, ReadsAPipeToItsEnd) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  Keyboard keyboard({}, ends[0]);
+  ASSERT_EQ(::write(ends[1], "e", 1), 1);
+  ::close(ends[1]);
+  EXPECT_TRUE(keyboard.poll(MotionMode::kRate).requests.engage);
+  EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.engage);
+  ::close(ends[0]);
+}
+
+TEST(TerminalGuard, GivesTheTerminalBackWhenASignalEndsTheProgram) {
+  for (const int signal : {SIGTERM, SIGABRT, SIGSEGV}) {
+    const Pty pty;
+    const termios before = pty.mode();
+    const int status = run_child(pty, [signal] { std::raise(signal); });
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+    EXPECT_TRUE(same(pty.mode(), before)) << signal;
+    EXPECT_NE(pty.seen().find("\x1b[?1049l"), std::string::npos) << signal;
+  }
+}
+
+TEST(TerminalGuard, GivesTheTerminalBackOnExitAndOnAnUncaughtException) {
+  const Pty pty;
+  const termios before = pty.mode();
+  EXPECT_EQ(WEXITSTATUS(run_child(pty, [] { std::exit(3); })), 3);
+  EXPECT_TRUE(same(pty.mode(), before));
+  EXPECT_TRUE(WIFSIGNALED(run_child(pty, []() noexcept { fail(); })));
+  EXPECT_TRUE(same(pty.mode(), before));
+}
+
+TEST(TerminalView, RedrawsInPlaceAndNotMoreOftenThanTenTimesASecond) {
+  ::setenv("TERM", "xterm", 1);
+  const Pty pty;
+  TerminalView view(ViewKind::kAuto, pty.inner);
+  ASSERT_TRUE(view.live());
+  EXPECT_NE(pty.seen().find("\x1b[?1049h"), std::string::npos);
+  int drawn = 0;
+  ConsoleSnapshot snapshot;
+  std::string frame;
+  for (int tick = 0; tick < 1000; ++tick) {  // one second in milliseconds
+    snapshot.seconds = 1e-3 * tick;
+    view.show(snapshot);
+    if (tick % 100 != 0) continue;
+    frame = pty.seen();
+    drawn += frame.starts_with("\x1b[H") ? 1 : 0;
+    EXPECT_EQ(frame.find("\x1b[2J"), std::string::npos);  // blanking first would flicker
+  }
+  EXPECT_EQ(drawn, 10);
+  EXPECT_LT(std::count(frame.begin(), frame.end(), '\n'), 24);
+}
+
+TEST(TerminalView, WritesOnePlainLineASecondIntoAPipe) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  TerminalView view(ViewKind::kAuto, ends[1]);
+  EXPECT_FALSE(view.live());
+  ConsoleSnapshot snapshot;
+  for (int tick = 0; tick < 3000; ++tick) {
+    snapshot.seconds = 1e-3 * tick;
+    view.show(snapshot);
+  }
+  ::close(ends[1]);
+  std::array<char, 65536> bytes{};
+  const ssize_t n = ::read(ends[0], bytes.data(), bytes.size());
+  const std::string text(bytes.data(), static_cast<std::size_t>(n));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  ::close(ends[0]);
+}
+
+}  // namespace
+}  // namespace longreach
