@@ -163,8 +163,8 @@ void MasterNode::State::publish(const MasterInput& input, const Wrench& F) {
   view.surface_m = renderer.surface_handle_m();
   view.inward = renderer.surface().inward();
   view.stiffness_n_per_m = renderer.stiffness_n_per_m();
-  view.port_energy_j = renderer.contact_energy_j();
-  view.port_energy_min_j = renderer.contact_energy_min_j();
+  view.port_energy_j = renderer.guard().port_energy_j();
+  view.port_energy_min_j = renderer.guard().port_energy_min_j();
   view.stored_energy_j = renderer.stored_energy_j();
   view.energy_drawdown_j = renderer.guard().deficit_max_j();
   view.tank_j = renderer.spring().tank_j();

@@ -61,7 +61,7 @@ void ContactSpring::return_anchor(double s_m, double share) {
   }
   if (yielding_) return;
   // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
-  double out = -move;
+  double out = std::min(-move, std::max(0.0, config_.force_max_n / k - depth));
   const double cost = 0.5 * k * out * (2.0 * depth + out);
   if (cost > tank_j_) out = (2.0 * tank_j_ / k) / (depth + std::sqrt(depth * depth + 2.0 * tank_j_ / k));
   paid_j_ = std::min(0.5 * k * out * (2.0 * depth + out), tank_j_);

@@ -14,6 +14,7 @@ double PortGuard::observe(const Vector3& x_m) {
   const double energy_j = -f_last_.dot(x_m - x_last_);
   x_last_ = x_m;
   port_energy_j_ += energy_j;
+  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j_);
   return energy_j;
 }
 
@@ -34,9 +35,7 @@ Wrench PortGuard::apply(const Wrench& F, const Vector3& velocity_m_per_s, bool l
       const double damping = std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass_kg / dt_s);
       force -= damping * velocity_m_per_s;
     }
-    const double asked_n = force.stableNorm();
-    force_clamped_ = asked_n > config_.force_max_n;
-    delivered_ = gain_ * (force_clamped_ ? config_.force_max_n / asked_n : 1.0);
+    force_clamped_ = force.stableNorm() > config_.force_max_n;
     out.force = gain_ * clamp_norm(force, config_.force_max_n);
     out.moment = gain_ * clamp_norm(F.moment, config_.moment_max_nm);
   }

@@ -43,8 +43,8 @@ class PortGuard {
   Wrench apply(const Wrench& F, const Vector3& velocity_m_per_s, bool live, double dt_s);
 
   [[nodiscard]] double port_energy_j() const { return port_energy_j_; }
+  [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
   [[nodiscard]] double deficit_max_j() const { return deficit_max_j_; }  // largest fall of E_port - E_stored
-  [[nodiscard]] double delivered() const { return delivered_; }  // share of the asked force that went out
   [[nodiscard]] bool injecting() const { return injecting_; }
   [[nodiscard]] bool force_clamped() const { return force_clamped_; }
   void open() { gain_ = 1.0; }  // after reset, when every spring is at rest
@@ -54,10 +54,10 @@ class PortGuard {
   Vector3 x_last_ = Vector3::Zero();
   Vector3 f_last_ = Vector3::Zero();
   double port_energy_j_ = 0.0;
+  double port_energy_min_j_ = 0.0;
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;
   double gain_ = 0.0;
-  double delivered_ = 0.0;
   bool injecting_ = false;
   bool force_clamped_ = false;
 };

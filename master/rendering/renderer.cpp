@@ -50,8 +50,6 @@ void Renderer::reset(const HandleState& handle) {
   naive_stiffness_ = 0.0;
   guard_.reset(handle.p_MH);
   guard_.open();
-  x_last_ = handle.p_MH;
-  contact_last_n_.setZero();
   stored_j_ = 0.0;
   spring_force_n_ = 0.0;
 }
@@ -115,17 +113,11 @@ double Renderer::contact_force(const RendererInput& input, double s_m) {
 }
 
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
-  if (!finite(input.handle)) {
-    contact_last_n_.setZero();
-    return guard_.apply(Wrench{}, Vector3::Zero(), false, device_.period_s);
-  }
+  if (!finite(input.handle)) return guard_.apply(Wrench{}, Vector3::Zero(), false, device_.period_s);
   const Vector3& x = input.handle.p_MH;
   const Vector3& n = surface_.inward();
   const double s_m = n.dot(x);
   const double entered_j = guard_.observe(x);
-  contact_energy_j_ -= contact_last_n_.dot(x - x_last_);
-  contact_energy_min_j_ = std::min(contact_energy_min_j_, contact_energy_j_);
-  x_last_ = x;
 
   if (input.stale) {
     surface_.clear();
@@ -144,9 +136,7 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   Wrench F = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
   if (config_.law == RenderingLaw::kStiffness) account(entered_j, s_m);
   F.force -= contact_n * n;
-  const Wrench out = guard_.apply(F, input.handle.velocity_m_per_s, input.live, device_.period_s);
-  contact_last_n_ = -contact_n * guard_.delivered() * n;
-  return out;
+  return guard_.apply(F, input.handle.velocity_m_per_s, input.live, device_.period_s);
 }
 
 void Renderer::account(double entered_j, double s_m) {

@@ -58,8 +58,6 @@ class Renderer {
   [[nodiscard]] double stiffness_n_per_m() const;                              // rendered now
   [[nodiscard]] double surface_handle_m() const { return surface_handle_m_; }  // along the normal, in M
   [[nodiscard]] double force_step_n() const { return force_step_n_; }          // by the last report
-  [[nodiscard]] double contact_energy_j() const { return contact_energy_j_; }
-  [[nodiscard]] double contact_energy_min_j() const { return contact_energy_min_j_; }
   [[nodiscard]] double stored_energy_j() const { return stored_j_ + spring_.tank_j(); }
 
  private:
@@ -78,10 +76,6 @@ class Renderer {
   double spring_force_n_ = 0.0;
   double force_step_n_ = 0.0;
   double stored_j_ = 0.0;
-  Vector3 contact_last_n_ = Vector3::Zero();  // contact's part of what was delivered
-  Vector3 x_last_ = Vector3::Zero();
-  double contact_energy_j_ = 0.0;
-  double contact_energy_min_j_ = 0.0;
 };
 
 }  // namespace longreach

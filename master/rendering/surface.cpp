@@ -25,7 +25,9 @@ SurfaceChange Surface::on_report(const ContactStiffness& contact, std::uint64_t 
   const Matrix3 K = 0.5 * (contact.stiffness + contact.stiffness.transpose());
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(K);
-  if (!(eigen.eigenvalues()(2) > 0.0)) return SurfaceChange::kNone;  // in contact, but not identified yet
+  const double k_max = eigen.eigenvalues()(2);
+  if (!(k_max > 1e-9 * K.cwiseAbs().maxCoeff()))
+    return SurfaceChange::kNone;  // in contact, but not identified yet
   const auto goal = history.at(contact.touch_sequence);
   if (!goal) return SurfaceChange::kRejected;
 

@@ -1,1 +1,135 @@
-int main() { return 0; }
+// longreach-lab: experiments in deterministic virtual time.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "common/config/config.hpp"
+#include "tests/experiments/experiment.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+struct RunOptions {
+  std::string name;
+  std::uint64_t seed = 1;
+  std::vector<std::string> settings;
+  std::string out;
+  bool quiet = false;
+};
+
+int list() {
+  for (const Experiment& e : experiments()) {
+    std::printf("%-16s %s\n", std::string(e.name).c_str(), std::string(e.summary).c_str());
+  }
+  return kDone;
+}
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// Progress on a terminal only, rewritten in place.
+std::function<void(double)> progress_line(const RunOptions& o, double virtual_s) {
+  if (o.quiet || !isatty(STDERR_FILENO)) return {};
+  const auto began = std::chrono::steady_clock::now();
+  return [began, virtual_s, name = o.name](double done) {
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    std::fprintf(stderr, "\r%s: %3.0f %% of at most %g s, %.0f times faster than real time ", name.c_str(),
+                 100.0 * done, virtual_s, done * virtual_s / std::max(spent, 1e-9));
+    if (done >= 1.0) std::fprintf(stderr, "\r\033[K");
+  };
+}
+
+proto::LabConfig configured(const RunOptions& o) {
+  proto::LabConfig config;
+  for (const std::string& setting : o.settings) set_lab_field(config, setting);
+  resolve(config, find_deploy_folder());
+  return config;
+}
+
+int run(const RunOptions& o) {
+  const Experiment* experiment = find_experiment(o.name);
+  if (!experiment) {
+    std::fprintf(stderr, "longreach-lab: there is no experiment '%s'; `longreach-lab list` shows them\n",
+                 o.name.c_str());
+    return kBadUsage;
+  }
+  ExperimentRun r;
+  try {
+    r.config = configured(o);
+  } catch (const ConfigError& e) {
+    std::fprintf(stderr, "longreach-lab: %s\n", e.what());
+    return kBadUsage;
+  }
+  r.seed = o.seed;
+  if (!o.out.empty()) {
+    r.out = o.out;
+    std::filesystem::create_directories(r.out);
+  }
+  r.progress = progress_line(o, r.config.duration_s());
+  const auto began = std::chrono::steady_clock::now();
+  const std::vector<Metric> metrics = experiment->run(r);
+  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const std::string json = metrics_json(o.name, r, metrics);
+  if (!r.out.empty()) {
+    std::ofstream file(r.out / "metrics.json", std::ios::trunc);
+    file << json;
+    if (!file.flush()) throw std::runtime_error("cannot write " + (r.out / "metrics.json").string());
+  }
+  if (o.quiet) return kDone;
+  for (const Metric& m : metrics) {
+    std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
+    if (m.name == "duration_s")
+      std::printf("%-32s %14s\n", "times_faster_than_real_time", number(m.value / spent).c_str());
+  }
+  std::printf("commit %s, config %s, seed %llu%s%s\n", std::string(commit()).c_str(),
+              config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
+              r.out.empty() ? "" : "; written to ", r.out.c_str());
+  return kDone;
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  using longreach::RunOptions;
+  CLI::App app{"Experiments with both nodes of longreach in deterministic virtual time."};
+  app.set_version_flag("--version", std::string(longreach::commit()));
+  app.require_subcommand(1);
+  app.add_subcommand("list", "Show the experiments");
+  RunOptions o;
+  CLI::App* run =
+      app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
+  run->add_option("name", o.name, "Experiment")->required();
+  run->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
+  run->add_option("--set", o.settings,
+                  "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
+                  "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; made if missing")
+      ->type_name("DIR");
+  run->add_flag("--quiet", o.quiet, "Print nothing");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int status = app.exit(e);
+    return status == 0 ? 0 : longreach::kBadUsage;
+  }
+  try {
+    return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "longreach-lab: %s\n", e.what());
+    return longreach::kFailed;
+  }
+}

@@ -1,1 +1,177 @@
-// placeholder
+// The main experiment: the simulated operator touches the scene's wall across the link, twice, presses and
+// probes.
+//
+// Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
+// the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on. Its
+// reference is ke times the material's true secant stiffness at the depth that the slave reported it for.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/config/config.hpp"
+#include "common/core/regression.hpp"
+#include "tests/experiments/experiment.hpp"
+#include "tests/experiments/laboratory.hpp"
+#include "tests/experiments/plot.hpp"
+#include "tests/experiments/trace.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kSpringLeast_n = 0.2;
+
+/// What is watched during the run.
+struct Watch {
+  LineFit displayed;
+  double reference_sum = 0.0;  // of ke times the true secant, over the samples of `displayed`
+  double displayed_span_s = 0.0;
+  double first_touch_s = -1.0;
+  double force_step_max_n = 0.0;
+  double force_step_excess_n = 0.0;  // over max(0.1 N, 5 % of the force)
+  double registration_m = -1.0;      // at the second touch
+  double force_peak_n = 0.0;         // at the tool
+  double speed_peak_m_per_s = 0.0;   // of the hand
+  double rtt_s = 0.0;
+  std::uint64_t reports = 0;
+  ScriptPhase phase = ScriptPhase::kWaiting;
+};
+
+/// Signed depth of the handle behind the true surface, m of the handle; position mode.
+double true_handle_depth(const Laboratory& lab, const Vector3& point_m, const Vector3& inward) {
+  const MasterView& m = lab.master();
+  const double offset_m = inward.dot(point_m - lab.slave().X_WE_anchor.p);
+  return (inward.dot(m.goal_m) - offset_m) / m.scale;
+}
+
+void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, double ke) {
+  const MasterView& m = lab.master();
+  const double spring_n = m.spring_force_n.norm();
+  w.force_peak_n = std::max(w.force_peak_n, lab.arm().true_wrench().force.norm());
+  w.speed_peak_m_per_s = std::max(w.speed_peak_m_per_s, lab.handle().true_velocity_m_per_s().norm());
+  if (m.reports != w.reports) {
+    w.reports = m.reports;
+    const double step_n = std::abs(m.force_step_n);
+    w.force_step_max_n = std::max(w.force_step_max_n, step_n);
+    w.force_step_excess_n = std::max(w.force_step_excess_n, step_n - std::max(0.1, 0.05 * spring_n));
+  }
+  if (w.first_touch_s < 0.0 && lab.arm().true_penetration_m() > 0.0) {
+    w.first_touch_s = lab.now_s();
+    w.rtt_s = lab.link().rtt_s.value_or(0.0);
+  }
+  const ScriptPhase phase = lab.script().phase();
+  if (phase == ScriptPhase::kPress && w.phase == ScriptPhase::kReturn && w.registration_m < 0.0 &&
+      !slave.scene.surface.empty()) {
+    const PlaneConfig& plane = slave.scene.surface.front().plane;
+    const Vector3 inward = -plane.normal.normalized();
+    const Vector3 point =
+        plane.point_m + (plane.from_tool_start ? lab.arm().start_pose().p : Vector3::Zero().eval());
+    const double registered = m.inward.dot(m.p_MH) - m.surface_m;
+    w.registration_m = std::abs(registered - true_handle_depth(lab, point, inward));
+  }
+  w.phase = phase;
+  if (w.first_touch_s < 0.0 || lab.now_s() < w.first_touch_s + w.rtt_s + 1.0) return;
+  if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
+    w.displayed.add(m.inward.dot(m.p_MH), spring_n);
+    w.reference_sum += ke * lab.arm().material_secant(lab.rendered_depth_m());
+    w.displayed_span_s += lab.period_s();
+  }
+}
+
+std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
+  const MasterView& m = lab.master();
+  const SlaveView& s = lab.slave();
+  const double reference =
+      w.displayed.count() > 0 ? w.reference_sum / static_cast<double>(w.displayed.count()) : 0.0;
+  const double displayed = w.displayed.slope();
+  const double error = reference > 0.0 ? std::abs(displayed - reference) / reference : 1.0;
+  const double rendered_error = reference > 0.0 ? std::abs(m.stiffness_n_per_m - reference) / reference : 1.0;
+  return {{"displayed_stiffness_n_per_m", displayed, "N/m"},
+          {"reference_stiffness_n_per_m", reference, "N/m"},
+          {"displayed_stiffness_error", error, ""},
+          {"displayed_span_s", w.displayed_span_s, "s"},
+          {"rendered_stiffness_n_per_m", m.stiffness_n_per_m, "N/m"},
+          {"rendered_stiffness_error", rendered_error, ""},
+          {"wall_registration_error_m", w.registration_m < 0.0 ? 1.0 : w.registration_m, "m"},
+          {"port_energy_min_j", m.port_energy_min_j, "J"},
+          {"energy_drawdown_j", m.energy_drawdown_j, "J"},
+          {"force_step_at_update_max_n", w.force_step_max_n, "N"},
+          {"force_step_excess_n", w.force_step_excess_n, "N"},
+          {"tool_force_peak_n", w.force_peak_n, "N"},
+          {"hand_speed_peak_m_per_s", w.speed_peak_m_per_s, "m/s"},
+          {"rtt_s", w.rtt_s, "s"},
+          {"probing_cycles_done", static_cast<double>(lab.script().cycles()), ""},
+          {"reports_applied", static_cast<double>(m.reports), ""},
+          {"rejected_datagrams",
+           static_cast<double>(lab.master_port().rejected_total() + lab.slave_port().rejected_total()), ""},
+          {"rejected_values", static_cast<double>(m.rejected_values + s.rejected_values), ""},
+          {"false_holds", static_cast<double>(m.false_holds + s.false_holds), ""},
+          {"limit_violations", static_cast<double>(s.limit_violations), ""},
+          {"duration_s", lab.now_s(), "s"}};
+}
+
+void trace_row(Trace& trace, const Laboratory& lab) {
+  const MasterView& m = lab.master();
+  const SlaveView& s = lab.slave();
+  const double hand = m.inward.dot(m.p_MH);
+  trace.row({lab.now_s(), hand, m.surface_known ? m.surface_m : NAN, m.inward.dot(m.goal_m),
+             m.inward.dot(s.X_WE.p - s.X_WE_anchor.p), -m.inward.dot(m.F_H_M.force), m.spring_force_n.norm(),
+             lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m, s.reported_stiffness_n_per_m,
+             lab.arm().true_penetration_m(), m.port_energy_j, m.stored_energy_j, m.tank_j, m.scale,
+             static_cast<double>(m.mode), static_cast<double>(m.state),
+             static_cast<double>(lab.script().phase())});
+}
+
+const Plot& touch_plot() {
+  static const Plot kPlot = {
+      .name = "touch",
+      .csv = "touch",
+      .title = "Touching a wall across the link",
+      .x_column = "t_s",
+      .x_label = "time (s)",
+      .panels = {
+          {"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
+          {"tool (mm)", {{"goal_m", "commanded", 1e3}, {"tool_m", "measured", 1e3}}, ""},
+          {"force (N)",
+           {{"spring_force_n", "contact at the hand"}, {"tool_force_n", "at the tool, far away"}},
+           ""},
+          {"stiffness (N/mm)",
+           {{"stiffness_n_per_m", "rendered", 1e-3}, {"reported_n_per_m", "reported by the slave", 1e-3}},
+           "set yrange [0:*]"},
+          {"energy (mJ)",
+           {{"port_energy_j", "into the device", 1e3}, {"stored_energy_j", "stored", 1e3}},
+           ""}}};
+  return kPlot;
+}
+
+}  // namespace
+
+std::vector<Metric> run_touch(const ExperimentRun& run) {
+  const MasterConfig master = to_struct(run.config.master());
+  const SlaveConfig slave = to_struct(run.config.slave());
+  Laboratory lab(master, slave, run.seed);
+  Trace trace(run.out, "touch",
+              {"t_s", "hand_m", "surface_m", "goal_m", "tool_m", "hand_force_n", "spring_force_n",
+               "tool_force_n", "stiffness_n_per_m", "reported_n_per_m", "penetration_m", "port_energy_j",
+               "stored_energy_j", "tank_j", "scale", "mode", "state", "phase"});
+  Watch watch;
+  const auto ticks = static_cast<std::int64_t>(run.config.duration_s() / lab.period_s());
+  const auto rows = std::max<std::int64_t>(1, std::llround(1.0 / (run.config.trace_hz() * lab.period_s())));
+  for (std::int64_t i = 0; i < ticks; ++i) {
+    lab.step();
+    watch_tick(watch, lab, slave, master.rendering.ke);
+    if (i % rows == 0) trace_row(trace, lab);
+    if (run.progress && i % 1000 == 0) run.progress(static_cast<double>(i) / static_cast<double>(ticks));
+    if (lab.script().cycles() > 0 && lab.script().phase() == ScriptPhase::kRest) break;
+  }
+  trace.close();
+  if (run.progress) run.progress(1.0);
+  if (!run.out.empty()) {
+    if (const std::string trouble = draw(run.out, touch_plot()); !trouble.empty()) {
+      std::fprintf(stderr, "%s\n", trouble.c_str());
+    }
+  }
+  return metrics_of(watch, lab);
+}
+
+}  // namespace longreach

@@ -1,0 +1,55 @@
+#pragma once
+// What an experiment of the laboratory is: a name, a sentence, and a function from (config, seed) to metrics.
+// It may write traces and plots into its folder.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proto/config.pb.h"
+
+namespace longreach {
+
+struct Metric {
+  std::string name;
+  double value = 0.0;
+  std::string unit;  // "" for a pure number
+};
+
+struct ExperimentRun {
+  proto::LabConfig config;  // complete: files and profile resolved
+  std::uint64_t seed = 1;
+  std::filesystem::path out;                  // folder for traces and plots, exists; empty: write none
+  std::function<void(double done)> progress;  // share of the work, 0 to 1; may be empty
+};
+
+struct Experiment {
+  std::string_view name;
+  std::string_view summary;
+  std::vector<Metric> (*run)(const ExperimentRun&);
+};
+
+/// All experiments, in the order in which `longreach-lab list` shows them.
+const std::vector<Experiment>& experiments();
+const Experiment* find_experiment(std::string_view name);
+
+/// Reads the robot, scene and link files that a configuration names; the profile's directions go into the
+/// impairments. Throws ConfigError.
+void resolve(proto::LabConfig& config, const std::filesystem::path& deploy_folder);
+
+/// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
+std::string config_hash(const proto::LabConfig& config);
+
+/// Commit that the program was built from, with "-dirty" if the tree differed.
+std::string_view commit();
+
+std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
+                         const std::vector<Metric>& metrics);
+
+// The experiments.
+std::vector<Metric> run_touch(const ExperimentRun& run);
+
+}  // namespace longreach

@@ -1,0 +1,80 @@
+#include "tests/experiments/laboratory.hpp"
+
+namespace longreach {
+
+Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
+    : period_(from_seconds(1.0 / master.loop.rate_hz)),
+      random_(seed),
+      master_port_(channels_.a(), 2, master.link.impairment, random_.child("down")),
+      slave_port_(channels_.b(), 1, slave.link.impairment, random_.child("up")),
+      slave_node_(slave),
+      master_node_(master),
+      arm_(slave, random_.child("arm")),
+      handle_(master.device),
+      script_(master.operator_, master.mapping, master.hand.grip) {}
+
+void Laboratory::step() {
+  elapsed_ += period_;
+  step_slave();
+  step_master();
+}
+
+void Laboratory::step_slave() {
+  const Time now = slave_now();
+  slave_port_.receive(now);
+  const Endpoint& endpoint = slave_port_.endpoint();
+  SlaveInput in;
+  in.now = now;
+  in.robot = arm_.read(now);
+  in.commands = slave_port_.commands();
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_session_count = endpoint.peer_session() == 0 ? 0 : endpoint.peer_restarts() + 1;
+  in.rejected = slave_port_.rejected_total();
+  const SlaveOutput out = slave_node_.step(in);
+  arm_.write(out.joint_setpoint_rad);
+  if (out.report) {
+    report_depths_.push(slave_node_.view().reported_depth_m);
+    last_report_ = out.report_sequence;
+    slave_port_.send(now, out.report_sequence, *out.report);
+  }
+  if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
+}
+
+void Laboratory::step_master() {
+  const Time now = master_now();
+  master_port_.receive(now);
+  const Endpoint& endpoint = master_port_.endpoint();
+  const HandleState handle = handle_.read(now);
+  const MasterView& view = master_node_.view();
+  const ScriptOutput script = script_.step({.now = now,
+                                            .handle_m = handle.p_MH,
+                                            .felt_n = view.spring_force_n.norm(),
+                                            .goal_m = view.goal_m,
+                                            .scale = view.scale,
+                                            .engaged = view.state == SafetyState::kEngaged,
+                                            .surface_known = view.surface_known,
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+  handle_.set_target(script.target);
+  MasterInput in;
+  in.now = now;
+  in.handle = handle;
+  in.reports = master_port_.reports();
+  in.telemetry = master_port_.telemetry();
+  in.requests = requests_;
+  if (script.mode) in.requests.mode = script.mode;
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_restarts = endpoint.peer_restarts();
+  const MasterOutput out = master_node_.step(in);
+  handle_.write(out.F_H_M);
+  if (out.command) master_port_.send(now, out.sequence, *out.command);
+  requests_ = OperatorRequests{};
+  for (const auto& received : in.reports) {
+    const std::uint64_t back = last_report_ - received.sequence;
+    if (!received.newest || !received.message.translation.in_contact || back >= report_depths_.size())
+      continue;
+    const double depth_m = report_depths_[report_depths_.size() - 1 - back];
+    if (depth_m > 0.0) rendered_depth_m_ = depth_m;
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,64 @@
+#pragma once
+// Both nodes, the link between them, robot and device, in one process and in virtual time. The same nodes,
+// ports, codecs and impairments as in the programs; only channel, clock and device are simulated. A run is
+// named by (commit, config, seed): the same name gives the same bytes.
+
+#include <cstdint>
+
+#include "common/wire/memory_channel.hpp"
+#include "common/wire/port.hpp"
+#include "master/devices/scripted_operator.hpp"
+#include "master/devices/simulated_handle.hpp"
+#include "master/master_node.hpp"
+#include "slave/robot/simulated_arm.hpp"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+class Laboratory {
+ public:
+  /// Configurations complete, files resolved, link profile already in the impairments.
+  Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
+
+  /// One tick of both sides.
+  void step();
+
+  [[nodiscard]] double now_s() const { return to_seconds(elapsed_); }
+  [[nodiscard]] double period_s() const { return to_seconds(period_); }
+  [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
+  [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
+  [[nodiscard]] const SimulatedArm& arm() const { return arm_; }
+  [[nodiscard]] const SimulatedHandle& handle() const { return handle_; }
+  [[nodiscard]] const ScriptedOperator& script() const { return script_; }
+  [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
+  [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
+  [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
+  /// Depth that the stiffness which the master renders now was estimated at, m; zero before the first.
+  [[nodiscard]] double rendered_depth_m() const { return rendered_depth_m_; }
+  /// Asked for in the next tick, besides what the script does.
+  OperatorRequests& requests() { return requests_; }
+
+ private:
+  [[nodiscard]] Time master_now() const { return Time{std::chrono::seconds(100)} + elapsed_; }
+  [[nodiscard]] Time slave_now() const { return Time{std::chrono::seconds(77777)} + elapsed_; }
+  void step_slave();
+  void step_master();
+
+  Duration period_;
+  Duration elapsed_{0};
+  MemoryChannelPair channels_;
+  Random random_;
+  MasterPort master_port_;
+  SlavePort slave_port_;
+  SlaveNode slave_node_;
+  MasterNode master_node_;
+  SimulatedArm arm_;
+  SimulatedHandle handle_;
+  ScriptedOperator script_;
+  OperatorRequests requests_{};
+  Ring<double> report_depths_{4096};  // of the last reports, by sequence
+  std::uint64_t last_report_ = 0;
+  double rendered_depth_m_ = 0.0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,65 @@
+#include "tests/experiments/plot.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace longreach {
+namespace {
+
+// Okabe and Ito (2008): told apart by the colour-blind.
+constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
+                                                      "#cc79a7", "#e69f00", "#56b4e9"};
+
+void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::size_t i) {
+  const bool last = i + 1 == plot.panels.size();
+  const double height = 0.86 / static_cast<double>(plot.panels.size());
+  const double top = 0.93 - static_cast<double>(i) * height;
+  out << "set tmargin at screen " << top << "\nset bmargin at screen " << top - height + 0.03 << '\n';
+  out << "set ylabel '" << panel.y_label << "' offset 0.5,0\n";
+  out << (last ? "set format x '%g'\nset xlabel '" + plot.x_label + "'\n" : "set format x ''\nset xlabel\n");
+  out << "set yrange [*:*]\n" << panel.extra << "\nplot ";
+  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+    const Curve& curve = panel.curves[c];
+    out << (c ? ", " : "") << "'" << plot.csv << ".csv' using '" << plot.x_column << "':(column('"
+        << curve.column << "')*" << curve.factor << ") with lines lw 1.6 lc rgb '"
+        << kColours[c % kColours.size()] << "' title '" << curve.title << "'";
+  }
+  out << '\n';
+}
+
+}  // namespace
+
+std::string draw(const std::filesystem::path& folder, const Plot& plot) {
+  const std::filesystem::path script = folder / (plot.name + ".gp");
+  {
+    std::ofstream out(script, std::ios::trunc);
+    out << "set terminal svg size 900," << 120 + 190 * plot.panels.size()
+        << " dynamic font 'sans,13' background '#ffffff'\n"
+        << "set output '" << plot.name << ".svg'\nset datafile separator ','\n"
+        << "set title\nset grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n"
+        << "set key outside right top samplen 1.5 width -2\nset lmargin at screen 0.10\nset rmargin at "
+           "screen 0.78\n"
+        << "set label 1 '" << plot.title << "' at screen 0.10,0.97 font 'sans,15'\n"
+        << "set multiplot\n";
+    for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+      write_panel(out, plot, plot.panels[i], i);
+      out << "unset label 1\n";
+    }
+    out << "unset multiplot\n";
+    if (!out) return "cannot write " + script.string();
+  }
+  // The folder is handed over by the working directory, so any name is safe.
+  std::error_code error;
+  const std::filesystem::path before = std::filesystem::current_path(error);
+  std::filesystem::current_path(folder, error);
+  if (error) return "cannot enter " + folder.string();
+  const int status = std::system(("gnuplot " + plot.name + ".gp 2> gnuplot.log").c_str());
+  std::filesystem::current_path(before, error);
+  if (status != 0) return "no plot: gnuplot failed, see " + (folder / "gnuplot.log").string();
+  std::filesystem::remove(folder / "gnuplot.log", error);
+  return "";
+}
+
+}  // namespace longreach

@@ -1,0 +1,36 @@
+#pragma once
+// SVG plots by gnuplot: panels one above the other over a common x axis, each with its own y axis.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace longreach {
+
+struct Curve {
+  std::string column;  // of the CSV file
+  std::string title;
+  double factor = 1.0;  // from the column's unit to the axis's
+};
+
+struct Panel {
+  std::string y_label;
+  std::vector<Curve> curves;
+  std::string extra;  // further gnuplot commands, e.g. a y range
+};
+
+struct Plot {
+  std::string name;  // file name without ending
+  std::string csv;   // name of the trace without ending
+  std::string title;
+  std::string x_column;
+  std::string x_label;
+  std::vector<Panel> panels;
+};
+
+/// Writes FOLDER/NAME.gp and FOLDER/NAME.svg. Returns a sentence when gnuplot is missing or fails, else
+/// nothing.
+std::string draw(const std::filesystem::path& folder, const Plot& plot);
+
+}  // namespace longreach

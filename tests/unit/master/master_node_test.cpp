@@ -1,0 +1,268 @@
+#include "master/master_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "common/core/random.hpp"
+#include "master/devices/simulated_handle.hpp"
+
+namespace {
+thread_local bool counting = false;
+thread_local int allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  if (counting) ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace longreach {
+namespace {
+
+/// A master in the hand of nobody, with a slave made of reports.
+struct Bench {
+  explicit Bench(const MasterConfig& c = {}) : config(c), node(config) { hear(); }
+
+  void hear() {
+    in.last_heard = in.now;
+    in.telemetry = {};
+  }
+  MasterOutput tick(const StiffnessReport* report = nullptr) {
+    in.now += std::chrono::milliseconds(1);
+    in.last_heard = in.now;
+    if (report) {
+      received.sequence += 1;
+      received.message = *report;
+      in.reports = {&received, 1};
+    } else {
+      in.reports = {};
+    }
+    const MasterOutput out = node.step(in);
+    in.requests = {};
+    return out;
+  }
+  StiffnessReport engaged_report() const {
+    return {.engagement = node.view().engagement, .state = SafetyState::kEngaged};
+  }
+  void engage() {
+    in.requests.engage = true;
+    tick();
+    const StiffnessReport report = engaged_report();
+    tick(&report);
+    tick();
+    ASSERT_TRUE(node.engaged());
+  }
+  StiffnessReport contact(double k, double sequence) const {
+    StiffnessReport r = engaged_report();
+    r.translation.stiffness(0, 0) = k;
+    r.translation.touch_sequence = sequence;
+    r.translation.touch = 1;
+    r.translation.in_contact = true;
+    return r;
+  }
+
+  MasterConfig config;
+  MasterNode node;
+  MasterInput in{};
+  Received<StiffnessReport> received{};
+};
+
+TEST(MasterNode, SendsAtItsRateWithSequencesFromOne) {
+  Bench b;
+  std::uint64_t expected = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const MasterOutput out = b.tick();
+    if (out.command) {
+      EXPECT_EQ(out.sequence, ++expected);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(expected), 200.0, 1.0);
+}
+
+TEST(MasterNode, CommandsNothingBeforeTheSlaveConfirms) {
+  Bench b;
+  b.in.requests.engage = true;
+  for (int i = 0; i < 500; ++i) {
+    b.in.handle.p_MH.x() += 1e-5;
+    const MasterOutput out = b.tick();
+    if (out.command) {
+      EXPECT_TRUE(out.command->position_m.isZero(0.0));
+    }
+  }
+}
+
+TEST(MasterNode, FeelsTheReportedStiffnessWhereTheTouchWas) {
+  Bench b;
+  b.engage();
+  b.in.requests.scale = 0.5;
+  std::uint64_t touch = 0;
+  for (int i = 0; i < 1000; ++i) {  // 10 mm forward at 10 mm/s, the surface at 5 mm of the handle
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    const MasterOutput out = b.tick();
+    if (out.command && i <= 500) touch = out.sequence;
+  }
+  const StiffnessReport report = b.contact(1000.0, static_cast<double>(touch));
+  b.tick(&report);
+  EXPECT_EQ(b.node.view().spring_force_n.norm(), 0.0) << "learnt late: begins at zero force";
+  EXPECT_TRUE(b.node.view().surface_known);
+  for (int i = 1000; i > 0; --i) {  // back out, the anchor follows
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    b.tick();
+  }
+  for (int i = 0; i <= 700; ++i) {  // and in again: 2 mm behind the surface
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    b.tick();
+  }
+  EXPECT_NEAR(b.node.view().spring_force_n.x(), -2.0, 0.06);
+  EXPECT_NEAR(b.node.view().stiffness_n_per_m, 1000.0, 1e-9);
+}
+
+TEST(MasterNode, AppliesScaleStepsOnMultiplesOfATwentieth) {
+  Bench b;
+  b.in.requests.scale = 0.81;
+  b.tick();
+  b.in.requests.scale_steps = 1;
+  b.tick();
+  EXPECT_NEAR(b.node.view().scale, 0.85, 1e-12);
+  b.in.requests.scale_steps = -100;
+  b.tick();
+  EXPECT_NEAR(b.node.view().scale, 0.05, 1e-12);
+  b.in.requests.scale = 7.0;
+  b.tick();
+  EXPECT_NEAR(b.node.view().scale, 0.05, 1e-12);
+  EXPECT_EQ(b.node.view().rejected_values, 1U);
+}
+
+TEST(MasterNode, FadesTheContactWhenTheSlaveFallsSilent) {
+  Bench b;
+  b.engage();
+  std::uint64_t touch = 0;
+  for (int i = 0; i < 200; ++i) {
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    const MasterOutput out = b.tick();
+    if (out.command) touch = out.sequence;
+  }
+  const StiffnessReport report = b.contact(2000.0, static_cast<double>(touch));
+  b.tick(&report);
+  for (int i = 200; i < 400; ++i) {
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    b.tick();
+  }
+  EXPECT_GT(b.node.view().spring_force_n.norm(), 2.0);
+  b.in.reports = {};
+  for (int i = 0; i < 2500; ++i) {  // silence: last_heard stays
+    b.in.now += std::chrono::milliseconds(1);
+    b.node.step(b.in);
+  }
+  EXPECT_EQ(b.node.view().state, SafetyState::kHolding);
+  EXPECT_LT(b.node.view().spring_force_n.norm(), 0.01);
+}
+
+TEST(MasterNode, RampsTheWrenchAwayOnStop) {
+  Bench b;
+  b.engage();
+  b.in.requests.mode = MotionMode::kRate;
+  b.tick();
+  b.in.handle.p_MH.x() = 0.02;
+  EXPECT_GT(b.tick().F_H_M.force.norm(), 0.5);
+  b.in.requests.stop = true;
+  b.tick();
+  for (int i = 0; i < 55; ++i) b.tick();
+  EXPECT_EQ(b.tick().F_H_M.force.norm(), 0.0);
+}
+
+/// Hostile reports, a released hand, every seed: the wrench stays finite and limited, the port passive.
+TEST(MasterNode, StaysPassiveAndLimitedUnderHostileReports) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Bench b;
+    SimulatedHandle handle({});
+    b.in.handle = handle.read(b.in.now);
+    b.engage();
+    for (int i = 0; i < 5000; ++i) {
+      HandTarget target;
+      target.position_m.x() = 0.02 * std::sin(0.002 * i);
+      target.grip = random.chance(0.5) ? Grip::kLight : Grip::kReleased;
+      handle.set_target(target);
+      b.in.handle = handle.read(b.in.now + std::chrono::milliseconds(1));
+      StiffnessReport report =
+          b.contact(std::exp(random.uniform(-10.0, 25.0)), random.uniform(1.0, 0.2 * i + 1.0));
+      if (random.chance(0.1))
+        report.translation.stiffness(0, 0) = random.chance(0.5) ? std::nan("") : HUGE_VAL;
+      if (random.chance(0.1)) report.translation.stiffness = -report.translation.stiffness;
+      if (random.chance(0.1)) report.translation.stiffness(0, 1) = random.normal() * 1e6;
+      if (random.chance(0.1)) report.translation.touch_sequence = random.chance(0.5) ? std::nan("") : 1e300;
+      if (random.chance(0.1)) report.translation.in_contact = false;
+      const MasterOutput out = random.chance(0.5) ? b.tick(&report) : b.tick();
+      handle.write(out.F_H_M);
+      ASSERT_TRUE(out.F_H_M.force.allFinite() && out.F_H_M.moment.allFinite())
+          << "seed " << seed << " tick " << i;
+      ASSERT_LE(out.F_H_M.force.norm(), b.config.rendering.force_max_n + 1e-9);
+    }
+    EXPECT_GE(b.node.view().port_energy_min_j, -1e-3) << "seed " << seed;
+    EXPECT_LE(b.node.view().energy_drawdown_j, 1e-3) << "seed " << seed;
+  }
+}
+
+TEST(MasterNode, NaiveLawFailsWhereOursDoesNot) {
+  MasterConfig config;
+  config.rendering.law = RenderingLaw::kNaive;
+  Bench b(config);
+  SimulatedHandle handle({});
+  b.in.handle = handle.read(b.in.now);
+  b.engage();
+  std::uint64_t touch = 0;
+  for (int i = 0; i < 2000; ++i) {
+    HandTarget target;
+    target.position_m.x() = 1e-5 * i;
+    handle.set_target(target);
+    b.in.handle = handle.read(b.in.now + std::chrono::milliseconds(1));
+    const MasterOutput out = b.tick();
+    if (out.command && i < 500) touch = out.sequence;
+    handle.write(out.F_H_M);
+  }
+  const StiffnessReport report = b.contact(5000.0, static_cast<double>(touch));
+  for (int i = 0; i < 500; ++i) {
+    b.in.handle = handle.read(b.in.now + std::chrono::milliseconds(1));
+    const MasterOutput out = i == 0 ? b.tick(&report) : b.tick();
+    handle.write(out.F_H_M);
+  }
+  EXPECT_LT(b.node.view().port_energy_min_j, -0.05);
+}
+
+TEST(MasterNode, SurvivesADeviceThatReportsNonsense) {
+  Bench b;
+  b.engage();
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e300, std::numeric_limits<double>::denorm_min()}) {
+    b.in.handle.p_MH.x() = bad;
+    b.in.handle.velocity_m_per_s.y() = bad;
+    const MasterOutput out = b.tick();
+    EXPECT_TRUE(out.F_H_M.force.allFinite());
+    EXPECT_LE(out.F_H_M.force.norm(), b.config.rendering.force_max_n + 1e-9);
+    EXPECT_TRUE(b.node.view().goal_m.allFinite());
+  }
+}
+
+TEST(MasterNode, AllocatesNothingInAStep) {
+  Bench b;
+  b.engage();
+  const StiffnessReport report = b.contact(1000.0, 3.0);
+  allocations = 0;
+  counting = true;
+  for (int i = 0; i < 2000; ++i) {
+    b.in.handle.p_MH.x() = 1e-5 * (i % 1000);
+    b.tick(i % 100 == 0 ? &report : nullptr);
+  }
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+}
+
+}  // namespace
+}  // namespace longreach
