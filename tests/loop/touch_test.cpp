@@ -1,0 +1,123 @@
+// The whole loop in virtual time: what the hand feels through every named link. LONGREACH_FULL=1 runs the
+// whole grid.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "common/config/config.hpp"
+#include "tests/experiments/experiment.hpp"
+
+namespace longreach {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+ExperimentRun configured(const std::vector<std::string>& settings, std::uint64_t seed) {
+  ExperimentRun run;
+  for (const std::string& setting : settings) set_lab_field(run.config, setting);
+  resolve(run.config, LONGREACH_DEPLOY);
+  run.seed = seed;
+  return run;
+}
+
+Values touch(const std::vector<std::string>& settings, std::uint64_t seed) {
+  Values values;
+  for (const Metric& m : run_touch(configured(settings, seed))) values[m.name] = m.value;
+  return values;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+struct Case {
+  std::string profile;
+  double stiffness_n_per_m;
+  double scale;
+  double exponent;
+  std::uint64_t seed;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.profile << ' ' << c.stiffness_n_per_m << " N/m, k_scale " << c.scale << ", n " << c.exponent
+             << ", seed " << c.seed;
+}
+
+bool full_size() {
+  const char* full = std::getenv("LONGREACH_FULL");
+  return full && std::string(full) == "1";
+}
+
+/// The whole grid, or every ninth of it, each time another combination.
+std::vector<Case> grid() {
+  std::vector<Case> cases;
+  int i = 0;
+  for (const char* profile : {"lab", "analog", "moon"}) {
+    for (const double k : {500.0, 1000.0, 5000.0}) {
+      for (const double scale : {0.2, 0.8, 1.0}) {
+        for (const double n : {1.0, 1.5}) {
+          for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            if (full_size() || i++ % 9 == 4) cases.push_back({profile, k, scale, n, seed});
+          }
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+class Touch : public testing::TestWithParam<Case> {};
+
+TEST_P(Touch, TheHandFeelsTheWallCalmlyWhereItIs) {
+  const Case& c = GetParam();
+  const Values v = touch({"profile=" + c.profile, "mapping.scale=" + std::to_string(c.scale),
+                          "scene.material.wall.stiffness_n_per_m=" + std::to_string(c.stiffness_n_per_m),
+                          "scene.material.wall.exponent=" + std::to_string(c.exponent),
+                          "estimator.exponent=" + std::to_string(c.exponent)},
+                         c.seed);
+  EXPECT_LE(v.at("displayed_stiffness_error"), 0.05);
+  EXPECT_GE(v.at("displayed_span_s"), 4.0);
+  EXPECT_EQ(v.at("probing_cycles_done"), 1.0);
+  EXPECT_GE(v.at("port_energy_min_j"), -0.001);
+  EXPECT_LE(v.at("energy_drawdown_j"), 0.001);
+  EXPECT_LE(v.at("force_step_excess_n"), 0.0);
+  EXPECT_LE(v.at("wall_registration_error_m"), 0.001);
+  EXPECT_EQ(v.at("rejected_datagrams"), 0.0);
+  EXPECT_EQ(v.at("rejected_values"), 0.0);
+  EXPECT_EQ(v.at("false_holds"), 0.0);
+  EXPECT_EQ(v.at("limit_violations"), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grid, Touch, testing::ValuesIn(grid()));
+
+TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
+  const Values v =
+      touch({"profile=moon-relay", "scene.material.wall.stiffness_n_per_m=5000", "rendering.law=NAIVE"}, 1);
+  EXPECT_LT(v.at("port_energy_min_j"), -0.1);
+}
+
+TEST(Touch, TheSameSeedGivesTheSameBytesAndAnotherDoesNot) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "longreach_touch_test";
+  std::vector<std::string> traces;
+  for (const std::uint64_t seed : {7U, 7U, 8U}) {
+    ExperimentRun run = configured({"profile=analog"}, seed);
+    run.out = folder / std::to_string(traces.size());
+    std::filesystem::create_directories(run.out);
+    run_touch(run);
+    traces.push_back(text_of(run.out / "touch.csv"));
+  }
+  EXPECT_GT(traces[0].size(), 10000U);
+  EXPECT_EQ(traces[0], traces[1]);
+  EXPECT_NE(traces[0], traces[2]);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace longreach
