@@ -1,1 +1,249 @@
-import sys; sys.exit(0)
+#!/usr/bin/env python3
+"""Checks what the compiler does not: floors, purity of floors 0 to 3, names, sizes, layout and form.
+
+Usage: check.py [ROOT]. Prints PATH:LINE: MESSAGE for each finding; exit status 1 if one of them is an error.
+"""
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True   # the source tree stays as it is
+import floors  # noqa: E402
+import source  # noqa: E402
+
+TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
+TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'LICENSE', 'NOTICE',
+             '.clang-format', '.clang-tidy', '.gitignore', '.gitattributes'}
+IGNORED = {'.git', 'build', 'out', '__pycache__'}   # what builds and runs leave behind
+GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build
+CPP = ('.hpp', '.cpp')
+FUNCTION_LINES, FILE_LINES, FILE_LINES_WISHED = 60, 400, 300
+
+BANNED = {'manager', 'util', 'helper', 'handler', 'data', 'info', 'process'}
+TYPE = re.compile(r'\b(?:class|struct|union|enum(?:\s+class|\s+struct)?|concept|message|service)\s+([A-Za-z_]\w*)'
+                  r'|\busing\s+([A-Za-z_]\w*)\s*=|\btypedef\b[^;]*?\b(\w+)\s*;')
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+# Floors 0 to 3 compute; clocks, threads, output and luck belong to the floors above.
+IMPURE_HEADERS = re.compile(r'(?:thread|mutex|shared_mutex|atomic|condition_variable|future|stop_token|semaphore|latch|'
+                            r'barrier|iostream|fstream|sstream|cstdio|stdio\.h|random|ctime|time\.h|filesystem|'
+                            r'spdlog/.*|fmt/.*|google/protobuf/.*|grpc.*|asio.*|.*\.pb\.h)$')
+IMPURE_CODE = [
+    (re.compile(r'(?:::|\.)\s*now\s*\(\s*\)'), 'reads a clock'),
+    (re.compile(r'\b(?:clock_gettime|gettimeofday|nanosleep|sleep_for|sleep_until)\b'), 'reads a clock or sleeps'),
+    (re.compile(r'\bstd::(?:thread|jthread|mutex|atomic\w*)\b'), 'uses threads'),
+    (re.compile(r'\b(?:printf|fprintf|puts|fputs)\s*\(|\bstd::(?:cout|cerr|clog)\b'), 'prints'),
+    (re.compile(r'\bs?rand\s*\(|\bstd::(?:mt19937\w*|random_device|default_random_engine)\b'),
+     'draws numbers outside of common/core/random'),
+]
+ALLOWED_IMPURE = {'common/core/check.hpp'}   # prints once, then ends the program
+
+# Written so that this file does not contain them.
+UNFINISHED = re.compile(r'\b(?:TO' r'DO|FIX' r'ME|X' r'XX)\b')
+SWITCHED_OFF = re.compile(r'\bGTEST_' r'SKIP\b|\bDIS' r'ABLED_')
+MACHINE_PATH = re.compile(r'(?<![\w.}/-])/(?:home|root|work|Users|mnt|tmp)' r'/')
+
+
+class Findings:
+    def __init__(self):
+        self.errors = []
+        self.warnings = []
+
+    def error(self, path, line, message):
+        self.errors.append(f'{path}:{line}: {message}')
+
+    def warning(self, path, line, message):
+        self.warnings.append(f'{path}:{line}: warning: {message}')
+
+
+def tree(root):
+    """Paths of all files below the root, sorted, with '/'."""
+    paths = []
+    for folder, folders, files in os.walk(root):
+        folders[:] = sorted(name for name in folders if name not in IGNORED)
+        paths += [os.path.relpath(os.path.join(folder, name), root).replace(os.sep, '/') for name in files]
+    return sorted(paths)
+
+
+def read(root, path):
+    """The text of a file; none if it is not text."""
+    with open(os.path.join(root, path), 'rb') as file:
+        content = file.read()
+    try:
+        return None if b'\0' in content else content.decode('utf-8')
+    except UnicodeDecodeError:
+        return None
+
+
+def banned_part(name):
+    for part in re.findall(r'[A-Z]+(?![a-z])|[A-Z]?[a-z]+', name):
+        part = part.lower()
+        if part in BANNED or (part.endswith('s') and part[:-1] in BANNED):
+            return part
+    return None
+
+
+def line_of(text, at):
+    return text.count('\n', 0, at) + 1
+
+
+def check_layout(root, found):
+    for name in sorted(os.listdir(root)):
+        if name in IGNORED:
+            continue
+        is_folder = os.path.isdir(os.path.join(root, name))
+        if name not in (TOP_FOLDERS if is_folder else TOP_FILES):
+            found.error(name, 1, 'does not belong at the top level')
+    for name in sorted(TOP_FOLDERS):
+        if not os.path.isdir(os.path.join(root, name)):
+            found.error(name, 1, 'is missing at the top level')
+
+
+def check_name(path, found):
+    parts = path.split('/')
+    for i, part in enumerate(parts):
+        word = banned_part(part.split('.')[0])
+        if word and parts[:2] != ['tests', 'process']:
+            found.error('/'.join(parts[:i + 1]), 1, f'the name says nothing: "{word}"')
+            return
+
+
+def check_lines(path, text, found):
+    for number, line in enumerate(text.split('\n'), 1):
+        if '\t' in line:
+            found.error(path, number, 'tab')
+        if line != line.rstrip():
+            found.error(path, number, 'trailing blank')
+        if UNFINISHED.search(line):
+            found.error(path, number, 'unfinished work is marked in the text')
+        if SWITCHED_OFF.search(line):
+            found.error(path, number, 'a test is switched off')
+        if MACHINE_PATH.search(line):
+            found.error(path, number, 'a path of one machine')
+    if text and not text.endswith('\n'):
+        found.error(path, line_of(text, len(text)), 'no newline at the end')
+
+
+def check_length(path, text, found):
+    lines = text.count('\n')
+    if lines > FILE_LINES:
+        found.error(path, 1, f'{lines} lines, over {FILE_LINES}')
+    elif lines > FILE_LINES_WISHED:
+        found.warning(path, 1, f'{lines} lines, over {FILE_LINES_WISHED}')
+
+
+def check_types(path, code, found):
+    for match in TYPE.finditer(code):
+        name = next(group for group in match.groups() if group)
+        word = banned_part(name)
+        if word:
+            found.error(path, line_of(code, match.start()), f'the name {name} says nothing: "{word}"')
+
+
+def check_includes(root, path, text, found):
+    pure = (floors.floor(path) or 0) < floors.PURE_BELOW and path not in ALLOWED_IMPURE
+    for number, line in enumerate(text.split('\n'), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        kind, included = match.groups()
+        if pure and IMPURE_HEADERS.match(included):
+            found.error(path, number, f'floors 0 to 3 may not include {included}')
+        if kind == '<':
+            continue
+        if '..' in included.split('/'):
+            found.error(path, number, f'{included} is not a path from the root')
+        elif GENERATED.match(included) or os.path.isfile(os.path.join(root, included)):
+            reason = floors.refused(path, included)
+            if reason:
+                found.error(path, number, reason)
+        else:
+            found.error(path, number, f'{included} is not a file seen from the root')
+
+
+def check_cpp(root, path, text, found):
+    code = source.code_only(text)
+    if path.endswith('.hpp') and not text.startswith('#pragma once\n'):
+        found.error(path, 1, 'a header begins with #pragma once')
+    for match in re.finditer(r'\busing\s+namespace\s+std\b', code):
+        found.error(path, line_of(code, match.start()), 'using namespace std')
+    check_includes(root, path, text, found)
+    if (floors.floor(path) or 0) < floors.PURE_BELOW and path not in ALLOWED_IMPURE:
+        for pattern, what in IMPURE_CODE:
+            for match in pattern.finditer(code):
+                found.error(path, line_of(code, match.start()), f'{what}, which floors 0 to 3 never do')
+    for first, last in source.functions(text):
+        if last - first + 1 > FUNCTION_LINES:
+            found.error(path, first, f'a function of {last - first + 1} lines, over {FUNCTION_LINES}')
+
+
+def check_python(path, text, found):
+    for node in ast.walk(ast.parse(text, path)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            lines = node.end_lineno - node.lineno + 1
+            if lines > FUNCTION_LINES:
+                found.error(path, node.lineno, f'a function of {lines} lines, over {FUNCTION_LINES}')
+
+
+def formatter():
+    """The clang-format of Debian 12, if it is there; other versions format differently."""
+    for tool in ('clang-format-14', 'clang-format'):
+        if shutil.which(tool):
+            version = subprocess.run([tool, '--version'], capture_output=True, text=True, check=False).stdout
+            if re.search(r'version 14\.', version):
+                return tool
+    return None
+
+
+def check_format(root, paths, found):
+    tool = formatter()
+    if not tool or not paths:
+        return
+    result = subprocess.run([tool, '--dry-run', '--Werror', *paths], cwd=root, capture_output=True, text=True,
+                            check=False)
+    unformed = {}
+    for path, line in re.findall(r'^(.+?):(\d+):\d+: (?:error|warning): ', result.stderr, re.MULTILINE):
+        unformed.setdefault(path, int(line))
+    for path, line in sorted(unformed.items()):
+        found.error(path, line, f'not as clang-format has it: {tool} -i {path}')
+    if result.returncode != 0 and not unformed:
+        found.error('.clang-format', 1, result.stderr.strip())
+
+
+def check(root, form=True):
+    found = Findings()
+    check_layout(root, found)
+    paths = tree(root)
+    for path in paths:
+        check_name(path, found)
+        text = read(root, path)
+        if text is None:
+            continue
+        check_lines(path, text, found)
+        if path.endswith((*CPP, '.py')):
+            check_length(path, text, found)
+        if path.endswith((*CPP, '.py', '.proto')):
+            check_types(path, source.code_only(text), found)
+        if path.endswith(CPP):
+            check_cpp(root, path, text, found)
+        if path.endswith('.py'):
+            check_python(path, text, found)
+    if form:
+        check_format(root, [path for path in paths if path.endswith(CPP)], found)
+    return found
+
+
+def main():
+    root = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), '..', '..')
+    found = check(root)
+    print('\n'.join(found.warnings + found.errors))
+    print(f'style: {len(found.errors)} errors, {len(found.warnings)} warnings')
+    return 1 if found.errors else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""The style check must find what it looks for: each test plants one violation in a sound tree and sees it found."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import check  # noqa: E402
+import floors  # noqa: E402
+import source  # noqa: E402
+
+HEADER = '#pragma once\n\nnamespace longreach {\nstruct %s {};\n}  // namespace longreach\n'
+SOUND = {
+    'common/core/a.hpp': HEADER % 'A',
+    'common/link/b.hpp': HEADER % 'B',
+    'common/config/c.hpp': HEADER % 'C',
+    'master/devices/d.hpp': HEADER % 'D',
+    'master/rendering/e.hpp': HEADER % 'E',
+    'master/rendering/e_config.hpp': HEADER % 'EConfig',
+    'master/master_node.hpp': HEADER % 'MasterNode',
+    'slave/robot/r.hpp': HEADER % 'R',
+    'slave/slave_config.hpp': HEADER % 'SlaveConfig',
+    'proto/config.proto': 'syntax = "proto2";\n',
+    'deploy/config/master.txtpb': 'rpc { listen: "127.0.0.1:1" }\n',
+    'tests/style/README.md': 'text\n',
+    '.ci/run': '#!/bin/sh\n',
+    'README.md': 'text\n',
+}
+
+
+def include(path):
+    return f'#include "{path}"\n'
+
+
+class Planted(unittest.TestCase):
+    def findings(self, files, form=False):
+        with tempfile.TemporaryDirectory() as root:
+            for path, text in {**SOUND, **files}.items():
+                os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+                with open(os.path.join(root, path), 'w', encoding='utf-8', newline='') as file:
+                    file.write(text)
+            return check.check(root, form)
+
+    def found(self, path, text, *words):
+        errors = self.findings({path: text}).errors
+        for error in errors:
+            if error.startswith(path) and all(word in error for word in words):
+                return
+        self.fail(f'not found in {path}: {words}; found: {errors}')
+
+    def sound(self, path, text):
+        self.assertEqual(self.findings({path: text}).errors, [])
+
+    def test_a_sound_tree_has_no_findings(self):
+        result = self.findings({})
+        self.assertEqual(result.errors + result.warnings, [])
+
+    def test_higher_floors(self):
+        self.found('common/core/x.cpp', include('common/link/b.hpp'), 'floor 0', 'floor 1')
+        self.found('common/link/x.cpp', include('master/devices/d.hpp'), 'only that side')
+        self.found('master/rendering/x.cpp', include('master/master_node.hpp'), 'floor 3')
+        self.found('common/link/x.cpp', include('common/config/c.hpp'), 'floor 4')
+        self.found('master/x.cpp', include('proto/config.pb.h'), 'floors 0 to 3')
+
+    def test_stages_see_only_what_comes_before_them(self):
+        self.found('master/devices/x.cpp', include('master/rendering/e.hpp'), 'floor 2')
+        self.sound('master/rendering/x.cpp', include('master/devices/d.hpp'))
+        self.sound('master/devices/x.cpp', include('master/rendering/e_config.hpp'))
+
+    def test_the_sides_do_not_see_each_other(self):
+        self.found('master/rendering/x.cpp', include('slave/robot/r.hpp'), 'only that side')
+        self.found('slave/robot/x.cpp', include('master/devices/d.hpp'), 'only that side')
+        self.found('common/config/x.cpp', include('slave/robot/r.hpp'), 'only that side')
+        self.found('common/wire/x.cpp', include('slave/slave_config.hpp'), 'only that side')
+        self.sound('common/config/x.cpp', include('slave/slave_config.hpp'))
+        self.sound('tests/loop/x.cpp', include('slave/robot/r.hpp') + include('master/master_node.hpp'))
+
+    def test_a_node_does_not_see_its_service(self):
+        files = {'slave/slave_service.hpp': HEADER % 'S', 'slave/slave_node.cpp': include('slave/slave_service.hpp')}
+        self.assertTrue(any('slave_node.cpp' in error for error in self.findings(files).errors))
+        files = {'slave/slave_service.hpp': HEADER % 'S', 'slave/main.cpp': include('slave/slave_service.hpp')}
+        self.assertEqual(self.findings(files).errors, [])
+
+    def test_every_folder_has_a_floor(self):
+        self.found('common/extra/x.cpp', include('common/core/a.hpp'), 'no floor')
+
+    def test_include_paths(self):
+        self.found('common/link/x.cpp', include('b.hpp'), 'not a file seen from the root')
+        self.found('common/link/x.cpp', include('../core/a.hpp'), 'not a path from the root')
+
+    def test_floors_0_to_3_are_pure(self):
+        for line in ('auto t = std::chrono::steady_clock::now();', 'auto t = Clock::now();', 'std::mutex m;',
+                     'int i = rand();', 'std::mt19937 g;', 'void f() { printf("x"); }', 'void f() { std::cout << 1; }'):
+            self.found('master/rendering/x.cpp', line + '\n', 'floors 0 to 3')
+        for header in ('thread', 'mutex', 'atomic', 'iostream', 'random', 'spdlog/spdlog.h', 'google/protobuf/message.h'):
+            self.found('slave/robot/x.cpp', f'#include <{header}>\n', 'may not include')
+        self.sound('common/io/x.cpp', '#include <mutex>\n#include <thread>\nauto t = Clock::now();\n')
+        self.sound('slave/robot/x.cpp', '// Clock::now() and rand()\nconst char* s = "printf(";\nint operand(int);\n')
+
+    def test_names_that_say_nothing(self):
+        for name in ('link_manager', 'util', 'string_utils', 'process', 'wire_data'):
+            self.found(f'common/link/{name}.hpp', HEADER % 'X', 'says nothing')
+        for name in ('LinkManager', 'DataBlock', 'ErrorInfo', 'Helpers', 'EventHandler'):
+            self.found('common/link/x.hpp', HEADER % name, 'says nothing')
+        self.found('common/link/x.hpp', '#pragma once\nusing FrameData = int;\n', 'says nothing')
+        self.found('proto/x.proto', 'message LinkInfo {}\n', 'says nothing')
+        self.assertEqual(len(self.findings({'common/link/infos/x.hpp': HEADER % 'X'}).errors), 1)
+        self.sound('tests/process/x.cpp', '')
+        self.sound('common/link/handle.hpp', HEADER % 'Handle')
+
+    def test_text(self):
+        self.found('common/link/x.cpp', 'using namespace std;\n', 'using namespace std')
+        self.found('common/link/x.cpp', 'int a;\t\n', 'tab')
+        self.found('README.md', 'text \n', 'trailing blank')
+        self.found('README.md', 'text', 'no newline')
+        self.found('README.md', 'TO' + 'DO: write\n', 'unfinished')
+        self.found('deploy/x', '# FIX' + 'ME\n', 'unfinished')
+        self.found('tests/unit/x.cpp', 'TEST(A, DIS' + 'ABLED_B) {}\n', 'switched off')
+        self.found('tests/unit/x.cpp', 'TEST(A, B) { GTEST_' + 'SKIP(); }\n', 'switched off')
+        self.found('deploy/x', 'cd /ho' + 'me/somebody/longreach\n', 'path of one machine')
+        self.found('common/link/x.hpp', 'struct X {};\n', 'pragma once')
+
+    def test_the_top_level_is_fixed(self):
+        self.assertEqual(self.findings({'docs/x.md': 'text\n'}).errors, ['docs:1: does not belong at the top level'])
+        self.found('NOTES.md', 'text\n', 'top level')
+        with tempfile.TemporaryDirectory() as root:
+            self.assertEqual(len([error for error in check.check(root).errors if 'missing' in error]), 7)
+
+    def test_sizes(self):
+        self.found('common/link/x.cpp', 'int a;\n' * 401, '401 lines')
+        self.assertEqual(len(self.findings({'common/link/x.cpp': 'int a;\n' * 301}).warnings), 1)
+        body = '  a();\n' * 59
+        self.sound('common/link/x.cpp', 'void f() {\n' + body[7:] + '}\n')
+        self.found('common/link/x.cpp', 'void f() {\n' + body + '}\n', 'function of 61 lines')
+        self.found('common/x.py', 'def f():\n' + '    a = 1\n' * 60, 'function of 61 lines')
+
+    @unittest.skipUnless(check.formatter(), 'the clang-format of Debian 12 is not installed')
+    def test_form(self):
+        style = {'.clang-format': 'BasedOnStyle: Google\n', 'common/link/x.cpp': 'int   a ;\n'}
+        style.update({path: '#pragma once\n' for path in SOUND if path.endswith('.hpp')})
+        self.assertEqual(len(self.findings(style, form=True).errors), 1)
+        self.assertEqual(self.findings({**style, 'common/link/x.cpp': 'int a;\n'}, form=True).errors, [])
+
+
+class Functions(unittest.TestCase):
+    def lines(self, text):
+        return source.functions(text)
+
+    def test_methods_templates_and_tests(self):
+        text = ('namespace a {\nclass B {\n public:\n  int f() const { return 1; }\n  template <class T>\n  void g(T t) {\n'
+                '    if (t) {\n    }\n  }\n};\n}\nTEST(A, B) {\n  x();\n}\n')
+        self.assertEqual(self.lines(text), [(4, 4), (5, 9), (12, 14)])
+
+    def test_constructors_with_braced_members(self):
+        self.assertEqual(self.lines('A::A(int b)\n    : b_{b},\n      c_(1) {\n  for (;;) {\n  }\n}\n'), [(1, 6)])
+
+    def test_tables_and_types_are_no_functions(self):
+        self.assertEqual(self.lines('const int a[] = {\n1,\n2};\nstruct S {\n int b;\n};\nenum class E { kA };\n'), [])
+
+    def test_braces_in_strings_and_comments_do_not_count(self):
+        self.assertEqual(self.lines('void f() {\n  s = "}"; // }\n  c = \'}\'; n = 1\'000;\n  r = R"(})";\n}\n'), [(1, 5)])
+
+
+class Floors(unittest.TestCase):
+    def test_the_table_follows_the_design(self):
+        order = ['common/core/x.hpp', 'common/link/x.hpp', 'master/mapping/x.hpp', 'master/master_node.hpp',
+                 'common/wire/x.hpp', 'master/main.cpp']
+        self.assertEqual(sorted(order, key=floors.floor), order)
+        self.assertEqual(floors.floor('slave/slave_service.cpp'), floors.floor('master/console/x.cpp'))
+        self.assertIsNone(floors.floor('elsewhere/x.hpp'))
+
+
+if __name__ == '__main__':
+    unittest.main()
