@@ -1,5 +1,7 @@
 #include "common/link/endpoint.hpp"
 
+#include <limits>
+
 #include "common/core/check.hpp"
 #include "common/link/saturating.hpp"
 
@@ -19,8 +21,11 @@ constexpr std::optional<std::size_t> index_of(DatagramType type) {
 }
 
 std::optional<Duration> round_trip(Time now, Time echo_sent, Duration held) {
-  const Duration rtt{saturating_sub(saturating_sub(to_ns(now), to_ns(echo_sent)), held.count())};
-  const bool plausible = held >= Duration{0} && rtt >= Duration{0} && rtt <= kRttMax;
+  const std::int64_t age = saturating_sub(to_ns(now), to_ns(echo_sent));
+  const Duration rtt{saturating_sub(age, held.count())};
+  // An age at the end of the range was cut: nothing can be subtracted from it.
+  const bool cut = age == std::numeric_limits<std::int64_t>::max();
+  const bool plausible = !cut && held >= Duration{0} && rtt >= Duration{0} && rtt <= kRttMax;
   return plausible ? std::optional(rtt) : std::nullopt;
 }
 
