@@ -1,0 +1,44 @@
+#pragma once
+// How punctual a loop was: lateness of its ticks in fixed buckets of a quarter octave from 1 us, so that
+// booking costs a few instructions. Plain values: copied into snapshots.
+
+#include <array>
+#include <cstdint>
+
+#include "common/core/time.hpp"
+
+namespace longreach {
+
+struct LoopFigures {
+  static constexpr std::size_t kBuckets = 84;  // 1 us * 2^(84/4): 2 s
+
+  std::uint64_t ticks = 0;
+  std::uint64_t missed_ticks =
+      0;  // deadlines that were skipped because an earlier tick was still busy or late
+  std::uint64_t ticks_late_100ms = 0;
+  Duration lateness_max{0};
+  Duration busy_max{0};                            // longest step
+  std::array<std::uint32_t, kBuckets> lateness{};  // ticks by lateness; the last one is open
+
+  void book(Duration late, Duration busy);
+  /// Upper edge of the bucket that holds the quantile (0 to 1), s; at most the maximum. 0 before the first
+  /// tick.
+  [[nodiscard]] double lateness_quantile_s(double quantile) const;
+};
+
+/// Deadlines at multiples of the period. A late tick skips what it has missed instead of catching up in a
+/// burst.
+class Deadlines {
+ public:
+  Deadlines(Time first, Duration period) : next_(first), period_(period) {}
+
+  [[nodiscard]] Time next() const { return next_; }
+  /// Moves to the deadline that follows; `now`: end of this tick. Returns how many had to be skipped.
+  std::uint64_t advance(Time now);
+
+ private:
+  Time next_;
+  Duration period_;
+};
+
+}  // namespace longreach

@@ -1,0 +1,56 @@
+#pragma once
+// One command at a time from any thread to the loop, with its answer. The loop side (take, answer) is a few
+// atomic operations: it never waits, locks or wakes anybody. The other side polls for its answer.
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace longreach {
+
+template <class Command, class Reply>
+class Mailbox {
+ public:
+  /// Hands the command over and waits for the answer. None: it was not taken within `timeout`, and will not
+  /// be.
+  std::optional<Reply> post(Command command, std::chrono::milliseconds timeout) {
+    const std::lock_guard lock(posting_);
+    command_ = std::move(command);
+    state_.store(State::kPosted, std::memory_order_release);
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    while (state_.load(std::memory_order_acquire) != State::kAnswered) {
+      State posted = State::kPosted;
+      const bool late = std::chrono::steady_clock::now() >= deadline;
+      // Once taken, the answer is certain and near.
+      if (late && state_.compare_exchange_strong(posted, State::kEmpty)) return std::nullopt;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    const Reply reply = reply_;
+    state_.store(State::kEmpty, std::memory_order_relaxed);
+    return reply;
+  }
+
+  /// Loop side: the command that waits, or nothing. It must be answered before the next take().
+  const Command* take() {
+    State posted = State::kPosted;
+    return state_.compare_exchange_strong(posted, State::kTaken, std::memory_order_acq_rel) ? &command_
+                                                                                            : nullptr;
+  }
+  void answer(const Reply& reply) {
+    reply_ = reply;
+    state_.store(State::kAnswered, std::memory_order_release);
+  }
+
+ private:
+  enum class State { kEmpty, kPosted, kTaken, kAnswered };
+
+  std::mutex posting_;  // among those who post
+  std::atomic<State> state_{State::kEmpty};
+  Command command_{};
+  Reply reply_{};
+};
+
+}  // namespace longreach

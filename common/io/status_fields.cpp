@@ -1,0 +1,107 @@
+#include "common/io/status_fields.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace longreach {
+
+std::string_view to_string(SafetyState state) {
+  switch (state) {
+    case SafetyState::kIdle:
+      return "Idle";
+    case SafetyState::kObserving:
+      return "Observing";
+    case SafetyState::kEngaged:
+      return "Engaged";
+    case SafetyState::kHolding:
+      return "Holding";
+    case SafetyState::kStopped:
+      return "Stopped";
+    case SafetyState::kFault:
+      return "Fault";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(HoldCause cause) {
+  switch (cause) {
+    case HoldCause::kNone:
+      return "";
+    case HoldCause::kOperator:
+      return "operator";
+    case HoldCause::kLinkSilent:
+      return "link silent";
+    case HoldCause::kLinkStale:
+      return "link stale";
+    case HoldCause::kPeerRestarted:
+      return "other side restarted";
+    case HoldCause::kPeerHolds:
+      return "other side holds";
+    case HoldCause::kRobotFault:
+      return "robot fault";
+    case HoldCause::kDeviceFault:
+      return "device fault";
+  }
+  return "unknown";
+}
+
+void add_count(proto::Status& status, std::string_view name, std::uint64_t count) {
+  auto* counter = status.add_counters();
+  counter->set_name(std::string(name));
+  counter->set_count(count);
+}
+
+void add_counts(proto::Status& status, const RejectionCounts& counts) {
+  add_count(status, "rejected", std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  for (std::size_t i = 0; i < kRejectionCount; ++i) {
+    add_count(status, "rejected_" + std::string(to_string(static_cast<Rejection>(i))), counts[i]);
+  }
+}
+
+void add_counts(proto::Status& status, const LoopFigures& loop) {
+  const auto microseconds = [](double s) { return static_cast<std::uint64_t>(std::lround(1e6 * s)); };
+  add_count(status, "ticks", loop.ticks);
+  add_count(status, "missed_ticks", loop.missed_ticks);
+  add_count(status, "ticks_late_100ms", loop.ticks_late_100ms);
+  add_count(status, "lateness_p99_us", microseconds(loop.lateness_quantile_s(0.99)));
+  add_count(status, "lateness_max_us", microseconds(to_seconds(loop.lateness_max)));
+  add_count(status, "busy_max_us", microseconds(to_seconds(loop.busy_max)));
+}
+
+void add_counts(proto::Status& status, const ImpairmentCounts& counts) {
+  add_count(status, "impaired_lost", counts.lost);
+  add_count(status, "impaired_blacked_out", counts.blacked_out);
+  add_count(status, "impaired_corrupted", counts.corrupted);
+  add_count(status, "impaired_duplicated", counts.duplicated);
+  add_count(status, "impaired_queue_dropped", counts.queue_dropped);
+  add_count(status, "impaired_reordered", counts.reordered);
+}
+
+void add_clamps(proto::Status& status, const Clamps& clamps) {
+  const auto add = [&status](bool active, const char* name) {
+    if (active) status.add_clamped(name);
+  };
+  add(clamps.tool_speed, "tool speed");
+  add(clamps.joint_speed, "joint speed");
+  add(clamps.joint_position, "joint position");
+  add(clamps.workspace, "workspace");
+  add(clamps.force_guard, "force guard");
+  add(clamps.singularity, "singularity");
+  add(clamps.unreachable, "unreachable");
+}
+
+proto::Figures to_message(const LinkFigures& figures) {
+  proto::Figures out;
+  out.set_rtt_known(figures.rtt_s.has_value());
+  out.set_rtt_s(figures.rtt_s.value_or(0.0));
+  out.set_jitter_s(figures.jitter_s);
+  out.set_loss(figures.loss);
+  out.set_reorder(figures.reorder);
+  out.set_silence_s(std::isfinite(figures.silence_s) ? figures.silence_s : -1.0);
+  out.set_rate_hz(figures.rate_hz);
+  out.set_bytes_per_s(figures.bytes_per_s);
+  return out;
+}
+
+}  // namespace longreach

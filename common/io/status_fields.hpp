@@ -1,0 +1,37 @@
+#pragma once
+// Fields of the RPC status that both sides fill in the same way.
+
+#include <string_view>
+
+#include "common/io/loop_figures.hpp"
+#include "common/link/delay_monitor.hpp"
+#include "common/link/envelope.hpp"
+#include "common/link/impairment.hpp"
+#include "common/link/stiffness_report.hpp"
+#include "common/link/telemetry.hpp"
+#include "common/spatial/spatial.hpp"
+#include "proto/control.pb.h"
+
+namespace longreach {
+
+std::string_view to_string(SafetyState state);  // as in proto/control: Idle, Observing, ...
+std::string_view to_string(HoldCause cause);    // in words; empty for kNone
+
+void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
+/// rejected, and rejected_REASON each.
+void add_counts(proto::Status& status, const RejectionCounts& counts);
+/// ticks, missed_ticks, ticks_late_100ms, lateness_p99_us, lateness_max_us, busy_max_us.
+void add_counts(proto::Status& status, const LoopFigures& loop);
+/// impaired_REASON each: what the artificial impairment did.
+void add_counts(proto::Status& status, const ImpairmentCounts& counts);
+/// Names of what is being clamped, added to `clamped`.
+void add_clamps(proto::Status& status, const Clamps& clamps);
+proto::Figures to_message(const LinkFigures& figures);
+
+template <class Field>
+void assign(const Vector3& values, Field& out) {
+  out.Clear();
+  for (const double v : values) out.Add(v);
+}
+
+}  // namespace longreach

@@ -1,0 +1,11 @@
+#pragma once
+// SIGINT and SIGTERM ask a program to end; the second one ends it at once.
+
+#include <atomic>
+
+namespace longreach {
+
+/// Becomes true when the program has been asked to end. The first call installs the answers to the signals.
+std::atomic<bool>& stop_requested();
+
+}  // namespace longreach

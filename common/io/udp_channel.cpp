@@ -1,0 +1,94 @@
+#include "common/io/udp_channel.hpp"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <asio/buffer.hpp>
+#include <stdexcept>
+
+#include "common/io/address.hpp"
+#include "common/link/header.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kStrangersPerReceive = 1024;
+constexpr int kReceiveBufferBytes = 1 << 20;  // two seconds of 1 kHz while the loop is held up
+
+/// How `endpoint` looks on a socket of the family of `own`: on an IPv6 socket, IPv4 peers are mapped
+/// addresses.
+asio::ip::udp::endpoint as_seen_by(const asio::ip::udp::endpoint& own,
+                                   const asio::ip::udp::endpoint& endpoint) {
+  if (!own.address().is_v6() || !endpoint.address().is_v4()) return endpoint;
+  return {asio::ip::make_address_v6(asio::ip::v4_mapped, endpoint.address().to_v4()), endpoint.port()};
+}
+
+}  // namespace
+
+UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::string>& peer)
+    : socket_(context_), fixed_peer_(peer.has_value()) {
+  const auto own = parse_udp_address(listen);
+  if (peer) {
+    const auto other = parse_udp_address(*peer);
+    if (other.port() == 0) throw AddressError("'" + *peer + "' has no port to send to; write address:port");
+    if (other.address().is_v6() && own.address().is_v4()) {
+      throw AddressError("'" + *peer + "' cannot be reached from '" + listen +
+                         "': one is IPv6, the other IPv4; listen on [::]:0 instead");
+    }
+    peer_ = as_seen_by(own, other);
+  }
+  asio::error_code error;
+  socket_.open(own.protocol(), error);
+  if (!error) socket_.bind(own, error);
+  if (!error) socket_.non_blocking(true, error);
+  if (error) {
+    throw std::runtime_error("cannot listen on udp " + listen + ": " + error.message() +
+                             "; choose another link.listen or end the program that uses it");
+  }
+  // Less than asked for is fine.
+  socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);
+}
+
+std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
+  for (int i = 0; i < kStrangersPerReceive; ++i) {
+    asio::ip::udp::endpoint sender;
+    asio::error_code error;
+    // MSG_TRUNC: the true size, also of what was cut.
+    const std::size_t size =
+        socket_.receive_from(asio::buffer(buffer.data(), buffer.size()), sender, MSG_TRUNC, error);
+    if (error) return std::nullopt;
+    if (fixed_peer_ && sender != *peer_) {
+      ++strangers_;
+      continue;
+    }
+    if (!fixed_peer_ && size <= buffer.size()) {
+      const auto header = read_header(buffer.first(size));
+      if (const auto* valid = std::get_if<Header>(&header)) senders_.note(*valid, sender);
+    }
+    return size;
+  }
+  return std::nullopt;
+}
+
+void UdpChannel::send(std::span<const std::byte> datagram) {
+  if (!peer_) return;
+  asio::error_code error;
+  socket_.send_to(asio::buffer(datagram.data(), datagram.size()), *peer_, 0, error);
+  if (error) ++unsent_;
+}
+
+void UdpChannel::answer_to(std::uint64_t session) {
+  if (fixed_peer_) return;
+  if (const auto sender = senders_.find(session)) peer_ = sender;
+}
+
+std::string UdpChannel::local_address() const {
+  asio::error_code error;
+  return to_string(socket_.local_endpoint(error));
+}
+
+std::optional<std::string> UdpChannel::peer_address() const {
+  return peer_ ? std::optional(to_string(*peer_)) : std::nullopt;
+}
+
+}  // namespace longreach

@@ -1,0 +1,154 @@
+// Deadlines, lateness, and what crosses between the loop and other threads.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "common/io/latest_value.hpp"
+#include "common/io/mailbox.hpp"
+#include "common/io/real_time_loop.hpp"
+
+namespace longreach {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+Time at(Duration t) { return Time(t); }
+
+TEST(Deadlines, FollowEachOtherByThePeriodHoweverTheTicksJitter) {
+  Deadlines deadlines(at(milliseconds(10)), milliseconds(1));
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(deadlines.next(), at(milliseconds(10 + i)));
+    EXPECT_EQ(deadlines.advance(deadlines.next() + microseconds(i % 1000)), 0u);
+  }
+}
+
+TEST(Deadlines, ATickThatEndsLateByLessThanAPeriodSkipsNothing) {
+  Deadlines deadlines(at(milliseconds(10)), milliseconds(1));
+  EXPECT_EQ(deadlines.advance(at(microseconds(11999))), 0u);
+  EXPECT_EQ(deadlines.next(), at(milliseconds(11)));
+}
+
+TEST(Deadlines, SkipAndCountWhatWasMissedInsteadOfBursting) {
+  Deadlines deadlines(at(milliseconds(10)), milliseconds(1));
+  // The tick of 10 ms ends at 250.5 ms: 11 to 249 are lost, 250 runs late.
+  EXPECT_EQ(deadlines.advance(at(microseconds(250500))), 239u);
+  EXPECT_EQ(deadlines.next(), at(milliseconds(250)));
+  EXPECT_EQ(deadlines.advance(at(microseconds(250600))), 0u);
+  EXPECT_EQ(deadlines.next(), at(milliseconds(251)));
+}
+
+TEST(LoopFigures, CountTicksThatAreLateByMoreThan100Ms) {
+  LoopFigures figures;
+  for (const int ms : {0, 99, 100, 101, 5000}) figures.book(milliseconds(ms), Duration(0));
+  EXPECT_EQ(figures.ticks, 5u);
+  EXPECT_EQ(figures.ticks_late_100ms, 2u);
+  EXPECT_EQ(figures.lateness_max, milliseconds(5000));
+  EXPECT_EQ(figures.lateness_quantile_s(1.0), 5.0);
+}
+
+TEST(LoopFigures, QuantilesLieWithinAQuarterOctaveAboveTheTruth) {
+  LoopFigures figures;
+  EXPECT_EQ(figures.lateness_quantile_s(0.99), 0.0);
+  for (int us = 1; us <= 10000; ++us) figures.book(microseconds(us), Duration(0));
+  for (const double quantile : {0.1, 0.5, 0.9, 0.99}) {
+    const double truth = 1e-6 * std::ceil(1e4 * quantile);
+    EXPECT_GE(figures.lateness_quantile_s(quantile), truth * (1 - 1e-9)) << quantile;
+    EXPECT_LE(figures.lateness_quantile_s(quantile), truth * std::exp2(0.25) * (1 + 1e-9)) << quantile;
+  }
+}
+
+TEST(LoopFigures, SurviveNegativeAndHugeLateness) {
+  LoopFigures figures;
+  figures.book(Duration(-5), Duration(0));
+  figures.book(Duration::max(), Duration(0));
+  EXPECT_EQ(figures.ticks, 2u);
+  EXPECT_EQ(figures.lateness.front(), 1u);
+  EXPECT_EQ(figures.lateness.back(), 1u);
+}
+
+TEST(RealTimeLoop, TicksUntilItIsStoppedAndNeverBeforeADeadline) {
+  std::atomic<bool> stop{false};
+  RealTimeLoop loop(2000.0);
+  const Time began = monotonic_now();
+  Time first{};
+  loop.run(stop, [&](Time now, const LoopFigures& figures) {
+    if (figures.ticks == 0) first = now;
+    if (figures.ticks == 19) stop = true;
+  });
+  EXPECT_EQ(loop.figures().ticks, 20u);
+  EXPECT_GE(first - began, microseconds(500));
+  EXPECT_GE(monotonic_now() - began, milliseconds(10));  // 20 periods of 0.5 ms
+}
+
+TEST(LatestValue, GivesTheNewestAndADefaultBeforeTheFirst) {
+  LatestValue<int> value;
+  EXPECT_EQ(value.read(), 0);
+  value.write(1);
+  value.write(2);
+  EXPECT_EQ(value.read(), 2);
+  EXPECT_EQ(value.read(), 2);
+  for (int i = 3; i < 100; ++i) {
+    value.write(i);
+    if (i % 3 == 0) {
+      EXPECT_EQ(value.read(), i);
+    }
+  }
+}
+
+TEST(LatestValue, NeverShowsAHalfWrittenValueNorAnOlderOne) {
+  struct Pair {
+    std::array<std::uint64_t, 32> same{};
+  };
+  LatestValue<Pair> value;
+  constexpr std::uint64_t kLast = 50000;
+  std::thread writer([&value] {
+    for (std::uint64_t i = 1; i <= kLast; ++i) {
+      Pair pair;
+      pair.same.fill(i);
+      value.write(pair);
+    }
+  });
+  std::uint64_t seen = 0;
+  while (seen < kLast) {
+    const Pair& pair = value.read();
+    for (const auto v : pair.same) ASSERT_EQ(v, pair.same[0]);
+    ASSERT_GE(pair.same[0], seen);
+    seen = pair.same[0];
+    std::this_thread::yield();
+  }
+  writer.join();
+}
+
+TEST(Mailbox, HandsACommandOverOnceAndBringsTheAnswerBack) {
+  Mailbox<int, int> mailbox;
+  std::atomic<bool> stop{false};
+  int taken = 0;
+  std::thread loop([&] {
+    while (!stop) {
+      if (const int* command = mailbox.take()) {
+        ++taken;
+        mailbox.answer(*command * 10);
+      }
+      std::this_thread::sleep_for(microseconds(100));
+    }
+  });
+  std::thread other([&] {
+    for (int i = 100; i < 120; ++i) EXPECT_EQ(mailbox.post(i, milliseconds(10000)), i * 10);
+  });
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(mailbox.post(i, milliseconds(10000)), i * 10);
+  other.join();
+  stop = true;
+  loop.join();
+  EXPECT_EQ(taken, 40);
+}
+
+TEST(Mailbox, WithdrawsACommandThatNobodyTakes) {
+  Mailbox<int, int> mailbox;
+  EXPECT_FALSE(mailbox.post(1, milliseconds(5)));
+  EXPECT_EQ(mailbox.take(), nullptr);  // a late loop does not carry out what was given up
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,165 @@
+// Real sockets on loopback. A datagram on loopback is there when send() returns, so nothing waits.
+#include "common/io/udp_channel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "common/io/address.hpp"
+#include "common/link/header.hpp"
+
+namespace longreach {
+namespace {
+
+std::vector<std::byte> datagram(std::uint64_t session, std::uint64_t sequence) {
+  std::vector<std::byte> bytes(kHeaderBytes + 5);
+  write_header({DatagramType::kMotionCommand, session, sequence}, bytes);
+  return bytes;
+}
+
+TEST(Address, ReadsNumbersNamesAndBrackets) {
+  EXPECT_EQ(to_string(parse_udp_address("127.0.0.1:47001")), "127.0.0.1:47001");
+  EXPECT_EQ(to_string(parse_udp_address("0.0.0.0:0")), "0.0.0.0:0");
+  EXPECT_EQ(to_string(parse_udp_address("[::1]:65535")), "[::1]:65535");
+  EXPECT_EQ(to_string(parse_udp_address("localhost:80")), "127.0.0.1:80");
+}
+
+TEST(Address, RefusesEverythingElseWithASentenceThatNamesIt) {
+  for (const std::string text :
+       {"", ":", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", ":47001", "127.0.0.1:47001x",
+        "::1:47001", "[]:1", "a.invalid:1", "127.0.0.1: 1"}) {
+    try {
+      parse_udp_address(text);
+      FAIL() << "accepted '" << text << "'";
+    } catch (const AddressError& e) {
+      EXPECT_NE(std::string(e.what()).find("'" + text + "'"), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(UdpChannel, CarriesDatagramsBothWays) {
+  UdpChannel slave("127.0.0.1:0");
+  UdpChannel master("127.0.0.1:0", slave.local_address());
+  std::array<std::byte, 508> buffer{};
+  EXPECT_FALSE(slave.receive(buffer));
+  const auto sent = datagram(7, 1);
+  master.send(sent);
+  ASSERT_EQ(slave.receive(buffer), sent.size());
+  EXPECT_TRUE(std::equal(sent.begin(), sent.end(), buffer.begin()));
+  EXPECT_FALSE(slave.receive(buffer));
+  slave.answer_to(7);
+  slave.send(sent);
+  EXPECT_EQ(master.receive(buffer), sent.size());
+}
+
+TEST(UdpChannel, WorksOverIpv6) {
+  if (!std::filesystem::exists("/proc/net/if_inet6")) {
+    EXPECT_THROW(UdpChannel("[::1]:0"), std::runtime_error);
+    return;
+  }
+  UdpChannel slave("[::]:0");
+  const std::string port = slave.local_address().substr(4);
+  std::array<std::byte, 508> buffer{};
+  for (const std::string& peer : {"[::1]" + port, "127.0.0.1" + port}) {
+    UdpChannel master("[::]:0", peer);
+    const std::uint64_t session = peer.front() == '[' ? 7 : 8;
+    master.send(datagram(session, 1));
+    ASSERT_TRUE(slave.receive(buffer)) << peer;
+    slave.answer_to(session);
+    slave.send(datagram(9, 1));
+    EXPECT_TRUE(master.receive(buffer)) << peer;
+  }
+}
+
+TEST(UdpChannel, TellsTheTrueSizeOfWhatWasCut) {
+  UdpChannel slave("127.0.0.1:0");
+  UdpChannel master("127.0.0.1:0", slave.local_address());
+  std::array<std::byte, 508> buffer{};
+  for (const std::size_t size : {509u, 2000u, 65507u}) {
+    master.send(std::vector<std::byte>(size));
+    EXPECT_EQ(slave.receive(buffer), size);
+  }
+  master.send({});
+  EXPECT_EQ(slave.receive(buffer), 0u);
+}
+
+TEST(UdpChannel, AnswersNobodyUntilItIsToldWhichSessionCounts) {
+  UdpChannel slave("127.0.0.1:0");
+  UdpChannel master("127.0.0.1:0", slave.local_address());
+  std::array<std::byte, 508> buffer{};
+  slave.send(datagram(1, 1));
+  master.send(datagram(7, 1));
+  ASSERT_TRUE(slave.receive(buffer));
+  EXPECT_FALSE(slave.peer_address());
+  slave.answer_to(8);  // never heard
+  EXPECT_FALSE(slave.peer_address());
+  slave.answer_to(7);
+  EXPECT_EQ(slave.peer_address(), master.local_address());
+}
+
+TEST(UdpChannel, GarbageAndReplaysFromElsewhereDoNotTurnTheAnswersAway) {
+  UdpChannel slave("127.0.0.1:0");
+  UdpChannel master("127.0.0.1:0", slave.local_address());
+  UdpChannel stranger("127.0.0.1:0", slave.local_address());
+  std::array<std::byte, 508> buffer{};
+  const auto genuine = datagram(7, 50);
+  master.send(genuine);
+  ASSERT_TRUE(slave.receive(buffer));
+  auto damaged = datagram(7, 51);
+  damaged.back() ^= std::byte{1};
+  for (const auto& bytes :
+       {genuine, datagram(7, 49), damaged, std::vector<std::byte>(100), datagram(0, 99)}) {
+    stranger.send(bytes);
+    ASSERT_TRUE(slave.receive(buffer));
+    slave.answer_to(7);
+    EXPECT_EQ(slave.peer_address(), master.local_address());
+  }
+  // The same session from a new address, with a newer sequence: the master's address changed.
+  stranger.send(datagram(7, 51));
+  ASSERT_TRUE(slave.receive(buffer));
+  slave.answer_to(7);
+  EXPECT_EQ(slave.peer_address(), stranger.local_address());
+}
+
+TEST(UdpChannel, TheCallingSideDropsAndCountsStrangers) {
+  UdpChannel slave("127.0.0.1:0");
+  UdpChannel master("127.0.0.1:0", slave.local_address());
+  UdpChannel stranger("127.0.0.1:0", master.local_address());
+  std::array<std::byte, 508> buffer{};
+  for (int i = 0; i < 3; ++i) stranger.send(datagram(9, 1));
+  EXPECT_FALSE(master.receive(buffer));
+  EXPECT_EQ(master.strangers(), 3u);
+}
+
+TEST(UdpChannel, SaysWhatToDoWhenThePortIsTaken) {
+  UdpChannel first("127.0.0.1:0");
+  try {
+    UdpChannel second(first.local_address());
+    FAIL() << "bound twice";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("link.listen"), std::string::npos) << e.what();
+  }
+}
+
+TEST(UdpChannel, RefusesPeersThatItCannotReach) {
+  EXPECT_THROW(UdpChannel("127.0.0.1:0", "[::1]:47001"), AddressError);
+  EXPECT_THROW(UdpChannel("127.0.0.1:0", "127.0.0.1:0"), AddressError);
+}
+
+TEST(SenderBook, IsBoundedAndForgetsTheSessionThatWasHeardLeastRecently) {
+  SenderBook book;
+  const auto address = [](unsigned port) { return parse_udp_address("127.0.0.1:" + std::to_string(port)); };
+  book.note({DatagramType::kMotionCommand, 1, 1}, address(1));
+  for (std::uint64_t session = 100; session < 1100; ++session) {
+    book.note({DatagramType::kMotionCommand, session, 1}, address(2));
+    book.note({DatagramType::kMotionCommand, 1, session}, address(3));  // the living one goes on
+  }
+  EXPECT_EQ(book.find(1), address(3));
+  EXPECT_FALSE(book.find(100));
+  EXPECT_EQ(book.find(1099), address(2));
+}
+
+}  // namespace
+}  // namespace longreach
