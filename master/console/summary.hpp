@@ -21,8 +21,9 @@ struct SummaryConfig {
   double ke = 1.0;                    // rendered over estimated stiffness
   bool contact_expected = false;      // the script touches; a person need not
   double stiffness_error_max = 0.10;  // fraction; differences under 8 to 20 % are not felt
-  double energy_floor_j = -1e-3;      // encoder steps let the port read this low without a leak
-  double force_step_max_n = 0.5;      // 7 to 10 % of 5 N is not felt
+  double energy_out_max_j = 1e-3;     // encoder steps let the port read this much without a leak
+  double force_step_n = 0.1;          // a report may step the spring's force by this, or
+  double force_step_share = 0.05;     // by this share of it: differences under 7 to 10 % are not felt
 };
 
 /// Counters at the end of the run.
@@ -48,7 +49,9 @@ struct Summary {
   std::optional<double> expected_stiffness_n_per_m{};  // ke times the estimate, mean over the same samples
   std::uint64_t stiffness_samples = 0;
   double port_energy_min_j = 0.0;
+  double energy_drawdown_j = 0.0;  // largest fall of port energy minus stored energy
   double force_step_max_n = 0.0;
+  double force_step_excess_n = 0.0;  // largest step over what is allowed
   RunCounters counters{};
   std::vector<SummaryCheck> checks{};
 
@@ -68,6 +71,7 @@ class RunSummary {
 
  private:
   void add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s);
+  void add_force_step(const MasterView& view);
   void add_checks(Summary& summary) const;
 
   SummaryConfig config_;
@@ -80,7 +84,10 @@ class RunSummary {
   double estimate_sum_n_per_m_ = 0.0;
   std::uint64_t estimates_ = 0;
   double energy_min_j_ = 0.0;
+  double energy_drawdown_j_ = 0.0;
+  std::uint64_t reports_ = 0;
   double force_step_max_n_ = 0.0;
+  double force_step_excess_n_ = 0.0;
 };
 
 }  // namespace longreach

@@ -84,13 +84,29 @@ TEST(Summary, FailsForEachBrokenPromise) {
   const std::vector<Change> breaks = {
       [](double, MasterView& v) { v.spring_force_n *= 1.2; },
       [](double, MasterView& v) { v.port_energy_min_j = -0.01; },
-      [](double t, MasterView& v) { v.force_step_n = t > 9.0 && t < 9.02 ? 2.0 : 0.0; },
+      [](double, MasterView& v) { v.energy_drawdown_j = 0.01; },
+      [](double t, MasterView& v) {
+        v.reports = t > 9.0 ? 1 : 0;
+        v.force_step_n = t > 9.0 ? 2.0 : 0.0;
+      },
       [](double, MasterView& v) { v.state = SafetyState::kObserving; },
       [](double, MasterView& v) { v.in_contact = false; },
   };
   for (std::size_t i = 0; i < breaks.size(); ++i) {
     EXPECT_FALSE(probing(script(), breaks[i]).finish({}).passed()) << "break " << i;
   }
+}
+
+TEST(Summary, JudgesAForceStepAgainstTheForceOfItsMoment) {
+  const auto step = [](double t, MasterView& view) {
+    if (t < 9.0) return;
+    view.reports = 1;
+    view.force_step_n = 0.3;  // 5 % of 6 N; the same figure stays while the hand lets go
+    view.spring_force_n = -view.inward * (t < 9.005 ? 6.1 : 0.5);
+  };
+  const Summary summary = probing(SummaryConfig{}, step).finish({});
+  EXPECT_NEAR(summary.force_step_max_n, 0.3, 1e-12);
+  EXPECT_EQ(summary.force_step_excess_n, 0.0);
 }
 
 TEST(Summary, FailsForEachCounter) {
