@@ -1,6 +1,7 @@
 #pragma once
 // Loading, validating and addressing configuration. One reflection-based validator for all messages.
-// Messages: proto/config.proto. Errors name file, line and column, or the field's path; the value; what is allowed.
+// Messages: proto/config.proto. Errors name file, line and column, or the field's path; the value; what is
+// allowed.
 
 #include <filesystem>
 #include <optional>
@@ -21,39 +22,51 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Parses a protobuf text file into `message` and validates it. Throws ConfigError ("FILE:LINE:COLUMN: ...").
+/// Parses a protobuf text file into `message` and validates it. Throws ConfigError "FILE:LINE:COLUMN: ..."
+/// (from 1; a tab advances to the next multiple of 8; no position for a file that cannot be read), and then
+/// `message` is unchanged.
 void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
 
-/// Checks ranges, counts, finiteness and unknown enum values of every field that is set. Throws ConfigError with the
-/// field's path.
+/// Checks every field that is set: range, finiteness, count, known enum value, known field; then the fields
+/// that must agree with each other: joint limits and start in order, release below touch, dead zone below
+/// radius, names of materials and surfaces, directions that are not zero. Throws ConfigError with the field's
+/// path.
 void validate(const google::protobuf::Message& message);
 
-/// Sets one field from text, e.g. "estimator.forgetting" "0.995"; a repeated message is addressed by index or by its
-/// `name` ("scene.material.wall.exponent"), a repeated number by a comma-separated list. Throws ConfigError, and then
-/// `message` is unchanged.
+/// Sets one field from text, e.g. "estimator.forgetting" "0.995"; a repeated message is addressed by index or
+/// by its `name` ("scene.material.wall.exponent"), a repeated number by a comma-separated list (empty: not
+/// set). Times in seconds take the units s, ms and us, fractions %; enums by name, whatever the case; flags
+/// true, false, 1, 0, on, off. Throws ConfigError, and then `message` is unchanged. Checks fields each by
+/// itself: several may have to change together, so call validate() after the last.
 void set_field(google::protobuf::Message& message, std::string_view path, std::string_view value);
 
 /// A field or sub-message as text; the whole for an empty path. Fields that are not set print their default.
+/// The text of a field is accepted by set_field, that of a message by load_text_file. Throws ConfigError for
+/// an unknown path.
 std::string get_field(const google::protobuf::Message& message, std::string_view path);
 
-/// A setting "path=value" for a laboratory run: as set_field, but `master.` or `slave.` may be left out where only one
-/// of them (or the LabConfig itself) has the path. Throws ConfigError; an ambiguous path names both.
+/// A setting "path=value" for a laboratory run: as set_field, but `master.` or `slave.` may be left out where
+/// only one of them (or the LabConfig itself) has the path. What both sides have and must agree on,
+/// loop.rate_hz, sets both. Throws ConfigError; any other ambiguous path names both.
 void set_lab_field(proto::LabConfig& config, std::string_view setting);
 
-/// Paths of the fields that differ between two messages of one type and may not change with `engaged` (or, for
-/// AT_START fields, while the program runs).
+/// Paths of the fields whose effective values differ between two messages of one type and that may not change
+/// with `engaged` (or, for AT_START fields and all inside them, while the program runs).
 std::vector<std::string> refused_changes(const google::protobuf::Message& before,
                                          const google::protobuf::Message& after, bool engaged);
 
-/// deploy folder: $LONGREACH_HOME, else the nearest `deploy` beside or above the program, else above the working
-/// directory. Throws ConfigError that says what to do.
+/// deploy folder: $LONGREACH_HOME, else the nearest `deploy` beside or above the program, else above the
+/// working directory. Throws ConfigError that says what to do.
 std::filesystem::path find_deploy_folder();
 
-/// Reads robots/ and scenes/ files that a slave configuration names into its `robot` and `scene`, unless they are
-/// given in place; checks that names refer to something (materials, six joints, limit order). Throws ConfigError.
+/// Reads robots/ and scenes/ files that a slave configuration names into its `robot` and `scene`. A robot in
+/// place that has joints is taken as it is, the fields of one without go over those of its file; a scene in
+/// place is taken as it is (an empty one is free space). Then validates all, and that there are six joints.
+/// Throws ConfigError, and then `config` is unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
-/// deploy/links/NAME.txtpb. Throws ConfigError that lists the known names.
+/// deploy/links/NAME.txtpb; its `name` where the file gives none. Throws ConfigError that lists the known
+/// names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 
 // Plain structs from validated messages, and back. A test proves that no field is forgotten.

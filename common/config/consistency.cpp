@@ -1,0 +1,156 @@
+// Fields that must agree with each other: all such rules of the configuration live here, one function a
+// message.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/config/number_text.hpp"
+#include "common/config/violation.hpp"
+#include "proto/config.pb.h"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using Finding = std::optional<Violation>;
+
+// A violation within `message`: the path starts there.
+Violation at(const Message& message, const char* field, std::string text) {
+  return {{{message.GetDescriptor()->FindFieldByName(field), -1}}, std::move(text)};
+}
+
+Violation at_element(const Message& message, const char* list, int index, const char* field,
+                     std::string text) {
+  const PathStep element{message.GetDescriptor()->FindFieldByName(list), index};
+  return {{element, {element.field->message_type()->FindFieldByName(field), -1}}, std::move(text)};
+}
+
+struct Named {
+  const char* name;
+  double value;
+};
+
+// `low` < `high`, or a violation at the one that is set in the message.
+Finding in_order(const Message& message, const Named& low, const Named& high) {
+  if (low.value < high.value) return std::nullopt;
+  const auto* high_field = message.GetDescriptor()->FindFieldByName(high.name);
+  const auto* low_field = message.GetDescriptor()->FindFieldByName(low.name);
+  const auto* reflection = message.GetReflection();
+  if (!reflection->HasField(message, low_field) && reflection->HasField(message, high_field)) {
+    return at(
+        message, high.name,
+        " = " + format_number(high.value) + " is not above " + low.name + " = " + format_number(low.value));
+  }
+  return at(
+      message, low.name,
+      " = " + format_number(low.value) + " is not below " + high.name + " = " + format_number(high.value));
+}
+
+// Three numbers that say where to: long enough to be divided by their length, short enough to be squared.
+Finding is_direction(const Message& message, const char* field,
+                     const google::protobuf::RepeatedField<double>& numbers) {
+  if (numbers.size() != 3) return std::nullopt;  // absent, or the count is at fault
+  const double length = std::hypot(numbers.Get(0), numbers.Get(1), numbers.Get(2));
+  if (length >= 1e-9 && length <= 1e9) return std::nullopt;
+  return at(
+      message, field,
+      " has the length " + format_number(length) + ", which is outside 1e-9 to 1e9: it gives no direction");
+}
+
+Finding check_joint(const proto::Joint& joint) {
+  if (auto finding = in_order(joint, {"min_rad", joint.min_rad()}, {"max_rad", joint.max_rad()}))
+    return finding;
+  if (joint.start_rad() >= joint.min_rad() && joint.start_rad() <= joint.max_rad()) return std::nullopt;
+  return at(joint, "start_rad",
+            " = " + format_number(joint.start_rad()) + " is outside the joint's limits " +
+                format_number(joint.min_rad()) + " to " + format_number(joint.max_rad()));
+}
+
+// Names that a path can address: "material.wall.exponent".
+template <class List>
+Finding check_names(const Message& parent, const char* list, const List& elements) {
+  std::set<std::string> seen;
+  for (int i = 0; i < elements.size(); ++i) {
+    const std::string& name = elements.Get(i).name();
+    if (name.empty())
+      return at_element(parent, list, i, "name", " is empty; every " + std::string(list) + " needs one");
+    if (name.find_first_of(".=") != std::string::npos ||
+        name.find_first_not_of("0123456789") == std::string::npos) {
+      return at_element(
+          parent, list, i, "name",
+          " = \"" + name + "\" cannot be part of a path; use letters, and neither \".\" nor \"=\"");
+    }
+    if (!seen.insert(name).second) {
+      return at_element(parent, list, i, "name",
+                        " = \"" + name + "\" is the name of another " + list + " already");
+    }
+  }
+  return std::nullopt;
+}
+
+Finding check_scene(const proto::Scene& scene) {
+  if (auto finding = check_names(scene, "material", scene.material())) return finding;
+  if (auto finding = check_names(scene, "surface", scene.surface())) return finding;
+  Names known;
+  for (const proto::Material& material : scene.material()) known.push_back(material.name());
+  for (int i = 0; i < scene.surface_size(); ++i) {
+    const std::string& wanted = scene.surface(i).material();
+    if (std::ranges::find(known, wanted) != known.end()) continue;
+    return at_element(
+        scene, "surface", i, "material",
+        " = \"" + wanted + "\" is not a material of the scene" + instead_of(wanted, known, "it has"));
+  }
+  return std::nullopt;
+}
+
+Finding check_mapping(const proto::Mapping& mapping) {
+  if (auto finding = in_order(mapping, {"dead_zone_m", mapping.dead_zone_m()},
+                              {"radius_max_m", mapping.radius_max_m()})) {
+    return finding;
+  }
+  return in_order(mapping, {"dead_zone_rad", mapping.dead_zone_rad()},
+                  {"radius_max_rad", mapping.radius_max_rad()});
+}
+
+// The rules of one message, without those of its parts.
+Finding check_message(const Message& message) {
+  if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
+  if (const auto* scene = dynamic_cast<const proto::Scene*>(&message)) return check_scene(*scene);
+  if (const auto* mapping = dynamic_cast<const proto::Mapping*>(&message)) return check_mapping(*mapping);
+  if (const auto* plane = dynamic_cast<const proto::Plane*>(&message)) {
+    return is_direction(*plane, "normal", plane->normal());
+  }
+  if (const auto* script = dynamic_cast<const proto::Operator*>(&message)) {
+    return is_direction(*script, "direction", script->direction());
+  }
+  if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
+    return in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
+  }
+  return std::nullopt;
+}
+
+Finding within(const PathStep& step, Finding finding) {
+  if (finding) finding->path.insert(finding->path.begin(), step);
+  return finding;
+}
+
+}  // namespace
+
+std::optional<Violation> find_inconsistency(const Message& message) {
+  if (auto finding = check_message(message)) return finding;
+  std::vector<const FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    if (!holds_messages(*field)) continue;
+    const int size = field->is_repeated() ? message.GetReflection()->FieldSize(message, field) : 1;
+    for (int i = 0; i < size; ++i) {
+      const PathStep step{field, field->is_repeated() ? i : -1};
+      if (auto finding = within(step, find_inconsistency(message_at(message, step)))) return finding;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace longreach

@@ -1,0 +1,33 @@
+#pragma once
+// Numbers as people write and read them. Strict both ways: what is printed parses back to the same bits, and
+// nothing but a whole, finite decimal number parses (std::from_chars: no locale, no hexadecimal, no blanks,
+// no sign "+").
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace longreach {
+
+/// Shortest text that parses back to `value`: 0.05, 20000, 1e-10, 1e12, nan, inf.
+std::string format_number(double value);
+
+/// None for "nan", "inf", "1e999", "0x10", trailing text or nothing at all.
+std::optional<double> parse_number(std::string_view text);
+
+/// As parse_number, with a unit: seconds take s, ms, us; fractions take %. The scale is applied to the
+/// decimal text, so that "0.1ms" is the double nearest to 0.0001.
+std::optional<double> parse_seconds(std::string_view text);
+std::optional<double> parse_fraction(std::string_view text);
+
+template <class Integer>
+std::optional<Integer> parse_integer(std::string_view text) {
+  Integer value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+}  // namespace longreach

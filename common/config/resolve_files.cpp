@@ -1,0 +1,53 @@
+// Robot and scene of a slave from the files that it names.
+
+#include "common/config/config.hpp"
+#include "common/config/violation.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kJoints = 6;
+
+template <class Part>
+Part load_part(const fs::path& deploy_folder, const std::string& file, const char* field) {
+  if (file.empty()) {
+    throw ConfigError(std::string(field) + "_file is empty; name a file, or give the " + field + " in place");
+  }
+  Part part;
+  load_text_file(deploy_folder / file, part);
+  return part;
+}
+
+void require_joints(const proto::Robot& robot, const std::string& where) {
+  if (robot.joint_size() == kJoints) return;
+  throw ConfigError(where + " has " + std::to_string(robot.joint_size()) + " joints; " +
+                    std::to_string(kJoints) + " are needed");
+}
+
+// A robot in place that has joints is complete; else its fields go over those of the file.
+void resolve_robot(proto::SlaveConfig& config, const fs::path& deploy_folder) {
+  if (config.robot().joint_size() == 0) {
+    auto robot = load_part<proto::Robot>(deploy_folder, config.robot_file(), "robot");
+    require_joints(robot, (deploy_folder / config.robot_file()).string() + ": the robot");
+    robot.MergeFrom(config.robot());
+    config.mutable_robot()->Swap(&robot);
+  }
+  require_joints(config.robot(), "robot");
+}
+
+}  // namespace
+
+void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
+  proto::SlaveConfig resolved = config;
+  resolve_robot(resolved, deploy_folder);
+  // A scene in place is complete, also when it is empty: free space.
+  if (!resolved.has_scene()) {
+    *resolved.mutable_scene() = load_part<proto::Scene>(deploy_folder, resolved.scene_file(), "scene");
+  }
+  validate(resolved);
+  config.Swap(&resolved);
+}
+
+}  // namespace longreach

@@ -1,0 +1,267 @@
+#pragma once
+// Which struct member is which field of the schema: one list a struct, read in both directions. A visitor is
+// called with the field's name and the member; members are numbers, flags, texts, enums, vectors, structs or
+// lists of structs.
+
+#include <concepts>
+#include <type_traits>
+
+#include "master/master_config.hpp"
+#include "slave/slave_config.hpp"
+
+namespace longreach {
+
+/// T, const or not.
+template <class S, class T>
+concept Is = std::same_as<std::remove_const_t<S>, T>;
+
+template <class Visitor, Is<ImpairmentConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("delay_s", s.delay_s);
+  visit("jitter_s", s.jitter_s);
+  visit("loss", s.loss);
+  visit("loss_burst", s.loss_burst);
+  visit("duplicate", s.duplicate);
+  visit("reorder", s.reorder);
+  visit("corrupt", s.corrupt);
+  visit("rate_bit_per_s", s.rate_bit_per_s);
+  visit("queue_s", s.queue_s);
+  visit("step_delay_s", s.step_delay_s);
+  visit("step_start_s", s.step_start_s);
+  visit("step_duration_s", s.step_duration_s);
+  visit("drift_s_per_s", s.drift_s_per_s);
+  visit("blackout_start_s", s.blackout_start_s);
+  visit("blackout_duration_s", s.blackout_duration_s);
+  visit("blackout_period_s", s.blackout_period_s);
+}
+
+template <class Visitor, Is<RpcServerConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("listen", s.listen);
+}
+
+template <class Visitor, Is<LoopConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("rate_hz", s.rate_hz);
+  visit("priority", s.priority);
+  visit("lock_memory", s.lock_memory);
+}
+
+template <class Visitor, Is<MasterLinkConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("slave", s.slave);
+  visit("listen", s.listen);
+  visit("send_hz", s.send_hz);
+  visit("impairment", s.impairment);
+}
+
+template <class Visitor, Is<DeviceConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("mass_kg", s.mass_kg);
+  visit("damping_n_s_per_m", s.damping_n_s_per_m);
+  visit("inertia_kg_m2", s.inertia_kg_m2);
+  visit("rotational_damping_nm_s_per_rad", s.rotational_damping_nm_s_per_rad);
+  visit("resolution_m", s.resolution_m);
+  visit("resolution_rad", s.resolution_rad);
+  visit("workspace_m", s.workspace_m);
+  visit("workspace_rad", s.workspace_rad);
+  visit("force_max_n", s.force_max_n);
+  visit("moment_max_nm", s.moment_max_nm);
+}
+
+template <class Visitor, Is<HandConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("grip", s.grip);
+}
+
+template <class Visitor, Is<OperatorConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("kind", s.kind);
+  visit("rate_distance_m", s.rate_distance_m);
+  visit("approach_speed_m_per_s", s.approach_speed_m_per_s);
+  visit("press_n", s.press_n);
+  visit("probe_n", s.probe_n);
+  visit("probe_hz", s.probe_hz);
+  visit("probe_cycles", s.probe_cycles);
+  visit("direction", s.direction);
+  visit("reaction_s", s.reaction_s);
+}
+
+template <class Visitor, Is<MappingConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("mode", s.mode);
+  visit("scale", s.scale);
+  visit("rate_law", s.rate_law);
+  visit("kv_per_s", s.kv_per_s);
+  visit("kv_rotation_per_s", s.kv_rotation_per_s);
+  visit("dead_zone_m", s.dead_zone_m);
+  visit("dead_zone_rad", s.dead_zone_rad);
+  visit("radius_max_m", s.radius_max_m);
+  visit("radius_max_rad", s.radius_max_rad);
+  visit("speed_max_m_per_s", s.speed_max_m_per_s);
+  visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
+}
+
+template <class Visitor, Is<RenderingConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("law", s.law);
+  visit("ke", s.ke);
+  visit("contact_damping_n_s_per_m", s.contact_damping_n_s_per_m);
+  visit("stiffness_max_n_per_m", s.stiffness_max_n_per_m);
+  visit("fade_s", s.fade_s);
+  visit("tank_max_j", s.tank_max_j);
+  visit("rate_stiffness_n_per_m", s.rate_stiffness_n_per_m);
+  visit("rate_damping_n_s_per_m", s.rate_damping_n_s_per_m);
+  visit("friction_n", s.friction_n);
+  visit("friction_stiffness_n_per_m", s.friction_stiffness_n_per_m);
+  visit("rotational_stiffness_nm_per_rad", s.rotational_stiffness_nm_per_rad);
+  visit("rotational_damping_nm_s_per_rad", s.rotational_damping_nm_s_per_rad);
+  visit("force_max_n", s.force_max_n);
+  visit("moment_max_nm", s.moment_max_nm);
+  visit("ramp_s", s.ramp_s);
+  visit("forget_depth_m", s.forget_depth_m);
+}
+
+template <class Visitor, Is<MasterSafetyConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("silence_s", s.silence_s);
+  visit("resume_s", s.resume_s);
+  visit("engage_at_start", s.engage_at_start);
+}
+
+template <class Visitor, Is<MasterConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("link", s.link);
+  visit("loop", s.loop);
+  visit("device", s.device);
+  visit("hand", s.hand);
+  visit("operator", s.operator_);
+  visit("mapping", s.mapping);
+  visit("rendering", s.rendering);
+  visit("safety", s.safety);
+  visit("rpc", s.rpc);
+}
+
+template <class Visitor, Is<SlaveLinkConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("listen", s.listen);
+  visit("telemetry_hz", s.telemetry_hz);
+  visit("heartbeat_contact_hz", s.heartbeat_contact_hz);
+  visit("heartbeat_free_hz", s.heartbeat_free_hz);
+  visit("impairment", s.impairment);
+}
+
+template <class Visitor, Is<PlayoutConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("adaptive", s.adaptive);
+  visit("fixed_delay_s", s.fixed_delay_s);
+  visit("quantile", s.quantile);
+  visit("delay_max_s", s.delay_max_s);
+}
+
+template <class Visitor, Is<CommandConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("speed_max_m_per_s", s.speed_max_m_per_s);
+  visit("acceleration_max_m_per_s2", s.acceleration_max_m_per_s2);
+  visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
+  visit("acceleration_max_rad_per_s2", s.acceleration_max_rad_per_s2);
+  visit("force_guard_n", s.force_guard_n);
+  visit("guard_stiffness_n_per_m", s.guard_stiffness_n_per_m);
+  visit("workspace_m", s.workspace_m);
+  visit("tolerance_m", s.tolerance_m);
+  visit("iterations_max", s.iterations_max);
+}
+
+template <class Visitor, Is<JointConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("a_m", s.a_m);
+  visit("alpha_rad", s.alpha_rad);
+  visit("d_m", s.d_m);
+  visit("theta_rad", s.theta_rad);
+  visit("min_rad", s.min_rad);
+  visit("max_rad", s.max_rad);
+  visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
+  visit("acceleration_max_rad_per_s2", s.acceleration_max_rad_per_s2);
+  visit("start_rad", s.start_rad);
+}
+
+template <class Visitor, Is<RobotConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("basis", s.basis);
+  visit("joint", s.joint);
+  visit("servo_hz", s.servo_hz);
+}
+
+template <class Visitor, Is<MaterialConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("stiffness_n_per_m", s.stiffness_n_per_m);
+  visit("reference_depth_m", s.reference_depth_m);
+  visit("exponent", s.exponent);
+  visit("damping_s_per_m", s.damping_s_per_m);
+}
+
+template <class Visitor, Is<PlaneConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("point_m", s.point_m);
+  visit("normal", s.normal);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<SurfaceConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("material", s.material);
+  visit("plane", s.plane);
+}
+
+template <class Visitor, Is<SceneConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("material", s.material);
+  visit("surface", s.surface);
+}
+
+template <class Visitor, Is<SensingConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("force_noise_n", s.force_noise_n);
+  visit("moment_noise_nm", s.moment_noise_nm);
+  visit("touch_n", s.touch_n);
+  visit("release_n", s.release_n);
+  visit("filter_s", s.filter_s);
+}
+
+template <class Visitor, Is<EstimatorConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("exponent", s.exponent);
+  visit("forgetting", s.forgetting);
+  visit("depth_filter_s", s.depth_filter_s);
+  visit("first_sd", s.first_sd);
+  visit("deadband", s.deadband);
+}
+
+template <class Visitor, Is<SlaveSafetyConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("gap_s", s.gap_s);
+  visit("age_max_s", s.age_max_s);
+  visit("resume_s", s.resume_s);
+}
+
+template <class Visitor, Is<SlaveConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("link", s.link);
+  visit("loop", s.loop);
+  visit("playout", s.playout);
+  visit("command", s.command);
+  visit("robot_file", s.robot_file);
+  visit("robot", s.robot);
+  visit("scene_file", s.scene_file);
+  visit("scene", s.scene);
+  visit("sensing", s.sensing);
+  visit("estimator", s.estimator);
+  visit("safety", s.safety);
+  visit("rpc", s.rpc);
+}
+
+}  // namespace longreach

@@ -1,0 +1,110 @@
+// Configuration from protobuf text files.
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "common/config/config.hpp"
+#include "common/config/parse_error.hpp"
+#include "common/config/violation.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::Message;
+using google::protobuf::TextFormat;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxBytes = 1 << 20;  // a thousand times the longest file that ships
+
+// Keeps the first error; what follows it is mostly its consequence.
+class FirstError : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, int column, const std::string& message) override {
+    if (!error) error = ParseError{{std::max(line, 0), std::max(column, 0)}, message};
+  }
+  void AddWarning(int, int, const std::string&) override {}
+  std::optional<ParseError> error;
+};
+
+std::string read_text(const fs::path& file) {
+  std::error_code status_error;
+  const fs::file_status status = fs::status(file, status_error);
+  if (status.type() == fs::file_type::not_found) throw ConfigError(file.string() + ": there is no such file");
+  if (status_error) throw ConfigError(file.string() + ": cannot be read: " + status_error.message());
+  if (fs::is_directory(status)) throw ConfigError(file.string() + ": is a folder; name a file in it");
+  if (!fs::is_regular_file(status)) throw ConfigError(file.string() + ": is not a regular file");
+
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  std::array<char, 4096> block{};
+  while (stream && text.size() <= kMaxBytes) {
+    stream.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  const bool failed = !stream.is_open() || stream.bad();
+  if (failed) {
+    throw ConfigError(file.string() + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
+  }
+  if (text.size() > kMaxBytes)
+    throw ConfigError(file.string() + ": is longer than 1 MiB; no configuration is");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw ConfigError(file.string() + ": is empty; a file of defaults has at least a comment");
+  }
+  return text;
+}
+
+[[noreturn]] void fail(const fs::path& file, TextPosition position, const std::string& text) {
+  throw ConfigError(file.string() + ":" + std::to_string(position.line + 1) + ":" +
+                    std::to_string(position.column + 1) + ": " + text);
+}
+
+// Where the field stands in the text, or the nearest thing around it that does.
+TextPosition locate(const TextFormat::ParseInfoTree& root, const FieldPath& path) {
+  TextPosition position;
+  const TextFormat::ParseInfoTree* tree = &root;
+  for (const PathStep& step : path) {
+    // Of a list in brackets only the beginning is known, as its element 0.
+    const int last = step.field->is_repeated() ? std::max(step.index, 0) : -1;
+    for (int i = last; i >= (last < 0 ? -1 : 0); --i) {
+      const auto location = tree->GetLocation(step.field, i);
+      if (location.line < 0) continue;
+      position = {location.line, location.column};
+      break;
+    }
+    if (holds_messages(*step.field)) tree = tree->GetTreeForNested(step.field, last);
+    if (tree == nullptr) break;
+  }
+  return position;
+}
+
+}  // namespace
+
+void load_text_file(const fs::path& file, Message& message) {
+  const std::string text = read_text(file);
+  const std::unique_ptr<Message> loaded(message.New());
+  TextFormat::Parser parser;
+  TextFormat::ParseInfoTree locations;
+  FirstError first;
+  parser.RecordErrorsTo(&first);
+  parser.WriteLocationsTo(&locations);
+  const bool parsed = parser.ParseFromString(text, loaded.get());
+  if (first.error) {
+    const ParseError error = reword(*first.error, text, *message.GetDescriptor());
+    fail(file, error.position, error.text);
+  }
+  if (!parsed) throw ConfigError(file.string() + ": is not protobuf text format");
+  if (const auto violation = find_any_violation(*loaded)) {
+    fail(file, locate(locations, violation->path), sentence(*loaded, *violation));
+  }
+  message.GetReflection()->Swap(&message, loaded.get());
+}
+
+}  // namespace longreach

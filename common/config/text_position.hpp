@@ -1,0 +1,22 @@
+#pragma once
+// Lines and columns of a text file, counted from 0 as protobuf's tokenizer does: a column is a byte, and a
+// tab advances to the next multiple of 8.
+
+#include <cstddef>
+#include <string_view>
+
+namespace longreach {
+
+struct TextPosition {
+  int line = 0;
+  int column = 0;
+};
+
+std::size_t offset_of(std::string_view text, TextPosition position);
+TextPosition position_of(std::string_view text, std::size_t offset);
+
+/// Start of the last `word` before `position`: the parser reports some errors behind the word that they are
+/// about.
+TextPosition last_before(std::string_view text, std::string_view word, TextPosition position);
+
+}  // namespace longreach
