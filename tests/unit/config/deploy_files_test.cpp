@@ -1,0 +1,66 @@
+// The files that ship, each as what its folder says that it is.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "common/config/field_text.hpp"
+#include "tests/unit/config/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+using google::protobuf::Message;
+
+const fs::path kDeploy = LONGREACH_DEPLOY;
+
+std::unique_ptr<Message> message_for(const fs::path& file) {
+  const std::string folder = file.parent_path().filename().string();
+  if (folder == "links") return std::make_unique<proto::LinkProfile>();
+  if (folder == "robots") return std::make_unique<proto::Robot>();
+  if (folder == "scenes") return std::make_unique<proto::Scene>();
+  if (folder != "config") return nullptr;
+  const std::string name = file.stem().string();
+  if (name.starts_with("master")) return std::make_unique<proto::MasterConfig>();
+  if (name.starts_with("slave")) return std::make_unique<proto::SlaveConfig>();
+  return std::make_unique<proto::LabConfig>();
+}
+
+TEST(DeployFiles, LoadAsWhatTheirFolderSays) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(kDeploy)) {
+    if (entry.path().extension() != ".txtpb") continue;
+    const auto message = message_for(entry.path());
+    ASSERT_NE(message, nullptr) << entry.path() << " is in a folder that this test does not know";
+    EXPECT_EQ(error_of([&] { load_text_file(entry.path(), *message); }), "no error");
+    ++files;
+  }
+  EXPECT_GE(files, 2);
+}
+
+void expect_defaults(const Message& message) {
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  const std::unique_ptr<Message> defaults(message.New());
+  for (const auto* field : fields) {
+    if (holds_messages(*field)) {
+      expect_defaults(message_at(message, {field, -1}));
+    } else {
+      EXPECT_EQ(value_text(message, {field, -1}), value_text(*defaults, {field, -1})) << field->full_name();
+    }
+  }
+}
+
+TEST(DeployFiles, ShowTheDefaultsInTheConfigurationOfBothSides) {
+  proto::MasterConfig master;
+  load_text_file(kDeploy / "config/master.txtpb", master);
+  EXPECT_TRUE(master.has_mapping());
+  expect_defaults(master);
+  proto::SlaveConfig slave;
+  load_text_file(kDeploy / "config/slave.txtpb", slave);
+  EXPECT_TRUE(slave.has_command());
+  expect_defaults(slave);
+}
+
+}  // namespace
+}  // namespace longreach

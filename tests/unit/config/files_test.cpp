@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include "common/config/deploy_folder.hpp"
+#include "tests/unit/config/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kRobot =
+    "name: \"arm\" joint {} joint {} joint {} joint {} joint {} joint { a_m: 0.5 } servo_hz: 7";
+const std::string kScene =
+    "name: \"wall\" material { name: \"steel\" }\nsurface { name: \"front\" material: \"steel\" plane { "
+    "normal: [1, 0, 0] } }";
+
+class ResolveFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder.write("robots/space_arm.txtpb", kRobot);
+    folder.write("scenes/wall.txtpb", kScene);
+  }
+  // The error; the configuration must then be as it was.
+  std::string resolve_error() {
+    const std::string before = config.SerializeAsString();
+    const std::string error = error_of([&] { resolve_files(config, folder.path()); });
+    if (error != "no error") {
+      EXPECT_EQ(config.SerializeAsString(), before);
+    }
+    return error;
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+
+  TemporaryFolder folder;
+  proto::SlaveConfig config;
+};
+
+TEST_F(ResolveFiles, ReadsTheFilesThatAreNamed) {
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().name(), "arm");
+  EXPECT_EQ(config.robot().joint(5).a_m(), 0.5);
+  EXPECT_EQ(config.scene().surface(0).material(), "steel");
+  const proto::SlaveConfig once = config;
+  folder.write("robots/space_arm.txtpb", "joint {");  // not read again
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.SerializeAsString(), once.SerializeAsString());
+}
+
+TEST_F(ResolveFiles, TakesAnAbsolutePathAsItIs) {
+  const TemporaryFolder elsewhere;
+  config.set_robot_file(elsewhere.write("mine.txtpb", kRobot + " basis: \"mine\"").string());
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().basis(), "mine");
+}
+
+TEST_F(ResolveFiles, PutsFieldsInPlaceOverThoseOfTheRobotsFile) {
+  config.mutable_robot()->set_servo_hz(0.0);
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().servo_hz(), 0.0);
+  EXPECT_EQ(config.robot().joint_size(), 6);
+}
+
+TEST_F(ResolveFiles, TakesWhatIsGivenInPlace) {
+  for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint()->set_d_m(0.1 * i);
+  config.mutable_scene();  // free space
+  config.set_robot_file("none.txtpb");
+  config.set_scene_file("");
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().joint(3).d_m(), 0.1 * 3);
+  EXPECT_EQ(config.scene().surface_size(), 0);
+}
+
+TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
+  config.set_robot_file("robots/none.txtpb");
+  EXPECT_EQ(resolve_error(), path("robots/none.txtpb") + ": there is no such file");
+  config.set_robot_file("");
+  EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or give the robot in place");
+  config.clear_robot_file();
+
+  folder.write("robots/space_arm.txtpb", "name: \"arm\"");
+  EXPECT_EQ(resolve_error(), path("robots/space_arm.txtpb") + ": the robot has 0 joints; 6 are needed");
+  folder.write("robots/space_arm.txtpb", "joint {}\njoint {}");
+  EXPECT_EQ(resolve_error(), path("robots/space_arm.txtpb") + ":1:1: joint has 2 elements; 6 are needed");
+  folder.write("robots/space_arm.txtpb", kRobot + "\n");
+  folder.write("scenes/wall.txtpb",
+               "material { name: \"steel\" }\nsurface { name: \"a\" material: \"wood\" }");
+  EXPECT_EQ(resolve_error(),
+            path("scenes/wall.txtpb") +
+                ":2:21: surface.a.material = \"wood\" is not a material of the scene; it has: steel");
+  folder.write("scenes/wall.txtpb", "surface { name: \"a\"\n material: \"wood\" }");
+  EXPECT_EQ(resolve_error(),
+            path("scenes/wall.txtpb") +
+                ":2:2: surface.a.material = \"wood\" is not a material of the scene; it has: none");
+  folder.write("scenes/wall.txtpb", "material { name: \"m\" }\nmaterial {\n  name: \"m\"\n}");
+  EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
+                                 ":3:3: material.1.name = \"m\" is the name of another material already");
+  folder.write(
+      "scenes/wall.txtpb",
+      "material { name: \"m\" }\nsurface { name: \"a\" material: \"m\" plane {\n normal: [0, 0, 0] } }");
+  EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
+                                 ":3:2: surface.a.plane.normal has the length 0, which is "
+                                 "outside 1e-9 to 1e9: it gives no direction");
+}
+
+TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
+  config.mutable_sensing()->set_release_n(0.5);
+  EXPECT_EQ(resolve_error(), "sensing.release_n = 0.5 is not below touch_n = 0.3");
+  config.clear_sensing();
+  config.mutable_robot()->add_joint();
+  EXPECT_EQ(resolve_error(), "robot has 1 joints; 6 are needed");
+}
+
+TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
+  const TemporaryFolder folder;
+  folder.write("links/moon.txtpb", "up { delay_s: 1.3 }");
+  folder.write("links/lab.txtpb", "name: \"lab\"");
+  folder.write("links/README.md", "");
+  EXPECT_EQ(load_link_profile(folder.path(), "moon").up().delay_s(), 1.3);
+  EXPECT_EQ(load_link_profile(folder.path(), "moon").name(), "moon");
+  const auto error = [&](const std::string& name) {
+    return error_of([&] { load_link_profile(folder.path(), name); });
+  };
+  const std::string links = (folder.path() / "links").string();
+  EXPECT_EQ(error("mon"),
+            "there is no link profile \"mon\" in " + links + "; did you mean \"moon\"? Known: lab, moon");
+  EXPECT_EQ(error("mars"), "there is no link profile \"mars\" in " + links + "; known: lab, moon");
+  for (const std::string name : {"../links/moon", "/etc/passwd", "", ".", "..", "a\\b", ".hidden"}) {
+    EXPECT_EQ(error(name),
+              "\"" + name + "\" is not the name of a link profile; give a plain name, one of: lab, moon");
+  }
+  folder.write("links/moon.txtpb", "up { delay_s: -1 }");
+  EXPECT_EQ(error("moon"), links + "/moon.txtpb:1:6: up.delay_s = -1 is outside 0 to 100");
+  EXPECT_EQ(error_of([&] { load_link_profile(folder.path() / "x", "moon"); }),
+            "there is no link profile \"moon\" in " + folder.path().string() + "/x/links; known: none");
+}
+
+TEST(DeployFolder, PrefersTheEnvironmentThenTheProgramThenTheWorkingFolder) {
+  const TemporaryFolder folder;
+  const fs::path root = folder.path();
+  for (const char* name : {"home/links", "program/deploy/links", "work/deploy/robots",
+                           "program/build/deploy/cli", "program/build/bin", "work/a/b", "empty"}) {
+    fs::create_directories(root / name);
+  }
+  const fs::path program = root / "program/build/bin";
+  EXPECT_EQ(find_deploy_folder({(root / "home").string(), program, root / "work/a/b"}), root / "home");
+  // build/deploy is nearer, but holds nothing that a user edits.
+  EXPECT_EQ(find_deploy_folder({std::nullopt, program, root / "work/a/b"}), root / "program/deploy");
+  EXPECT_EQ(find_deploy_folder({"", root / "empty", root / "work/a/b"}), root / "work/deploy");
+  EXPECT_EQ(error_of([&] {
+              find_deploy_folder({(root / "empty").string(), program, root});
+            }),
+            "LONGREACH_HOME = " + (root / "empty").string() +
+                " holds none of the folders config, links, robots, scenes; set it to the deploy folder");
+  EXPECT_EQ(error_of([&] {
+              find_deploy_folder({std::nullopt, root / "empty", root / "home"});
+            }),
+            "no deploy folder above " + (root / "empty").string() + " or " + (root / "home").string() +
+                "; set LONGREACH_HOME to the folder that holds config, links, robots and scenes");
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/config/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+
+template <class Message>
+std::string validation_error(const Message& message) {
+  return error_of([&] { validate(message); });
+}
+
+TEST(Validation, AcceptsTheEndsOfARangeAndNothingBeyond) {
+  proto::Mapping mapping;
+  for (const double scale : {0.05, 1.0}) {
+    mapping.set_scale(scale);
+    EXPECT_EQ(validation_error(mapping), "no error");
+  }
+  mapping.set_scale(std::nextafter(0.05, 0.0));
+  EXPECT_EQ(validation_error(mapping), "scale = 0.049999999999999996 is outside 0.05 to 1");
+  mapping.set_scale(std::nextafter(1.0, 2.0));
+  EXPECT_EQ(validation_error(mapping), "scale = 1.0000000000000002 is outside 0.05 to 1");
+  for (const double scale : {-1.0, 0.0, 1e-9, 1e9, 5e-324}) {
+    mapping.set_scale(scale);
+    EXPECT_TRUE(validation_error(mapping).ends_with(" is outside 0.05 to 1")) << scale;
+  }
+}
+
+TEST(Validation, ExcludesALowerEndThatIsMarkedAbove) {
+  proto::Sensing sensing;
+  sensing.set_release_n(0.0);
+  EXPECT_EQ(validation_error(sensing), "release_n = 0 is outside 0 (excluded) to 100");
+  sensing.set_release_n(5e-324);
+  EXPECT_EQ(validation_error(sensing), "no error");
+}
+
+TEST(Validation, RefusesNumbersThatAreNotFiniteEvenWithoutARange) {
+  proto::SlaveConfig config;
+  auto& plane = *config.mutable_scene()->add_surface()->mutable_plane();
+  for (const double x : {0.0, std::numeric_limits<double>::infinity(), 1.0}) plane.add_point_m(x);
+  EXPECT_EQ(validation_error(config), "scene.surface.0.plane.point_m.1 = inf is not a finite number");
+  plane.set_point_m(1, std::nan(""));
+  EXPECT_EQ(validation_error(config), "scene.surface.0.plane.point_m.1 = nan is not a finite number");
+}
+
+TEST(Validation, RefusesEnumValuesAndFieldsThatTheSchemaDoesNotKnow) {
+  proto::MasterConfig config;
+  const auto mode_7 = std::string("\x32\x02\x08\x07", 4);  // field 6 (mapping), length 2: field 1 (mode) = 7
+  ASSERT_TRUE(config.ParseFromString(mode_7));
+  EXPECT_EQ(validation_error(config), "mapping.mode = 7 is not one of RATE, POSITION");
+  const auto field_99 = std::string("\x32\x03\x98\x06\x01", 5);  // mapping: field 99 = 1
+  ASSERT_TRUE(config.ParseFromString(field_99));
+  EXPECT_EQ(validation_error(config), "mapping has the field number 99, which this version does not know");
+  ASSERT_TRUE(config.ParseFromString(std::string("\x98\x06\x01", 3)));
+  EXPECT_EQ(validation_error(config), "field number 99 is not known to this version");
+}
+
+TEST(Validation, CountsListsOnlyWhenTheyAreGiven) {
+  proto::Operator script;
+  EXPECT_EQ(validation_error(script), "no error");
+  for (int i = 0; i < 4; ++i) script.add_direction(1.0);
+  EXPECT_EQ(validation_error(script), "direction has 4 elements; 3 are needed");
+}
+
+TEST(Validation, RefusesDirectionsThatPointNowhere) {
+  proto::MasterConfig config;
+  auto& direction = *config.mutable_operator_()->mutable_direction();
+  const auto error_with = [&](double x, double y, double z) {
+    direction.Clear();
+    for (const double v : {x, y, z}) direction.Add(v);
+    return validation_error(config);
+  };
+  EXPECT_EQ(error_with(0, 0, 0),
+            "operator.direction has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
+  EXPECT_NE(error_with(0, 1e-320, 0), "no error");
+  EXPECT_NE(error_with(1e300, 1e300, 0), "no error");
+  EXPECT_EQ(error_with(0, -1e-9, 0), "no error");
+  EXPECT_EQ(error_with(3, 4, 0), "no error");
+}
+
+TEST(Validation, WantsTheDeadZoneInsideTheRadius) {
+  proto::Mapping mapping;
+  mapping.set_dead_zone_m(0.05);
+  EXPECT_EQ(validation_error(mapping), "dead_zone_m = 0.05 is not below radius_max_m = 0.05");
+  mapping.set_radius_max_m(0.06);
+  EXPECT_EQ(validation_error(mapping), "no error");
+  mapping.set_radius_max_rad(0.02);
+  EXPECT_EQ(validation_error(mapping), "radius_max_rad = 0.02 is not above dead_zone_rad = 0.05");
+}
+
+proto::Robot six_joints() {
+  proto::Robot robot;
+  for (int i = 0; i < 6; ++i) robot.add_joint();
+  return robot;
+}
+
+TEST(Validation, WantsJointLimitsInOrderAndTheStartBetweenThem) {
+  proto::Robot robot = six_joints();
+  EXPECT_EQ(validation_error(robot), "no error");
+  robot.mutable_joint(2)->set_min_rad(1.0);
+  robot.mutable_joint(2)->set_max_rad(1.0);
+  EXPECT_EQ(validation_error(robot), "joint.2.min_rad = 1 is not below max_rad = 1");
+  robot.mutable_joint(2)->set_max_rad(2.0);
+  EXPECT_EQ(validation_error(robot), "joint.2.start_rad = 0 is outside the joint's limits 1 to 2");
+  robot.mutable_joint(2)->set_start_rad(2.0);
+  EXPECT_EQ(validation_error(robot), "no error");
+}
+
+proto::Scene one_wall() {
+  proto::Scene scene;
+  scene.add_material()->set_name("steel");
+  scene.add_surface()->set_name("front");
+  scene.mutable_surface(0)->set_material("steel");
+  return scene;
+}
+
+TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
+  proto::Scene scene = one_wall();
+  EXPECT_EQ(validation_error(scene), "no error");
+  scene.mutable_surface(0)->set_material("stel");
+  EXPECT_EQ(validation_error(scene),
+            "surface.front.material = \"stel\" is not a material of the scene; did you mean \"steel\"? It "
+            "has: steel");
+  scene.mutable_surface(0)->clear_material();
+  EXPECT_EQ(validation_error(scene),
+            "surface.front.material = \"\" is not a material of the scene; it has: steel");
+
+  scene = one_wall();
+  scene.add_material()->set_name("steel");
+  EXPECT_EQ(validation_error(scene), "material.1.name = \"steel\" is the name of another material already");
+  scene.mutable_material(1)->clear_name();
+  EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs one");
+  scene.mutable_material(1)->set_name("a.b");
+  EXPECT_EQ(validation_error(scene),
+            "material.a.b.name = \"a.b\" cannot be part of a path; use letters, and neither \".\" nor \"=\"");
+  scene.mutable_material(1)->set_name("12");
+  EXPECT_NE(validation_error(scene), "no error");
+
+  scene = one_wall();
+  *scene.add_surface() = scene.surface(0);
+  EXPECT_EQ(validation_error(scene), "surface.1.name = \"front\" is the name of another surface already");
+}
+
+// Laws of the schema itself, over every field of a side: a number without a range would let anything in.
+void check_schema(const Descriptor& type) {
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& field = *type.field(i);
+    if (field.message_type() != nullptr) {
+      check_schema(*field.message_type());
+      continue;
+    }
+    const bool number = field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
+                        field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32;
+    if (!number || field.is_repeated()) continue;
+    const proto::Range& range = field.options().GetExtension(proto::range);
+    const double value = field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ? field.default_value_double()
+                                                                             : field.default_value_uint32();
+    EXPECT_TRUE(range.has_min() && range.has_max() && range.min() < range.max()) << field.full_name();
+    EXPECT_TRUE(value >= range.min() && value <= range.max() && !(range.above() && value == range.min()))
+        << field.full_name();
+  }
+}
+
+TEST(Schema, GivesEveryNumberARangeThatHoldsItsDefault) {
+  check_schema(*proto::LabConfig::descriptor());
+  check_schema(*proto::LinkProfile::descriptor());
+}
+
+TEST(Schema, HasDefaultsThatAgreeWithEachOther) {
+  EXPECT_EQ(validation_error(to_message(MasterConfig{})), "no error");
+  EXPECT_EQ(validation_error(to_message(SlaveConfig{})), "no error");
+}
+
+}  // namespace
+}  // namespace longreach
