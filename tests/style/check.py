@@ -169,7 +169,7 @@ def check_cpp(root, path, text, found):
     code = source.code_only(text)
     if path.endswith('.hpp') and not text.startswith('#pragma once\n'):
         found.error(path, 1, 'a header begins with #pragma once')
-    for match in re.finditer(r'\busing\s+namespace\s+std\b', code):
+    for match in re.finditer(r'\busing\s+namespace\s+std\s*;', code):
         found.error(path, line_of(code, match.start()), 'using namespace std')
     check_includes(root, path, text, found)
     if (floors.floor(path) or 0) < floors.PURE_BELOW and path not in ALLOWED_IMPURE:

@@ -29,7 +29,7 @@ def floor(path):
     if folder in ('master', 'slave'):
         if name == 'main.cpp':
             return PROGRAM
-        if re.search(r'_service\.[ch]pp$', name):
+        if re.search(r'_(service|shell)\.[ch]pp$', name):
             return SERVICE
     while folder and folder not in FOLDERS:
         folder = posixpath.dirname(folder)
@@ -59,8 +59,8 @@ def refused(path, included):
         if not (path.startswith('common/config/') and is_config(included)):
             return f'includes {included} of the {other_side}, which only that side and tests/ may see'
     same_folder = posixpath.dirname(path) == posixpath.dirname(included)
-    # The configuration of a stage is plain values: every stage of its side may read it.
-    plain = own_side == other_side and 2 <= mine < 3 and 2 <= theirs < 3 and is_config(included)
+    # Configuration is plain values: every stage may read that of its side.
+    plain = own_side == other_side and 2 <= mine < 3 and 2 <= theirs <= 3 and is_config(included)
     if theirs < mine or (same_folder and theirs <= mine) or plain:
         return None
     return f'is on floor {mine:g} and includes {included} of floor {theirs:g}'

@@ -69,6 +69,11 @@ class Planted(unittest.TestCase):
         self.found('master/devices/x.cpp', include('master/rendering/e.hpp'), 'floor 2')
         self.sound('master/rendering/x.cpp', include('master/devices/d.hpp'))
         self.sound('master/devices/x.cpp', include('master/rendering/e_config.hpp'))
+        self.sound('slave/robot/x.cpp', include('slave/slave_config.hpp'))
+        self.found('common/core/x.cpp', include('slave/slave_config.hpp'), 'only that side')
+
+    def test_a_shell_stands_above_its_node(self):
+        self.assertGreater(floors.floor('master/master_shell.hpp'), floors.floor('master/master_node.hpp'))
 
     def test_the_sides_do_not_see_each_other(self):
         self.found('master/rendering/x.cpp', include('slave/robot/r.hpp'), 'only that side')
@@ -113,6 +118,7 @@ class Planted(unittest.TestCase):
 
     def test_text(self):
         self.found('common/link/x.cpp', 'using namespace std;\n', 'using namespace std')
+        self.sound('common/io/x.cpp', 'using namespace std::chrono_literals;\n')
         self.found('common/link/x.cpp', 'int a;\t\n', 'tab')
         self.found('README.md', 'text \n', 'trailing blank')
         self.found('README.md', 'text', 'no newline')
