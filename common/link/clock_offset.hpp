@@ -1,7 +1,8 @@
 #pragma once
-// The only bridge between the two clocks: maps a peer's instant to this side's clock as "received at the earliest
-// seen transit": offset = min over a window of (received - sent), which contains the shortest one-way delay. Follows
-// drift up to 500 ppm by letting the minimum age (two half-windows). Nothing that stops or starts motion uses it.
+// The only bridge between the two clocks: maps a peer's instant to this side's clock as "received at the
+// earliest seen transit": offset = min over a window of (received - sent), which contains the shortest
+// one-way delay. Follows drift up to 500 ppm by letting the minimum age (two half-windows). Nothing that
+// stops or starts motion uses it.
 
 #include <optional>
 
@@ -22,8 +23,8 @@ class ClockOffset {
 
  private:
   Duration window_;
-  std::optional<Duration> current_{};    // minimum of this half-window
-  std::optional<Duration> previous_{};   // minimum of the one before
+  std::optional<Duration> current_{};   // minimum of this half-window
+  std::optional<Duration> previous_{};  // minimum of the one before
   Time half_began_{};
 };
 

@@ -1,12 +1,14 @@
 #pragma once
-// What the link is like, seen from one side: round-trip time, variation of the one-way time, loss, reordering, age.
-// RTT of a sample = now - echo.sent - echo.held, all but `held` on this side's clock; `held` is a duration of the
-// peer's. One-way variation is taken about the running minimum of (received - sent), whose unknown clock offset
-// cancels. Windows are short (2 s) so that a changed link shows at once. Pure: time comes in.
+// What the link is like, seen from one side: round-trip time, variation of the one-way time, loss,
+// reordering, age. RTT of a sample = now - echo.sent - echo.held, all but `held` on this side's clock; `held`
+// is a duration of the peer's. One-way variation is taken about the running minimum of (received - sent),
+// whose unknown clock offset cancels. Windows are short (2 s) so that a changed link shows at once. Pure:
+// time comes in.
 //
-// Loss is 1 - came / sent over the datagrams that the peer sent in a window of 2 s, by the gaps of each type's numbers.
-// A datagram that was overtaken is not lost: where that happens, the window ends as much earlier (up to 1 s) as the
-// overtaken were late. Does not count what was sent before the first datagram of a session.
+// Loss is 1 - came / sent over the datagrams that the peer sent in a window of 2 s, by the gaps of each
+// type's numbers. A datagram that was overtaken is not lost: where that happens, the window ends as much
+// earlier (up to 1 s) as the overtaken were late. Does not count what was sent before the first datagram of a
+// session.
 
 #include <array>
 #include <cstddef>
@@ -21,14 +23,14 @@
 namespace longreach {
 
 struct LinkFigures {
-  std::optional<double> rtt_s{};   // median of the window; none until an echo came
-  double rtt_min_s = 0.0;          // least of the window
-  double jitter_s = 0.0;           // standard deviation of the one-way time over the window
-  double loss = 0.0;               // fraction of the datagrams of the window that never came
-  double reorder = 0.0;            // fraction that came after a newer one of its type
-  double silence_s = 0.0;          // since the last accepted datagram (infinite before the first)
-  double rate_hz = 0.0;            // accepted datagrams a second
-  double bytes_per_s = 0.0;        // accepted bytes a second, without UDP and IP headers
+  std::optional<double> rtt_s{};  // median of the window; none until an echo came
+  double rtt_min_s = 0.0;         // least of the window
+  double jitter_s = 0.0;          // standard deviation of the one-way time over the window
+  double loss = 0.0;              // fraction of the datagrams of the window that never came
+  double reorder = 0.0;           // fraction that came after a newer one of its type
+  double silence_s = 0.0;         // since the last accepted datagram (infinite before the first)
+  double rate_hz = 0.0;           // accepted datagrams a second
+  double bytes_per_s = 0.0;       // accepted bytes a second, without UDP and IP headers
 };
 
 class DelayMonitor {
@@ -36,7 +38,8 @@ class DelayMonitor {
   DelayMonitor();
 
   /// Books an accepted datagram. `rtt` where its echo allowed to compute one.
-  void on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt, std::size_t bytes);
+  void on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt,
+                   std::size_t bytes);
 
   [[nodiscard]] LinkFigures figures(Time now) const;
   [[nodiscard]] std::optional<Time> last_heard() const { return last_heard_; }
@@ -48,11 +51,11 @@ class DelayMonitor {
   struct Sample {
     Time received{};
     PeerTime sent{};
-    std::int64_t rtt_ns = -1;      // -1: none
+    std::int64_t rtt_ns = -1;  // -1: none
     std::uint64_t sequence = 0;
     std::uint32_t bytes = 0;
-    std::uint8_t type = 0;         // index, 0 to kTypes - 1
-    bool late = false;             // came after a newer one of its type
+    std::uint8_t type = 0;  // index, 0 to kTypes - 1
+    bool late = false;      // came after a newer one of its type
   };
   /// Place of a datagram in its type's numbers; sequence 0: none.
   struct Mark {
@@ -66,8 +69,9 @@ class DelayMonitor {
 
   Ring<Sample> samples_;
   mutable std::vector<std::int64_t> scratch_;
-  std::array<std::uint64_t, kTypes> newest_{};    // highest sequence of each type
-  std::array<Mark, kTypes> forgotten_{};          // of the samples that left the ring, the one with the highest sequence
+  std::array<std::uint64_t, kTypes> newest_{};  // highest sequence of each type
+  std::array<Mark, kTypes>
+      forgotten_{};  // of the samples that left the ring, the one with the highest sequence
   std::optional<Time> first_heard_{};
   std::optional<Time> last_heard_{};
 };

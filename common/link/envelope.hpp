@@ -23,14 +23,14 @@ struct Header {
 
 /// What the sender had last heard, so that the receiver can date it with its own clock.
 struct Echo {
-  std::uint64_t session = 0;   // session of the echoed datagram; 0: nothing heard yet
-  std::int64_t sent_ns = 0;    // its send time, on the clock of the one who sent it
-  Duration held{0};            // how long it lay at the echoing side before this datagram left
+  std::uint64_t session = 0;  // session of the echoed datagram; 0: nothing heard yet
+  std::int64_t sent_ns = 0;   // its send time, on the clock of the one who sent it
+  Duration held{0};           // how long it lay at the echoing side before this datagram left
 };
 
 /// The part of a datagram's body that is common to all messages.
 struct Stamp {
-  PeerTime sent{};             // sender's clock
+  PeerTime sent{};  // sender's clock
   Echo echo{};
 };
 
@@ -38,23 +38,23 @@ struct Stamp {
 template <class Message>
 struct Received {
   std::uint64_t sequence = 0;
-  PeerTime sent{};                   // on the sender's clock
-  Time received{};                   // on this clock
-  std::optional<Time> echo_sent{};   // when this side had sent what the peer had last heard; none: not yet
-  bool newest = true;                // no newer one of its type came before it
+  PeerTime sent{};                  // on the sender's clock
+  Time received{};                  // on this clock
+  std::optional<Time> echo_sent{};  // when this side had sent what the peer had last heard; none: not yet
+  bool newest = true;               // no newer one of its type came before it
   Message message{};
 };
 
 /// Why a datagram was dropped. Order of the checks.
 enum class Rejection : std::uint8_t {
-  kLength,     // shorter than a header or longer than 508 bytes
-  kVersion,    // other wire version
-  kType,       // not a type that this side receives
-  kChecksum,   // damaged on the way
-  kSession,    // an older session, or another peer while this one lives
-  kReplay,     // seen already, or too old to tell
-  kDecode,     // body is not the message that the header promises
-  kValue,      // a field is missing, not finite or out of range
+  kLength,    // shorter than a header or longer than 508 bytes
+  kVersion,   // other wire version
+  kType,      // not a type that this side receives
+  kChecksum,  // damaged on the way
+  kSession,   // an older session, or another peer while this one lives
+  kReplay,    // seen already, or too old to tell
+  kDecode,    // body is not the message that the header promises
+  kValue,     // a field is missing, not finite or out of range
   kCount
 };
 
@@ -62,8 +62,8 @@ constexpr std::size_t kRejectionCount = static_cast<std::size_t>(Rejection::kCou
 using RejectionCounts = std::array<std::uint64_t, kRejectionCount>;
 
 constexpr std::string_view to_string(Rejection r) {
-  constexpr std::array<std::string_view, kRejectionCount> kNames = {"length",  "version", "type",   "checksum",
-                                                                    "session", "replay",  "decode", "value"};
+  constexpr std::array<std::string_view, kRejectionCount> kNames = {
+      "length", "version", "type", "checksum", "session", "replay", "decode", "value"};
   return r < Rejection::kCount ? kNames[static_cast<std::size_t>(r)] : "unknown";
 }
 

@@ -15,7 +15,7 @@ namespace longreach {
 
 constexpr std::uint8_t kWireVersion = 1;
 constexpr std::size_t kHeaderBytes = 22;
-constexpr std::size_t kDatagramMaxBytes = 508;   // passes any IPv4 path unfragmented
+constexpr std::size_t kDatagramMaxBytes = 508;  // passes any IPv4 path unfragmented
 
 /// CRC-32 of `bytes`; `before` is that of what went before them, so that pieces can be chained.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);

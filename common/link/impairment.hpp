@@ -1,14 +1,15 @@
 #pragma once
-// The network as a seeded, pure queue: bytes go in with the time, and come out, or not, when their time has come.
-// Effects, in the order in which they act on a datagram: blackout, loss (independent or Gilbert-Elliott bursts),
-// corruption (one bit flipped), duplication, rate limit (a queue that drops when full), delay with steps, drift and
-// normal jitter (never below zero), reordering (a chosen datagram is let past its predecessors).
-// The same object serves the laboratory and, on the receiving side, the real UDP channel of both programs.
+// The network as a seeded, pure queue: bytes go in with the time, and come out, or not, when their time has
+// come. Effects, in the order in which they act on a datagram: blackout, loss (independent or Gilbert-Elliott
+// bursts), corruption (one bit flipped), duplication, rate limit (a queue that drops when full), delay with
+// steps, drift and normal jitter (never below zero), reordering (a chosen datagram is let past its
+// predecessors). The same object serves the laboratory and, on the receiving side, the real UDP channel of
+// both programs.
 //
-// Jitter is drawn for each datagram by itself, so that it changes the order, as tc netem does. Equal due times keep the
-// order of arrival. Each effect has its own random stream: switching one on does not change what another draws.
-// Bounded: 16384 datagrams under way (more count as queue_dropped), each kept up to 600 bytes: longer ones come out
-// cut to 600, which every receiver refuses by its length.
+// Jitter is drawn for each datagram by itself, so that it changes the order, as tc netem does. Equal due
+// times keep the order of arrival. Each effect has its own random stream: switching one on does not change
+// what another draws. Bounded: 16384 datagrams under way (more count as queue_dropped), each kept up to 600
+// bytes: longer ones come out cut to 600, which every receiver refuses by its length.
 
 #include <array>
 #include <cstddef>
@@ -24,22 +25,22 @@ namespace longreach {
 
 /// One direction of a link. All times one-way.
 struct ImpairmentConfig {
-  double delay_s = 0.0;             // 0 to 100
-  double jitter_s = 0.0;            // standard deviation, 0 to 10
-  double loss = 0.0;                // mean fraction lost, 0 to 1
-  double loss_burst = 1.0;          // mean length of a loss burst in datagrams; 1: independent losses
-  double duplicate = 0.0;           // fraction sent twice
-  double reorder = 0.0;             // fraction let past: delivered with half of the delay
-  double corrupt = 0.0;             // fraction with one bit flipped
-  double rate_bit_per_s = 0.0;      // 0: unlimited
-  double queue_s = 0.2;             // longest queue before the rate limit drops
-  double step_delay_s = 0.0;        // added to the delay while the step lasts
-  double step_start_s = 0.0;        // start of the step, after the profile was set
-  double step_duration_s = 0.0;     // 0: no step
-  double drift_s_per_s = 0.0;       // change of delay with time (range rate over c)
-  double blackout_start_s = 0.0;    // first loss of signal, after the profile was set
-  double blackout_duration_s = 0.0; // 0: none
-  double blackout_period_s = 0.0;   // repeat; 0: once
+  double delay_s = 0.0;              // 0 to 100
+  double jitter_s = 0.0;             // standard deviation, 0 to 10
+  double loss = 0.0;                 // mean fraction lost, 0 to 1
+  double loss_burst = 1.0;           // mean length of a loss burst in datagrams; 1: independent losses
+  double duplicate = 0.0;            // fraction sent twice
+  double reorder = 0.0;              // fraction let past: delivered with half of the delay
+  double corrupt = 0.0;              // fraction with one bit flipped
+  double rate_bit_per_s = 0.0;       // 0: unlimited
+  double queue_s = 0.2;              // longest queue before the rate limit drops
+  double step_delay_s = 0.0;         // added to the delay while the step lasts
+  double step_start_s = 0.0;         // start of the step, after the profile was set
+  double step_duration_s = 0.0;      // 0: no step
+  double drift_s_per_s = 0.0;        // change of delay with time (range rate over c)
+  double blackout_start_s = 0.0;     // first loss of signal, after the profile was set
+  double blackout_duration_s = 0.0;  // 0: none
+  double blackout_period_s = 0.0;    // repeat; 0: once
 };
 
 /// What happened to the datagrams that were pushed.
@@ -71,9 +72,9 @@ class Impairment {
   /// A datagram under way: its bytes lie in a slot.
   struct Parcel {
     Time due{};
-    std::uint64_t arrival = 0;      // counts parcels: keeps the order of equal due times
+    std::uint64_t arrival = 0;  // counts parcels: keeps the order of equal due times
     std::uint32_t slot = 0;
-    std::uint32_t size = 0;         // bytes, at most kSlotBytes
+    std::uint32_t size = 0;  // bytes, at most kSlotBytes
     // Orders a heap whose front is the first that is due.
     bool operator<(const Parcel& other) const {
       return due != other.due ? due > other.due : arrival > other.arrival;
@@ -85,8 +86,8 @@ class Impairment {
     bool lost = false;
     bool corrupted = false;
     bool duplicated = false;
-    double flipped = 0.0;                      // place of the flipped bit, fraction of the datagram
-    std::array<double, kCopies> jitter{};      // normal deviates of the original and of its copy
+    double flipped = 0.0;                  // place of the flipped bit, fraction of the datagram
+    std::array<double, kCopies> jitter{};  // normal deviates of the original and of its copy
     std::array<bool, kCopies> let_past{};
   };
   struct Streams {
@@ -105,12 +106,12 @@ class Impairment {
   ImpairmentConfig config_;
   ImpairmentCounts counts_{};
   Streams streams_;
-  std::optional<bool> in_burst_{};     // Gilbert-Elliott state; none before the first draw
-  std::optional<Time> set_at_{};       // when the profile took effect; none before the first push or pop
-  Time queue_free_at_{};               // when the rate limit has sent all that it holds
+  std::optional<bool> in_burst_{};  // Gilbert-Elliott state; none before the first draw
+  std::optional<Time> set_at_{};    // when the profile took effect; none before the first push or pop
+  Time queue_free_at_{};            // when the rate limit has sent all that it holds
   std::uint64_t arrivals_ = 0;
-  std::vector<std::byte> bytes_;       // kSlots times kSlotBytes
-  std::vector<std::uint32_t> free_;    // slots without a parcel
+  std::vector<std::byte> bytes_;     // kSlots times kSlotBytes
+  std::vector<std::uint32_t> free_;  // slots without a parcel
   std::vector<Parcel> heap_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// Master to slave: one absolute, idempotent goal a period. The newest sequence wins, so a lost one costs lateness
-// only. The goal is a displacement from the engagement's anchor, the slave's measured pose when it accepted the
-// engagement: the first goal is zero and nothing can jump.
+// Master to slave: one absolute, idempotent goal a period. The newest sequence wins, so a lost one costs
+// lateness only. The goal is a displacement from the engagement's anchor, the slave's measured pose when it
+// accepted the engagement: the first goal is zero and nothing can jump.
 
 #include <cstdint>
 
@@ -14,13 +14,14 @@ enum class MotionMode : std::uint8_t { kRate = 0, kPosition = 1 };
 enum class GoalKind : std::uint8_t { kPosition = 0, kOrientation = 1 };
 
 struct MotionCommand {
-  std::uint32_t engagement = 0;             // number of the engagement asked for; 0: never engaged
+  std::uint32_t engagement = 0;  // number of the engagement asked for; 0: never engaged
   Request request = Request::kHold;
   MotionMode mode = MotionMode::kPosition;
-  double scale = 1.0;                       // k_scale, 0.05 to 1
-  GoalKind goal_kind = GoalKind::kPosition; // which of the two below this datagram carries
-  Vector3 position_m = Vector3::Zero();     // goal minus anchor, in W
-  Vector3 rotation_rad = Vector3::Zero();   // rotation vector from anchor to goal, in W: R_goal = exp(v) R_anchor
+  double scale = 1.0;                        // k_scale, 0.05 to 1
+  GoalKind goal_kind = GoalKind::kPosition;  // which of the two below this datagram carries
+  Vector3 position_m = Vector3::Zero();      // goal minus anchor, in W
+  Vector3 rotation_rad =
+      Vector3::Zero();  // rotation vector from anchor to goal, in W: R_goal = exp(v) R_anchor
 };
 
 }  // namespace longreach

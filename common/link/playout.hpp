@@ -1,11 +1,11 @@
 #pragma once
 // Turns jittery arrivals into a smooth goal. Goals are played at earliest arrival + playout delay, linearly
 // interpolated between sequences; on silence the last goal is held. More delay: smoother motion, later.
-// The delay is fixed, or the `quantile` of the lateness seen in the last 5 s (adaptive; lateness that `delay_max_s`
-// could not make up for is left out). It changes by at most 0.05 s/s while goals are being played, so that the goal
-// does not jump. What is later than that is played when it comes. A link whose transit falls by more than 0.25 s at
-// once is followed at once.
-// Also keeps the recent goals, to answer which command led to a given place.
+// The delay is fixed, or the `quantile` of the lateness seen in the last 5 s (adaptive; lateness that
+// `delay_max_s` could not make up for is left out). It changes by at most 0.05 s/s while goals are being
+// played, so that the goal does not jump. What is later than that is played when it comes. A link whose
+// transit falls by more than 0.25 s at once is followed at once. Also keeps the recent goals, to answer which
+// command led to a given place.
 //
 // Does not handle orientation separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
 
@@ -29,8 +29,8 @@ struct PlayoutConfig {
 
 /// A goal with the command that it came from.
 struct PlayoutGoal {
-  double sequence = 0.0;            // fractional between two commands
-  Vector6 goal = Vector6::Zero();   // [position_m; rotation_rad]
+  double sequence = 0.0;           // fractional between two commands
+  Vector6 goal = Vector6::Zero();  // [position_m; rotation_rad]
 };
 
 class Playout {
@@ -45,11 +45,13 @@ class Playout {
   /// The goal to follow now; none before the first push. Never moves back to an older sequence.
   std::optional<PlayoutGoal> play(Time now);
 
-  /// Fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane through `point_m`
-  /// with normal `n` (unit): where n . (position - point) changes its sign from negative, or is nearest to zero.
-  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence) const;
+  /// Fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane through
+  /// `point_m` with normal `n` (unit): where n . (position - point) changes its sign from negative, or is
+  /// nearest to zero.
+  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m,
+                                               double last_sequence) const;
 
-  [[nodiscard]] double delay_s() const;   // playout delay in use
+  [[nodiscard]] double delay_s() const;  // playout delay in use
   void clear();
 
  private:
@@ -60,8 +62,8 @@ class Playout {
   };
   struct Lateness {
     Time received{};
-    std::int64_t transit_ns = 0;      // received - sent, across two clocks
-    std::int64_t late_ns = 0;         // beyond the earliest arrival that was known then
+    std::int64_t transit_ns = 0;  // received - sent, across two clocks
+    std::int64_t late_ns = 0;     // beyond the earliest arrival that was known then
   };
 
   bool insert(const Entry& entry);
@@ -75,13 +77,13 @@ class Playout {
 
   PlayoutConfig config_;
   ClockOffset offset_;
-  Ring<Entry> entries_;                  // ascending in sequence
-  Ring<Lateness> lateness_;              // of the last 5 s
+  Ring<Entry> entries_;      // ascending in sequence
+  Ring<Lateness> lateness_;  // of the last 5 s
   std::vector<std::int64_t> scratch_;
-  Duration lag_{0};                      // now - lag_ is the send time that is played now: offset + playout delay
-  Duration quantile_{0};                 // adaptive delay as last computed
-  std::optional<Time> quantile_at_{};    // when
-  std::optional<Time> stepped_at_{};     // last play()
+  Duration lag_{0};       // now - lag_ is the send time that is played now: offset + playout delay
+  Duration quantile_{0};  // adaptive delay as last computed
+  std::optional<Time> quantile_at_{};  // when
+  std::optional<Time> stepped_at_{};   // last play()
   std::optional<PlayoutGoal> played_{};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Accepts each sequence number once. Numbers that lie `width` or more below the newest are refused, because nobody
-// can tell any more (RFC 6479's idea: a ring of words of bits, one word longer than the window).
+// Accepts each sequence number once. Numbers that lie `width` or more below the newest are refused, because
+// nobody can tell any more (RFC 6479's idea: a ring of words of bits, one word longer than the window).
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ class ReplayWindow {
   /// True the first time a number (>= 1) within the window is seen. Zero is never accepted.
   bool accept(std::uint64_t sequence);
 
-  [[nodiscard]] std::uint64_t newest() const { return newest_; }   // 0: none yet
+  [[nodiscard]] std::uint64_t newest() const { return newest_; }  // 0: none yet
   void clear();
 
  private:

@@ -14,11 +14,11 @@ enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, k
 /// First cause of leaving Engaged.
 enum class HoldCause : std::uint8_t {
   kNone,
-  kOperator,        // asked for by the operator
-  kLinkSilent,      // gap timer: nothing heard
-  kLinkStale,       // age bound: what the other side acts on is too old
-  kPeerRestarted,   // the other side began a new session
-  kPeerHolds,       // the other side holds or stopped
+  kOperator,       // asked for by the operator
+  kLinkSilent,     // gap timer: nothing heard
+  kLinkStale,      // age bound: what the other side acts on is too old
+  kPeerRestarted,  // the other side began a new session
+  kPeerHolds,      // the other side holds or stopped
   kRobotFault,
   kDeviceFault
 };
@@ -30,12 +30,12 @@ struct ContactStiffness {
   // Which command's goal is the place of the surface, between sequences; 0 without a touch. Refined while the
   // contact lasts.
   double touch_sequence = 0.0;
-  std::uint32_t touch = 0;   // counts touches from 1; a new number is a new contact
+  std::uint32_t touch = 0;  // counts touches from 1; a new number is a new contact
   bool in_contact = false;
 };
 
 struct StiffnessReport {
-  std::uint32_t engagement = 0;      // engagement that the slave follows or last followed
+  std::uint32_t engagement = 0;  // engagement that the slave follows or last followed
   SafetyState state = SafetyState::kIdle;
   HoldCause cause = HoldCause::kNone;
   ContactStiffness translation{};

@@ -37,20 +37,20 @@ struct Telemetry {
   SafetyState state = SafetyState::kIdle;
   HoldCause cause = HoldCause::kNone;
   std::uint32_t engagement = 0;
-  Pose X_WE{};                                   // measured tool pose
-  Pose X_WE_goal{};                              // goal that is being followed
-  std::array<double, kMaxJoints> joint_rad{};    // measured
-  Wrench F_E_W{};                                // measured, by the environment on the tool
+  Pose X_WE{};                                 // measured tool pose
+  Pose X_WE_goal{};                            // goal that is being followed
+  std::array<double, kMaxJoints> joint_rad{};  // measured
+  Wrench F_E_W{};                              // measured, by the environment on the tool
   ContactEstimate estimate{};
-  double penetration_m = 0.0;                    // measured depth below the estimated surface; 0 without contact
+  double penetration_m = 0.0;  // measured depth below the estimated surface; 0 without contact
   Clamps clamps{};
   // The slave's view of the way from the master.
-  double up_loss = 0.0;                          // fraction
-  double up_jitter_s = 0.0;                      // standard deviation of the one-way time
+  double up_loss = 0.0;      // fraction
+  double up_jitter_s = 0.0;  // standard deviation of the one-way time
   double playout_delay_s = 0.0;
-  std::uint64_t rejected = 0;                    // datagrams dropped, all reasons
+  std::uint64_t rejected = 0;  // datagrams dropped, all reasons
   std::uint64_t limit_violations = 0;
-  std::uint64_t late_ticks = 0;                  // ticks late by over 100 ms
+  std::uint64_t late_ticks = 0;  // ticks late by over 100 ms
 };
 
 }  // namespace longreach
