@@ -12,10 +12,10 @@ namespace longreach {
 using JointVector = Eigen::Matrix<double, kMaxJoints, 1>;
 
 struct RobotState {
-  JointVector joint_rad = JointVector::Zero();    // measured
+  JointVector joint_rad = JointVector::Zero();  // measured
   JointVector joint_rad_per_s = JointVector::Zero();
-  Wrench F_F_W{};                                 // force sensor, in W, by the environment on the tool
-  bool ok = true;                                 // false: the robot has stopped by itself
+  Wrench F_F_W{};  // force sensor, in W, by the environment on the tool
+  bool ok = true;  // false: the robot has stopped by itself
 };
 
 class Robot {

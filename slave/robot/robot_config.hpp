@@ -8,7 +8,8 @@
 
 namespace longreach {
 
-/// Row of a standard Denavit-Hartenberg table, A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha), and the joint's limits.
+/// Row of a standard Denavit-Hartenberg table, A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha), and the joint's
+/// limits.
 struct JointConfig {
   double a_m = 0.0;
   double alpha_rad = 0.0;
@@ -25,7 +26,7 @@ struct RobotConfig {
   std::string name;
   std::string basis;
   std::array<JointConfig, kMaxJoints> joint{};
-  double servo_hz = 10.0;    // bandwidth of the joint servos; 0: ideal
+  double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
 };
 
 }  // namespace longreach

@@ -14,7 +14,7 @@ struct MaterialConfig {
   double stiffness_n_per_m = 1000.0;
   double reference_depth_m = 0.001;
   double exponent = 1.0;
-  double damping_s_per_m = 0.1;   // a = lambda/k
+  double damping_s_per_m = 0.1;  // a = lambda/k
 };
 
 /// Infinite plane; the solid lies behind it.
@@ -26,7 +26,7 @@ struct PlaneConfig {
 
 struct SurfaceConfig {
   std::string name;
-  std::string material;   // by name
+  std::string material;  // by name
   PlaneConfig plane{};
 };
 

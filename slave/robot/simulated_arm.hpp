@@ -1,0 +1,64 @@
+#pragma once
+// A robot that is not there: six joints with first-order servos, the tool by forward kinematics, the scene's
+// force on the tool, a noisy force sensor.
+//   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick; 0 Hz: q̇
+//   only limited
+// Its time is what read() is given. It watches its master: without a setpoint for 20 ms it stops its joints
+// where they are, until the next one. Joints do not feel the force (the motion is imposed) and are measured
+// exactly. The accessors that begin with true_ are for the laboratory alone.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/core/random.hpp"
+#include "slave/robot/kinematics.hpp"
+#include "slave/scene/scene.hpp"
+#include "slave/slave_config.hpp"
+
+namespace longreach {
+
+class SimulatedArm : public Robot {
+ public:
+  /// Throws std::invalid_argument as Scene does.
+  SimulatedArm(const SlaveConfig& config, Random random);
+
+  RobotState read(Time now) override;
+  /// A setpoint that is not finite is ignored and counted.
+  void write(const JointVector& joint_setpoint_rad) override;
+
+  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // forward kinematics of start_rad
+  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // at the last read
+  [[nodiscard]] const Vector3& true_velocity() const { return v_WE_; }  // of E in W, m/s
+  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }    // without noise
+  [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
+  /// Static secant F/p at `depth_m` of the surface in contact, or of the one touched last, else of the first;
+  /// N/m, 0 in a scene without surfaces.
+  [[nodiscard]] double material_secant(double depth_m) const;
+  [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
+  [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
+
+ private:
+  void move(double dt);
+  void feel();
+
+  RobotConfig robot_;
+  SensingConfig sensing_;
+  Kinematics kinematics_;
+  Pose X_WE_start_;
+  Scene scene_;
+  Random random_;
+  std::optional<Time> now_{};
+  std::optional<Time> written_{};
+  JointVector joint_rad_;
+  JointVector joint_rad_per_s_ = JointVector::Zero();
+  JointVector setpoint_rad_;
+  Pose X_WE_{};
+  Vector3 v_WE_ = Vector3::Zero();
+  Wrench F_E_W_{};
+  SceneContact contact_{};
+  int surface_ = 0;
+  bool stopped_ = false;
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace longreach
