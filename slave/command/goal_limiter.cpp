@@ -1,0 +1,115 @@
+#include "slave/command/goal_limiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
+
+Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
+  return log_rotation(to * from.conjugate());
+}
+
+// The goal's velocity moves towards what was seen by no more than the limits: a jump of the goal is not a
+// velocity.
+Vector3 believe(const Vector3& before, const Vector3& seen, const VectorLimits& limits) {
+  return before + clamp_norm(clamp_norm(seen, limits.speed) - before, limits.acceleration * limits.dt);
+}
+
+}  // namespace
+
+void GoalLimiter::reset(const Pose& X_WE) {
+  X_WE_ = X_WE;
+  X_WE_before_ = X_WE;
+  V_WE_ = {};
+  V_WE_goal_ = {};
+  X_WE_goal_.reset();
+}
+
+void GoalLimiter::correct(const Pose& X_WE, double dt) {
+  V_WE_.linear = clamp_norm((X_WE.p - X_WE_before_.p) / dt, config_.speed_max_m_per_s);
+  V_WE_.angular = clamp_norm(rotation_between(X_WE_before_.q, X_WE.q) / dt, config_.speed_max_rad_per_s);
+  X_WE_ = X_WE;
+}
+
+LimiterOutput GoalLimiter::step(const LimiterInput& input) {
+  LimiterOutput out;
+  X_WE_before_ = X_WE_;
+  if (!input.X_WE_goal || !finite(*input.X_WE_goal)) {
+    brake(input.dt);
+    out.X_WE = X_WE_;
+    return out;
+  }
+  const Pose goal = inside(*input.X_WE_goal, out);
+  observe_goal(goal, input.dt);
+
+  const double share = std::clamp(input.speed_share, 0.0, 1.0);
+  VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
+  linear.caps = {guard(input.contact), workspace(input.dt)};
+  const VectorStep along =
+      pursue(linear, {share * config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, input.dt});
+  const VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};
+  const VectorStep about =
+      pursue(angular, {share * config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
+
+  out.tool_speed = along.limited || about.limited;
+  out.force_guard = along.capped[0];
+  out.workspace = out.workspace || along.capped[1];
+  V_WE_ = {about.velocity, along.velocity};
+  X_WE_.p += along.velocity * input.dt;
+  X_WE_.q = (exp_rotation(about.velocity * input.dt) * X_WE_.q).normalized();
+  out.X_WE = X_WE_;
+  return out;
+}
+
+void GoalLimiter::brake(double dt) {
+  V_WE_.linear -= clamp_norm(V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
+  V_WE_.angular -= clamp_norm(V_WE_.angular, config_.acceleration_max_rad_per_s2 * dt);
+  X_WE_.p += V_WE_.linear * dt;
+  X_WE_.q = (exp_rotation(V_WE_.angular * dt) * X_WE_.q).normalized();
+  X_WE_goal_.reset();
+  V_WE_goal_ = {};
+}
+
+Pose GoalLimiter::inside(const Pose& goal, LimiterOutput& out) const {
+  const Vector3 from_centre = goal.p - centre_m_;
+  const Vector3 clamped = clamp_norm(from_centre, config_.workspace_m);
+  out.workspace = clamped != from_centre;
+  return {centre_m_ + clamped, goal.q.normalized()};
+}
+
+void GoalLimiter::observe_goal(const Pose& goal, double dt) {
+  if (X_WE_goal_) {
+    const VectorLimits linear{config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, dt};
+    const VectorLimits angular{config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, dt};
+    V_WE_goal_.linear = believe(V_WE_goal_.linear, (goal.p - X_WE_goal_->p) / dt, linear);
+    V_WE_goal_.angular = believe(V_WE_goal_.angular, rotation_between(X_WE_goal_->q, goal.q) / dt, angular);
+  }
+  X_WE_goal_ = goal;
+}
+
+VelocityCap GoalLimiter::guard(const ContactForce& contact) const {
+  VelocityCap cap;
+  if (!contact.in_contact) return cap;
+  cap.active = true;
+  cap.direction = -contact.reaction;
+  const double margin_n = std::max(config_.force_guard_n - contact.force_n, 0.0);
+  cap.speed = std::sqrt(2.0 * config_.acceleration_max_m_per_s2 * margin_n / config_.guard_stiffness_n_per_m);
+  return cap;
+}
+
+// Outwards, the tool can always stop at the sphere, whatever its goal did on the way.
+VelocityCap GoalLimiter::workspace(double dt) const {
+  VelocityCap cap;
+  const Vector3 from_centre = X_WE_.p - centre_m_;
+  const double radius = from_centre.stableNorm();
+  if (!(radius > 0.5 * config_.workspace_m)) return cap;
+  cap.active = true;
+  cap.direction = from_centre / radius;
+  cap.speed = braking_speed(config_.workspace_m - radius, 0.8 * config_.acceleration_max_m_per_s2, dt);
+  return cap;
+}
+
+}  // namespace longreach

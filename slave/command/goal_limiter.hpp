@@ -1,0 +1,72 @@
+#pragma once
+// From the goal that the operator asks for to a setpoint pose that the robot may be asked for: speed and
+// acceleration of the tool in translation and rotation, a workspace sphere about the tool's start, and the
+// force guard:
+//   in contact, the speed into the contact is at most √(2 a (G - F)/k_max), and 0 from F = G on; outwards it
+//   is free.
+// A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
+// Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
+
+#include <optional>
+
+#include "slave/command/command_config.hpp"
+#include "slave/command/vector_limit.hpp"
+
+namespace longreach {
+
+/// What the force guard knows about the contact.
+struct ContactForce {
+  bool in_contact = false;
+  Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
+  double force_n = 0.0;                // measured along it
+};
+
+struct LimiterInput {
+  std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay
+  ContactForce contact{};
+  double speed_share = 1.0;  // 0 to 1 of the speed limits: slow-down asked for by the joints
+  double dt = 0.0;           // s, > 0
+};
+
+struct LimiterOutput {
+  Pose X_WE{};              // setpoint
+  bool tool_speed = false;  // speed or acceleration kept the setpoint from its goal
+  bool workspace = false;
+  bool force_guard = false;
+};
+
+class GoalLimiter {
+ public:
+  GoalLimiter(const CommandConfig& config, const Vector3& workspace_centre_m)
+      : config_(config), centre_m_(workspace_centre_m) {}
+
+  void configure(const CommandConfig& config) { config_ = config; }
+
+  /// Begins at rest.
+  void reset(const Pose& X_WE);
+  /// The robot could only be asked for `X_WE` instead of the last setpoint, `dt` after the one before.
+  void correct(const Pose& X_WE, double dt);
+
+  LimiterOutput step(const LimiterInput& input);
+
+  [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
+  [[nodiscard]] const Twist& velocity() const { return V_WE_; }
+  [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
+
+ private:
+  void brake(double dt);
+  Pose inside(const Pose& goal, LimiterOutput& out) const;
+  void observe_goal(const Pose& goal, double dt);
+  VelocityCap guard(const ContactForce& contact) const;
+  VelocityCap workspace(double dt) const;
+
+  CommandConfig config_;
+  Vector3 centre_m_;
+  Pose X_WE_{};
+  Pose X_WE_before_{};               // one step ago
+  Twist V_WE_{};                     // of the setpoint
+  std::optional<Pose> X_WE_goal_{};  // of the step before
+  Twist V_WE_goal_{};                // as far as the limits allow to believe it
+};
+
+}  // namespace longreach

@@ -1,0 +1,71 @@
+#include "slave/command/vector_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kBrakingShare = 0.8;
+
+// Brakes along the cap first and spends what acceleration is left on the rest: both moves end inside the
+// ball.
+Vector3 brake_for(const VelocityCap& cap, const Vector3& velocity, const Vector3& wanted,
+                  const VectorLimits& limits) {
+  const double reach = limits.acceleration * limits.dt;
+  const double along = velocity.dot(cap.direction);
+  const double along_next = along + std::clamp(wanted.dot(cap.direction) - along, -reach, reach);
+  const double change = along_next - along;
+  const Vector3 across = velocity - along * cap.direction;
+  const double across_max = std::sqrt(std::max(limits.speed * limits.speed - along_next * along_next, 0.0));
+  const Vector3 across_wanted = clamp_norm(wanted - wanted.dot(cap.direction) * cap.direction, across_max);
+  const double left = std::sqrt(std::max(reach * reach - change * change, 0.0));
+  return along_next * cap.direction + across + clamp_norm(across_wanted - across, left);
+}
+
+}  // namespace
+
+double braking_speed(double distance, double acceleration, double dt) {
+  if (!(distance > 0.0)) return 0.0;
+  const double step = acceleration * dt * dt;
+  const double n = std::max(1.0, std::ceil(0.5 * (std::sqrt(1.0 + 8.0 * distance / step) - 1.0)));
+  return distance / (n * dt) + acceleration * dt * (n - 1.0) * 0.5;
+}
+
+VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
+  VectorStep result;
+  const Vector3 gap =
+      p.error - p.goal_velocity * limits.dt;  // goal before its step minus position before ours
+  const double distance = gap.stableNorm();
+  const double speed = braking_speed(distance, kBrakingShare * limits.acceleration, limits.dt);
+  Vector3 wanted = p.goal_velocity;
+  if (distance > 0.0) wanted += gap * (speed / distance);
+  const Vector3 clamped = clamp_norm(wanted, limits.speed);
+  result.limited = clamped != wanted;
+  wanted = clamped;
+
+  const VelocityCap* worst = nullptr;
+  double worst_excess = 0.0;
+  for (std::size_t i = 0; i < p.caps.size(); ++i) {
+    const VelocityCap& cap = p.caps[i];
+    if (!cap.active) continue;
+    const double excess_wanted = wanted.dot(cap.direction) - cap.speed;
+    if (excess_wanted > 0.0) {
+      wanted -= excess_wanted * cap.direction;
+      result.capped[i] = true;
+    }
+    const double excess = p.velocity.dot(cap.direction) - cap.speed;
+    if (excess > worst_excess) {
+      worst_excess = excess;
+      worst = &cap;
+    }
+  }
+  const double reach = limits.acceleration * limits.dt;
+  const Vector3 change = wanted - p.velocity;
+  result.limited = result.limited || change.stableNorm() > reach;
+  result.velocity =
+      worst ? brake_for(*worst, p.velocity, wanted, limits) : p.velocity + clamp_norm(change, reach);
+  return result;
+}
+
+}  // namespace longreach

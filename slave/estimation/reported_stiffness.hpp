@@ -1,0 +1,34 @@
+#pragma once
+// What of the estimate is told to the operator. Each change of the rendered stiffness moves the felt wall a
+// little, so the reported value is held: it appears when its sd is below `first_sd`, then changes only by
+// more than max(deadband, 3 sd), or once a touch when its sd is below 1 % and it is off by more than max(2 %,
+// 3 sd).
+
+#include "slave/estimation/contact_estimator.hpp"
+
+namespace longreach {
+
+class ReportedStiffness {
+ public:
+  explicit ReportedStiffness(const EstimatorConfig& config) : config_(config) {}
+
+  void configure(const EstimatorConfig& config) { config_ = config; }
+  void begin() {
+    stiffness_n_per_m_ = depth_m_ = 0.0;
+    corrected_ = false;
+  }
+
+  /// True if the reported value has changed.
+  bool step(const SecantEstimate& estimate);
+
+  [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: none yet
+  [[nodiscard]] double depth_m() const { return depth_m_; }                      // that it belongs to
+
+ private:
+  EstimatorConfig config_;
+  double stiffness_n_per_m_ = 0.0;
+  double depth_m_ = 0.0;
+  bool corrected_ = false;
+};
+
+}  // namespace longreach
