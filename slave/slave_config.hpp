@@ -1,16 +1,17 @@
 #pragma once
-// Every parameter of the slave as plain values. Meaning, unit, default and range: proto/config.proto; the same names.
+// Every parameter of the slave as plain values. Meaning, unit, default and range: proto/config.proto; the
+// same names.
 
 #include <cstdint>
 #include <string>
 
+#include "common/core/loop_config.hpp"
 #include "common/link/impairment.hpp"
 #include "common/link/playout.hpp"
-#include "common/core/loop_config.hpp"
-#include "slave/robot/robot_config.hpp"
-#include "slave/scene/scene_config.hpp"
 #include "slave/command/command_config.hpp"
 #include "slave/estimation/estimator_config.hpp"
+#include "slave/robot/robot_config.hpp"
+#include "slave/scene/scene_config.hpp"
 #include "slave/sensing/sensing_config.hpp"
 
 namespace longreach {

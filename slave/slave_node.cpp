@@ -1,1 +1,294 @@
-// placeholder
+#include "slave/slave_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/link/playout.hpp"
+#include "slave/contact.hpp"
+#include "slave/motion.hpp"
+#include "slave/slave_safety.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDtMax = 0.02;            // a later tick moves no further than this
+constexpr double kReachedM = 1e-3;         // a goal counts as reached
+constexpr double kSetpointLostRad = 0.05;  // more than any servo lag: the joints are elsewhere
+constexpr double kGoalMaxM = 1e3;          // a goal beyond is an impossible value
+constexpr double kGoalMaxRad = 100.0;
+
+bool finite(const RobotState& robot) {
+  return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite() && robot.F_F_W.force.allFinite() &&
+         robot.F_F_W.moment.allFinite();
+}
+
+bool possible(const MotionCommand& command) {
+  return command.position_m.allFinite() && command.rotation_rad.allFinite() &&
+         command.position_m.stableNorm() <= kGoalMaxM && command.rotation_rad.stableNorm() <= kGoalMaxRad;
+}
+
+void merge(Clamps& all, const Clamps& one) {
+  all.tool_speed = all.tool_speed || one.tool_speed;
+  all.joint_speed = all.joint_speed || one.joint_speed;
+  all.joint_position = all.joint_position || one.joint_position;
+  all.workspace = all.workspace || one.workspace;
+  all.force_guard = all.force_guard || one.force_guard;
+  all.singularity = all.singularity || one.singularity;
+  all.unreachable = all.unreachable || one.unreachable;
+}
+
+// Due at a steady pace; late calls do not shift it, a long pause does not pile up.
+bool due(std::optional<Time>& next, Time now, double rate_hz) {
+  if (next && now < *next) return false;
+  const Duration period = from_seconds(1.0 / rate_hz);
+  next = next && now < *next + period ? *next + period : now + period;
+  return true;
+}
+
+}  // namespace
+
+struct SlaveNode::State {
+  explicit State(const SlaveConfig& config)
+      : link(config.link),
+        loop_hz(config.loop.rate_hz),
+        touchable(!config.scene.surface.empty()),
+        safety(config.safety),
+        motion(config.command, config.robot),
+        contact(config.sensing, config.estimator),
+        playout(config.playout) {}
+
+  double tick(Time now);
+  bool decide(const SlaveInput& input);
+  void begin_engagement(const RobotState& robot);
+  void take_goals(std::span<const Received<MotionCommand>> commands);
+  std::optional<Pose> play(Time now);
+  void feel(const RobotState& robot, double dt);
+  void book_reached();
+  void report(Time now, SlaveOutput& output);
+  void send_telemetry(const SlaveInput& input, SlaveOutput& output);
+  void show(const RobotState& robot, const Clamps& clamps, std::uint64_t rejected_values);
+
+  SlaveLinkConfig link;
+  double loop_hz;
+  bool touchable;  // the scene has surfaces: else there is no contact, sensor or estimator
+  SlaveSafety safety;
+  SlaveMotion motion;
+  SlaveContact contact;
+  Playout playout;
+  SlaveView view;
+
+  std::optional<Time> stepped_at{};
+  bool robot_ok = true;
+  bool robot_seen = false;
+  Pose X_WE_anchor{};
+  Vector6 newest_goal = Vector6::Zero();  // [position; rotation], each as last sent
+  double played_sequence = 0.0;
+  std::uint64_t reached_sequence = 0;
+
+  std::optional<Time> report_due{};
+  std::uint64_t report_sequence = 0;
+  StiffnessReport reported{};
+  double reported_n_per_m = 0.0;
+  std::optional<Time> telemetry_due{};
+  std::uint64_t telemetry_sequence = 0;
+  Clamps clamps_since_telemetry{};
+  std::uint64_t rejected_values = 0;
+};
+
+SlaveNode::SlaveNode(const SlaveConfig& config) : state_(std::make_unique<State>(config)) {}
+SlaveNode::~SlaveNode() = default;
+
+const SlaveView& SlaveNode::view() const { return state_->view; }
+bool SlaveNode::engaged() const { return state_->safety.state() == SafetyState::kEngaged; }
+
+void SlaveNode::configure(const SlaveConfig& config) {
+  State& s = *state_;
+  s.link = config.link;
+  s.safety.configure(config.safety);
+  s.motion.configure(config.command);
+  s.contact.configure(config.sensing, config.estimator);
+  s.playout.configure(config.playout);
+}
+
+SlaveOutput SlaveNode::step(const SlaveInput& input) {
+  State& s = *state_;
+  const double dt = s.tick(input.now);
+  s.robot_ok = input.robot.ok && finite(input.robot);
+  if (!s.robot_seen && s.robot_ok) {
+    s.motion.reset(input.robot.joint_rad);
+    s.robot_seen = true;
+  }
+  if (s.decide(input)) s.begin_engagement(input.robot);
+  s.take_goals(input.commands);
+
+  std::optional<Pose> X_WE_goal;
+  if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
+  if (s.robot_ok) s.feel(input.robot, dt);
+  Clamps clamps;
+  if (dt > 0.0) clamps = s.motion.step({X_WE_goal, s.contact.force(), dt});
+  s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
+  s.show(input.robot, clamps, s.rejected_values);
+  s.book_reached();
+
+  SlaveOutput output;
+  output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
+  s.report(input.now, output);
+  s.send_telemetry(input, output);
+  s.view.touch_sequence = s.contact.touch_sequence();
+  return output;
+}
+
+double SlaveNode::State::tick(Time now) {
+  const double dt = stepped_at ? to_seconds(now - *stepped_at) : 1.0 / loop_hz;
+  stepped_at = now;
+  return std::clamp(dt, 0.0, kDtMax);
+}
+
+// True if a new engagement begins.
+bool SlaveNode::State::decide(const SlaveInput& input) {
+  SlaveSafetyInput in;
+  in.now = input.now;
+  in.last_heard = input.last_heard;
+  in.peer_session_count = input.peer_session_count;
+  in.robot_ok = robot_ok;
+  in.stop = input.stop;
+  for (const Received<MotionCommand>& received : input.commands) {
+    const MotionCommand& command = received.message;
+    const bool valid = possible(command);
+    if (!valid) ++rejected_values;
+    // A stop is a stop, whatever else is wrong with the command.
+    if (!received.newest || (!valid && command.request != Request::kStop)) continue;
+    in.commanded = true;
+    in.engagement = command.engagement;
+    in.request = command.request;
+    in.echo_sent = received.echo_sent;
+  }
+  return safety.step(in);
+}
+
+void SlaveNode::State::begin_engagement(const RobotState& robot) {
+  if ((robot.joint_rad - motion.joint_setpoint_rad()).cwiseAbs().maxCoeff() > kSetpointLostRad) {
+    motion.reset(robot.joint_rad);
+  }
+  X_WE_anchor = motion.X_WE();
+  playout.clear();
+  contact.forget_goals();
+  newest_goal.setZero();
+  played_sequence = 0.0;
+  reached_sequence = 0;
+}
+
+void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> commands) {
+  const SafetyState now = safety.state();
+  if (now != SafetyState::kEngaged && now != SafetyState::kHolding) return;
+  for (const Received<MotionCommand>& received : commands) {
+    const MotionCommand& command = received.message;
+    if (command.engagement != safety.engagement() || command.request != Request::kEngage ||
+        !possible(command)) {
+      continue;
+    }
+    Vector6 goal = newest_goal;
+    if (command.goal_kind == GoalKind::kPosition) {
+      goal.head<3>() = command.position_m;
+    } else {
+      goal.tail<3>() = command.rotation_rad;
+    }
+    if (received.newest) newest_goal = goal;
+    playout.push(received.received, received.sent, received.sequence, goal);
+  }
+}
+
+std::optional<Pose> SlaveNode::State::play(Time now) {
+  const std::optional<PlayoutGoal> played = playout.play(now);
+  if (!played) return X_WE_anchor;
+  played_sequence = played->sequence;
+  const Quaternion q = exp_rotation(played->goal.tail<3>()) * X_WE_anchor.q;
+  return Pose{X_WE_anchor.p + played->goal.head<3>(), q.normalized()};
+}
+
+void SlaveNode::State::feel(const RobotState& robot, double dt) {
+  if (!touchable) {
+    view.X_WE = motion.kinematics().forward(robot.joint_rad);
+    return;
+  }
+  const ToolKinematics tool = motion.kinematics().forward_with_jacobian(robot.joint_rad);
+  view.X_WE = tool.X_WE;
+  const Vector3 v_WE = tool.J.bottomRows<3>() * robot.joint_rad_per_s;
+  const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
+  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, dt});
+}
+
+void SlaveNode::State::book_reached() {
+  if (safety.state() != SafetyState::kEngaged || contact.in_contact() || played_sequence < 1.0) return;
+  if ((view.X_WE.p - view.X_WE_goal.p).norm() > kReachedM) return;
+  reached_sequence = std::max(reached_sequence, static_cast<std::uint64_t>(played_sequence));
+}
+
+void SlaveNode::State::report(Time now, SlaveOutput& output) {
+  const bool changed = safety.state() != reported.state || safety.engagement() != reported.engagement ||
+                       safety.cause() != reported.cause || contact.touch() != reported.translation.touch ||
+                       contact.in_contact() != reported.translation.in_contact ||
+                       contact.reported_n_per_m() != reported_n_per_m;
+  const double rate_hz = contact.in_contact() ? link.heartbeat_contact_hz : link.heartbeat_free_hz;
+  if (changed) report_due.reset();
+  if (!due(report_due, now, rate_hz)) return;
+  contact.locate_touch(playout, X_WE_anchor.p, played_sequence);
+  reported.engagement = safety.engagement();
+  reported.state = safety.state();
+  reported.cause = safety.cause();
+  reported.translation = contact.report();
+  reported.reached_sequence = reached_sequence;
+  reported_n_per_m = contact.reported_n_per_m();
+  output.report = reported;
+  output.report_sequence = ++report_sequence;
+}
+
+void SlaveNode::State::send_telemetry(const SlaveInput& input, SlaveOutput& output) {
+  merge(clamps_since_telemetry, view.clamps);
+  if (!due(telemetry_due, input.now, link.telemetry_hz)) return;
+  Telemetry t;
+  t.state = view.state;
+  t.cause = view.cause;
+  t.engagement = view.engagement;
+  t.X_WE = view.X_WE;
+  t.X_WE_goal = view.X_WE_goal;
+  if (robot_ok) {
+    for (int i = 0; i < kMaxJoints; ++i) t.joint_rad[static_cast<std::size_t>(i)] = input.robot.joint_rad[i];
+  }
+  t.F_E_W = view.F_E_W;
+  t.estimate = view.estimate;
+  t.penetration_m = contact.penetration_m();
+  t.clamps = clamps_since_telemetry;
+  t.up_loss = input.up_loss;
+  t.up_jitter_s = input.up_jitter_s;
+  t.playout_delay_s = view.playout_delay_s;
+  t.rejected = input.rejected;
+  t.limit_violations = view.limit_violations;
+  t.late_ticks = input.late_ticks;
+  clamps_since_telemetry = {};
+  output.telemetry = t;
+  output.telemetry_sequence = ++telemetry_sequence;
+}
+
+void SlaveNode::State::show(const RobotState& robot, const Clamps& clamps, std::uint64_t rejected) {
+  view.state = safety.state();
+  view.cause = safety.cause();
+  view.engagement = safety.engagement();
+  view.X_WE_anchor = X_WE_anchor;
+  if (robot_ok) view.F_E_W = robot.F_F_W;
+  view.in_contact = contact.in_contact();
+  view.estimate = contact.estimate();
+  view.reported_stiffness_n_per_m = contact.reported_n_per_m();
+  view.reported_depth_m = contact.reported_depth_m();
+  view.touch_sequence = contact.touch_sequence();
+  view.touch = contact.touch();
+  view.played_sequence = played_sequence;
+  view.playout_delay_s = playout.delay_s();
+  view.clamps = clamps;
+  view.limit_violations = motion.limit_violations();
+  view.false_holds = safety.false_holds();
+  view.rejected_values = rejected;
+  view.ik_failures = motion.failures();
+}
+
+}  // namespace longreach

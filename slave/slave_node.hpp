@@ -1,6 +1,7 @@
 #pragma once
-// The slave without I/O: playout, limits, inverse kinematics, contact detection and identification, and the safety
-// machine that acts alone. step() is pure but for the node's own state; it allocates nothing and throws nothing.
+// The slave without I/O: playout, limits, inverse kinematics, contact detection and identification, and the
+// safety machine that acts alone. step() is pure but for the node's own state; it allocates nothing and
+// throws nothing.
 
 #include <cstdint>
 #include <memory>
@@ -20,12 +21,12 @@ struct SlaveInput {
   Time now{};
   RobotState robot{};
   std::span<const Received<MotionCommand>> commands{};
-  std::optional<Time> last_heard{};        // of any valid datagram
-  std::uint32_t peer_session_count = 0;    // sessions of the master seen so far
-  bool stop = false;                       // asked for by RPC on this side
-  std::uint64_t rejected = 0;              // datagrams dropped so far, for telemetry
-  std::uint64_t late_ticks = 0;            // likewise
-  double up_loss = 0.0;                    // link figures, for telemetry
+  std::optional<Time> last_heard{};      // of any valid datagram
+  std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
+  bool stop = false;                     // asked for by RPC on this side
+  std::uint64_t rejected = 0;            // datagrams dropped so far, for telemetry
+  std::uint64_t late_ticks = 0;          // likewise
+  double up_loss = 0.0;                  // link figures, for telemetry
   double up_jitter_s = 0.0;
 };
 
@@ -34,23 +35,23 @@ struct SlaveView {
   SafetyState state = SafetyState::kIdle;
   HoldCause cause = HoldCause::kNone;
   std::uint32_t engagement = 0;
-  Pose X_WE{};                       // measured
-  Pose X_WE_anchor{};                // of this engagement
-  Pose X_WE_goal{};                  // asked for, before limits
-  Wrench F_E_W{};                    // measured
+  Pose X_WE{};         // measured
+  Pose X_WE_anchor{};  // of this engagement
+  Pose X_WE_goal{};    // asked for, before limits
+  Wrench F_E_W{};      // measured
   bool in_contact = false;
-  ContactEstimate estimate{};        // as it is now
+  ContactEstimate estimate{};  // as it is now
   double reported_stiffness_n_per_m = 0.0;
-  double reported_depth_m = 0.0;     // depth that the reported stiffness belongs to
+  double reported_depth_m = 0.0;  // depth that the reported stiffness belongs to
   double touch_sequence = 0.0;
   std::uint32_t touch = 0;
   double played_sequence = 0.0;
   double playout_delay_s = 0.0;
-  Clamps clamps{};                   // in this tick
-  std::uint64_t limit_violations = 0;   // ticks in which a limit was exceeded in spite of the clamps
-  std::uint64_t false_holds = 0;     // holds by silence that ended by themselves within resume_s
-  std::uint64_t rejected_values = 0; // commands with an impossible value
-  std::uint64_t ik_failures = 0;     // ticks without a solution to tolerance
+  Clamps clamps{};                     // in this tick
+  std::uint64_t limit_violations = 0;  // ticks in which a limit was exceeded in spite of the clamps
+  std::uint64_t false_holds = 0;       // holds by silence that ended by themselves within resume_s
+  std::uint64_t rejected_values = 0;   // commands with an impossible value
+  std::uint64_t ik_failures = 0;       // ticks without a solution to tolerance
 };
 
 struct SlaveOutput {

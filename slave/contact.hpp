@@ -1,0 +1,71 @@
+#pragma once
+// One contact from touch to release: detection, identification, what is reported of it, and which command it
+// was met at. Distances along the inward normal are taken from where the tool was at the touch, so that a
+// slightly wrong normal has no lever. Until the fit knows the surface, it is where the force first left the
+// noise.
+
+#include <cstdint>
+
+#include "common/link/playout.hpp"
+#include "common/link/stiffness_report.hpp"
+#include "common/link/telemetry.hpp"
+#include "slave/command/goal_limiter.hpp"
+#include "slave/estimation/contact_estimator.hpp"
+#include "slave/estimation/reported_stiffness.hpp"
+#include "slave/sensing/contact_detector.hpp"
+
+namespace longreach {
+
+struct ContactInput {
+  Vector3 p_WE = Vector3::Zero();     // measured tool, m
+  Vector3 v_WE = Vector3::Zero();     // m/s
+  Vector3 force_n = Vector3::Zero();  // measured, in W, on the tool
+  double played_sequence = 0.0;       // of the goal that is followed; 0: none
+  double dt = 0.0;                    // s
+};
+
+class SlaveContact {
+ public:
+  SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator);
+
+  void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
+  void step(const ContactInput& input);
+
+  /// Looks up, in the goals that were followed, the one that lies at the surface. While the history reaches
+  /// back.
+  void locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence);
+  /// The goals begin anew: the present contact was not met by any of them.
+  void forget_goals() { touch_sequence_ = played_at_touch_ = 0.0; }
+
+  [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
+  [[nodiscard]] std::uint32_t touch() const { return touch_; }             // counts from 1
+  [[nodiscard]] double touch_sequence() const { return touch_sequence_; }  // fractional; 0: none
+  [[nodiscard]] double reported_n_per_m() const { return reported_.stiffness_n_per_m(); }
+  [[nodiscard]] double reported_depth_m() const { return reported_.depth_m(); }
+  [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
+  /// Where the surface is, in W.
+  [[nodiscard]] Vector3 surface_point() const { return reference_m_ - surface_m() * reading_.normal; }
+  [[nodiscard]] ContactForce force() const { return force_; }  // for the force guard
+  [[nodiscard]] ContactEstimate estimate() const;
+  [[nodiscard]] ContactStiffness report() const;
+
+ private:
+  void identify(const ContactInput& input);
+  [[nodiscard]] double surface_m() const;
+
+  SensingConfig sensing_;
+  ContactDetector detector_;
+  ContactEstimator estimator_;
+  ReportedStiffness reported_;
+  ContactReading reading_{};
+  ContactForce force_{};
+  Vector3 onset_m_ = Vector3::Zero();      // tool when the force was last in the noise
+  Vector3 reference_m_ = Vector3::Zero();  // tool at the touch
+  Matrix3 stiffness_ = Matrix3::Zero();    // as reported
+  double penetration_m_ = 0.0;
+  double played_at_touch_ = 0.0;
+  double touch_sequence_ = 0.0;
+  std::uint32_t touch_ = 0;
+};
+
+}  // namespace longreach
