@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "common/core/random.hpp"
+#include "slave/contact.hpp"
+#include "tests/unit/slave/space_arm.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+// A tool that is moved against a Hunt-Crossley wall at x = 0.1 m; the force law is written out here on its
+// own.
+struct Bench {
+  double stiffness_n_per_m = 1000.0;  // secant at 1 mm
+  double n = 1.0;
+  double a = 0.1;
+  double noise_n = 0.05;
+  Random random{1};
+  double x_m = 0.1 - 1e-3;
+  double v_m_per_s = 0.0;
+
+  double depth(double force) const { return 1e-3 * std::pow(force / (1e-3 * stiffness_n_per_m), 1.0 / n); }
+  double secant(double depth_m) const { return stiffness_n_per_m * std::pow(depth_m / 1e-3, n - 1.0); }
+  double force() const {
+    const double p = x_m - 0.1;
+    return p > 0.0 ? std::max(0.0, secant(p) * p * (1.0 + a * v_m_per_s)) : 0.0;
+  }
+  void step(SlaveContact& contact, double v) {
+    v_m_per_s = v;
+    x_m += v * kDt;
+    const Vector3 noise(noise_n * random.normal(), noise_n * random.normal(), noise_n * random.normal());
+    contact.step({Vector3(x_m, 3.0, -1.0), Vector3(v, 0, 0), Vector3(-force(), 0, 0) + noise, 0.0, kDt});
+  }
+};
+
+struct Walls {
+  double stiffness, n, force, speed;
+};
+
+void PrintTo(const Walls& w, std::ostream* out) {
+  *out << "k " << w.stiffness << " n " << w.n << " F " << w.force << " v " << w.speed;
+}
+
+class EstimatorAccuracy : public testing::TestWithParam<Walls> {};
+
+EstimatorConfig with_exponent(double n) {
+  EstimatorConfig config;
+  config.exponent = n;
+  return config;
+}
+
+TEST_P(EstimatorAccuracy, SettlesWithinThreePercentAndFindsTheSurface) {
+  const Walls wall = GetParam();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Bench bench{wall.stiffness, wall.n, 0.1, 0.05, Random(seed)};
+    SlaveContact contact(SensingConfig{}, with_exponent(wall.n));
+    const double rest = 0.1 + bench.depth(wall.force);
+    double touched = -1.0, surface_error = 1.0, t = 0.0;
+    const auto tick = [&](double v) {
+      bench.step(contact, v);
+      t += kDt;
+      if (touched < 0.0 && contact.in_contact()) touched = t;
+      if (touched > 0.0 && t - touched < 1.0) surface_error = contact.surface_point().x() - 0.1;
+    };
+    // The approach ends smoothly, then tenths of a millimetre about the force at 0.25 Hz.
+    while (bench.x_m < rest - 2e-5) tick(std::min(wall.speed, std::max(4.0 * (rest - bench.x_m), 1e-5)));
+    const double amplitude = std::min(3e-4, 0.5 * (rest - 0.1));
+    const double w = 2 * test::kPi * 0.25;
+    for (int i = 0; i < 12000; ++i) tick(amplitude * w * std::cos(w * i * kDt));
+
+    const double truth = bench.secant(contact.reported_depth_m());
+    EXPECT_NEAR(contact.reported_n_per_m() / truth, 1.0, 0.03) << "seed " << seed;
+    const double allowed = wall.stiffness < 2000.0 ? 1e-4 : 3e-5;
+    EXPECT_LT(std::abs(surface_error), allowed) << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Walls, EstimatorAccuracy,
+                         testing::Values(Walls{500, 1, 0.6, 1e-3}, Walls{500, 1, 3, 2e-3},
+                                         Walls{1000, 1, 1.5, 1e-3}, Walls{5000, 1, 0.6, 2e-3},
+                                         Walls{5000, 1, 3, 2e-3}, Walls{500, 1.5, 1.0, 1e-3},
+                                         Walls{500, 1.5, 3, 2e-3}, Walls{5000, 1.5, 0.6, 1e-3},
+                                         Walls{5000, 1.5, 3, 2e-3}));
+
+// Over noise and over materials: a is drawn from what the estimator presumes, sd 10 s/m.
+TEST(ContactEstimator, ItsStandardDeviationIsHonest) {
+  for (const double n : {1.0, 1.5}) {
+    for (const int ticks : {1500, 4000, 9000}) {
+      double squares = 0.0;
+      constexpr int kSeeds = 200;
+      for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const double a = 10.0 * std::abs(Random(seed).child("material").normal());
+        Bench bench{1000.0, n, a, 0.05, Random(seed)};
+        SlaveContact contact(SensingConfig{}, with_exponent(n));
+        for (int i = 0; i < ticks; ++i) {
+          const double w = 2 * test::kPi * 0.5;
+          bench.step(contact,
+                     i < 2000 ? 1.5e-3 * (1.0 - i / 2000.0) + 1e-3 : 2e-4 * w * std::cos(w * i * kDt));
+        }
+        const ContactEstimate e = contact.estimate();
+        ASSERT_TRUE(e.valid) << "seed " << seed;
+        const double error = (e.stiffness_n_per_m - bench.secant(e.depth_m)) / e.stiffness_sd_n_per_m;
+        squares += error * error;
+      }
+      const double rms = std::sqrt(squares / kSeeds);
+      EXPECT_GT(rms, 0.5) << "n " << n << " after " << ticks;
+      EXPECT_LT(rms, 2.0) << "n " << n << " after " << ticks;
+      RecordProperty("rms_" + std::to_string(n) + "_" + std::to_string(ticks), std::to_string(rms));
+    }
+  }
+}
+
+// Ten minutes of a still hold on encoder steps, with the shortest memory that may be configured.
+TEST(ContactEstimator, AStillQuantisedHoldWindsNothingUp) {
+  for (const double forgetting : {0.9998, 0.99}) {
+    Bench bench{1000.0, 1.5, 0.1, 0.05, Random(3)};
+    EstimatorConfig config = with_exponent(1.5);
+    config.forgetting = forgetting;
+    SlaveContact contact(SensingConfig{}, config);
+    for (int i = 0; i < 3000; ++i) bench.step(contact, 1e-3);
+    for (int i = 0; i < 8000; ++i) bench.step(contact, 3e-4 * std::cos(2 * test::kPi * 0.5 * i * kDt));
+    bench.noise_n = 0.0;
+    for (int i = 0; i < 4000; ++i) bench.step(contact, 0.0);
+    const ContactEstimate before = contact.estimate();
+    const double reported = contact.reported_n_per_m();
+    ASSERT_TRUE(before.valid);
+    for (int i = 0; i < 600000; ++i) bench.step(contact, 0.0);
+    const ContactEstimate after = contact.estimate();
+    ASSERT_TRUE(std::isfinite(after.stiffness_n_per_m)) << forgetting;
+    EXPECT_NEAR(after.stiffness_n_per_m / before.stiffness_n_per_m, 1.0, 0.01) << forgetting;
+    EXPECT_EQ(contact.reported_n_per_m(), reported) << forgetting;
+    EXPECT_TRUE(after.valid);
+  }
+}
+
+TEST(ContactEstimator, ANoisyHoldKeepsTheReportedValue) {
+  Bench bench{1000.0, 1.0, 0.1, 0.05, Random(4)};
+  SlaveContact contact(SensingConfig{}, EstimatorConfig{});
+  for (int i = 0; i < 3500; ++i) bench.step(contact, 1e-3);
+  for (int i = 0; i < 8000; ++i) bench.step(contact, 3e-4 * std::cos(2 * test::kPi * 0.5 * i * kDt));
+  const double reported = contact.reported_n_per_m();
+  ASSERT_GT(reported, 0.0);
+  for (int i = 0; i < 300000; ++i) bench.step(contact, 0.0);
+  EXPECT_EQ(contact.reported_n_per_m(), reported);
+  EXPECT_NEAR(contact.estimate().stiffness_n_per_m, 1000.0, 30.0);
+}
+
+TEST(ContactEstimator, SaysThatDampingIsUnknownUntilItIsExcited) {
+  Bench quiet{1000.0, 1.0, 2.0, 0.05, Random(5)};
+  SlaveContact contact(SensingConfig{}, EstimatorConfig{});
+  for (int i = 0; i < 4000; ++i) quiet.step(contact, 1e-3);
+  EXPECT_EQ(contact.estimate().lambda, 0.0);
+
+  Bench shaken{1000.0, 1.0, 2.0, 0.05, Random(5)};
+  SlaveContact other(SensingConfig{}, EstimatorConfig{});
+  for (int i = 0; i < 9000; ++i) {
+    const double w = 2 * test::kPi * 2.0;
+    shaken.step(other, i < 4500 ? 1e-3 : 2e-3 * w * std::cos(w * i * kDt));
+  }
+  EXPECT_NEAR(other.estimate().lambda, 2000.0, 400.0);
+  EXPECT_NEAR(other.estimate().stiffness_n_per_m, 1000.0, 20.0);
+}
+
+TEST(ContactEstimator, SurvivesEveryScaleAndExponent) {
+  for (const double k : {1e1, 1e3, 1e5, 1e8}) {
+    for (const double n : {1.0, 2.0, 3.0}) {
+      Bench bench{k, n, 0.0, 0.05, Random(6)};
+      SlaveContact contact(SensingConfig{}, with_exponent(n));
+      const double rest = bench.depth(3.0);
+      bench.x_m = 0.1;
+      for (int i = 0; i < 6000; ++i)
+        bench.step(contact, rest / 3.0 * (i < 3000 ? 1.0 : 0.3 * std::cos(i * 3e-3)));
+      const ContactEstimate e = contact.estimate();
+      ASSERT_TRUE(e.valid) << "k " << k << " n " << n;
+      EXPECT_NEAR(e.stiffness_n_per_m / bench.secant(e.depth_m), 1.0, 0.03) << "k " << k << " n " << n;
+    }
+  }
+}
+
+TEST(ContactEstimator, LeavesOutWhatIsNotFinite) {
+  ContactEstimator estimator(EstimatorConfig{}, 0.05);
+  for (int i = 0; i < 2000; ++i) estimator.step({1e-6 * i, 1e-3, 0.5 + 1e-3 * i, 0.5 + 1e-3 * i}, kDt);
+  const double before = estimator.estimate().stiffness_n_per_m;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  estimator.step({nan, 0, 1, 1}, kDt);
+  estimator.step({0, inf, 1, 1}, kDt);
+  estimator.step({0, 0, nan, 1}, kDt);
+  estimator.step({0, 0, 1, inf}, kDt);
+  estimator.step({1e300, 0, 1e300, 1e300}, kDt);
+  EXPECT_EQ(estimator.estimate().stiffness_n_per_m, before);
+  EXPECT_NEAR(before, 1000.0, 1.0);
+}
+
+TEST(ReportedStiffness, AppearsWhenKnownHoldsAndIsCorrectedOnce) {
+  ReportedStiffness reported(EstimatorConfig{});
+  const auto estimate = [](double s, double fraction) {
+    SecantEstimate e;
+    e.valid = true;
+    e.stiffness_n_per_m = s;
+    e.stiffness_sd_n_per_m = fraction * s;
+    return e;
+  };
+  EXPECT_FALSE(reported.step(estimate(1000, 0.06)));
+  EXPECT_TRUE(reported.step(estimate(1000, 0.04)));
+  EXPECT_FALSE(reported.step(estimate(1070, 0.02)));   // within the dead band
+  EXPECT_FALSE(reported.step(estimate(1100, 0.04)));   // within 3 sd
+  EXPECT_FALSE(reported.step(estimate(1015, 0.004)));  // well known, but less than 2 % off
+  EXPECT_TRUE(reported.step(estimate(1030, 0.004)));   // the one correction
+  EXPECT_FALSE(reported.step(estimate(1060, 0.004)));
+  EXPECT_TRUE(reported.step(estimate(1150, 0.004)));  // more than the dead band
+  EXPECT_EQ(reported.stiffness_n_per_m(), 1150.0);
+  reported.begin();
+  EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
+}
+
+}  // namespace
+}  // namespace longreach

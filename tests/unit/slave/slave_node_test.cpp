@@ -1,0 +1,336 @@
+#include "slave/slave_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "slave/robot/simulated_arm.hpp"
+#include "tests/unit/slave/allocations.hpp"
+#include "tests/unit/slave/space_arm.hpp"
+
+namespace longreach {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Slave node and simulated arm, with a master that is a few lines: 200 commands a second, 20 ms away.
+struct Loop {
+  explicit Loop(const SlaveConfig& config) : node(config), arm(config, Random(9)) {
+    command.request = Request::kHold;
+    commands.reserve(8);
+  }
+
+  SlaveNode node;
+  SimulatedArm arm;
+  Time now{milliseconds(5000)};
+  MotionCommand command{};
+  std::uint64_t sequence = 0;
+  std::uint32_t sessions = 1;
+  bool silent = false;
+  bool echo = true;
+  RobotState broken{};
+  bool use_broken = false;
+  std::vector<Received<MotionCommand>> commands;
+  std::optional<Time> last_heard;
+  SlaveOutput out;
+  std::optional<StiffnessReport> last_report;
+  std::vector<double> goals_x;  // by sequence
+  int reports = 0, telemetry = 0;
+
+  const SlaveView& view() const { return node.view(); }
+  void tick() {
+    now += milliseconds(1);
+    commands.clear();
+    if (!silent && now.time_since_epoch().count() % 5000000 == 0) {
+      Received<MotionCommand> r;
+      r.sequence = ++sequence;
+      r.sent = PeerTime{now.time_since_epoch() - milliseconds(20) + milliseconds(777)};
+      r.received = now;
+      if (echo) r.echo_sent = now - milliseconds(40);
+      r.message = command;
+      commands.push_back(r);
+      goals_x.resize(sequence + 1, 0.0);
+      goals_x[sequence] = command.position_m.x();
+      last_heard = now;
+    }
+    SlaveInput in;
+    in.now = now;
+    in.robot = arm.read(now);
+    if (use_broken) in.robot = broken;
+    in.commands = commands;
+    in.last_heard = last_heard;
+    in.peer_session_count = last_heard ? sessions : 0;
+    out = node.step(in);
+    arm.write(out.joint_setpoint_rad);
+    if (out.report) {
+      last_report = out.report;
+      ++reports;
+      EXPECT_EQ(out.report_sequence, static_cast<std::uint64_t>(reports));
+    }
+    if (out.telemetry) ++telemetry;
+    ASSERT_TRUE(out.joint_setpoint_rad.allFinite());
+  }
+  void run(double seconds) {
+    const int ticks = static_cast<int>(std::lround(seconds * 1e3));
+    for (int i = 0; i < ticks; ++i) tick();
+  }
+  void engage(std::uint32_t number = 1) {
+    run(0.1);
+    command.engagement = number;
+    command.request = Request::kEngage;
+    run(0.1);
+    ASSERT_TRUE(node.engaged());
+  }
+  // Moves the goal in x at `speed` up to `x`.
+  void move_to(double x, double speed) {
+    while (std::abs(command.position_m.x() - x) > 1e-9) {
+      const double left = x - command.position_m.x();
+      command.position_m.x() += std::copysign(std::min(std::abs(left), speed * 1e-3), left);
+      tick();
+    }
+  }
+  double travelled() const { return (arm.true_pose().p - arm.start_pose().p).x(); }
+};
+
+TEST(SlaveNode, EngagesByHandshakeWithoutAJump) {
+  Loop loop(test::wall_config(0.22, 1000.0));
+  loop.echo = false;
+  loop.command.engagement = 1;
+  loop.command.request = Request::kEngage;
+  loop.run(0.5);
+  EXPECT_EQ(loop.view().state, SafetyState::kObserving);
+  loop.echo = true;
+  loop.run(0.5);
+  EXPECT_TRUE(loop.node.engaged());
+  EXPECT_EQ(loop.last_report->engagement, 1U);
+  EXPECT_EQ(loop.last_report->state, SafetyState::kEngaged);
+  EXPECT_LT((loop.arm.true_pose().p - loop.arm.start_pose().p).norm(), 1e-9);
+  // Engaging anew somewhere else does not move it either.
+  loop.move_to(0.05, 0.05);
+  loop.run(1.0);
+  const Vector3 before = loop.arm.true_pose().p;
+  loop.command.engagement = 2;
+  loop.command.position_m.setZero();
+  loop.run(1.0);
+  EXPECT_EQ(loop.view().engagement, 2U);
+  EXPECT_LT((loop.arm.true_pose().p - before).norm(), 1e-9);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+}
+
+TEST(SlaveNode, FollowsPositionAndOrientationFromTheAnchor) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.command.position_m = Vector3(0.1, -0.2, 0.15);
+  loop.run(0.3);
+  loop.command.goal_kind = GoalKind::kOrientation;
+  loop.command.position_m = Vector3(9, 9, 9);  // not carried by this kind
+  loop.command.rotation_rad = Vector3(0.1, 0.2, -0.1);
+  loop.run(4.0);
+  const Pose start = loop.arm.start_pose();
+  EXPECT_LT((loop.arm.true_pose().p - start.p - Vector3(0.1, -0.2, 0.15)).norm(), 1e-6);
+  const Quaternion q = exp_rotation(Vector3(0.1, 0.2, -0.1)) * start.q;
+  EXPECT_LT(loop.arm.true_pose().q.angularDistance(q), 1e-6);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+  EXPECT_EQ(loop.view().ik_failures, 0U);
+}
+
+TEST(SlaveNode, TouchesTheWallReportsItsStiffnessAndWhereItWasMet) {
+  for (const double stiffness : {1000.0, 5000.0}) {
+    Loop loop(test::wall_config(0.05, stiffness));
+    loop.engage();
+    loop.move_to(0.047, 0.05);
+    loop.run(0.5);
+    EXPECT_EQ(loop.view().touch, 0U);
+    const std::uint64_t reached = loop.last_report->reached_sequence;
+    EXPECT_GT(reached, 0U);
+    loop.move_to(0.05 + 2.0 / stiffness, 0.002);
+    for (int i = 0; i < 8000; ++i) {
+      loop.command.position_m.x() += 1.5e-4 * std::cos(2 * test::kPi * 0.25 * i * 1e-3) * 1e-3;
+      loop.tick();
+    }
+    const SlaveView& view = loop.view();
+    ASSERT_TRUE(view.in_contact);
+    EXPECT_EQ(view.touch, 1U);
+    EXPECT_NEAR(view.reported_stiffness_n_per_m / loop.arm.material_secant(view.reported_depth_m), 1.0, 0.03);
+    const Matrix3 expected =
+        view.reported_stiffness_n_per_m * Vector3::UnitX() * Vector3::UnitX().transpose();
+    EXPECT_LT((loop.last_report->translation.stiffness - expected).norm(), 0.03 * stiffness);
+    // The goal of the touch command is the wall, though the tool came later.
+    const double touch = loop.last_report->translation.touch_sequence;
+    const auto whole = static_cast<std::size_t>(touch);
+    ASSERT_GT(whole, 0U);
+    const double part = touch - static_cast<double>(whole);
+    const double goal = loop.goals_x[whole] + part * (loop.goals_x[whole + 1] - loop.goals_x[whole]);
+    EXPECT_NEAR(goal, 0.05, 1e-4);
+    EXPECT_LE(static_cast<double>(loop.last_report->reached_sequence), touch + 500.0 / stiffness * 200.0);
+    // A retreat ends the contact and its stiffness.
+    loop.move_to(0.045, 0.01);
+    loop.run(0.5);
+    EXPECT_FALSE(loop.last_report->translation.in_contact);
+    EXPECT_EQ(loop.last_report->translation.stiffness, Matrix3::Zero());
+    EXPECT_EQ(view.limit_violations, 0U);
+  }
+}
+
+TEST(SlaveNode, HoldsOnSilenceWithinGapAndBraking) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.move_to(0.2, 0.2);
+  loop.command.position_m.x() = 0.8;
+  loop.run(1.0);
+  const double before = loop.travelled();
+  loop.silent = true;
+  loop.run(0.16);
+  EXPECT_EQ(loop.view().state, SafetyState::kHolding);
+  EXPECT_EQ(loop.view().cause, HoldCause::kLinkSilent);
+  EXPECT_EQ(loop.last_report->state, SafetyState::kHolding);  // reported at once
+  loop.run(0.5);
+  const double v = 0.25;
+  EXPECT_LT(loop.travelled() - before, v * (0.16 + 1.0 / 62.8) + v * v / (2 * 1.25) + 1e-3);
+  const double stopped = loop.travelled();
+  loop.run(1.0);
+  EXPECT_NEAR(loop.travelled(), stopped, 1e-6);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+  // Too long: it does not resume by itself.
+  loop.silent = false;
+  loop.run(1.0);
+  EXPECT_NEAR(loop.travelled(), stopped, 1e-6);
+  EXPECT_EQ(loop.view().state, SafetyState::kHolding);
+}
+
+TEST(SlaveNode, ResumesAShortSilenceWithinTheLimits) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.command.position_m.x() = 0.5;
+  loop.run(0.5);
+  loop.silent = true;
+  loop.run(0.5);
+  EXPECT_EQ(loop.view().state, SafetyState::kHolding);
+  loop.silent = false;
+  loop.run(4.0);
+  EXPECT_TRUE(loop.node.engaged());
+  EXPECT_EQ(loop.view().false_holds, 1U);
+  EXPECT_NEAR(loop.travelled(), 0.5, 1e-6);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+}
+
+TEST(SlaveNode, AFastTouchKeepsTheForceGuard) {
+  Loop loop(test::wall_config(0.1, 5000.0));
+  loop.engage();
+  loop.move_to(0.2, 0.05);
+  loop.run(2.0);
+  EXPECT_LT(-loop.arm.true_wrench().force.x(), 1.35 * 20.0);
+  EXPECT_GT(-loop.arm.true_wrench().force.x(), 15.0);
+  EXPECT_TRUE(loop.view().clamps.force_guard);
+}
+
+TEST(SlaveNode, GoesToFaultOnANonFiniteRobotStateAndKeepsASaneSetpoint) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int what = 0; what < 3; ++what) {
+    Loop loop(test::wall_config(0.9, 1000.0));
+    loop.engage();
+    loop.move_to(0.05, 0.05);
+    loop.broken.joint_rad = test::start_joints();
+    if (what == 0) loop.broken.joint_rad[3] = nan;
+    if (what == 1) loop.broken.F_F_W.force.x() = std::numeric_limits<double>::infinity();
+    if (what == 2) loop.broken.ok = false;
+    loop.use_broken = true;
+    loop.run(0.5);
+    EXPECT_EQ(loop.view().state, SafetyState::kFault) << what;
+    EXPECT_EQ(loop.view().cause, HoldCause::kRobotFault);
+    EXPECT_TRUE(loop.view().X_WE.p.allFinite());
+    const double stopped = loop.travelled();
+    loop.use_broken = false;
+    loop.run(0.5);
+    EXPECT_EQ(loop.view().state, SafetyState::kFault) << what;
+    EXPECT_NEAR(loop.travelled(), stopped, 1e-6);
+    EXPECT_EQ(loop.view().limit_violations, 0U);
+  }
+}
+
+TEST(SlaveNode, SurvivesAFirstStateThatIsNotFinite) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.broken.joint_rad.setConstant(std::numeric_limits<double>::quiet_NaN());
+  loop.use_broken = true;
+  loop.run(0.1);
+  EXPECT_EQ(loop.view().state, SafetyState::kFault);
+}
+
+TEST(SlaveNode, IgnoresImpossibleGoalsButNotAStop) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.command.position_m = Vector3(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  loop.run(0.1);
+  EXPECT_GT(loop.view().rejected_values, 0U);
+  EXPECT_NEAR(loop.travelled(), 0.0, 1e-9);
+  loop.command.request = Request::kStop;
+  loop.run(0.01);
+  EXPECT_EQ(loop.view().state, SafetyState::kStopped);
+}
+
+TEST(SlaveNode, KeepsWithinReachAndSaysSo) {
+  SlaveConfig config = test::wall_config(50.0, 1000.0);
+  config.command.workspace_m = 20.0;
+  config.command.speed_max_m_per_s = 1.0;
+  Loop loop(config);
+  loop.engage();
+  loop.command.position_m = Vector3(8.0, 0, 0);  // beyond the stretched arm
+  Clamps seen;
+  for (int i = 0; i < 20000; ++i) {
+    loop.tick();
+    seen.singularity = seen.singularity || loop.view().clamps.singularity;
+    seen.unreachable = seen.unreachable || loop.view().clamps.unreachable;
+    seen.tool_speed = seen.tool_speed || loop.view().clamps.tool_speed;
+  }
+  EXPECT_TRUE(seen.singularity);
+  EXPECT_TRUE(seen.unreachable);
+  EXPECT_TRUE(seen.tool_speed);
+  EXPECT_GT(loop.travelled(), 3.0);
+  // And comes back.
+  loop.command.position_m = Vector3(0, 0, 0);
+  loop.run(40.0);
+  EXPECT_NEAR(loop.travelled(), 0.0, 1e-6);
+}
+
+TEST(SlaveNode, ReportsAndTelemetryKeepTheirPace) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.run(0.5);
+  const int reports = loop.reports, telemetry = loop.telemetry;
+  loop.run(10.0);
+  EXPECT_NEAR(loop.reports - reports, 20, 1);
+  EXPECT_NEAR(loop.telemetry - telemetry, 300, 1);
+}
+
+TEST(SlaveNode, AFreeSceneBuildsNoContact) {
+  SlaveConfig config = test::wall_config(0.9, 1000.0);
+  config.scene = {};
+  Loop loop(config);
+  loop.engage();
+  loop.move_to(0.1, 0.1);
+  loop.run(0.5);
+  EXPECT_NEAR(loop.travelled(), 0.1, 1e-6);
+  EXPECT_EQ(loop.view().touch, 0U);
+  EXPECT_GT(loop.last_report->reached_sequence, 0U);
+}
+
+TEST(SlaveNode, StepAllocatesNothing) {
+  Loop loop(test::wall_config(0.05, 1000.0));
+  loop.engage();
+  loop.goals_x.reserve(100000);
+  test::count_allocations(true);
+  loop.move_to(0.055, 0.01);
+  loop.run(1.0);
+  loop.silent = true;
+  loop.run(1.5);
+  loop.silent = false;
+  loop.run(0.5);
+  test::count_allocations(false);
+  EXPECT_EQ(loop.view().touch, 1U);
+  EXPECT_EQ(test::allocations(), 0);
+}
+
+}  // namespace
+}  // namespace longreach
