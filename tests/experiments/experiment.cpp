@@ -26,16 +26,26 @@ const Experiment* find_experiment(std::string_view name) {
   return nullptr;
 }
 
-void resolve(proto::LabConfig& config, const std::filesystem::path& deploy_folder) {
-  // Single fields that were set override the profile's.
-  proto::LinkProfile profile = load_link_profile(deploy_folder, config.profile());
-  profile.mutable_up()->MergeFrom(config.slave().link().impairment());
-  profile.mutable_down()->MergeFrom(config.master().link().impairment());
+proto::LabConfig configure(const std::vector<std::string>& settings, const std::filesystem::path& deploy_folder) {
+  const auto names_file = [](std::string_view setting) {
+    const std::string_view path = setting.substr(0, setting.find('='));
+    return path == "profile" || path.ends_with("robot_file") || path.ends_with("scene_file");
+  };
+  proto::LabConfig config;
+  for (const std::string& setting : settings) {
+    if (names_file(setting)) set_lab_field(config, setting);
+  }
+  const proto::LinkProfile profile = load_link_profile(deploy_folder, config.profile());
   *config.mutable_slave()->mutable_link()->mutable_impairment() = profile.up();
   *config.mutable_master()->mutable_link()->mutable_impairment() = profile.down();
   config.mutable_master()->mutable_safety()->set_engage_at_start(true);
   resolve_files(*config.mutable_slave(), deploy_folder);
+  for (const std::string& setting : settings) {
+    if (!names_file(setting)) set_lab_field(config, setting);
+  }
+  resolve_files(*config.mutable_slave(), deploy_folder);   // once more for what the settings changed
   validate(config);
+  return config;
 }
 
 std::string config_hash(const proto::LabConfig& config) {

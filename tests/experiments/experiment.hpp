@@ -36,9 +36,9 @@ struct Experiment {
 const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
-/// Reads the robot, scene and link files that a configuration names; the profile's directions go into the
-/// impairments. Throws ConfigError.
-void resolve(proto::LabConfig& config, const std::filesystem::path& deploy_folder);
+/// A complete configuration from settings "path=value": first those that name files (profile, robot_file, scene_file),
+/// then what the files say, then the other settings in their order. Throws ConfigError.
+proto::LabConfig configure(const std::vector<std::string>& settings, const std::filesystem::path& deploy_folder);
 
 /// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);

@@ -50,13 +50,6 @@ std::function<void(double)> progress_line(const RunOptions& o, double virtual_s)
   };
 }
 
-proto::LabConfig configured(const RunOptions& o) {
-  proto::LabConfig config;
-  for (const std::string& setting : o.settings) set_lab_field(config, setting);
-  resolve(config, find_deploy_folder());
-  return config;
-}
-
 int run(const RunOptions& o) {
   const Experiment* experiment = find_experiment(o.name);
   if (!experiment) {
@@ -66,7 +59,7 @@ int run(const RunOptions& o) {
   }
   ExperimentRun r;
   try {
-    r.config = configured(o);
+    r.config = configure(o.settings, find_deploy_folder());
   } catch (const ConfigError& e) {
     std::fprintf(stderr, "longreach-lab: %s\n", e.what());
     return kBadUsage;

@@ -18,8 +18,7 @@ using Values = std::map<std::string, double>;
 
 ExperimentRun configured(const std::vector<std::string>& settings, std::uint64_t seed) {
   ExperimentRun run;
-  for (const std::string& setting : settings) set_lab_field(run.config, setting);
-  resolve(run.config, LONGREACH_DEPLOY);
+  run.config = configure(settings, LONGREACH_DEPLOY);
   run.seed = seed;
   return run;
 }
