@@ -1,6 +1,6 @@
 #include "slave/estimation/contact_estimator.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +17,14 @@ constexpr double kNoiseFloorN = 1e-4;        // keeps the prior of a alive with 
 
 double power(double x, double exponent) {
   return exponent == 0.0 ? 1.0 : exponent == 1.0 ? x : std::pow(x, exponent);
+}
+
+// Inverse of a symmetric positive definite matrix, scaled to a unit diagonal first: its entries differ by
+// many decades.
+Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& A) {
+  const Eigen::Vector3d scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d inner = (scale.asDiagonal() * A * scale.asDiagonal()).eval().inverse();
+  return scale.asDiagonal() * inner * scale.asDiagonal();
 }
 
 }  // namespace
@@ -71,8 +79,8 @@ bool ContactEstimator::update(const ContactSample& sample, double force_before_n
   const double weight = slope * slope;
   const Vector phi(sample.x_m / kLengthM, 1.0, root * sample.v_m_per_s);
 
-  const Eigen::LDLT<Matrix> factor(information_);
-  const Vector gain = factor.solve(phi);
+  const Matrix covariance = inverse_of(information_);
+  const Vector gain = covariance * phi;
   const double doubt = phi.dot(gain);  // variance of the predicted y over that of the force
   if (!(doubt > 0.0) || !std::isfinite(doubt) || !(weight > 0.0) || !std::isfinite(weight)) return false;
 
@@ -80,10 +88,12 @@ bool ContactEstimator::update(const ContactSample& sample, double force_before_n
   const double residual = y - phi.dot(theta_);
   const double scale = 1.0 - forget + weight * doubt;
   const Vector theta = theta_ + gain * (weight * residual / scale);
-  const Matrix information = information_ + (weight - forget / doubt) * phi * phi.transpose();
+  const double share = weight - forget / doubt;
+  const Matrix information = information_ + share * phi * phi.transpose();
   if (!theta.allFinite() || !information.allFinite()) return false;
   theta_ = theta;
   information_ = information;
+  covariance_ = covariance - (share / scale) * gain * gain.transpose();
 
   const double innovation_n2 = weight * residual * residual / (1.0 + weight * doubt);
   variance_weight_ = std::min(variance_weight_ + 1.0, kResidualSamples);
@@ -95,7 +105,7 @@ void ContactEstimator::answer() {
   SecantEstimate e;
   e.n = n_;
   e.force_sd_n = std::sqrt(variance_n2_);
-  const Matrix covariance = Eigen::LDLT<Matrix>(information_).solve(Matrix::Identity()) * variance_n2_;
+  const Matrix covariance = covariance_ * variance_n2_;
   const double b = theta_[0];  // per mm
   const double c = theta_[1];
   if (samples_ < 3 || !(b > 0.0) || !covariance.allFinite()) {

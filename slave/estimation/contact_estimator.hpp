@@ -67,6 +67,7 @@ class ContactEstimator {
   double noise_n_;
   double n_ = 1.0;
   Matrix information_ = Matrix::Zero();  // A, in units of the force's variance
+  Matrix covariance_ = Matrix::Zero();   // A⁻¹ after the last sample
   Vector theta_ = Vector::Zero();        // [b per mm; c; a/n]
   double variance_n2_ = 0.0;             // of the force, from the residuals
   double variance_weight_ = 0.0;         // samples that it stands for

@@ -1,6 +1,5 @@
 #include "slave/robot/numeric_inverse.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -35,17 +34,37 @@ struct Step {
   double least_pivot;  // of JᵀJ, m²
 };
 
+// Solves A x = b for symmetric A = L D Lᵀ by elimination without pivoting, which a positive definite A does
+// not need. Returns the least of D; x is meaningless unless that is positive.
+double solve_symmetric(Matrix6 A, JointVector& x) {
+  double least = A(0, 0);
+  for (int k = 0; k < 6; ++k) {
+    least = std::min(least, A(k, k));
+    for (int i = k + 1; i < 6; ++i) {
+      const double factor = A(i, k) / A(k, k);
+      for (int j = i; j < 6; ++j) A(j, i) -= factor * A(j, k);
+      x[i] -= factor * x[k];
+    }
+  }
+  for (int k = 5; k >= 0; --k) {
+    for (int i = k + 1; i < 6; ++i) x[k] -= A(i, k) * x[i];
+    x[k] /= A(k, k);
+  }
+  return least;
+}
+
 Step damped_step(const Candidate& c, double boost, double singular_m2) {
+  const JointVector gradient = c.tool.J.transpose() * c.error;
   Matrix6 normal = c.tool.J.transpose() * c.tool.J;
   const double damping = boost * c.residual_m * c.residual_m;
   normal.diagonal().array() += damping;
-  Eigen::LDLT<Matrix6> factor(normal);
-  const double least = std::max(factor.vectorD().minCoeff() - damping, 0.0);
-  if (least < singular_m2) {
+  JointVector step = gradient;
+  const double least = std::max(solve_symmetric(normal, step) - damping, 0.0);
+  if (!(least >= singular_m2)) {
     normal.diagonal().array() += 0.1 * (singular_m2 - least);
-    factor.compute(normal);
+    step = gradient;
+    solve_symmetric(normal, step);
   }
-  JointVector step = factor.solve(c.tool.J.transpose() * c.error);
   const double largest = step.cwiseAbs().maxCoeff();
   if (!(largest <= kStepMaxRad)) step *= kStepMaxRad / largest;
   return {step, least};
