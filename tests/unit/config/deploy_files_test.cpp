@@ -38,6 +38,21 @@ TEST(DeployFiles, LoadAsWhatTheirFolderSays) {
   EXPECT_GE(files, 2);
 }
 
+TEST(DeployFiles, ResolveTheRobotAndTheSceneOfTheSlave) {
+  proto::SlaveConfig config;
+  load_text_file(kDeploy / "config/slave.txtpb", config);
+  EXPECT_EQ(error_of([&] { resolve_files(config, kDeploy); }), "no error");
+  EXPECT_EQ(config.robot().joint_size(), 6);
+  EXPECT_GE(config.scene().surface_size(), 1);
+}
+
+TEST(DeployFiles, GiveTheDefaultLinkOfTheLaboratory) {
+  proto::LinkProfile profile;
+  EXPECT_EQ(error_of([&] { profile = load_link_profile(kDeploy, proto::LabConfig{}.profile()); }),
+            "no error");
+  EXPECT_GT(profile.up().delay_s(), 0.0);
+}
+
 void expect_defaults(const Message& message) {
   std::vector<const google::protobuf::FieldDescriptor*> fields;
   message.GetReflection()->ListFields(message, &fields);
