@@ -1,0 +1,256 @@
+#include "common/io/rpc_server.hpp"
+
+#include <grpc/support/log.h>
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <variant>
+
+#include "common/io/control_service.hpp"
+#include "proto/control.grpc.pb.h"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRequestMaxBytes = 1 << 20;
+constexpr int kThreadsMax = kWatchersMax + 32;
+constexpr auto kLeaveCheck = std::chrono::milliseconds(100);   // how soon a watcher that left is noticed
+constexpr auto kFinishGrace = std::chrono::milliseconds(200);  // for calls that are under way at the stop
+
+grpc::StatusCode code_of(Refusal::Kind kind) {
+  switch (kind) {
+    case Refusal::Kind::kInvalid:
+      return grpc::StatusCode::INVALID_ARGUMENT;
+    case Refusal::Kind::kPrecondition:
+      return grpc::StatusCode::FAILED_PRECONDITION;
+    case Refusal::Kind::kUnavailable:
+      return grpc::StatusCode::UNAVAILABLE;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+/// Cuts a text at a whole UTF-8 character: status messages travel percent-encoded in 8 KiB of metadata.
+std::string cut(std::string text) {
+  constexpr std::size_t kMessageMaxBytes = 2000;
+  if (text.size() <= kMessageMaxBytes) return text;
+  std::size_t end = kMessageMaxBytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
+}
+
+/// Absolute deadlines of a row of ticks; ticks that a slow reader missed are left out.
+class Pace {
+ public:
+  explicit Pace(double rate_hz)
+      : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate_hz))),
+        due_(Clock::now()) {}
+  [[nodiscard]] Clock::time_point due() const { return due_; }
+  void advance() {
+    due_ += period_;
+    const auto now = Clock::now();
+    if (now > due_) due_ += (now - due_) / period_ * period_;
+  }
+
+ private:
+  Clock::duration period_;
+  Clock::time_point due_;
+};
+
+double watch_rate_hz(const proto::WatchRequest& request) {
+  if (!request.has_rate_hz()) return kWatchHzDefault;
+  if (!(request.rate_hz() > kWatchHzMin)) return kWatchHzMin;  // also what is not a number
+  return std::min(request.rate_hz(), kWatchHzMax);
+}
+
+/// ControlService over gRPC: one blocking call a thread.
+class GrpcControl final : public proto::Control::Service {
+ public:
+  using Context = grpc::ServerContext;
+
+  GrpcControl(ControlBackend& backend, std::string_view side) : service_(backend), side_(side) {}
+
+  grpc::Status GetStatus(Context*, const proto::StatusRequest*, proto::Status* answer) override {
+    *answer = service_.status();
+    return grpc::Status::OK;
+  }
+  grpc::Status GetConfig(Context* context, const proto::GetConfigRequest* request,
+                         proto::GetConfigResponse* answer) override {
+    return finish(context, service_.get_config(*request), answer);
+  }
+  grpc::Status SetConfig(Context* context, const proto::SetConfigRequest* request,
+                         proto::Outcome* answer) override {
+    return finish(context, service_.set_config(*request), answer);
+  }
+  grpc::Status GetLink(Context*, const proto::GetLinkRequest*, proto::Impairment* answer) override {
+    *answer = service_.get_link();
+    return grpc::Status::OK;
+  }
+  grpc::Status SetLink(Context* context, const proto::SetLinkRequest* request,
+                       proto::Outcome* answer) override {
+    return finish(context, service_.set_link(*request), answer);
+  }
+  grpc::Status SetMode(Context* context, const proto::SetModeRequest* request,
+                       proto::Outcome* answer) override {
+    return finish(context, service_.set_mode(*request), answer);
+  }
+  grpc::Status SetScale(Context* context, const proto::SetScaleRequest* request,
+                        proto::Outcome* answer) override {
+    return finish(context, service_.set_scale(*request), answer);
+  }
+  grpc::Status Engage(Context* context, const proto::EngageRequest*, proto::Outcome* answer) override {
+    return finish(context, service_.engage(), answer);
+  }
+  grpc::Status Stop(Context* context, const proto::StopRequest*, proto::Outcome* answer) override {
+    return finish(context, service_.stop(), answer);
+  }
+
+  grpc::Status Watch(Context* context, const proto::WatchRequest* request,
+                     grpc::ServerWriter<proto::Status>* writer) override {
+    const Seat seat(*this);
+    if (!seat.taken())
+      return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+              std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: end one of them"};
+    for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
+      if (!writer->Write(service_.status())) break;
+    return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " ends")
+                      : grpc::Status::OK;
+  }
+
+  void begin_stop() {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_all();
+  }
+
+ private:
+  /// A watcher's place among kWatchersMax.
+  class Seat {
+   public:
+    explicit Seat(GrpcControl& control) : control_(control) {
+      const std::lock_guard lock(control_.mutex_);
+      taken_ = control_.watchers_ < kWatchersMax;
+      if (taken_) ++control_.watchers_;
+    }
+    ~Seat() {
+      const std::lock_guard lock(control_.mutex_);
+      if (taken_) --control_.watchers_;
+    }
+    Seat(const Seat&) = delete;
+    Seat& operator=(const Seat&) = delete;
+    [[nodiscard]] bool taken() const { return taken_; }
+
+   private:
+    GrpcControl& control_;
+    bool taken_ = false;
+  };
+
+  template <class Answer>
+  grpc::Status finish(Context* context, ControlService::Result<Answer> result, Answer* answer) {
+    if (const auto* refusal = std::get_if<Refusal>(&result)) {
+      context->AddTrailingMetadata(std::string(kRefusedBy), side_);
+      return {code_of(refusal->kind), cut(refusal->message)};
+    }
+    *answer = std::get<Answer>(std::move(result));
+    return grpc::Status::OK;
+  }
+
+  bool stopping() {
+    const std::lock_guard lock(mutex_);
+    return stopping_;
+  }
+
+  /// False when there is nothing to wait for: the server stops or the client has left.
+  bool wait_until(Clock::time_point due, const Context& context) {
+    std::unique_lock lock(mutex_);
+    while (!stopping_ && !context.IsCancelled()) {
+      const auto now = Clock::now();
+      if (now >= due) return true;
+      wake_.wait_until(lock, std::min(due, now + kLeaveCheck));
+    }
+    return false;
+  }
+
+  ControlService service_;
+  std::string side_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  int watchers_ = 0;
+};
+
+bool is_port(std::string_view text) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::string listen_address(const std::string& listen, std::string_view side) {
+  if (listen.empty()) return std::string(side == "slave" ? kSlaveRpcAddress : kMasterRpcAddress);
+  const std::size_t colon = listen.rfind(':');
+  if (colon == std::string::npos || colon == 0 || !is_port(std::string_view(listen).substr(colon + 1)))
+    throw std::runtime_error("the " + std::string(side) + " cannot listen for its RPC clients on '" + listen +
+                             "': give rpc.listen as address:port, e.g. 127.0.0.1:47010");
+  return listen;
+}
+
+void configure(grpc::ServerBuilder& builder) {
+  builder.SetMaxReceiveMessageSize(kRequestMaxBytes);
+  // A second program on the same port must fail, not share it.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  // Generous: a client may itself be many seconds away.
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
+  builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
+  builder.SetResourceQuota(grpc::ResourceQuota("longreach-control").SetMaxThreads(kThreadsMax));
+}
+
+}  // namespace
+
+struct RpcServer::State {
+  State(ControlBackend& backend, std::string_view side) : control(backend, side) {}
+  GrpcControl control;
+  std::unique_ptr<grpc::Server> server;
+  std::string address;
+};
+
+RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side)
+    : state_(std::make_unique<State>(backend, side)) {
+  const std::string address = listen_address(listen, side);
+  // gRPC's own log lines would stand beside the one sentence of the exception.
+  gpr_set_log_function([](gpr_log_func_args*) {});
+  grpc::ServerBuilder builder;
+  configure(builder);
+  int port = 0;
+  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&state_->control);
+  state_->server = builder.BuildAndStart();
+  if (!state_->server || port == 0)
+    throw std::runtime_error(
+        "the " + std::string(side) + " cannot listen for its RPC clients on " + address +
+        ": end the program that uses this port, or set rpc.listen to a free port on an address "
+        "of this machine");
+  state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(port);
+}
+
+RpcServer::~RpcServer() { stop(); }
+
+void RpcServer::stop() {
+  if (!state_->server) return;
+  state_->control.begin_stop();
+  state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);
+  state_->server->Wait();
+  state_->server.reset();
+}
+
+const std::string& RpcServer::address() const { return state_->address; }
+
+}  // namespace longreach

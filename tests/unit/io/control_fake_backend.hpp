@@ -1,0 +1,136 @@
+#pragma once
+// A side that does what it is told and remembers what it was told.
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "common/io/control_backend.hpp"
+
+namespace longreach {
+
+class FakeBackend : public ControlBackend {
+ public:
+  explicit FakeBackend(std::string side) : side_(std::move(side)) {
+    config_.mutable_estimator()->set_forgetting(0.99);
+  }
+
+  /// The answer of every change from now on.
+  void refuse(std::optional<Refusal> refusal) {
+    const std::lock_guard lock(mutex_);
+    refusal_ = std::move(refusal);
+  }
+  [[nodiscard]] std::vector<std::string> calls() const {
+    const std::lock_guard lock(mutex_);
+    return calls_;
+  }
+  [[nodiscard]] proto::Impairment present_link() const {
+    const std::lock_guard lock(mutex_);
+    return link_;
+  }
+  void put_link(const proto::Impairment& link) {
+    const std::lock_guard lock(mutex_);
+    link_ = link;
+  }
+  /// Most calls that were ever inside at once.
+  [[nodiscard]] int overlap() const { return overlap_; }
+
+  proto::Status status() override {
+    const Inside inside(*this);
+    proto::Status status;
+    status.set_side(side_);
+    status.set_state("Engaged");
+    status.set_scale(scale_);
+    status.mutable_link()->set_rtt_known(true);
+    status.mutable_link()->set_rtt_s(1.3);
+    *status.mutable_impairment() = link_;
+    proto::NamedCount& zero = *status.add_counters();
+    zero.set_name("late_ticks");
+    zero.set_count(0);
+    proto::NamedCount& some = *status.add_counters();
+    some.set_name("rejected_replay");
+    some.set_count(7);
+    return status;
+  }
+  std::unique_ptr<google::protobuf::Message> config() override {
+    const Inside inside(*this);
+    return std::make_unique<proto::SlaveConfig>(config_);
+  }
+  std::optional<Refusal> set_config(const Assignments& assignments) override {
+    const Inside inside(*this);
+    proto::SlaveConfig wanted = config_;
+    try {
+      for (const auto& [path, value] : assignments) set_field(wanted, path, value);
+      validate(wanted);
+    } catch (const ConfigError& error) {
+      return Refusal{Refusal::Kind::kInvalid, error.what()};
+    }
+    return change("set_config", [&] { config_ = wanted; });
+  }
+  proto::Impairment link() override {
+    const Inside inside(*this);
+    return link_;
+  }
+  std::optional<Refusal> set_link(const proto::Impairment& impairment) override {
+    const Inside inside(*this);
+    return change("set_link", [&] { link_ = impairment; });
+  }
+  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override {
+    const Inside inside(*this);
+    return change("set_mode " + proto::Mapping::Mode_Name(mode), [] {});
+  }
+  std::optional<Refusal> set_scale(double scale) override {
+    const Inside inside(*this);
+    return change("set_scale", [&] { scale_ = scale; });
+  }
+  std::optional<Refusal> engage() override {
+    const Inside inside(*this);
+    return change("engage", [] {});
+  }
+  std::optional<Refusal> stop() override {
+    const Inside inside(*this);
+    return change("stop", [] {});
+  }
+
+ private:
+  class Inside {
+   public:
+    explicit Inside(FakeBackend& backend) : backend_(backend), lock_(backend.mutex_, std::defer_lock) {
+      const int now = ++backend_.inside_;
+      if (now > backend_.overlap_) backend_.overlap_ = now;
+      lock_.lock();
+    }
+    ~Inside() { --backend_.inside_; }
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+
+   private:
+    FakeBackend& backend_;
+    std::unique_lock<std::mutex> lock_;
+  };
+
+  template <class Action>
+  std::optional<Refusal> change(const std::string& call, Action action) {
+    calls_.push_back(call);
+    if (refusal_) return refusal_;
+    action();
+    return {};
+  }
+
+  const std::string side_;
+  mutable std::mutex mutex_;
+  std::atomic<int> inside_ = 0;
+  std::atomic<int> overlap_ = 0;
+  std::vector<std::string> calls_;  // changes, in order
+  std::optional<Refusal> refusal_;
+  proto::SlaveConfig config_;
+  proto::Impairment link_;
+  double scale_ = 0.5;
+};
+
+}  // namespace longreach
