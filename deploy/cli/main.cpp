@@ -1,1 +1,45 @@
-int main() { return 0; }
+// longreach: the command line client of a running master and slave.
+
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+#include <variant>
+
+#include "common/config/config.hpp"
+#include "deploy/cli/command_line.hpp"
+#include "deploy/cli/commands.hpp"
+#include "deploy/cli/side_client.hpp"
+
+namespace {
+
+using namespace std::string_view_literals;
+using longreach::ExitStatus;
+
+ExitStatus run(int argc, const char* const* argv) {
+  // Also when the command line cannot be understood.
+  const bool json = std::any_of(argv, argv + argc, [](const char* word) { return word == "--json"sv; });
+  try {
+    const auto asked = longreach::parse_command_line(argc, argv);
+    if (const auto* printout = std::get_if<longreach::Printout>(&asked)) {
+      std::cout << printout->text;
+      return printout->exit;
+    }
+    return longreach::run(std::get<longreach::Invocation>(asked));
+  } catch (const longreach::SideError& error) {
+    longreach::print_error(json, error.what());
+    return error.kind() == longreach::SideError::Kind::kBadValue ? ExitStatus::kUsage : ExitStatus::kFailed;
+  } catch (const longreach::UsageError& error) {
+    longreach::print_error(json, error.what());
+    return ExitStatus::kUsage;
+  } catch (const longreach::ConfigError& error) {
+    longreach::print_error(json, error.what());
+    return ExitStatus::kUsage;
+  } catch (const std::exception& error) {
+    longreach::print_error(json, error.what());
+    return ExitStatus::kFailed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return static_cast<int>(run(argc, argv)); }

@@ -1,0 +1,277 @@
+#include "deploy/cli/command_line.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "common/config/config.hpp"
+#include "common/config/number_text.hpp"
+#include "common/io/rpc_server.hpp"
+#include "deploy/cli/help_text.hpp"
+
+namespace longreach {
+namespace {
+
+/// Texts as they were typed, before they are judged.
+struct Words {
+  std::string master{kMasterRpcAddress}, slave{kSlaveRpcAddress}, timeout = "3";
+  std::string hz = "4", count{};
+  std::string side{}, path{};
+  std::vector<std::string> assignments{};
+  std::string profile{}, direction = "both", duration{};
+  std::string mode{}, scale{};
+};
+
+double bounded(const char* what, const std::string& text, std::optional<double> value, double min, double max,
+               const char* unit) {
+  if (value && *value >= min && *value <= max) return *value;
+  throw UsageError(std::string(what) + " = " + text + " is not a number from " + format_number(min) + " to " +
+                   format_number(max) + unit);
+}
+
+void check_address(const char* option, const std::string& address) {
+  const std::size_t colon = address.rfind(':');
+  if (colon != std::string::npos && colon > 0) {
+    const auto port = parse_integer<std::uint16_t>(std::string_view(address).substr(colon + 1));
+    if (port && *port > 0) return;
+  }
+  throw UsageError(std::string(option) + " = " + address + " is not HOST:PORT, e.g. 127.0.0.1:47010");
+}
+
+/// The command line's grammar: declared once, then asked for what was found.
+class Grammar {
+ public:
+  Grammar();
+  std::variant<Invocation, Printout> parse(int argc, const char* const* argv);
+
+ private:
+  void declare_views();
+  void declare_fields();
+  void declare_link();
+  void declare_motion();
+  CLI::App* declare(CLI::App& parent, const char* name, const std::string& help, const char* more);
+  CLI::Option* declare_direction(CLI::App& command);
+
+  [[nodiscard]] Options options() const;
+  [[nodiscard]] Command command() const;
+  [[nodiscard]] SetCommand set_command() const;
+  [[nodiscard]] LinkSetCommand link_command() const;
+  [[nodiscard]] Side side() const { return words_.side == "slave" ? Side::kSlave : Side::kMaster; }
+  [[nodiscard]] bool parsed(const char* name) const { return app_.get_subcommand(name)->parsed(); }
+
+  CLI::App app_{kIntroduction, "longreach"};
+  CLI::App* link_ = nullptr;
+  Words words_{};
+  std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
+  bool json_ = false;
+};
+
+Grammar::Grammar() {
+  app_.require_subcommand(0, 1);
+  app_.set_version_flag("--version", "longreach " LONGREACH_VERSION);
+  app_.footer(kExits);
+  app_.get_formatter()->column_width(32);
+  app_.add_option("--master", words_.master, "address of the master's RPC server [" + words_.master + "]")
+      ->type_name("HOST:PORT");
+  app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
+      ->type_name("HOST:PORT");
+  app_.add_option("--timeout", words_.timeout, "longest wait for an answer, connecting included [3 s]")
+      ->type_name("S");
+  app_.add_flag("--json", json_, "answer in JSON, also to errors");
+  declare_views();
+  declare_fields();
+  declare_link();
+  declare_motion();
+}
+
+CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string& help, const char* more) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->footer(more);
+  command->fallthrough();  // --json and --timeout also behind the command
+  return command;
+}
+
+void Grammar::declare_views() {
+  declare(
+      app_, "status", "show both sides once",
+      "Shows the state of both sides, the link between them (round trip; jitter and loss as each side "
+      "receives),\n"
+      "motion, contact, force and all counts that are not zero. Exit status 1 if a side does not answer.\n"
+      "Example: longreach status --json");
+  CLI::App* watch =
+      declare(app_, "watch", "show both sides live",
+              "Redraws on a terminal; writes one line an update elsewhere. Ctrl-C ends it, with status "
+              "0.\nExample: longreach watch --hz 10");
+  watch->add_option("--hz", words_.hz, "updates a second, 0.1 to 60 [4]")->type_name("HZ");
+  watch->add_option("--count", words_.count, "end after this many updates")->type_name("N");
+}
+
+void Grammar::declare_fields() {
+  const auto sides = CLI::IsMember({"master", "slave"});
+  CLI::App* get = declare(app_, "get", "print the configuration of a side, or a part of it",
+                          "Fields, units and ranges: proto/config.proto.\n"
+                          "Example: longreach get slave estimator.forgetting");
+  get->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
+  get->add_option("PATH", words_.path, "field or group; all when left out");
+  CLI::App* set =
+      declare(app_, "set", "change fields of a side's configuration, all of them or none",
+              "Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only\n"
+              "at start; the refusal says so.\n"
+              "Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%");
+  set->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
+  set->add_option("PATH VALUE", words_.assignments, "field and its new value, as often as wanted")
+      ->required();
+}
+
+CLI::Option* Grammar::declare_direction(CLI::App& command) {
+  return command
+      .add_option("--direction", words_.direction,
+                  "up (master to slave), down (slave to master) or both [both]")
+      ->check(CLI::IsMember({"up", "down", "both"}))
+      ->type_name("DIRECTION");
+}
+
+void Grammar::declare_link() {
+  link_ = declare(app_, "link", "show or change the artificial impairment of the link",
+                  "Up is master to slave and acts at the slave, down acts at the master.\n"
+                  "Example: longreach link set --profile moon");
+  link_->require_subcommand(0, 1);
+  declare(*link_, "show", "print the impairment of both directions", "Example: longreach link show");
+  CLI::App* set = declare(*link_, "set", "change the impairment", kLinkSetMore);
+  set->add_option("--profile", words_.profile, "a real link by name, from deploy/links")->type_name("NAME");
+  for (std::size_t i = 0; i < std::size(kFieldOptions); ++i)
+    set->add_option(kFieldOptions[i].name, field_words_[i], kFieldOptions[i].help)
+        ->type_name(kFieldOptions[i].value);
+  declare_direction(*set);
+  CLI::App* blackout = declare(*link_, "blackout", "lose everything for a while, from now",
+                               "Example: longreach link blackout 2s --direction down");
+  blackout->add_option("DURATION", words_.duration, "how long: 500ms, 2s or plain seconds (0 to 1e6 s)")
+      ->required();
+  declare_direction(*blackout);
+  declare_direction(
+      *declare(*link_, "clear", "remove all artificial impairment", "Example: longreach link clear"));
+}
+
+void Grammar::declare_motion() {
+  declare(app_, "mode", "choose how the hand moves the robot",
+          "rate: deflection commands speed, coarse and fast; position: scaled position, fine and exact.\n"
+          "Example: longreach mode position")
+      ->add_option("MODE", words_.mode, "rate or position")
+      ->required()
+      ->check(CLI::IsMember({"rate", "position"}));
+  declare(app_, "scale", "set the scale of motion: robot over hand, 0.05 to 1",
+          "Example: longreach scale 0.5")
+      ->add_option("VALUE", words_.scale, "0.05 to 1, or up or down by 0.05")
+      ->required();
+  declare(
+      app_, "engage", "let the robot follow the hand",
+      "The first goal is where the robot is: nothing jumps. Asked of the master.\nExample: longreach engage");
+  declare(app_, "stop", "stop the robot until it is engaged again",
+          "Asks both sides, and is done when one of them has answered.\nExample: longreach stop");
+}
+
+std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::CallForVersion& version) {
+    return Printout{std::string(version.what()) + "\n"};
+  } catch (const CLI::CallForHelp&) {
+    return Printout{app_.help()};
+  } catch (const CLI::ExtrasError& error) {
+    if (app_.get_subcommands().empty() && !app_.remaining().empty())
+      throw UsageError(app_.remaining().front() + " is not a command; see longreach --help");
+    throw UsageError(std::string(error.what()) + "; see longreach --help");
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string(error.what()) + "; see longreach --help");
+  }
+  if (json_ && (app_.get_subcommands().empty() || (link_->parsed() && link_->get_subcommands().empty())))
+    throw UsageError("no command is given; see longreach --help");
+  if (app_.get_subcommands().empty()) return Printout{app_.help(), ExitStatus::kUsage};
+  if (link_->parsed() && link_->get_subcommands().empty())
+    return Printout{link_->help("longreach"), ExitStatus::kUsage};
+  return Invocation{options(), command()};
+}
+
+Options Grammar::options() const {
+  check_address("--master", words_.master);
+  check_address("--slave", words_.slave);
+  const double timeout_s =
+      bounded("--timeout", words_.timeout, parse_seconds(words_.timeout), 0.05, 600.0, " s");
+  return {words_.master, words_.slave, timeout_s, json_};
+}
+
+Command Grammar::command() const {
+  if (parsed("status")) return StatusCommand{};
+  if (parsed("watch")) {
+    WatchCommand watch{bounded("--hz", words_.hz, parse_number(words_.hz), kWatchHzMin, kWatchHzMax, " Hz")};
+    if (words_.count.empty()) return watch;
+    watch.count = parse_integer<std::uint64_t>(words_.count);
+    if (watch.count.value_or(0) == 0)
+      throw UsageError("--count = " + words_.count + " is not a whole number from 1");
+    return watch;
+  }
+  if (parsed("get")) return GetCommand{side(), words_.path};
+  if (parsed("set")) return set_command();
+  if (parsed("link")) {
+    if (link_->get_subcommand("show")->parsed()) return LinkShowCommand{};
+    return link_command();
+  }
+  if (parsed("mode"))
+    return ModeCommand{words_.mode == "rate" ? proto::Mapping::RATE : proto::Mapping::POSITION};
+  if (parsed("scale")) {
+    if (words_.scale == "up") return ScaleCommand{{}, 1};
+    if (words_.scale == "down") return ScaleCommand{{}, -1};
+    return ScaleCommand{
+        bounded("scale", words_.scale, parse_number(words_.scale), 0.05, 1.0, ", up or down")};
+  }
+  if (parsed("engage")) return EngageCommand{};
+  return StopCommand{};
+}
+
+SetCommand Grammar::set_command() const {
+  SetCommand set{side(), {}};
+  for (std::size_t i = 0; i < words_.assignments.size(); i += 2) {
+    if (i + 1 == words_.assignments.size())
+      throw UsageError(words_.assignments[i] + " has no value: give pairs of PATH VALUE");
+    set.assignments.emplace_back(words_.assignments[i], words_.assignments[i + 1]);
+  }
+  return set;
+}
+
+LinkSetCommand Grammar::link_command() const {
+  LinkSetCommand set;
+  if (words_.direction != "both")
+    set.direction = words_.direction == "up" ? Direction::kUp : Direction::kDown;
+  if (link_->get_subcommand("clear")->parsed()) {
+    set.clear = true;
+    return set;
+  }
+  if (link_->get_subcommand("blackout")->parsed()) {
+    set_field(set.fields, "blackout_duration_s", words_.duration);
+    set.fields.set_blackout_start_s(0.0);
+    set.fields.set_blackout_period_s(0.0);
+    return set;
+  }
+  const auto given = [&](const char* option) { return link_->get_subcommand("set")->count(option) > 0; };
+  bool any = given("--profile");
+  if (any) set.profile = words_.profile;
+  for (std::size_t i = 0; i < std::size(kFieldOptions); ++i) {
+    if (!given(kFieldOptions[i].name)) continue;
+    set_field(set.fields, kFieldOptions[i].field, field_words_[i]);
+    any = true;
+  }
+  if (!any)
+    throw UsageError(
+        "link set has nothing to set: give --profile or at least one field, see link set --help");
+  return set;
+}
+
+}  // namespace
+
+std::variant<Invocation, Printout> parse_command_line(int argc, const char* const* argv) {
+  return Grammar().parse(argc, argv);
+}
+
+}  // namespace longreach

@@ -1,0 +1,153 @@
+#include "deploy/cli/commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <iostream>
+#include <type_traits>
+
+#include "common/config/number_text.hpp"
+#include "deploy/cli/json_text.hpp"
+#include "deploy/cli/side_client.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kScaleStep = 0.05;
+constexpr double kScaleMin = 0.05;
+constexpr double kScaleMax = 1.0;
+
+SideReport ask(Side side, const Options& options) {
+  SideReport report{side, side == Side::kMaster ? options.master_address : options.slave_address, {}, {}};
+  try {
+    report.status = SideClient(side, options).status();
+  } catch (const SideError& error) {
+    report.error = error.what();
+  }
+  return report;
+}
+
+ExitStatus run_status(const Options& options) {
+  auto slave = std::async(std::launch::async, ask, Side::kSlave, options);
+  const BothReports reports{ask(Side::kMaster, options), slave.get()};
+  if (options.json) {
+    std::cout << status_json(reports) << "\n";
+  } else {
+    std::cout << status_table(reports);
+  }
+  std::cout.flush();
+  for (const SideReport* report : {&reports.master, &reports.slave})
+    if (!report->status) std::cerr << "longreach: " << report->error << "\n";
+  return reports.master.status && reports.slave.status ? ExitStatus::kDone : ExitStatus::kFailed;
+}
+
+ExitStatus run_get(const Options& options, const GetCommand& command) {
+  std::string text = SideClient(command.side, options).get(command.path);
+  if (options.json) {
+    std::cout << "{\"text\":" << json_string(text) << "}\n";
+  } else {
+    std::cout << text << (text.ends_with('\n') ? "" : "\n");
+  }
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_set(const Options& options, const SetCommand& command) {
+  SideClient(command.side, options).set(command.assignments);
+  std::string done = "set at the " + std::string(name_of(command.side)) + ":";
+  for (const auto& [path, value] : command.assignments) done += " " + path + " = " + value + ";";
+  done.pop_back();
+  print_done(options, done);
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
+  SideClient master(Side::kMaster, options);
+  double scale = command.value.value_or(0.0);
+  if (!command.value) {
+    const proto::Status status = master.status();
+    if (!status.has_scale())
+      throw SideError(SideError::Kind::kRefused, "the master does not say what the scale is: give a value");
+    // To the grid of 1e-6, so that steps up and down come back to where they began.
+    const double stepped = status.scale() + command.steps * kScaleStep;
+    scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
+  }
+  master.set_scale(scale);
+  print_done(options, "scale is " + format_number(scale));
+  return ExitStatus::kDone;
+}
+
+/// The error of a side that could not be stopped; none when it could.
+std::optional<SideError> try_stop(Side side, const Options& options) {
+  try {
+    SideClient(side, options).stop();
+    return {};
+  } catch (const SideError& error) {
+    return error;
+  }
+}
+
+ExitStatus run_stop(const Options& options) {
+  // At the same time: a side that does not answer must not delay the other one's stop.
+  auto slave = std::async(std::launch::async, try_stop, Side::kSlave, options);
+  const auto master_error = try_stop(Side::kMaster, options);
+  const auto slave_error = slave.get();
+  if (master_error && slave_error)
+    throw SideError(SideError::Kind::kDown,
+                    "nothing was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
+  if (slave_error) {
+    print_done(options, "stopped at the master, which tells the slave; " + std::string(slave_error->what()));
+  } else if (master_error) {
+    print_done(options, "stopped at the slave; " + std::string(master_error->what()));
+  } else {
+    print_done(options, "stopped at the master and at the slave");
+  }
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_mode(const Options& options, const ModeCommand& command) {
+  SideClient(Side::kMaster, options).set_mode(command.mode);
+  print_done(options, command.mode == proto::Mapping::RATE ? "mode is rate" : "mode is position");
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_engage(const Options& options) {
+  print_done(options, SideClient(Side::kMaster, options).engage());
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void print_done(const Options& options, const std::string& sentence) {
+  if (options.json) {
+    std::cout << "{\"done\":" << json_string(sentence) << "}\n";
+  } else {
+    std::cout << sentence << "\n";
+  }
+  std::cout.flush();
+}
+
+void print_error(bool json, const std::string& sentence) {
+  if (json) std::cout << "{\"error\":" << json_string(sentence) << "}" << std::endl;
+  std::cerr << "longreach: " << sentence << "\n";
+}
+
+ExitStatus run(const Invocation& invocation) {
+  const Options& options = invocation.options;
+  return std::visit(
+      [&options](const auto& command) {
+        using Asked = std::decay_t<decltype(command)>;
+        if constexpr (std::is_same_v<Asked, StatusCommand>) return run_status(options);
+        if constexpr (std::is_same_v<Asked, WatchCommand>) return run_watch(options, command);
+        if constexpr (std::is_same_v<Asked, GetCommand>) return run_get(options, command);
+        if constexpr (std::is_same_v<Asked, SetCommand>) return run_set(options, command);
+        if constexpr (std::is_same_v<Asked, LinkShowCommand>) return run_link_show(options);
+        if constexpr (std::is_same_v<Asked, LinkSetCommand>) return run_link_set(options, command);
+        if constexpr (std::is_same_v<Asked, ModeCommand>) return run_mode(options, command);
+        if constexpr (std::is_same_v<Asked, ScaleCommand>) return run_scale(options, command);
+        if constexpr (std::is_same_v<Asked, EngageCommand>) return run_engage(options);
+        if constexpr (std::is_same_v<Asked, StopCommand>) return run_stop(options);
+      },
+      invocation.command);
+}
+
+}  // namespace longreach

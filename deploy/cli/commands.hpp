@@ -1,0 +1,25 @@
+#pragma once
+// Carries out what was asked for. Prints the answer; throws SideError, UsageError or ConfigError for the
+// rest.
+
+#include <string>
+
+#include "deploy/cli/invocation.hpp"
+#include "deploy/cli/status_text.hpp"
+
+namespace longreach {
+
+ExitStatus run(const Invocation& invocation);
+
+// One file each.
+ExitStatus run_watch(const Options& options, const WatchCommand& command);
+ExitStatus run_link_show(const Options& options);
+/// Both directions, or none: a direction that was changed is put back when the other one refuses.
+ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
+
+/// Prints what was done: a sentence, or {"done": ...}.
+void print_done(const Options& options, const std::string& sentence);
+/// Prints an error as it was announced: a sentence on stderr, and with JSON {"error": ...} on stdout.
+void print_error(bool json, const std::string& sentence);
+
+}  // namespace longreach

@@ -1,0 +1,46 @@
+#pragma once
+// The longer texts of the command line's help, and the options of `link set` with the fields that they set.
+
+#include <array>
+
+namespace longreach {
+
+inline constexpr const char* kIntroduction =
+    R"(longreach shows and changes a running teleoperation: the master, where the hand is, and the slave, where
+the robot is. It talks to longreach-master and longreach-slave, which have to be started first.)";
+inline constexpr const char* kExits =
+    R"(Exit status: 0 done; 1 refused, or a side does not answer; 2 bad usage or a bad value (nothing changed).
+With --json every answer is one JSON object on one line, with the field names of proto/control.proto:
+  status, watch  {"master": {...}, "slave": {...}}; null for a side that is down, and then "error"
+  get            {"text": "..."}
+  link show      {"up": {...}, "down": {...}}; likewise
+  other commands {"done": "..."}
+  every failure  {"error": "..."}
+Example: longreach status)";
+
+inline constexpr const char* kLinkSetMore =
+    R"(A profile replaces the whole direction, options change single fields (also of a profile named with them).
+Both directions change, or none. TIME is 650ms, 1.3s, 20us or plain seconds; FRACTION is 2% or 0.02.
+--delay is the one-way delay of each direction that it is applied to: 650ms in both make a round trip of 1.3 s.
+Example: longreach link set --delay 650ms --loss 2%)";
+
+/// Options of `link set` with the fields that they set.
+struct FieldOption {
+  const char* name;
+  const char* field;
+  const char* value;
+  const char* help;
+};
+inline constexpr auto kFieldOptions = std::to_array<FieldOption>({
+    {"--delay", "delay_s", "TIME", "one-way delay (0 to 100 s)"},
+    {"--jitter", "jitter_s", "TIME", "standard deviation of the one-way delay (0 to 10 s)"},
+    {"--loss", "loss", "FRACTION", "mean fraction of datagrams lost (0 to 1)"},
+    {"--loss-burst", "loss_burst", "N",
+     "mean length of a loss burst, datagrams; 1: independent losses (1 to 1000)"},
+    {"--duplicate", "duplicate", "FRACTION", "fraction sent twice (0 to 1)"},
+    {"--reorder", "reorder", "FRACTION", "fraction let past its predecessors (0 to 1)"},
+    {"--corrupt", "corrupt", "FRACTION", "fraction with one bit flipped (0 to 1)"},
+    {"--rate", "rate_bit_per_s", "BITS", "rate limit, bit/s; 0: unlimited (0 to 1e12)"},
+});
+
+}  // namespace longreach

@@ -1,0 +1,81 @@
+#pragma once
+// What the user asked for: a parsed and, as far as it can be judged here, valid command line.
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "proto/config.pb.h"
+
+namespace longreach {
+
+enum class Side { kMaster, kSlave };
+constexpr std::string_view name_of(Side side) { return side == Side::kMaster ? "master" : "slave"; }
+
+enum class ExitStatus : int {
+  kDone = 0,
+  kFailed = 1,  // refused, or a side does not answer
+  kUsage = 2,   // bad usage or bad value
+};
+
+/// Bad usage or a bad value: one sentence for the user.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A direction of the link: up is master to slave and is set at the slave, down is set at the master.
+enum class Direction { kUp, kDown, kBoth };
+
+struct StatusCommand {};
+struct WatchCommand {
+  double rate_hz = 4.0;
+  std::optional<std::uint64_t> count{};  // none: until Ctrl-C
+};
+struct GetCommand {
+  Side side = Side::kMaster;
+  std::string path;  // empty: everything
+};
+struct SetCommand {
+  Side side = Side::kMaster;
+  std::vector<std::pair<std::string, std::string>> assignments;  // path, value
+};
+struct LinkShowCommand {};
+/// Also blackout and clear, which are a change of some fields and of all.
+struct LinkSetCommand {
+  Direction direction = Direction::kBoth;
+  std::optional<std::string> profile{};  // replaces the direction before `fields` go over it
+  bool clear = false;                    // likewise, with an undisturbed link
+  proto::Impairment fields;              // of each direction that it is applied to
+};
+struct ModeCommand {
+  proto::Mapping::Mode mode = proto::Mapping::POSITION;
+};
+struct ScaleCommand {
+  std::optional<double> value{};
+  int steps = 0;  // of 0.05, without a value
+};
+struct EngageCommand {};
+struct StopCommand {};
+
+using Command = std::variant<StatusCommand, WatchCommand, GetCommand, SetCommand, LinkShowCommand,
+                             LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand>;
+
+struct Options {
+  std::string master_address;  // host:port of its RPC server
+  std::string slave_address;
+  double timeout_s = 3.0;  // for each call, connecting included
+  bool json = false;
+};
+
+struct Invocation {
+  Options options;
+  Command command;
+};
+
+}  // namespace longreach

@@ -1,0 +1,130 @@
+// Showing and changing the impairment of both directions.
+
+#include <future>
+#include <iostream>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
+#include "deploy/cli/side_client.hpp"
+
+namespace longreach {
+namespace {
+
+/// The change of one direction at the side that it is set at.
+struct Change {
+  Change(Side the_side, const Options& options, bool replaces, proto::Impairment the_fields)
+      : side(the_side), replace(replaces), fields(std::move(the_fields)), client(side, options) {}
+
+  Side side;
+  bool replace;
+  proto::Impairment fields;  // to set
+  SideClient client;
+  proto::Impairment before{};
+};
+
+std::vector<Change> changes_of(const Options& options, const LinkSetCommand& command) {
+  proto::LinkProfile profile;
+  if (command.profile) profile = load_link_profile(find_deploy_folder(), *command.profile);
+  const bool replace = command.clear || command.profile;
+  proto::Impairment up = profile.up();
+  proto::Impairment down = profile.down();
+  up.MergeFrom(command.fields);
+  down.MergeFrom(command.fields);
+  validate(up);
+  validate(down);
+  std::vector<Change> changes;
+  // The slave first: what only the robot's side refuses then needs no putting back.
+  if (command.direction != Direction::kDown)
+    changes.emplace_back(Side::kSlave, options, replace, std::move(up));
+  if (command.direction != Direction::kUp)
+    changes.emplace_back(Side::kMaster, options, replace, std::move(down));
+  return changes;
+}
+
+/// Fetches what is there now, and by that finds out that every side answers and agrees to be that side.
+void look(std::vector<Change>& changes) {
+  for (Change& change : changes) {
+    change.client.status();
+    change.before = change.client.link();
+  }
+}
+
+/// What became of the directions that had been changed before `error`.
+std::string put_back(std::vector<Change>& changes, std::size_t changed) {
+  std::string outcome;
+  for (std::size_t i = 0; i < changed; ++i) {
+    const std::string name(name_of(changes[i].side));
+    try {
+      changes[i].client.set_link(changes[i].before, true);
+      outcome += "; the " + name + "'s direction is put back";
+    } catch (const SideError& error) {
+      outcome += "; the " + name + "'s direction stays changed: " + error.what();
+    }
+  }
+  return outcome;
+}
+
+void apply(std::vector<Change>& changes) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    try {
+      changes[i].client.set_link(changes[i].fields, changes[i].replace);
+    } catch (const SideError& error) {
+      std::string sentence = error.what();
+      if (error.kind() == SideError::Kind::kDown) sentence += "; its direction may have changed";
+      throw SideError(error.kind(), sentence + put_back(changes, i));
+    }
+  }
+}
+
+struct Shown {
+  std::optional<proto::Impairment> link{};
+  std::string error;
+};
+
+Shown ask(Side side, const Options& options) {
+  try {
+    return {SideClient(side, options).link(), {}};
+  } catch (const SideError& error) {
+    return {{}, error.what()};
+  }
+}
+
+}  // namespace
+
+ExitStatus run_link_show(const Options& options) {
+  auto slave = std::async(std::launch::async, ask, Side::kSlave, options);
+  const Shown down = ask(Side::kMaster, options);
+  const Shown up = slave.get();
+  const std::string error = up.error + (up.error.empty() || down.error.empty() ? "" : "; ") + down.error;
+  if (options.json) {
+    std::cout << "{\"up\":" << (up.link ? json_object(*up.link) : "null")
+              << ",\"down\":" << (down.link ? json_object(*down.link) : "null");
+    if (!error.empty()) std::cout << ",\"error\":" << json_string(error);
+    std::cout << "}\n";
+  } else {
+    if (up.link) std::cout << "up (master to slave, at the slave):     " << in_words(*up.link) << "\n";
+    if (down.link) std::cout << "down (slave to master, at the master):  " << in_words(*down.link) << "\n";
+  }
+  std::cout.flush();
+  if (error.empty()) return ExitStatus::kDone;
+  std::cerr << "longreach: " << error << "\n";
+  return ExitStatus::kFailed;
+}
+
+ExitStatus run_link_set(const Options& options, const LinkSetCommand& command) {
+  std::vector<Change> changes = changes_of(options, command);
+  look(changes);
+  apply(changes);
+  std::string done;
+  for (Change& change : changes)
+    done += (done.empty() ? "" : "; ") + std::string(change.side == Side::kSlave ? "up: " : "down: ") +
+            in_words(change.client.link());
+  print_done(options, done);
+  return ExitStatus::kDone;
+}
+
+}  // namespace longreach

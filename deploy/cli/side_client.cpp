@@ -1,0 +1,264 @@
+#include "deploy/cli/side_client.hpp"
+
+#include <grpc/support/log.h>
+#include <grpcpp/grpcpp.h>
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#include "common/io/rpc_server.hpp"
+#include "proto/control.grpc.pb.h"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr auto kRetryAfter = std::chrono::milliseconds(500);
+
+const std::string& address_of(Side side, const Options& options) {
+  return side == Side::kMaster ? options.master_address : options.slave_address;
+}
+
+std::shared_ptr<grpc::Channel> connect(const std::string& address) {
+  // gRPC's own log lines would stand beside the one sentence of the error.
+  gpr_set_log_function([](gpr_log_func_args*) {});
+  grpc::ChannelArguments arguments;
+  // The addresses are the user's own machines: a proxy for the web does not lead there.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  // A connection over seconds of delay needs several round trips; the call's deadline is the limit.
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 90'000);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+std::string down_sentence(Side side, const Options& options, bool timed_out) {
+  const std::string name(name_of(side));
+  std::string sentence = "the " + name + " does not answer at " + address_of(side, options);
+  if (timed_out) {
+    std::array<char, 40> within{};
+    std::snprintf(within.data(), within.size(), " within %g s", options.timeout_s);
+    sentence += within.data();
+  }
+  return sentence + ": start longreach-" + name + ", or say where it is with --" + name + " HOST:PORT";
+}
+
+bool refused_by_side(const grpc::ClientContext& context) {
+  return context.GetServerTrailingMetadata().contains(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size()));
+}
+
+SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
+                  const grpc::Status& status) {
+  const std::string the_side = "the " + std::string(name_of(side));
+  const std::string refusal = the_side + " refuses: " + status.error_message();
+  if (status.error_code() == grpc::StatusCode::INVALID_ARGUMENT) return {SideError::Kind::kBadValue, refusal};
+  if (refused_by_side(context)) return {SideError::Kind::kRefused, refusal};
+  switch (status.error_code()) {
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return {SideError::Kind::kDown, down_sentence(side, options, true)};
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:
+      return {SideError::Kind::kDown, down_sentence(side, options, false)};
+    case grpc::StatusCode::UNIMPLEMENTED:
+      return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
+                                             " does not know this call: use programs of one version"};
+    default:
+      return {SideError::Kind::kRefused, refusal};
+  }
+}
+
+/// Throws when what answers is another side than the one that was meant.
+void check_side(Side side, const Options& options, const proto::Status& status) {
+  if (!status.has_side() || status.side() == name_of(side)) return;
+  throw SideError(SideError::Kind::kRefused, "what answers at " + address_of(side, options) + " is the " +
+                                                 status.side() + ", not the " + std::string(name_of(side)) +
+                                                 ": correct --" + std::string(name_of(side)));
+}
+
+}  // namespace
+
+struct SideClient::State {
+  Side side;
+  Options options;
+  std::unique_ptr<proto::Control::Stub> stub;
+
+  template <class Answer, class Request>
+  Answer call(grpc::Status (proto::Control::Stub::*method)(grpc::ClientContext*, const Request&, Answer*),
+              const Request& request) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() +
+                         std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.timeout_s)));
+    Answer answer;
+    const grpc::Status status = (stub.get()->*method)(&context, request, &answer);
+    if (!status.ok()) throw failure(side, options, context, status);
+    return answer;
+  }
+};
+
+SideClient::SideClient(Side side, const Options& options)
+    : state_(new State{side, options, proto::Control::NewStub(connect(address_of(side, options)))}) {}
+SideClient::SideClient(SideClient&&) noexcept = default;
+SideClient::~SideClient() = default;
+
+proto::Status SideClient::status() {
+  auto status = state_->call(&proto::Control::Stub::GetStatus, proto::StatusRequest());
+  check_side(state_->side, state_->options, status);
+  return status;
+}
+
+std::string SideClient::get(const std::string& path) {
+  proto::GetConfigRequest request;
+  request.set_path(path);
+  return state_->call(&proto::Control::Stub::GetConfig, request).text();
+}
+
+std::string SideClient::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
+  proto::SetConfigRequest request;
+  for (const auto& [path, value] : assignments) {
+    proto::Assignment& assignment = *request.add_assignment();
+    assignment.set_path(path);
+    assignment.set_value(value);
+  }
+  return state_->call(&proto::Control::Stub::SetConfig, request).message();
+}
+
+proto::Impairment SideClient::link() {
+  return state_->call(&proto::Control::Stub::GetLink, proto::GetLinkRequest());
+}
+
+std::string SideClient::set_link(const proto::Impairment& impairment, bool replace) {
+  proto::SetLinkRequest request;
+  *request.mutable_impairment() = impairment;
+  request.set_replace(replace);
+  return state_->call(&proto::Control::Stub::SetLink, request).message();
+}
+
+std::string SideClient::set_mode(proto::Mapping::Mode mode) {
+  proto::SetModeRequest request;
+  request.set_mode(mode);
+  return state_->call(&proto::Control::Stub::SetMode, request).message();
+}
+
+std::string SideClient::set_scale(double scale) {
+  proto::SetScaleRequest request;
+  request.set_scale(scale);
+  return state_->call(&proto::Control::Stub::SetScale, request).message();
+}
+
+std::string SideClient::engage() {
+  return state_->call(&proto::Control::Stub::Engage, proto::EngageRequest()).message();
+}
+
+std::string SideClient::stop() {
+  return state_->call(&proto::Control::Stub::Stop, proto::StopRequest()).message();
+}
+
+struct StatusStream::State {
+  State(Side the_side, const Options& the_options, double the_rate_hz)
+      : side(the_side),
+        options(the_options),
+        rate_hz(the_rate_hz),
+        silence_max(options.timeout_s + 2.0 / rate_hz),
+        stub(proto::Control::NewStub(connect(address_of(side, options)))) {}
+
+  /// Reads one stream until it ends.
+  void read() {
+    grpc::ClientContext context;
+    {
+      const std::lock_guard lock(mutex);
+      if (ended) return;
+      open = &context;
+    }
+    proto::WatchRequest request;
+    request.set_rate_hz(rate_hz);
+    const auto stream = stub->Watch(&context, request);
+    std::string wrong_side;
+    for (proto::Status status; wrong_side.empty() && stream->Read(&status);) {
+      try {
+        check_side(side, options, status);
+        take(std::move(status));
+      } catch (const SideError& wrong) {
+        wrong_side = wrong.what();
+        context.TryCancel();
+      }
+    }
+    const grpc::Status end = stream->Finish();
+    const std::lock_guard lock(mutex);
+    open = nullptr;
+    newest.reset();
+    error = wrong_side.empty() ? std::string(failure(side, options, context, end).what()) : wrong_side;
+    changed.notify_all();
+  }
+
+  void take(proto::Status status) {
+    const std::lock_guard lock(mutex);
+    newest = std::move(status);
+    received = Clock::now();
+    error.clear();
+    changed.notify_all();
+  }
+
+  void run() {
+    std::unique_lock lock(mutex);
+    while (!ended) {
+      lock.unlock();
+      read();
+      lock.lock();
+      changed.wait_for(lock, kRetryAfter, [this] { return ended; });
+    }
+  }
+
+  const Side side;
+  const Options options;
+  const double rate_hz;
+  const Seconds silence_max;  // a stream that says nothing for longer counts as down
+  const std::unique_ptr<proto::Control::Stub> stub;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool ended = false;
+  grpc::ClientContext* open = nullptr;
+  std::optional<proto::Status> newest;
+  std::string error;
+  Clock::time_point received = Clock::now();  // or the start
+  std::thread reader;
+};
+
+StatusStream::StatusStream(Side side, const Options& options, double rate_hz)
+    : state_(std::make_unique<State>(side, options, rate_hz)) {
+  state_->reader = std::thread([state = state_.get()] { state->run(); });
+}
+
+StatusStream::~StatusStream() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->ended = true;
+    if (state_->open != nullptr) state_->open->TryCancel();
+    state_->changed.notify_all();
+  }
+  state_->reader.join();
+}
+
+SideReport StatusStream::newest() const {
+  const std::lock_guard lock(state_->mutex);
+  SideReport report{state_->side, address_of(state_->side, state_->options), state_->newest, state_->error};
+  if (report.status && Clock::now() - state_->received > state_->silence_max) report.status.reset();
+  if (!report.status && report.error.empty())
+    report.error = down_sentence(state_->side, state_->options, true);
+  return report;
+}
+
+void StatusStream::wait_for_first() const {
+  std::unique_lock lock(state_->mutex);
+  state_->changed.wait_for(lock, Seconds(state_->options.timeout_s),
+                           [this] { return state_->newest || !state_->error.empty(); });
+}
+
+}  // namespace longreach

@@ -1,0 +1,79 @@
+#pragma once
+// The RPC client of one side. Every call ends after the timeout at the latest, connecting included.
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deploy/cli/invocation.hpp"
+#include "proto/config.pb.h"
+#include "proto/control.pb.h"
+
+namespace longreach {
+
+/// A call that was not carried out: one sentence that names the side.
+class SideError : public std::runtime_error {
+ public:
+  enum class Kind {
+    kDown,      // no answer: what was asked for may have happened or not
+    kRefused,   // not now, or not by this side: nothing has changed
+    kBadValue,  // never: nothing has changed
+  };
+  SideError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  [[nodiscard]] Kind kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+class SideClient {
+ public:
+  SideClient(Side side, const Options& options);
+  SideClient(SideClient&&) noexcept;
+  ~SideClient();
+
+  // All throw SideError. What returns a text returns the side's answer.
+  proto::Status status();  // also when another side answers at the address
+  std::string get(const std::string& path);
+  std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
+  proto::Impairment link();
+  std::string set_link(const proto::Impairment& impairment, bool replace);
+  std::string set_mode(proto::Mapping::Mode mode);
+  std::string set_scale(double scale);
+  std::string engage();
+  std::string stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What is known about a side: its status, or why there is none.
+struct SideReport {
+  Side side = Side::kMaster;
+  std::string address;
+  std::optional<proto::Status> status{};
+  std::string error;  // one sentence, when there is no status
+};
+
+/// The newest status of a side, read by a thread of its own; connects again whenever the side comes back.
+class StatusStream {
+ public:
+  StatusStream(Side side, const Options& options, double rate_hz);
+  ~StatusStream();
+  StatusStream(const StatusStream&) = delete;
+  StatusStream& operator=(const StatusStream&) = delete;
+
+  [[nodiscard]] SideReport newest() const;
+  /// Returns when there is a status or a reason why there is none: within the timeout.
+  void wait_for_first() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace longreach

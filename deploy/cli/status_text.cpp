@@ -1,0 +1,228 @@
+#include "deploy/cli/status_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+namespace longreach {
+namespace {
+
+using proto::Status;
+
+template <class... Arguments>
+std::string print(const char* format, Arguments... arguments) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, arguments...);
+  return text.data();
+}
+
+std::string percent(double fraction) { return print("%.3g %%", 100.0 * fraction); }
+
+void append(std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; }
+
+std::string position(const google::protobuf::RepeatedField<double>& point_m) {
+  std::string text;
+  for (const double x_m : point_m) text += print("%.2f ", 1e3 * x_m);
+  return text.empty() ? text : text + "mm";
+}
+
+std::string state(const Status& status) {
+  return status.cause().empty() ? status.state() : status.state() + " (" + status.cause() + ")";
+}
+
+std::string silence(const Status& status) {
+  if (!status.link().has_silence_s()) return "";
+  if (status.link().silence_s() < 0.0) return "nothing heard yet";
+  return with_unit(status.link().silence_s(), "s") + " ago";
+}
+
+std::string joined(const google::protobuf::RepeatedPtrField<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) append(text, word);
+  return text;
+}
+
+std::string energy(const Status& status) {
+  if (!status.has_energy_j()) return "";
+  return with_unit(status.energy_j(), "J") + ", least " + with_unit(status.energy_min_j(), "J");
+}
+
+/// A row of the table: how a side's status fills its cell; empty where it does not know.
+struct Row {
+  const char* label;
+  std::string (*cell)(const Status&);
+};
+
+constexpr auto kRows = std::to_array<Row>({
+    {"version", [](const Status& s) { return s.version(); }},
+    {"running for", [](const Status& s) { return s.has_uptime_s() ? print("%.1f s", s.uptime_s()) : ""; }},
+    {"state", state},
+    {"other side, as heard", [](const Status& s) { return s.far_state(); }},
+    {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
+    {"round trip",
+     [](const Status& s) { return s.link().rtt_known() ? with_unit(s.link().rtt_s(), "s") : std::string(); }},
+    {"jitter, received",
+     [](const Status& s) {
+       return s.link().has_jitter_s() ? with_unit(s.link().jitter_s(), "s") : std::string();
+     }},
+    {"loss, received",
+     [](const Status& s) { return s.link().has_loss() ? percent(s.link().loss()) : std::string(); }},
+    {"rate, received",
+     [](const Status& s) {
+       return s.link().has_rate_hz() ? print("%.4g datagrams/s", s.link().rate_hz()) : std::string();
+     }},
+    {"last datagram", silence},
+    {"impairment, received",
+     [](const Status& s) { return s.has_impairment() ? in_words(s.impairment()) : std::string(); }},
+    {"mode", [](const Status& s) { return s.mode(); }},
+    {"scale", [](const Status& s) { return s.has_scale() ? print("%.4g", s.scale()) : ""; }},
+    {"hand", [](const Status& s) { return position(s.hand_m()); }},
+    {"tool", [](const Status& s) { return position(s.tool_m()); }},
+    {"goal", [](const Status& s) { return position(s.goal_m()); }},
+    {"contact",
+     [](const Status& s) { return std::string(!s.has_in_contact() ? ""
+                                              : s.in_contact()    ? "yes"
+                                                                  : "no"); }},
+    {"stiffness",
+     [](const Status& s) {
+       return s.has_stiffness_n_per_m() ? print("%.4g N/m", s.stiffness_n_per_m()) : std::string();
+     }},
+    {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
+    {"energy from the hand", energy},
+    {"clamped", [](const Status& s) { return joined(s.clamped()); }},
+});
+
+struct Line {
+  std::string label;
+  std::string master;
+  std::string slave;
+};
+
+std::uint64_t count_of(const SideReport& report, const std::string& name) {
+  if (!report.status) return 0;
+  for (const proto::NamedCount& counter : report.status->counters())
+    if (counter.name() == name) return counter.count();
+  return 0;
+}
+
+/// One line for each counter that is not zero on some side, in the order in which the sides name them.
+void add_counters(const BothReports& reports, std::vector<Line>& lines) {
+  std::vector<std::string> seen;
+  for (const SideReport* report : {&reports.master, &reports.slave}) {
+    if (!report->status) continue;
+    for (const proto::NamedCount& counter : report->status->counters()) {
+      if (counter.count() == 0 || std::ranges::find(seen, counter.name()) != seen.end()) continue;
+      seen.push_back(counter.name());
+      const std::uint64_t master = count_of(reports.master, counter.name());
+      const std::uint64_t slave = count_of(reports.slave, counter.name());
+      lines.push_back({"count of " + counter.name(), master == 0 ? "" : std::to_string(master),
+                       slave == 0 ? "" : std::to_string(slave)});
+    }
+  }
+}
+
+std::string answers(const SideReport& report) { return report.status ? "yes" : "no"; }
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
+}
+
+std::string line_of(const SideReport& report) {
+  std::string text(name_of(report.side));
+  if (!report.status) return text + " does not answer at " + report.address;
+  const Status& status = *report.status;
+  text += " " + state(status);
+  if (status.link().rtt_known()) append(text, "rtt " + with_unit(status.link().rtt_s(), "s"));
+  if (status.link().has_jitter_s()) append(text, "jitter " + with_unit(status.link().jitter_s(), "s"));
+  if (status.link().has_loss()) append(text, "loss " + percent(status.link().loss()));
+  if (status.has_mode()) append(text, status.mode());
+  if (status.has_scale()) append(text, print("scale %.4g", status.scale()));
+  if (status.in_contact()) append(text, print("%.4g N/m", status.stiffness_n_per_m()));
+  if (status.has_force_n()) append(text, print("%.3g N", status.force_n()));
+  if (!status.clamped().empty()) append(text, "clamped: " + joined(status.clamped()));
+  return text;
+}
+
+void add_window(std::string& text, const char* what, double start_s, double duration_s, double period_s) {
+  std::string words = what + (" for " + with_unit(duration_s, "s"));
+  if (start_s > 0.0) words += " from " + with_unit(start_s, "s");
+  if (period_s > 0.0) words += " every " + with_unit(period_s, "s");
+  append(text, words);
+}
+
+}  // namespace
+
+std::string with_unit(double value, std::string_view unit) {
+  struct Prefix {
+    double factor;
+    const char* letter;
+  };
+  constexpr std::array<Prefix, 2> kSmall{{{1e3, "m"}, {1e6, "u"}}};
+  double shown = value;
+  std::string prefix;
+  for (const Prefix& p : kSmall) {
+    if (value == 0.0 || std::abs(shown) >= 1.0) break;
+    shown = value * p.factor;
+    prefix = p.letter;
+  }
+  return print("%.4g ", shown) + prefix + std::string(unit);
+}
+
+std::string in_words(const proto::Impairment& link) {
+  std::string text;
+  if (link.delay_s() != 0.0) append(text, "delay " + with_unit(link.delay_s(), "s"));
+  if (link.jitter_s() != 0.0) append(text, "jitter " + with_unit(link.jitter_s(), "s"));
+  if (link.loss() != 0.0) {
+    append(text, "loss " + percent(link.loss()));
+    if (link.loss_burst() > 1.0) text += print(" in bursts of %.4g", link.loss_burst());
+  }
+  if (link.duplicate() != 0.0) append(text, "duplicate " + percent(link.duplicate()));
+  if (link.reorder() != 0.0) append(text, "reorder " + percent(link.reorder()));
+  if (link.corrupt() != 0.0) append(text, "corrupt " + percent(link.corrupt()));
+  if (link.rate_bit_per_s() != 0.0) {
+    append(text, print("rate %.6g bit/s", link.rate_bit_per_s()));
+    text += " with a queue of " + with_unit(link.queue_s(), "s");
+  }
+  if (link.step_duration_s() != 0.0 && link.step_delay_s() != 0.0)
+    add_window(text, ("delay step of " + with_unit(link.step_delay_s(), "s")).c_str(), link.step_start_s(),
+               link.step_duration_s(), 0.0);
+  if (link.drift_s_per_s() != 0.0) append(text, print("drift %.4g s/s", link.drift_s_per_s()));
+  if (link.blackout_duration_s() != 0.0)
+    add_window(text, "blackout", link.blackout_start_s(), link.blackout_duration_s(),
+               link.blackout_period_s());
+  return text.empty() ? "none" : text;
+}
+
+std::string status_table(const BothReports& reports) {
+  std::vector<Line> lines{{"", "master", "slave"},
+                          {"address", reports.master.address, reports.slave.address},
+                          {"answers", answers(reports.master), answers(reports.slave)}};
+  for (const Row& row : kRows) {
+    Line line{row.label, reports.master.status ? row.cell(*reports.master.status) : "",
+              reports.slave.status ? row.cell(*reports.slave.status) : ""};
+    if (!line.master.empty() || !line.slave.empty()) lines.push_back(std::move(line));
+  }
+  add_counters(reports, lines);
+  std::size_t label_width = 0;
+  std::size_t master_width = 0;
+  for (const Line& line : lines) {
+    label_width = std::max(label_width, line.label.size() + 2);
+    master_width = std::max(master_width, line.master.size() + 3);
+  }
+  std::string text;
+  for (const Line& line : lines) {
+    std::string row = padded(line.label, label_width) + padded(line.master, master_width) + line.slave;
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::string status_line(const BothReports& reports) {
+  return line_of(reports.master) + " | " + line_of(reports.slave);
+}
+
+}  // namespace longreach

@@ -1,0 +1,112 @@
+// The live view: a table that is redrawn in place on a terminal, a line an update elsewhere.
+
+#include <pthread.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <iostream>
+#include <string_view>
+
+#include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
+#include "deploy/cli/side_client.hpp"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Ctrl-C and the wish to end, turned from an interruption into something to wait for.
+class EndRequest {
+ public:
+  /// Before the first thread: threads inherit the blocked signals.
+  EndRequest() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+  /// True as soon as the end is asked for, false at `due`.
+  [[nodiscard]] bool wait_until(Clock::time_point due) const {
+    const auto left = std::max(due - Clock::now(), Clock::duration::zero());
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+    const timespec timeout{static_cast<time_t>(seconds.count()),
+                           static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
+    return sigtimedwait(&signals_, nullptr, &timeout) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+/// Draws a text over the one before, in one write: no clearing, so no flicker.
+class TerminalArea {
+ public:
+  TerminalArea() { std::cout << "\x1b[?25l"; }  // no cursor
+  ~TerminalArea() { std::cout << "\x1b[?25h" << std::flush; }
+  TerminalArea(const TerminalArea&) = delete;
+  TerminalArea& operator=(const TerminalArea&) = delete;
+
+  void draw(std::string_view text) {
+    winsize size{};
+    ioctl(STDOUT_FILENO, TIOCGWINSZ, &size);
+    const std::size_t rows_max = size.ws_row > 1 ? size.ws_row - 1U : 1000U;
+    const std::size_t columns_max = size.ws_col > 0 ? size.ws_col : 1000U;
+    std::string out = rows_ > 0 ? "\x1b[" + std::to_string(rows_) + "A" : "";
+    rows_ = 0;
+    while (!text.empty() && rows_ < rows_max) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      // A line that wraps would count twice.
+      out += std::string(text.substr(0, std::min(end, columns_max))) + "\x1b[K\n";
+      text.remove_prefix(std::min(end + 1, text.size()));
+      ++rows_;
+    }
+    std::cout << out << "\x1b[J" << std::flush;
+  }
+
+ private:
+  std::size_t rows_ = 0;  // drawn last
+};
+
+std::string down_lines(const BothReports& reports) {
+  std::string text;
+  for (const SideReport* report : {&reports.master, &reports.slave})
+    if (!report->status) text += report->error + "\n";
+  return text;
+}
+
+}  // namespace
+
+ExitStatus run_watch(const Options& options, const WatchCommand& command) {
+  const EndRequest end;
+  const StatusStream master(Side::kMaster, options, command.rate_hz);
+  const StatusStream slave(Side::kSlave, options, command.rate_hz);
+  master.wait_for_first();
+  slave.wait_for_first();
+  std::optional<TerminalArea> area;
+  if (!options.json && isatty(STDOUT_FILENO) == 1) area.emplace();
+  const auto period =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / command.rate_hz));
+  auto due = Clock::now();
+  std::uint64_t shown = 0;
+  while (!end.wait_until(due)) {
+    const BothReports reports{master.newest(), slave.newest()};
+    if (area) {
+      area->draw(status_table(reports) + down_lines(reports) + "Ctrl-C ends\n");
+    } else {
+      std::cout << (options.json ? status_json(reports) : status_line(reports)) << std::endl;
+    }
+    if (!std::cout)
+      throw SideError(SideError::Kind::kRefused, "the output takes no more: it is closed or full");
+    if (++shown == command.count)
+      return reports.master.status && reports.slave.status ? ExitStatus::kDone : ExitStatus::kFailed;
+    due = std::max(due + period, Clock::now());
+  }
+  return ExitStatus::kDone;
+}
+
+}  // namespace longreach
