@@ -91,6 +91,17 @@ void add_clamps(proto::Status& status, const Clamps& clamps) {
   add(clamps.unreachable, "unreachable");
 }
 
+void fill(proto::Status& status, const SideFigures& figures) {
+  *status.mutable_link() = to_message(figures.link);
+  add_count(status, "accepted", figures.accepted);
+  add_counts(status, figures.rejected);
+  add_count(status, "strangers", figures.strangers);
+  add_count(status, "unsent", figures.unsent);
+  add_count(status, "peer_restarts", figures.peer_restarts);
+  add_counts(status, figures.loop);
+  add_counts(status, figures.impaired);
+}
+
 proto::Figures to_message(const LinkFigures& figures) {
   proto::Figures out;
   out.set_rtt_known(figures.rtt_s.has_value());

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "common/io/loop_figures.hpp"
+#include "common/io/side_figures.hpp"
 #include "common/link/delay_monitor.hpp"
 #include "common/link/envelope.hpp"
 #include "common/link/impairment.hpp"
@@ -26,6 +26,8 @@ void add_counts(proto::Status& status, const LoopFigures& loop);
 void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 /// Names of what is being clamped, added to `clamped`.
 void add_clamps(proto::Status& status, const Clamps& clamps);
+/// link, and the counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
+void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);
 
 template <class Field>

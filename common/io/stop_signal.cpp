@@ -1,5 +1,7 @@
 #include "common/io/stop_signal.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 
 namespace longreach {
@@ -8,7 +10,13 @@ namespace {
 std::atomic<bool> requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void request_stop(int) { requested.store(true); }
+std::atomic<int> signals{0};
+
+// Async-signal-safe: atomics and _exit only.
+void request_stop(int signal) {
+  if (signals.fetch_add(1) >= 2) _exit(128 + signal);
+  requested.store(true);
+}
 
 }  // namespace
 
@@ -16,10 +24,12 @@ std::atomic<bool>& stop_requested() {
   static const bool installed = [] {
     struct sigaction action {};
     action.sa_handler = request_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    // A reader of the output that goes away must not end a program that steers a robot.
+    std::signal(SIGPIPE, SIG_IGN);
     return true;
   }();
   static_cast<void>(installed);

@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT and SIGTERM ask a program to end; the second one ends it at once.
+// SIGINT and SIGTERM ask a program to end; the third one ends it at once. SIGPIPE is ignored.
 
 #include <atomic>
 

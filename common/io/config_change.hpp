@@ -1,0 +1,41 @@
+#pragma once
+// From assignments by path to a complete, valid configuration, or why not. What may change when is decided by
+// the schema; whether the robot is engaged is known only to the loop, at the tick that takes the change.
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/io/control_backend.hpp"
+#include "common/io/mailbox.hpp"
+
+namespace longreach {
+
+struct ConfigChange {
+  std::unique_ptr<google::protobuf::Message> after;
+  std::string not_while_engaged;  // fields that forbid the change while engaged, in words; empty: none
+};
+
+/// Nothing has changed yet: `after` is a copy of `before` with the assignments.
+std::variant<ConfigChange, Refusal> plan_change(const google::protobuf::Message& before,
+                                                const Assignments& assignments);
+
+enum class LoopAnswer { kDone, kEngaged };
+
+/// Hands a command to the loop. `not_while_engaged`: of the change, for the refusal.
+template <class Command>
+std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command command,
+                            const std::string& not_while_engaged = {}) {
+  const auto answer = mailbox.post(std::move(command), std::chrono::milliseconds(1000));
+  if (!answer) {
+    return Refusal{Refusal::Kind::kUnavailable,
+                   "the control loop did not answer within 1 s; nothing has changed, try again"};
+  }
+  if (*answer == LoopAnswer::kDone) return std::nullopt;
+  return Refusal{Refusal::Kind::kPrecondition,
+                 not_while_engaged + " may not change while the robot is engaged; stop first"};
+}
+
+}  // namespace longreach

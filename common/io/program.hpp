@@ -1,0 +1,92 @@
+#pragma once
+// What both programs do in the same way around their loop: options, configuration, exit status. For main.cpp
+// alone: CLI11 takes seconds to compile.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "common/io/address.hpp"
+
+namespace longreach {
+
+constexpr int kExitFailed = 1;    // could not start, or the run failed its checks
+constexpr int kExitBadUsage = 2;  // options or configuration
+
+struct ProgramOptions {
+  std::string config;
+  std::vector<std::string> settings;  // path=value
+  std::string profile;
+  std::optional<double> seconds{};
+  std::string log;
+  bool check = false;
+};
+
+inline void add_program_options(CLI::App& app, ProgramOptions& options, const std::string& version) {
+  app.set_version_flag("--version", version);
+  app.add_option("--config", options.config, "Configuration file, protobuf text format")->type_name("FILE");
+  app.add_option("--set", options.settings,
+                 "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--profile", options.profile, "Link profile of deploy/links whose delay and loss to imitate")
+      ->type_name("NAME");
+  app.add_option("--seconds", options.seconds, "End after this time")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
+      ->type_name("FILE");
+  app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
+}
+
+/// The file, over it the profile's direction, over it the settings. Throws ConfigError.
+template <class Message>
+Message load_config(const ProgramOptions& options,
+                    const proto::Impairment& (proto::LinkProfile::*direction)() const) {
+  Message message;
+  if (!options.config.empty()) load_text_file(options.config, message);
+  if (!options.profile.empty()) {
+    const proto::LinkProfile profile = load_link_profile(find_deploy_folder(), options.profile);
+    *message.mutable_link()->mutable_impairment() = (profile.*direction)();
+  }
+  for (const std::string& setting : options.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw ConfigError("--set '" + setting + "': write path=value, e.g. loop.rate_hz=2000");
+    }
+    set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  validate(message);
+  return message;
+}
+
+/// Parses the options, runs, and turns exceptions into one sentence on standard error and an exit status.
+template <class Run>
+int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
+  const auto complain = [&app](const std::exception& e, int status) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
+    return status;
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "%s: %s; --help shows the options\n", app.get_name().c_str(), e.what());
+    return kExitBadUsage;
+  }
+  try {
+    return run();
+  } catch (const ConfigError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const AddressError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const std::exception& e) {
+    return complain(e, kExitFailed);
+  }
+}
+
+}  // namespace longreach
