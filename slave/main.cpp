@@ -1,1 +1,113 @@
-int main() { return 0; }
+// longreach-slave: the robot's side. Follows an engaged master, acts alone when it must.
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <thread>
+
+#include "common/io/log.hpp"
+#include "common/io/program.hpp"
+#include "common/io/real_time_loop.hpp"
+#include "common/io/rpc_server.hpp"
+#include "common/io/status_fields.hpp"
+#include "common/io/stop_signal.hpp"
+#include "slave/slave_service.hpp"
+
+namespace longreach {
+namespace {
+
+std::uint64_t new_session() {
+  return static_cast<std::uint64_t>(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
+}
+
+/// Logs what has changed since the last call.
+class Chronicle {
+ public:
+  void write(const SlaveSnapshot& s) {
+    const SlaveView& now = s.view;
+    if (now.state != last_.view.state) {
+      spdlog::info("state from={} to={} cause=\"{}\" engagement={}", to_string(last_.view.state),
+                   to_string(now.state), to_string(now.cause), now.engagement);
+    }
+    if (now.touch != last_.view.touch)
+      spdlog::info("touch number={} sequence={:.2f}", now.touch, now.touch_sequence);
+    if (s.side.peer_session != last_.side.peer_session)
+      spdlog::info("master session={}", s.side.peer_session);
+    if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
+      spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
+                   s.side.loop.missed_ticks);
+    }
+    if (s.watchdog_stopped && !last_.watchdog_stopped) spdlog::warn("robot stopped=\"no setpoint\"");
+    last_ = s;
+  }
+
+ private:
+  SlaveSnapshot last_{};
+};
+
+void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const RpcServer& rpc) {
+  spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}", shell.address(),
+               rpc.address(), config.loop().rate_hz(), config.robot().name(), config.scene().name(),
+               config.scene().surface_size());
+  if (config.scene().surface().empty())
+    spdlog::info("left out=\"contact, estimation\" because=\"free space\"");
+}
+
+int serve(const ProgramOptions& options) {
+  auto config = load_config<proto::SlaveConfig>(options, &proto::LinkProfile::up);
+  resolve_files(config, find_deploy_folder());
+  if (options.check) {
+    std::fputs(get_field(config, "").c_str(), stdout);
+    return 0;
+  }
+  auto& stop = stop_requested();
+  set_up_log("slave", options.log);
+  const SlaveConfig plain = to_struct(config);
+  SlaveShell shell(plain, new_session());
+  SlaveService service(shell, config);
+  RpcServer rpc(plain.rpc.listen, service, "slave");
+  log_start(config, shell, rpc);
+
+  std::atomic<bool> end{false};
+  std::exception_ptr failure;
+  std::thread loop_thread([&] {
+    try {
+      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
+      RealTimeLoop loop(plain.loop.rate_hz);
+      loop.run(end, [&shell](Time now, const LoopFigures& figures) { shell.tick(now, figures); });
+    } catch (...) {
+      failure = std::current_exception();
+      stop = true;
+    }
+  });
+  Chronicle chronicle;
+  const Time began = monotonic_now();
+  const auto over = [&] {
+    return options.seconds && to_seconds(monotonic_now() - began) >= *options.seconds;
+  };
+  while (!stop && !over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    chronicle.write(service.snapshot());
+  }
+  end = true;
+  loop_thread.join();
+  rpc.stop();
+  if (failure) std::rethrow_exception(failure);
+  const SlaveSnapshot last = service.snapshot();
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} limit_violations={}",
+               last.side.loop.ticks, last.side.loop.missed_ticks, last.side.loop.ticks_late_100ms,
+               1e6 * last.side.loop.lateness_quantile_s(0.99), last.view.limit_violations);
+  return 0;
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  CLI::App app{"The robot's side of longreach: follows an engaged master, and acts alone when it must.",
+               "longreach-slave"};
+  longreach::ProgramOptions options;
+  longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
+  return longreach::guarded_main(app, argc, argv, [&options] { return longreach::serve(options); });
+}

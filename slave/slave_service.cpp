@@ -1,1 +1,106 @@
-// placeholder
+#include "slave/slave_service.hpp"
+
+#include <google/protobuf/util/message_differencer.h>
+
+#include "common/config/config.hpp"
+#include "common/io/status_fields.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+
+Refusal at_the_master(const std::string& what) {
+  return {Refusal::Kind::kPrecondition, what + " is decided at the master; the slave only follows"};
+}
+
+/// Which limit of the robot's motion `after` would loosen beyond the local file's, or none.
+std::optional<std::string> loosened(const proto::Command& start, const proto::Command& after) {
+  const auto* reflection = after.GetReflection();
+  for (const char* name : {"speed_max_m_per_s", "acceleration_max_m_per_s2", "speed_max_rad_per_s",
+                           "acceleration_max_rad_per_s2", "force_guard_n", "workspace_m"}) {
+    const auto* field = after.GetDescriptor()->FindFieldByName(name);
+    if (reflection->GetDouble(after, field) > reflection->GetDouble(start, field)) return name;
+  }
+  // The guard brakes the earlier, the stiffer the surface that it reckons with.
+  if (after.guard_stiffness_n_per_m() < start.guard_stiffness_n_per_m()) return "guard_stiffness_n_per_m";
+  return std::nullopt;
+}
+
+}  // namespace
+
+SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config)
+    : shell_(shell), start_(config), config_(config) {}
+
+SlaveSnapshot SlaveService::snapshot() {
+  const std::lock_guard lock(reading_);
+  return shell_.snapshots().read();
+}
+
+proto::Status SlaveService::status() {
+  const SlaveSnapshot s = snapshot();
+  const SlaveView& view = s.view;
+  proto::Status out;
+  out.set_side("slave");
+  out.set_version(LONGREACH_VERSION);
+  out.set_state(std::string(to_string(view.state)));
+  out.set_cause(std::string(to_string(view.cause)));
+  out.set_engagement(view.engagement);
+  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
+  *out.mutable_impairment() = link();
+  assign(view.X_WE.p, *out.mutable_tool_m());
+  assign(view.X_WE_goal.p, *out.mutable_goal_m());
+  out.set_in_contact(view.in_contact);
+  out.set_stiffness_n_per_m(view.reported_stiffness_n_per_m);
+  out.set_force_n(view.F_E_W.force.norm());
+  add_clamps(out, view.clamps);
+  if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
+  fill(out, s.side);
+  add_count(out, "touches", view.touch);
+  add_count(out, "false_holds", view.false_holds);
+  add_count(out, "limit_violations", view.limit_violations);
+  add_count(out, "rejected_values", view.rejected_values);
+  add_count(out, "ik_failures", view.ik_failures);
+  add_count(out, "rejected_setpoints", s.rejected_setpoints);
+  return out;
+}
+
+std::unique_ptr<google::protobuf::Message> SlaveService::config() {
+  return std::make_unique<proto::SlaveConfig>(config_);
+}
+
+std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) {
+  auto planned = plan_change(config_, assignments);
+  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
+  const auto& change = std::get<ConfigChange>(planned);
+  const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
+  if (const auto field = loosened(start_.command(), after.command())) {
+    return Refusal{Refusal::Kind::kPrecondition,
+                   "command." + *field +
+                       " can only be tightened from what the slave was started with; to loosen it, "
+                       "edit the slave's own file and restart"};
+  }
+  SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
+                      !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment())};
+  auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
+  if (!refusal) config_ = after;
+  return refusal;
+}
+
+proto::Impairment SlaveService::link() { return config_.link().impairment(); }
+
+std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairment) {
+  auto refusal = post(shell_.mailbox(), SlaveCommand(to_struct(impairment)));
+  if (!refusal) *config_.mutable_link()->mutable_impairment() = impairment;
+  return refusal;
+}
+
+std::optional<Refusal> SlaveService::set_mode(proto::Mapping::Mode) { return at_the_master("the mode"); }
+
+std::optional<Refusal> SlaveService::set_scale(double) { return at_the_master("the scale"); }
+
+std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement"); }
+
+std::optional<Refusal> SlaveService::stop() { return post(shell_.mailbox(), SlaveCommand(SlaveStop{})); }
+
+}  // namespace longreach

@@ -1,0 +1,39 @@
+#pragma once
+// What RPC clients may do at the slave: look, tighten, impair, stop. Engagement, mode and scale are the
+// master's.
+
+#include <chrono>
+#include <mutex>
+
+#include "common/io/control_backend.hpp"
+#include "slave/slave_shell.hpp"
+
+namespace longreach {
+
+class SlaveService : public ControlBackend {
+ public:
+  /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
+  SlaveService(SlaveShell& shell, const proto::SlaveConfig& config);
+
+  proto::Status status() override;
+  std::unique_ptr<google::protobuf::Message> config() override;
+  std::optional<Refusal> set_config(const Assignments& assignments) override;
+  proto::Impairment link() override;
+  std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
+  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override;
+  std::optional<Refusal> set_scale(double scale) override;
+  std::optional<Refusal> engage() override;
+  std::optional<Refusal> stop() override;
+
+  /// The newest picture of the loop; callable from any thread but the loop's.
+  SlaveSnapshot snapshot();
+
+ private:
+  SlaveShell& shell_;
+  const proto::SlaveConfig start_;
+  proto::SlaveConfig config_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::mutex reading_;  // among those who read snapshots
+};
+
+}  // namespace longreach

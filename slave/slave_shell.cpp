@@ -1,0 +1,57 @@
+#include "slave/slave_shell.hpp"
+
+namespace longreach {
+
+SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t session)
+    : channel_(config.link.listen),
+      port_(channel_, session, config.link.impairment, Random(session).child("up")),
+      arm_(config, Random(session).child("arm")),
+      node_(config) {}
+
+void SlaveShell::tick(Time now, const LoopFigures& loop) {
+  bool stop = false;
+  if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, stop));
+
+  port_.receive(now);
+  const Endpoint& endpoint = port_.endpoint();
+  channel_.answer_to(endpoint.peer_session());
+  const SideFigures& side = observer_.observe(now, port_, channel_, loop);
+  SlaveInput in;
+  in.now = now;
+  in.robot = arm_.read(now);
+  in.commands = port_.commands();
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_session_count = endpoint.peer_session() == 0 ? 0 : endpoint.peer_restarts() + 1;
+  in.stop = stop;
+  in.rejected = port_.rejected_total();
+  in.late_ticks = loop.ticks_late_100ms;
+  in.up_loss = side.link.loss;
+  in.up_jitter_s = side.link.jitter_s;
+
+  const SlaveOutput out = node_.step(in);
+  arm_.write(out.joint_setpoint_rad);
+  if (out.report) port_.send(now, out.report_sequence, *out.report);
+  if (out.telemetry) port_.send(now, out.telemetry_sequence, *out.telemetry);
+
+  snapshot_.side = side;
+  snapshot_.view = node_.view();
+  snapshot_.rejected_setpoints = arm_.rejected_setpoints();
+  snapshot_.watchdog_stopped = arm_.watchdog_stopped();
+  snapshots_.write(snapshot_);
+}
+
+LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
+  if (std::holds_alternative<SlaveStop>(command)) {
+    stop = true;
+  } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
+    port_.impairment().configure(*impairment, now);
+  } else {
+    const auto& change = std::get<SlaveChange>(command);
+    if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
+    node_.configure(change.config);
+    if (change.impairment) port_.impairment().configure(change.config.link.impairment, now);
+  }
+  return LoopAnswer::kDone;
+}
+
+}  // namespace longreach

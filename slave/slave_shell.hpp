@@ -1,0 +1,59 @@
+#pragma once
+// The slave's loop with real sockets and a robot: one tick receives, steps the node, moves the robot, sends.
+// Runs in the loop's thread alone; other threads reach it through the mailbox and the snapshots, which make
+// it wait for nothing.
+
+#include <variant>
+
+#include "common/io/config_change.hpp"
+#include "common/io/latest_value.hpp"
+#include "common/io/mailbox.hpp"
+#include "common/io/side_figures.hpp"
+#include "common/io/udp_channel.hpp"
+#include "common/wire/port.hpp"
+#include "slave/robot/simulated_arm.hpp"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+struct SlaveSnapshot {
+  SideFigures side{};
+  SlaveView view{};
+  std::uint64_t rejected_setpoints = 0;
+  bool watchdog_stopped = false;
+};
+
+struct SlaveChange {
+  SlaveConfig config{};
+  bool only_disengaged = false;  // a field changes that must not while engaged
+  bool impairment = false;       // config.link.impairment has changed
+};
+struct SlaveStop {};
+using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig>;
+
+class SlaveShell {
+ public:
+  /// Throws AddressError or std::runtime_error when the socket cannot be had. `session`: greater at each
+  /// start.
+  SlaveShell(const SlaveConfig& config, std::uint64_t session);
+
+  void tick(Time now, const LoopFigures& loop);
+
+  Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
+  LatestValue<SlaveSnapshot>& snapshots() { return snapshots_; }
+  [[nodiscard]] std::string address() const { return channel_.local_address(); }
+
+ private:
+  LoopAnswer obey(const SlaveCommand& command, Time now, bool& stop);
+
+  UdpChannel channel_;
+  SlavePort port_;
+  SimulatedArm arm_;
+  SlaveNode node_;
+  SideObserver observer_;
+  SlaveSnapshot snapshot_{};
+  Mailbox<SlaveCommand, LoopAnswer> mailbox_;
+  LatestValue<SlaveSnapshot> snapshots_;
+};
+
+}  // namespace longreach
