@@ -1,1 +1,221 @@
-int main() { return 0; }
+// longreach-master: the operator's side. Reads the hands, commands the slave, renders what it touches.
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <exception>
+#include <thread>
+
+#include "common/io/log.hpp"
+#include "common/io/program.hpp"
+#include "common/io/real_time_loop.hpp"
+#include "common/io/rpc_server.hpp"
+#include "common/io/status_fields.hpp"
+#include "common/io/stop_signal.hpp"
+#include "master/console/keyboard.hpp"
+#include "master/console/summary.hpp"
+#include "master/console/terminal_view.hpp"
+#include "master/master_service.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr auto kPollPeriod = std::chrono::milliseconds(20);
+
+struct MasterOptions : ProgramOptions {
+  std::string operator_kind;
+  std::string mode;
+  std::string view = "auto";
+  bool engage = false;
+};
+
+std::uint64_t new_session() {
+  return static_cast<std::uint64_t>(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
+}
+
+/// The shorthands are settings like any other.
+ProgramOptions with_shorthands(const MasterOptions& options) {
+  ProgramOptions out = options;
+  if (!options.operator_kind.empty()) out.settings.push_back("operator.kind=" + options.operator_kind);
+  if (!options.mode.empty()) out.settings.push_back("mapping.mode=" + options.mode);
+  if (options.engage) out.settings.push_back("safety.engage_at_start=true");
+  return out;
+}
+
+ViewKind view_kind(const std::string& name) {
+  if (name == "none") return ViewKind::kNone;
+  return name == "plain" ? ViewKind::kPlain : ViewKind::kAuto;
+}
+
+/// Logs what has changed since the last call.
+class Chronicle {
+ public:
+  void write(const MasterSnapshot& s) {
+    const MasterView& now = s.view;
+    if (now.state != last_.view.state) {
+      spdlog::info("state from={} to={} cause=\"{}\" engagement={}", to_string(last_.view.state),
+                   to_string(now.state), to_string(now.cause), now.engagement);
+    }
+    if (now.far_state != last_.view.far_state) spdlog::info("slave state={}", to_string(now.far_state));
+    if (now.in_contact != last_.view.in_contact) {
+      spdlog::info("contact now={} stiffness_n_per_m={:.0f}", now.in_contact, now.stiffness_n_per_m);
+    }
+    if (s.side.peer_session != last_.side.peer_session) spdlog::info("slave session={}", s.side.peer_session);
+    if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
+      spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
+                   s.side.loop.missed_ticks);
+    }
+    last_ = s;
+  }
+
+ private:
+  MasterSnapshot last_{};
+};
+
+ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
+  ConsoleSnapshot out;
+  out.view = s.view;
+  out.link = s.side.link;
+  out.late_ticks = s.side.loop.ticks_late_100ms;
+  out.missed_ticks = s.side.loop.missed_ticks;
+  out.rejected = s.side.rejected;
+  if (config.operator_.kind == OperatorKind::kScript) out.operator_phase = to_string(s.phase);
+  out.force_max_n = config.rendering.force_max_n;
+  return out;
+}
+
+bool asks(const OperatorRequests& r) {
+  return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0;
+}
+
+/// The thread beside the loop: keys in, view and log out, until the run is over.
+class Housekeeping {
+ public:
+  Housekeeping(const MasterOptions& options, const MasterConfig& config, MasterShell& shell,
+               MasterService& service)
+      : options_(options), config_(config), shell_(shell), service_(service), view_(view_kind(options.view)) {
+    if (config.operator_.kind == OperatorKind::kKeyboard) {
+      keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.workspace_m});
+    }
+  }
+
+  [[nodiscard]] bool live() const { return view_.live(); }
+
+  void run(const std::atomic<bool>& stop) {
+    while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
+      std::this_thread::sleep_for(kPollPeriod);
+      const MasterSnapshot s = service_.snapshot();
+      chronicle_.write(s);
+      ConsoleSnapshot shown = picture(s, config_);
+      shown.seconds = seconds();
+      if (options_.seconds) shown.seconds_left = *options_.seconds - shown.seconds;
+      shown.show_keys = poll_keys(s.view.mode);
+      view_.show(shown);
+    }
+    view_.close();
+    keyboard_.reset();
+  }
+
+ private:
+  [[nodiscard]] double seconds() const { return to_seconds(monotonic_now() - began_); }
+
+  /// Returns whether the keys shall be listed.
+  bool poll_keys(MotionMode mode) {
+    if (!keyboard_) return false;
+    const KeyboardState state = keyboard_->poll(mode);
+    shell_.hand().write({state.target_m, state.requests.clutch});
+    if (asks(state.requests)) {
+      if (const auto refusal = service_.request(state.requests))
+        spdlog::warn("key refused=\"{}\"", refusal->message);
+    }
+    quit_ = quit_ || state.quit;
+    return state.show_keys;
+  }
+
+  const MasterOptions& options_;
+  const MasterConfig& config_;
+  MasterShell& shell_;
+  MasterService& service_;
+  TerminalView view_;
+  std::optional<Keyboard> keyboard_;
+  Chronicle chronicle_;
+  Time began_ = monotonic_now();
+  bool quit_ = false;
+};
+
+/// The verdict counts for a run that was given its length; one that ends by a signal has just ended.
+int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
+          const MasterConfig& config) {
+  const Summary result = summary.finish(picture(last, config));
+  if (options.view != "none") std::fputs(result.text().c_str(), stdout);
+  const LoopFigures& loop = last.side.loop;
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
+               loop.ticks, loop.missed_ticks, loop.ticks_late_100ms, 1e6 * loop.lateness_quantile_s(0.99),
+               result.passed() ? "ok" : "failed");
+  return options.seconds && !result.passed() ? kExitFailed : 0;
+}
+
+int operate(const MasterOptions& options) {
+  const auto config = load_config<proto::MasterConfig>(with_shorthands(options), &proto::LinkProfile::down);
+  if (options.check) {
+    std::fputs(get_field(config, "").c_str(), stdout);
+    return 0;
+  }
+  auto& stop = stop_requested();
+  set_up_log("master", options.log);
+  const MasterConfig plain = to_struct(config);
+  MasterShell shell(plain, new_session());
+  MasterService service(shell, config);
+  RpcServer rpc(plain.rpc.listen, service, "master");
+  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
+               rpc.address(), plain.loop.rate_hz, plain.link.send_hz);
+  Housekeeping housekeeping(options, plain, shell, service);
+  // The live view owns the terminal; it shows what the log would say.
+  if (housekeeping.live() && isatty(STDERR_FILENO) == 1) set_up_log("master", options.log, true);
+
+  RunSummary summary(
+      {.ke = plain.rendering.ke, .contact_expected = plain.operator_.kind == OperatorKind::kScript});
+  std::atomic<bool> end{false};
+  std::exception_ptr failure;
+  std::thread loop_thread([&] {
+    try {
+      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
+      RealTimeLoop loop(plain.loop.rate_hz);
+      const Time began = monotonic_now();
+      loop.run(end, [&](Time now, const LoopFigures& figures) {
+        shell.tick(now, figures);
+        summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);
+      });
+    } catch (...) {
+      failure = std::current_exception();
+      stop = true;
+    }
+  });
+  housekeeping.run(stop);
+  end = true;
+  loop_thread.join();
+  rpc.stop();
+  if (failure) std::rethrow_exception(failure);
+  return judge(options, summary, service.snapshot(), plain);
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "The operator's side of longreach: reads the hands, commands the slave, renders what it touches.",
+      "longreach-master"};
+  longreach::MasterOptions options;
+  longreach::add_program_options(app, options, "longreach-master " LONGREACH_VERSION);
+  app.add_option("--operator", options.operator_kind,
+                 "Who moves the hand: script, keyboard or none (operator.kind)")
+      ->type_name("KIND");
+  app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")->type_name("MODE");
+  app.add_flag("--engage", options.engage, "Engage when the slave is first heard (safety.engage_at_start)");
+  app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
+      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->capture_default_str();
+  return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });
+}

@@ -1,1 +1,138 @@
-// placeholder
+#include "master/master_service.hpp"
+
+#include <google/protobuf/util/message_differencer.h>
+
+#include "common/config/config.hpp"
+#include "common/io/status_fields.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+
+void add_view(proto::Status& out, const MasterView& view) {
+  out.set_state(std::string(to_string(view.state)));
+  out.set_cause(std::string(to_string(view.cause)));
+  out.set_far_state(std::string(to_string(view.far_state)));
+  out.set_engagement(view.engagement);
+  out.set_mode(view.mode == MotionMode::kRate ? "rate" : "position");
+  out.set_scale(view.scale);
+  assign(view.p_MH, *out.mutable_hand_m());
+  assign(view.goal_m, *out.mutable_goal_m());
+  if (view.far_known) assign(view.far.X_WE.p, *out.mutable_tool_m());
+  out.set_in_contact(view.in_contact);
+  out.set_stiffness_n_per_m(view.stiffness_n_per_m);
+  out.set_force_n(view.F_H_M.force.norm());
+  out.set_energy_j(view.port_energy_j);
+  out.set_energy_min_j(view.port_energy_min_j);
+  if (view.force_clamped) out.add_clamped("force at the hand");
+  if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
+  if (view.damping_injected) out.add_clamped("energy at the hand");
+  if (view.far_known) add_clamps(out, view.far.clamps);
+}
+
+void add_view_counts(proto::Status& out, const MasterView& view) {
+  add_count(out, "reports", view.reports);
+  add_count(out, "rejected_values", view.rejected_values);
+  add_count(out, "false_holds", view.false_holds);
+  if (view.far_known) add_count(out, "limit_violations", view.far.limit_violations);
+}
+
+bool begins_with(const std::string& path, std::string_view group) {
+  return std::string_view(path).substr(0, group.size()) == group;
+}
+
+/// The script plans with what these say.
+bool moves_script(const Assignments& assignments) {
+  for (const auto& [path, value] : assignments) {
+    if (begins_with(path, "operator.") || begins_with(path, "mapping.")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config)
+    : shell_(shell), config_(config) {}
+
+MasterSnapshot MasterService::snapshot() {
+  const std::lock_guard lock(reading_);
+  return shell_.snapshots().read();
+}
+
+proto::Status MasterService::status() {
+  const MasterSnapshot s = snapshot();
+  proto::Status out;
+  out.set_side("master");
+  out.set_version(LONGREACH_VERSION);
+  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
+  *out.mutable_impairment() = link();
+  add_view(out, s.view);
+  fill(out, s.side);
+  add_view_counts(out, s.view);
+  return out;
+}
+
+std::unique_ptr<google::protobuf::Message> MasterService::config() {
+  return std::make_unique<proto::MasterConfig>(config_);
+}
+
+std::optional<Refusal> MasterService::set_config(const Assignments& assignments) {
+  auto planned = plan_change(config_, assignments);
+  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
+  const auto& change = std::get<ConfigChange>(planned);
+  const auto& after = static_cast<const proto::MasterConfig&>(*change.after);
+  MasterChange command{to_struct(after), !change.not_while_engaged.empty(),
+                       !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
+                       moves_script(assignments)};
+  auto refusal = post(shell_.mailbox(), MasterCommand(std::move(command)), change.not_while_engaged);
+  if (!refusal) config_ = after;
+  return refusal;
+}
+
+proto::Impairment MasterService::link() { return config_.link().impairment(); }
+
+std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairment) {
+  auto refusal = post(shell_.mailbox(), MasterCommand(to_struct(impairment)));
+  if (!refusal) *config_.mutable_link()->mutable_impairment() = impairment;
+  return refusal;
+}
+
+std::optional<Refusal> MasterService::set_mode(proto::Mapping::Mode mode) {
+  OperatorRequests requests;
+  requests.mode = mode == proto::Mapping::RATE ? MotionMode::kRate : MotionMode::kPosition;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::set_scale(double scale) {
+  if (!(scale >= kScaleMin && scale <= kScaleMax)) {
+    return Refusal{Refusal::Kind::kInvalid, "the scale must be from 0.05 to 1"};
+  }
+  OperatorRequests requests;
+  requests.scale = scale;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::engage() {
+  const double silence_s = snapshot().side.link.silence_s;
+  if (!(silence_s <= config_.safety().silence_s())) {
+    return Refusal{
+        Refusal::Kind::kPrecondition,
+        "the slave is not heard; check that longreach-slave runs and that link.slave is its address"};
+  }
+  OperatorRequests requests;
+  requests.engage = true;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::stop() {
+  OperatorRequests requests;
+  requests.stop = true;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
+  return post(shell_.mailbox(), MasterCommand(requests));
+}
+
+}  // namespace longreach

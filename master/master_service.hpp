@@ -1,0 +1,38 @@
+#pragma once
+// What RPC clients and keys may do at the master: look, set, impair, change mode and scale, engage, stop.
+
+#include <chrono>
+#include <mutex>
+
+#include "common/io/control_backend.hpp"
+#include "master/master_shell.hpp"
+
+namespace longreach {
+
+class MasterService : public ControlBackend {
+ public:
+  MasterService(MasterShell& shell, const proto::MasterConfig& config);
+
+  proto::Status status() override;
+  std::unique_ptr<google::protobuf::Message> config() override;
+  std::optional<Refusal> set_config(const Assignments& assignments) override;
+  proto::Impairment link() override;
+  std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
+  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override;
+  std::optional<Refusal> set_scale(double scale) override;
+  std::optional<Refusal> engage() override;
+  std::optional<Refusal> stop() override;
+
+  /// The newest picture of the loop; callable from any thread but the loop's.
+  MasterSnapshot snapshot();
+  /// Hands what keys asked for to the loop; callable from any thread but the loop's.
+  std::optional<Refusal> request(const OperatorRequests& requests);
+
+ private:
+  MasterShell& shell_;
+  proto::MasterConfig config_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::mutex reading_;  // among those who read snapshots
+};
+
+}  // namespace longreach

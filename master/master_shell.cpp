@@ -1,0 +1,102 @@
+#include "master/master_shell.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kKeyboardSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
+
+}  // namespace
+
+MasterShell::MasterShell(const MasterConfig& config, std::uint64_t session)
+    : config_(config),
+      channel_(config.link.listen, config.link.slave),
+      port_(channel_, session, config.link.impairment, Random(session).child("down")),
+      handle_(config.device),
+      script_(config.operator_, config.mapping, config.hand.grip),
+      script_grip_(config.hand.grip),
+      node_(config) {}
+
+void MasterShell::tick(Time now, const LoopFigures& loop) {
+  OperatorRequests requests;
+  if (const MasterCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, requests));
+
+  port_.receive(now);
+  const Endpoint& endpoint = port_.endpoint();
+  MasterInput in;
+  in.now = now;
+  in.handle = handle_.read(now);
+  handle_.set_target(operate(now, in.handle, requests));
+  in.reports = port_.reports();
+  in.telemetry = port_.telemetry();
+  in.requests = requests;
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_restarts = endpoint.peer_restarts();
+
+  const MasterOutput out = node_.step(in);
+  handle_.write(out.F_H_M);
+  if (out.command) port_.send(now, out.sequence, *out.command);
+
+  snapshot_.side = observer_.observe(now, port_, channel_, loop);
+  snapshot_.view = node_.view();
+  snapshot_.phase = script_.phase();
+  snapshots_.write(snapshot_);
+}
+
+LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
+  if (const auto* asked = std::get_if<OperatorRequests>(&command)) {
+    requests = *asked;
+  } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
+    port_.impairment().configure(*impairment, now);
+  } else {
+    const auto& change = std::get<MasterChange>(command);
+    if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
+    config_ = change.config;
+    node_.configure(config_);
+    if (change.impairment) port_.impairment().configure(config_.link.impairment, now);
+    if (change.script) {
+      script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
+      script_grip_ = config_.hand.grip;
+    }
+  }
+  return LoopAnswer::kDone;
+}
+
+HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
+  if (config_.operator_.kind == OperatorKind::kKeyboard) {
+    const HandLevel& level = hand_.read();
+    requests.clutch = level.clutch;
+    return hold(level);
+  }
+  if (config_.operator_.kind == OperatorKind::kNone) {
+    HandTarget nobody;
+    nobody.grip = Grip::kReleased;
+    return nobody;
+  }
+  const MasterView& view = node_.view();
+  const ScriptOutput script = script_.step({.now = now,
+                                            .handle_m = handle.p_MH,
+                                            .felt_n = view.spring_force_n.norm(),
+                                            .goal_m = view.goal_m,
+                                            .scale = view.scale,
+                                            .engaged = view.state == SafetyState::kEngaged,
+                                            .surface_known = view.surface_known,
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+  if (script.mode && !requests.mode) requests.mode = script.mode;
+  HandTarget target = script.target;
+  // The grip may change while the script goes on; where the script itself lets go, it stays let go.
+  if (target.grip == script_grip_) target.grip = config_.hand.grip;
+  return target;
+}
+
+HandTarget MasterShell::hold(const HandLevel& level) {
+  const double period_s = 1.0 / config_.loop.rate_hz;
+  const Vector3 step = clamp_norm(level.target_m - held_m_, kKeyboardSpeed_m_per_s * period_s);
+  held_m_ += step;
+  HandTarget target;
+  target.position_m = held_m_;
+  target.velocity_m_per_s = step / period_s;
+  target.grip = config_.hand.grip;
+  return target;
+}
+
+}  // namespace longreach

@@ -1,0 +1,77 @@
+#pragma once
+// The master's loop with real sockets, a device and an operator: one tick receives, reads the handle, steps
+// the node, renders the wrench, sends. Runs in the loop's thread alone; other threads reach it through the
+// mailbox, the hand and the snapshots, which make it wait for nothing.
+
+#include <variant>
+
+#include "common/io/config_change.hpp"
+#include "common/io/latest_value.hpp"
+#include "common/io/mailbox.hpp"
+#include "common/io/side_figures.hpp"
+#include "common/io/udp_channel.hpp"
+#include "common/wire/port.hpp"
+#include "master/devices/scripted_operator.hpp"
+#include "master/devices/simulated_handle.hpp"
+#include "master/master_node.hpp"
+
+namespace longreach {
+
+struct MasterSnapshot {
+  SideFigures side{};
+  MasterView view{};
+  ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, when it is the operator
+};
+
+struct MasterChange {
+  MasterConfig config{};
+  bool only_disengaged = false;  // a field changes that must not while engaged
+  bool impairment = false;       // config.link.impairment has changed
+  bool script = false;           // what the script acts on has changed: it begins anew
+};
+using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig>;
+
+/// What a person at the keyboard holds.
+struct HandLevel {
+  Vector3 target_m = Vector3::Zero();  // from handle home, M
+  bool clutch = false;
+};
+
+class MasterShell {
+ public:
+  /// Throws AddressError or std::runtime_error when the socket cannot be had. `session`: greater at each
+  /// start.
+  MasterShell(const MasterConfig& config, std::uint64_t session);
+
+  void tick(Time now, const LoopFigures& loop);
+
+  /// Loop thread only: the picture of the last tick.
+  [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
+
+  Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
+  LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
+  /// Written by the thread that polls the keyboard.
+  LatestValue<HandLevel>& hand() { return hand_; }
+  [[nodiscard]] std::string address() const { return channel_.local_address(); }
+
+ private:
+  LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
+  HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
+  HandTarget hold(const HandLevel& level);
+
+  MasterConfig config_;
+  UdpChannel channel_;
+  MasterPort port_;
+  SimulatedHandle handle_;
+  ScriptedOperator script_;
+  Grip script_grip_;
+  MasterNode node_;
+  Vector3 held_m_ = Vector3::Zero();  // where the hand at the keyboard is
+  SideObserver observer_;
+  MasterSnapshot snapshot_{};
+  Mailbox<MasterCommand, LoopAnswer> mailbox_;
+  LatestValue<MasterSnapshot> snapshots_;
+  LatestValue<HandLevel> hand_;
+};
+
+}  // namespace longreach
