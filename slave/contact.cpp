@@ -12,12 +12,14 @@ constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (
 
 SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
     : sensing_(sensing),
+      working_force_n_(estimator.working_force_n),
       detector_(sensing),
       estimator_(estimator, sensing.force_noise_n),
       reported_(estimator) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   sensing_ = sensing;
+  working_force_n_ = estimator.working_force_n;
   detector_.configure(sensing);
   estimator_.configure(estimator);
   reported_.configure(estimator);
@@ -27,7 +29,7 @@ void SlaveContact::step(const ContactInput& input) {
   reading_ = detector_.step(input.force_n, input.dt);
   if (reading_.began) {
     ++touch_;
-    estimator_.begin();
+    estimator_.begin(input.scale * working_force_n_);
     reported_.begin();
     stiffness_.setZero();
     reference_m_ = input.p_WE;

@@ -21,6 +21,7 @@ struct ContactInput {
   Vector3 v_WE = Vector3::Zero();     // m/s
   Vector3 force_n = Vector3::Zero();  // measured, in W, on the tool
   double played_sequence = 0.0;       // of the goal that is followed; 0: none
+  double scale = 1.0;                 // k_scale: a force at the hand is this much at the tool
   double dt = 0.0;                    // s
 };
 
@@ -54,6 +55,7 @@ class SlaveContact {
   [[nodiscard]] double surface_m() const;
 
   SensingConfig sensing_;
+  double working_force_n_;  // at the hand
   ContactDetector detector_;
   ContactEstimator estimator_;
   ReportedStiffness reported_;

@@ -82,6 +82,7 @@ struct SlaveNode::State {
   bool robot_seen = false;
   Pose X_WE_anchor{};
   Vector6 newest_goal = Vector6::Zero();  // [position; rotation], each as last sent
+  double scale = 1.0;                     // k_scale as last sent
   double played_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
 
@@ -193,7 +194,10 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
     } else {
       goal.tail<3>() = command.rotation_rad;
     }
-    if (received.newest) newest_goal = goal;
+    if (received.newest) {
+      newest_goal = goal;
+      scale = command.scale;
+    }
     playout.push(received.received, received.sent, received.sequence, goal);
   }
 }
@@ -215,7 +219,7 @@ void SlaveNode::State::feel(const RobotState& robot, double dt) {
   view.X_WE = tool.X_WE;
   const Vector3 v_WE = tool.J.bottomRows<3>() * robot.joint_rad_per_s;
   const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
-  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, dt});
+  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, scale, dt});
 }
 
 void SlaveNode::State::book_reached() {

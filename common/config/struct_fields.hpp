@@ -239,6 +239,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("depth_filter_s", s.depth_filter_s);
   visit("first_sd", s.first_sd);
   visit("deadband", s.deadband);
+  visit("working_force_n", s.working_force_n);
 }
 
 template <class Visitor, Is<SlaveSafetyConfig> S>

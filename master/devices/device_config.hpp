@@ -32,7 +32,7 @@ enum class OperatorKind : std::uint8_t { kNone = 0, kScript = 1, kKeyboard = 2 }
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::kScript;
   double rate_distance_m = 0.1;
-  double approach_speed_m_per_s = 0.002;
+  double approach_speed_m_per_s = 0.003;
   double press_n = 3.0;
   double probe_n = 1.5;
   double probe_hz = 0.25;

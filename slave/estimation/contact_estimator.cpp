@@ -13,6 +13,7 @@ constexpr double kForceFloor = 5.0;          // sd of the noise below which a sa
 constexpr double kResidualSamples = 2000.0;  // memory of the residual variance
 constexpr double kPriorSamples = 200.0;      // weight of the configured noise in it
 constexpr double kModelSd = 1e-3;            // fraction; what the linearisation leaves
+constexpr double kDepthBand = 4.0;           // about the depth of the answer
 constexpr double kNoiseFloorN = 1e-4;        // keeps the prior of a alive with a perfect sensor
 
 double power(double x, double exponent) {
@@ -31,17 +32,18 @@ Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& A) {
 
 ContactEstimator::ContactEstimator(const EstimatorConfig& config, double force_noise_n)
     : config_(config), noise_n_(std::max(force_noise_n, kNoiseFloorN)) {
-  begin();
+  begin(1.0);
 }
 
-void ContactEstimator::begin() {
+void ContactEstimator::begin(double working_force_n) {
+  working_force_n_ = working_force_n;
+  depth_filtered_m_ = depth_held_m_ = 0.0;
   n_ = config_.exponent;
   theta_.setZero();
   const double damping_sd = kDampingSd / n_;
   information_ = Vector(1e-18, 1e-12, noise_n_ * noise_n_ / (damping_sd * damping_sd)).asDiagonal();
   variance_n2_ = noise_n_ * noise_n_;
   variance_weight_ = kPriorSamples;
-  started_ = false;
   force_before_n_ = 0.0;
   samples_ = 0;
   estimate_ = {};
@@ -55,9 +57,6 @@ const SecantEstimate& ContactEstimator::step(const ContactSample& sample, double
     ++ignored_;
     return estimate_;
   }
-  if (!started_) x_filtered_m_ = sample.x_m;
-  started_ = true;
-  x_filtered_m_ -= std::expm1(-dt / config_.depth_filter_s) * (sample.x_m - x_filtered_m_);
   // The force of the samples before this one: what shares the sample's own noise would explain it away.
   const double force_before_n = force_before_n_;
   force_before_n_ = sample.force_filtered_n;
@@ -68,7 +67,7 @@ const SecantEstimate& ContactEstimator::step(const ContactSample& sample, double
       ++ignored_;
     }
   }
-  answer();
+  answer(sample.x_m, dt);
   return estimate_;
 }
 
@@ -101,7 +100,17 @@ bool ContactEstimator::update(const ContactSample& sample, double force_before_n
   return true;
 }
 
-void ContactEstimator::answer() {
+void ContactEstimator::choose_depth(double present_m, double dt) {
+  const double working_m = power(working_force_n_, 1.0 / n_) / theta_[0] * kLengthM;
+  const double chosen_m = depth_held_m_ > 0.0 ? depth_held_m_ : working_m;
+  if (depth_filtered_m_ <= 0.0) depth_filtered_m_ = chosen_m;
+  depth_filtered_m_ -=
+      std::expm1(-dt / config_.depth_filter_s) * (std::max(present_m, 0.0) - depth_filtered_m_);
+  const bool left = depth_filtered_m_ > kDepthBand * chosen_m || depth_filtered_m_ * kDepthBand < chosen_m;
+  if (left && depth_filtered_m_ > 0.0) depth_held_m_ = depth_filtered_m_;
+}
+
+void ContactEstimator::answer(double x_m, double dt) {
   SecantEstimate e;
   e.n = n_;
   e.force_sd_n = std::sqrt(variance_n2_);
@@ -116,17 +125,15 @@ void ContactEstimator::answer() {
   e.surface_m = -c / b * kLengthM;
   const Vector surface_slope(c / (b * b) * kLengthM, -kLengthM / b, 0.0);
   e.surface_sd_m = std::sqrt(std::max(surface_slope.dot(covariance * surface_slope), 0.0));
-  e.depth_m = x_filtered_m_ - e.surface_m;
-  if (!(e.depth_m > 0.0)) {
-    estimate_ = e;
-    return;
-  }
+  // An error of the depth does not count: the secant is that of the depth that is told with it.
+  const double fraction =
+      std::sqrt(n_ * n_ * std::max(covariance(0, 0), 0.0) / (b * b) + kModelSd * kModelSd);
+  e.valid = fraction < 0.5;
+  if (e.valid) choose_depth(x_m - e.surface_m, dt);
+  e.depth_m = depth_held_m_ > 0.0 ? depth_held_m_ : power(working_force_n_, 1.0 / n_) / b * kLengthM;
   e.stiffness_n_per_m = e.k * power(e.depth_m, n_ - 1.0);
-  Vector relative(n_ / b, 0.0, 0.0);  // gradient of ln S
-  relative -= (n_ - 1.0) / e.depth_m * surface_slope;
-  const double fraction = std::sqrt(std::max(relative.dot(covariance * relative), 0.0) + kModelSd * kModelSd);
   e.stiffness_sd_n_per_m = fraction * e.stiffness_n_per_m;
-  e.valid = fraction < 0.5 && std::isfinite(e.stiffness_n_per_m);
+  e.valid = e.valid && std::isfinite(e.stiffness_n_per_m);
 
   const double damping_sd = std::sqrt(std::max(covariance(2, 2), 0.0));
   e.lambda_known = e.valid && damping_sd < 0.5 * std::abs(theta_[2]);

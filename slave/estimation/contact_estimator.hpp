@@ -8,9 +8,11 @@
 // noise are left out. Forgetting acts only along the direction that a sample informs about (Kulhavy 1987),
 //   A += (w - (1 - f)/(φᵀA⁻¹φ)) φφᵀ,
 // which does not depend on units and leaves the rest untouched: a still hold forgets and winds up nothing.
-// Answer: secant S = k p^(n-1) at the low-passed depth p, with its sd from the joint covariance and the
-// residuals. Limits: constant speed cannot tell k and a apart (a prior of sd 10 s/m keeps it bounded and its
-// share is in the sd); position noise near the depth biases the fit.
+// Answer: secant S = k p^(n-1), with its sd from the joint covariance and the residuals. The depth p is where
+// the operator is expected to work, p = (F_w/k)^(1/n) at the working force F_w, so that the answer does not
+// chase every movement; where the low-passed depth leaves p/4..4p, it is taken instead and held in the same
+// way. Limits: constant speed cannot tell k and a apart (a prior of sd 10 s/m keeps it bounded and its share
+// is in the sd); position noise near the depth biases the fit.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -36,7 +38,7 @@ struct SecantEstimate {
   double n = 1.0;
   double surface_m = 0.0;  // x0, on the axis of x_m
   double surface_sd_m = 0.0;
-  double depth_m = 0.0;     // low-passed depth
+  double depth_m = 0.0;     // that the secant belongs to
   double force_sd_n = 0.0;  // of a sample, from the residuals
 };
 
@@ -47,8 +49,8 @@ class ContactEstimator {
   /// The exponent is taken over at the next begin().
   void configure(const EstimatorConfig& config) { config_ = config; }
 
-  /// A new contact: nothing of the one before is kept.
-  void begin();
+  /// A new contact: nothing of the one before is kept. `working_force_n` > 0: expected at the tool.
+  void begin(double working_force_n);
 
   const SecantEstimate& step(const ContactSample& sample, double dt);
 
@@ -61,7 +63,8 @@ class ContactEstimator {
   using Vector = Eigen::Vector3d;
 
   bool update(const ContactSample& sample, double force_before_n, double dt);
-  void answer();
+  void answer(double x_m, double dt);
+  void choose_depth(double present_m, double dt);
 
   EstimatorConfig config_;
   double noise_n_;
@@ -71,9 +74,10 @@ class ContactEstimator {
   Vector theta_ = Vector::Zero();        // [b per mm; c; a/n]
   double variance_n2_ = 0.0;             // of the force, from the residuals
   double variance_weight_ = 0.0;         // samples that it stands for
-  double x_filtered_m_ = 0.0;
+  double working_force_n_ = 1.0;
+  double depth_filtered_m_ = 0.0;  // 0: no depth yet
+  double depth_held_m_ = 0.0;      // 0: the working depth
   double force_before_n_ = 0.0;
-  bool started_ = false;
   std::uint64_t samples_ = 0;
   std::uint64_t ignored_ = 0;
   SecantEstimate estimate_{};

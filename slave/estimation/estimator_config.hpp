@@ -6,7 +6,7 @@ namespace longreach {
 struct EstimatorConfig {
   double exponent = 1.0;
   double forgetting = 0.9998;  // a sample at 1 kHz
-  double depth_filter_s = 2.0;
+  double depth_filter_s = 10.0;
   double first_sd = 0.05;  // fraction
   double deadband = 0.08;  // fraction
 };

@@ -115,7 +115,7 @@ void trace_row(Trace& trace, const Laboratory& lab) {
   const SlaveView& s = lab.slave();
   const double hand = m.inward.dot(m.p_MH);
   trace.row({lab.now_s(), hand, m.surface_known ? m.surface_m : NAN, m.inward.dot(m.goal_m),
-             m.inward.dot(s.X_WE.p - s.X_WE_anchor.p), -m.inward.dot(m.F_H_M.force), m.spring_force_n.norm(),
+             s.engagement > 0 ? m.inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN, -m.inward.dot(m.F_H_M.force), m.spring_force_n.norm(),
              lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m, s.reported_stiffness_n_per_m,
              lab.arm().true_penetration_m(), m.port_energy_j, m.stored_energy_j, m.tank_j, m.scale,
              static_cast<double>(m.mode), static_cast<double>(m.state),
