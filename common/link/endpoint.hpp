@@ -40,9 +40,8 @@ class Endpoint {
   [[nodiscard]] const DelayMonitor& monitor() const { return monitor_; }
   [[nodiscard]] std::uint64_t session() const { return session_; }
   [[nodiscard]] std::uint64_t peer_session() const { return peer_session_; }  // 0: none yet
-  [[nodiscard]] std::uint32_t peer_restarts() const {
-    return peer_restarts_;
-  }  // new sessions after the first
+  /// New sessions of the peer after the first.
+  [[nodiscard]] std::uint32_t peer_restarts() const { return peer_restarts_; }
 
  private:
   void follow(std::uint64_t peer_session);

@@ -204,6 +204,17 @@ TEST(DelayMonitor, ClearForgetsEverything) {
   EXPECT_EQ(monitor.figures(at(2.0)).loss, 0.0);
 }
 
+TEST(DelayMonitor, ClearForgetsWhatLeftTheWindow) {
+  DelayMonitor monitor;
+  for (std::uint64_t i = 1; i <= 10; ++i) {
+    monitor.on_datagram(at(static_cast<double>(i)), {DatagramType::kTelemetry, 1, i},
+                        peer(static_cast<double>(i)), std::nullopt, 50);
+  }
+  monitor.clear();
+  monitor.on_datagram(at(11.0), {DatagramType::kTelemetry, 2, 5000}, peer(11.0), std::nullopt, 50);
+  EXPECT_EQ(monitor.figures(at(11.0)).loss, 0.0);
+}
+
 TEST(DelayMonitor, HostileTimesAndNumbersGiveFiniteFigures) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   Random random(8);

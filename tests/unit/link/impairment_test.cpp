@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -204,6 +205,24 @@ TEST(Impairment, AVanishingRateDoesNotOutliveItsProfile) {
   impairment.configure({.rate_bit_per_s = 1e6}, at(1.0));
   impairment.push(at(1.0), bytes_of(2));
   EXPECT_EQ(drain(impairment, 2.0), Values{2});
+}
+
+TEST(Impairment, WhatJitterLeavesWithoutDelayKeepsTheOrderOfArrival) {
+  Impairment impairment({.jitter_s = 0.1}, Random(1));
+  for (int i = 0; i < 200; ++i) impairment.push(at(1.0), bytes_of(i));
+  const Values out = drain(impairment, 1.0);
+  EXPECT_GT(out.size(), 50U);
+  EXPECT_TRUE(std::is_sorted(out.begin(), out.end()));
+}
+
+TEST(Impairment, TheFirstDatagramOfAProfileIsLostAsOftenAsAnyOther) {
+  const ImpairmentConfig bursts{.loss = 0.3, .loss_burst = 20.0};
+  Impairment impairment(bursts, Random(1));
+  for (int i = 0; i < 5000; ++i) {
+    impairment.configure(bursts, at(i));
+    impairment.push(at(i), bytes_of(1));
+  }
+  EXPECT_NEAR(static_cast<double>(impairment.counts().lost), 1500.0, 5.0 * std::sqrt(5000 * 0.21));
 }
 
 TEST(Impairment, SurvivesConfigurationsThatAreNoNumbers) {
