@@ -174,6 +174,21 @@ TEST(SlaveNode, TouchesTheWallReportsItsStiffnessAndWhereItWasMet) {
   }
 }
 
+TEST(SlaveNode, ALaterDipOfTheGoalDoesNotMoveTheTouch) {
+  Loop loop(test::wall_config(0.05, 1000.0));
+  loop.engage();
+  loop.move_to(0.052, 0.005);
+  loop.run(1.0);
+  const double touch = loop.last_report->translation.touch_sequence;
+  ASSERT_GT(touch, 0.0);
+  loop.command.position_m.x() = 0.0495;  // in front of the wall for one command: too short for the tool
+  loop.run(0.005);
+  loop.command.position_m.x() = 0.052;
+  loop.run(1.0);
+  EXPECT_EQ(loop.view().touch, 1U);
+  EXPECT_NEAR(loop.last_report->translation.touch_sequence, touch, 5.0);
+}
+
 TEST(SlaveNode, HoldsOnSilenceWithinGapAndBraking) {
   Loop loop(test::wall_config(0.9, 1000.0));
   loop.engage();
