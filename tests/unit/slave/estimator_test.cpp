@@ -34,7 +34,7 @@ struct Bench {
     v_m_per_s = v;
     x_m += v * kDt;
     const Vector3 noise(noise_n * random.normal(), noise_n * random.normal(), noise_n * random.normal());
-    contact.step({Vector3(x_m, 3.0, -1.0), Vector3(v, 0, 0), Vector3(-force(), 0, 0) + noise, 0.0, kDt});
+    contact.step({Vector3(x_m, 3.0, -1.0), Vector3(v, 0, 0), Vector3(-force(), 0, 0) + noise, 0.0, 1.0, kDt});
   }
 };
 
