@@ -11,8 +11,9 @@ namespace {
 constexpr double kFelt_n = 0.5;       // a contact that a person notices
 constexpr double kBackOff_m = 0.002;  // of the handle, in front of the surface
 constexpr double kReleased_m = 0.010;
-constexpr double kFast_m_per_s = 0.02;    // unhurried motion of the hand
-constexpr double kCoarse_m_per_s = 0.08;  // at the slave, in rate mode
+constexpr double kFast_m_per_s = 0.02;      // unhurried motion of the hand
+constexpr double kCareful_m_per_s = 0.008;  // towards something that will be touched
+constexpr double kCoarse_m_per_s = 0.08;    // at the slave, in rate mode
 constexpr double kRest_s = 2.0;
 
 }  // namespace
@@ -116,7 +117,7 @@ double ScriptedOperator::coarse_deflection(double left_m) const {
 /// Moves the hand's target along the direction.
 void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   const double handle_m = direction_.dot(in.handle_m);
-  const double approach = std::min(config_.approach_speed_m_per_s / in.scale, kFast_m_per_s);
+  const double approach = std::min(config_.approach_speed_m_per_s / in.scale, kCareful_m_per_s);
   double speed = 0.0;
   switch (phase_) {
     case ScriptPhase::kCoarse: {
