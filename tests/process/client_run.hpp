@@ -1,0 +1,58 @@
+#pragma once
+// One run of the client, with standard output and standard error kept apart, against sides that live in the
+// test.
+
+#include <sys/types.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/io/rpc_server.hpp"
+#include "tests/unit/io/control_fake_backend.hpp"
+
+namespace longreach {
+
+class ClientRun {
+ public:
+  /// `terminal`: standard output is one.
+  explicit ClientRun(const std::vector<std::string>& arguments, bool terminal = false);
+  ~ClientRun();
+  ClientRun(const ClientRun&) = delete;
+  ClientRun& operator=(const ClientRun&) = delete;
+
+  void signal(int number) const;
+  /// Reads until the client ends, or has written `until` (not empty) to standard output; at most 30 s.
+  void read(const std::string& until = "");
+  /// After read(): exit status, 128 + signal, or -1 when it did not end.
+  int status();
+  [[nodiscard]] const std::string& out() const { return out_; }
+  [[nodiscard]] const std::string& err() const { return err_; }
+
+ private:
+  pid_t pid_ = -1;
+  int out_end_ = -1;
+  int err_end_ = -1;
+  std::string out_;
+  std::string err_;
+  std::optional<int> status_{};
+};
+
+/// A master and a slave that answer, and the client's options that lead to them.
+struct FakeStation {
+  FakeBackend master{"master"};
+  FakeBackend slave{"slave"};
+  std::unique_ptr<RpcServer> master_server = std::make_unique<RpcServer>("127.0.0.1:0", master, "master");
+  std::unique_ptr<RpcServer> slave_server = std::make_unique<RpcServer>("127.0.0.1:0", slave, "slave");
+  std::string master_address = master_server->address();
+  std::string slave_address = slave_server->address();
+
+  [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& command) const {
+    std::vector<std::string> words{"--master", master_address, "--slave", slave_address};
+    words.insert(words.end(), command.begin(), command.end());
+    return words;
+  }
+};
+
+}  // namespace longreach
