@@ -5,7 +5,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kOnsetShare = 0.25;      // of the touch threshold: the force has left the noise
+constexpr double kOnsetShare = 0.25;   // of the touch threshold: the force has left the noise
+constexpr double kSamePlaceM = 0.003;  // the surface that was met before is met again
+constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
 
 }  // namespace
@@ -13,6 +15,7 @@ constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (
 SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
     : sensing_(sensing),
       working_force_n_(estimator.working_force_n),
+      first_sd_(estimator.first_sd),
       detector_(sensing),
       estimator_(estimator, sensing.force_noise_n),
       reported_(estimator) {}
@@ -20,6 +23,7 @@ SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   sensing_ = sensing;
   working_force_n_ = estimator.working_force_n;
+  first_sd_ = estimator.first_sd;
   detector_.configure(sensing);
   estimator_.configure(estimator);
   reported_.configure(estimator);
@@ -27,15 +31,7 @@ void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig
 
 void SlaveContact::step(const ContactInput& input) {
   reading_ = detector_.step(input.force_n, input.dt);
-  if (reading_.began) {
-    ++touch_;
-    estimator_.begin(input.scale * working_force_n_);
-    reported_.begin();
-    stiffness_.setZero();
-    reference_m_ = input.p_WE;
-    played_at_touch_ = input.played_sequence;
-    touch_sequence_ = 0.0;
-  }
+  if (reading_.began) begin(input);
   force_ = {};
   penetration_m_ = 0.0;
   if (reading_.in_contact) {
@@ -43,6 +39,19 @@ void SlaveContact::step(const ContactInput& input) {
   } else if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) {
     onset_m_ = input.p_WE;
   }
+}
+
+void SlaveContact::begin(const ContactInput& input) {
+  ++touch_;
+  const bool again = known_ && reading_.normal.dot(known_normal_) > kSameNormal &&
+                     std::abs(known_normal_.dot(onset_m_ - known_point_m_)) < kSamePlaceM;
+  known_ = again;
+  estimator_.begin(input.scale * working_force_n_);
+  reported_.begin(again);
+  if (!again) stiffness_.setZero();
+  reference_m_ = input.p_WE;
+  played_at_touch_ = input.played_sequence;
+  touch_sequence_ = 0.0;
 }
 
 void SlaveContact::identify(const ContactInput& input) {
@@ -55,15 +64,19 @@ void SlaveContact::identify(const ContactInput& input) {
   if (reported_.step(estimator_.step(sample, input.dt))) {
     stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
   }
+  const SecantEstimate& e = estimator_.estimate();
+  if (e.valid && e.stiffness_sd_n_per_m < first_sd_ * e.stiffness_n_per_m) {
+    known_ = true;
+    known_normal_ = normal;
+    known_point_m_ = reference_m_ - e.surface_m * normal;
+  }
   penetration_m_ = std::max(sample.x_m - surface_m(), 0.0);
   // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
   force_ = {true, normal, std::max(sample.force_n, sample.force_filtered_n)};
 }
 
 double SlaveContact::surface_m() const {
-  if (reported_.stiffness_n_per_m() > 0.0 && estimator_.estimate().valid)
-    return estimator_.estimate().surface_m;
-  return -reading_.normal.dot(onset_m_ - reference_m_);
+  return -reading_.normal.dot((known_ ? known_point_m_ : onset_m_) - reference_m_);
 }
 
 void SlaveContact::locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence) {

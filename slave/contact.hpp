@@ -51,17 +51,23 @@ class SlaveContact {
   [[nodiscard]] ContactStiffness report() const;
 
  private:
+  void begin(const ContactInput& input);
   void identify(const ContactInput& input);
   [[nodiscard]] double surface_m() const;
 
   SensingConfig sensing_;
   double working_force_n_;  // at the hand
+  double first_sd_;
   ContactDetector detector_;
   ContactEstimator estimator_;
   ReportedStiffness reported_;
   ContactReading reading_{};
   ContactForce force_{};
-  Vector3 onset_m_ = Vector3::Zero();      // tool when the force was last in the noise
+  Vector3 onset_m_ = Vector3::Zero();  // tool when the force was last in the noise
+  // The surface as identified last: a touch at the same place goes on with what is known of it.
+  bool known_ = false;
+  Vector3 known_normal_ = Vector3::Zero();
+  Vector3 known_point_m_ = Vector3::Zero();
   Vector3 reference_m_ = Vector3::Zero();  // tool at the touch
   Matrix3 stiffness_ = Matrix3::Zero();    // as reported
   double penetration_m_ = 0.0;

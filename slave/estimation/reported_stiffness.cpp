@@ -9,9 +9,8 @@ bool ReportedStiffness::step(const SecantEstimate& estimate) {
   if (!estimate.valid) return false;
   const double value = estimate.stiffness_n_per_m;
   const double sd = estimate.stiffness_sd_n_per_m / value;
-  if (stiffness_n_per_m_ == 0.0) {
-    if (!(sd < config_.first_sd)) return false;
-  } else {
+  if (!(sd < config_.first_sd)) return false;  // nothing is replaced by what is hardly known
+  if (stiffness_n_per_m_ > 0.0) {
     const double off = std::abs(value - stiffness_n_per_m_) / stiffness_n_per_m_;
     const bool large = off > std::max(config_.deadband, 3.0 * sd);
     const bool refined = !corrected_ && sd < 0.01 && off > std::max(0.02, 3.0 * sd);

@@ -2,7 +2,7 @@
 // What of the estimate is told to the operator. Each change of the rendered stiffness moves the felt wall a
 // little, so the reported value is held: it appears when its sd is below `first_sd`, then changes only by
 // more than max(deadband, 3 sd), or once a touch when its sd is below 1 % and it is off by more than max(2 %,
-// 3 sd).
+// 3 sd). A second touch of the same surface goes on with it.
 
 #include "slave/estimation/contact_estimator.hpp"
 
@@ -13,8 +13,9 @@ class ReportedStiffness {
   explicit ReportedStiffness(const EstimatorConfig& config) : config_(config) {}
 
   void configure(const EstimatorConfig& config) { config_ = config; }
-  void begin() {
-    stiffness_n_per_m_ = depth_m_ = 0.0;
+  /// A new touch; `again`: of a surface whose value still holds.
+  void begin(bool again) {
+    if (!again) stiffness_n_per_m_ = depth_m_ = 0.0;
     corrected_ = false;
   }
 

@@ -215,7 +215,7 @@ TEST(ReportedStiffness, AppearsWhenKnownHoldsAndIsCorrectedOnce) {
   EXPECT_FALSE(reported.step(estimate(1060, 0.004)));
   EXPECT_TRUE(reported.step(estimate(1150, 0.004)));  // more than the dead band
   EXPECT_EQ(reported.stiffness_n_per_m(), 1150.0);
-  reported.begin();
+  reported.begin(false);
   EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
 }
 
