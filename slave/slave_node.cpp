@@ -55,13 +55,14 @@ struct SlaveNode::State {
         safety(config.safety),
         motion(config.command, config.robot),
         contact(config.sensing, config.estimator),
-        playout(config.playout) {}
+        playout(config.playout),
+        turn_playout(config.playout) {}
 
   double tick(Time now);
   bool decide(const SlaveInput& input);
   void begin_engagement(const RobotState& robot);
   void take_goals(std::span<const Received<MotionCommand>> commands);
-  std::optional<Pose> play(Time now);
+  Pose play(Time now);
   void feel(const RobotState& robot, double dt);
   void book_reached();
   void report(Time now, SlaveOutput& output);
@@ -74,15 +75,15 @@ struct SlaveNode::State {
   SlaveSafety safety;
   SlaveMotion motion;
   SlaveContact contact;
-  Playout playout;
+  Playout playout;       // of position goals
+  Playout turn_playout;  // of orientation goals: each datagram carries one of the two
   SlaveView view;
 
   std::optional<Time> stepped_at{};
   bool robot_ok = true;
   bool robot_seen = false;
   Pose X_WE_anchor{};
-  Vector6 newest_goal = Vector6::Zero();  // [position; rotation], each as last sent
-  double scale = 1.0;                     // k_scale as last sent
+  double scale = 1.0;  // k_scale as last sent
   double played_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
 
@@ -109,6 +110,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.motion.configure(config.command);
   s.contact.configure(config.sensing, config.estimator);
   s.playout.configure(config.playout);
+  s.turn_playout.configure(config.playout);
 }
 
 SlaveOutput SlaveNode::step(const SlaveInput& input) {
@@ -173,8 +175,8 @@ void SlaveNode::State::begin_engagement(const RobotState& robot) {
   }
   X_WE_anchor = motion.X_WE();
   playout.clear();
+  turn_playout.clear();
   contact.forget_goals();
-  newest_goal.setZero();
   played_sequence = 0.0;
   reached_sequence = 0;
 }
@@ -188,26 +190,28 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
         !possible(command)) {
       continue;
     }
-    Vector6 goal = newest_goal;
+    if (received.newest) scale = command.scale;
+    Vector6 goal = Vector6::Zero();
     if (command.goal_kind == GoalKind::kPosition) {
       goal.head<3>() = command.position_m;
+      playout.push(received.received, received.sent, received.sequence, goal);
     } else {
       goal.tail<3>() = command.rotation_rad;
+      turn_playout.push(received.received, received.sent, received.sequence, goal);
     }
-    if (received.newest) {
-      newest_goal = goal;
-      scale = command.scale;
-    }
-    playout.push(received.received, received.sent, received.sequence, goal);
   }
 }
 
-std::optional<Pose> SlaveNode::State::play(Time now) {
-  const std::optional<PlayoutGoal> played = playout.play(now);
-  if (!played) return X_WE_anchor;
-  played_sequence = played->sequence;
-  const Quaternion q = exp_rotation(played->goal.tail<3>()) * X_WE_anchor.q;
-  return Pose{X_WE_anchor.p + played->goal.head<3>(), q.normalized()};
+Pose SlaveNode::State::play(Time now) {
+  Pose X_WE = X_WE_anchor;
+  if (const auto played = playout.play(now)) {
+    played_sequence = played->sequence;
+    X_WE.p += played->goal.head<3>();
+  }
+  if (const auto played = turn_playout.play(now)) {
+    X_WE.q = (exp_rotation(played->goal.tail<3>()) * X_WE.q).normalized();
+  }
+  return X_WE;
 }
 
 void SlaveNode::State::feel(const RobotState& robot, double dt) {
