@@ -1,0 +1,38 @@
+#include "master/devices/delta/delta_catalog.hpp"
+
+#include <numbers>
+
+namespace longreach {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+DeltaDesign reconstructed_delta() {
+  return {DeltaGeometry(DeltaSimple{0.027, 0.061, 0.095, {0.0, 240.0 * kDegree, 120.0 * kDegree}}),
+          {0.018, 0.0273, 0.5, 0.005},
+          {0.0, 0.0, -0.0903}};
+}
+
+DeltaDesign novint_falcon() {
+  return {DeltaGeometry(DeltaGeneral{0.060,
+                                     0.1025,
+                                     0.01443,
+                                     0.01125,
+                                     0.01125,
+                                     -0.025,
+                                     0.0400,
+                                     -0.02309,
+                                     {105.0 * kDegree, -15.0 * kDegree, -135.0 * kDegree}}),
+          {0.10, 0.05, 0.5, 0.02},
+          {0.0, 0.0, 0.11}};
+}
+
+DeltaDesign omega_like() {
+  return {DeltaGeometry(DeltaSimple{0.060, 0.110, 0.200, {0.0, 120.0 * kDegree, 240.0 * kDegree}}),
+          {0.12, 0.10, 0.4, 0.05},
+          {0.0, 0.0, -0.17}};
+}
+
+}  // namespace longreach

@@ -1,0 +1,87 @@
+#pragma once
+// The dimensions of a DELTA mechanism: three legs at azimuths φ, each an arm on a motor at the base and a
+// parallelogram (forearm) to a platform that only translates. In the frame of a leg, u outwards, v sideways:
+//
+//   (u + c - a cos θ)² + (w - a sin θ)² = (d + e + √(b² - (v + f)²))²
+//   u = x cos φ + y sin φ - r,  v = -x sin φ + y cos φ - s,  w = z          (general: Stamper, thesis, 1997)
+//
+// The simple geometry has its joints in the middle of the links, and θ turns the arms towards -z:
+//   K = ((a + l1 cos θ) cos φ, (a + l1 cos θ) sin φ, -l1 sin θ),  |P - K| = l2.
+//
+// The constructors throw GeometryError, naming the parameter, for what cannot be a DELTA: a value that is not
+// finite, a length that is not positive, two legs at one azimuth, a loop that no pose closes.
+
+#include <array>
+
+#include "common/core/geometry_error.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+struct DeltaSimple {
+  double a = 0.0;   // base radius minus platform radius, m, >= 0
+  double l1 = 0.0;  // upper arm, m, > 0
+  double l2 = 0.0;  // forearm, m, > 0
+  std::array<double, 3> azimuth_rad{};
+};
+
+struct DeltaGeneral {
+  double a = 0.0;  // upper arm, m, > 0
+  double b = 0.0;  // rods of the parallelogram, m, > 0
+  double c = 0.0;  // platform joint from the platform's centre, outwards, m
+  double d = 0.0;  // arm's end to the parallelogram, m, >= 0
+  double e = 0.0;  // parallelogram to the platform joint, m, >= 0
+  double f = 0.0;  // platform joint sideways, m
+  double r = 0.0;  // motor axis from the centre, outwards, m
+  double s = 0.0;  // arm sideways, m
+  std::array<double, 3> azimuth_rad{};
+};
+
+/// Side of the plane through the three forearms' ends on which the platform is: sign of det[n1 n2 n3], n the
+/// rods.
+enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
+
+class DeltaGeometry {
+ public:
+  explicit DeltaGeometry(const DeltaSimple& simple);
+  explicit DeltaGeometry(const DeltaGeneral& general);
+
+  [[nodiscard]] double arm_m() const { return arm_; }
+  [[nodiscard]] double rod_m() const { return rod_; }
+  [[nodiscard]] double offset_m() const { return offset_; }  // d + e; 0: three spheres, a closed form
+  [[nodiscard]] double radius_m() const { return radius_; }  // motor axis minus platform joint, outwards
+  [[nodiscard]] double side_m() const { return side_; }      // s - f
+  [[nodiscard]] double up() const { return up_; }            // +1 or -1: positive θ turns the arms to up * z
+  [[nodiscard]] double size_m() const { return arm_ + rod_ + offset_; }
+
+  /// World coordinates of a vector in the frame of leg i.
+  [[nodiscard]] Vector3 to_world(int i, const Vector3& leg) const {
+    const double c = cos_[i], s = sin_[i];
+    return {c * leg.x() - s * leg.y(), s * leg.x() + c * leg.y(), up_ * leg.z()};
+  }
+  /// Coordinates of a world vector in the frame of leg i (outwards, sideways, the way positive θ turns).
+  [[nodiscard]] Vector3 to_leg(int i, const Vector3& world) const {
+    const double c = cos_[i], s = sin_[i];
+    return {c * world.x() + s * world.y(), c * world.y() - s * world.x(), up_ * world.z()};
+  }
+  /// Arm's end minus platform joint's offset, for θ with the given cosine and sine: where the platform's
+  /// centre would be with forearms of no length.
+  [[nodiscard]] Vector3 elbow(int i, double cos_theta, double sin_theta) const {
+    return to_world(i, {radius_ + arm_ * cos_theta, side_, arm_ * sin_theta});
+  }
+
+  /// The assembly with the platform on the side to which positive angles turn the arms: how such devices are
+  /// used.
+  [[nodiscard]] DeltaAssembly working_assembly() const { return working_; }
+
+ private:
+  void place_legs(const std::array<double, 3>& azimuth_rad);
+  void require_closed_loop() const;
+  [[nodiscard]] double gap(const Vector3& p) const;
+
+  double arm_, rod_, offset_, radius_, side_, up_;
+  std::array<double, 3> cos_{}, sin_{};
+  DeltaAssembly working_ = DeltaAssembly::kPositive;
+};
+
+}  // namespace longreach

@@ -1,0 +1,76 @@
+#pragma once
+// Positions of a DELTA: motor angles of a platform position, platform position of motor angles.
+//
+// Inverse: with E = -2 arm U, F = -2 arm w, G = U² + w² + arm² - reach², the leg closes where E cos θ + F sin
+// θ + G = 0: two roots, solved by half angles; G as arm² + (dist - reach)(dist + reach), so that nothing
+// cancels. Forward without offset: the two points at the rod's length from three centres (centre and height
+// of their triangle). Forward with an offset: the centre is arm's end + offset * d with d the direction from
+// the arm's end to the platform in the leg's plane; its spheres start a Newton iteration on |P - centre(P)| -
+// rod, at most kMaxIterations.
+//
+// Every function takes anything, finite or not, and returns finite numbers. Nothing allocates or throws.
+
+#include <array>
+
+#include "common/core/solution_status.hpp"
+#include "master/devices/delta/delta_geometry.hpp"
+
+namespace longreach {
+
+/// Motor angles of a position. kFound: all three. kSingular: a leg is at its root's double point or turns
+/// freely; the angles close the loop. Else: zero.
+struct DeltaAngles {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Vector3 theta_rad = Vector3::Zero();  // (-pi, pi]
+};
+
+/// Both roots of each leg: `first` has the elbow on the outer side where the platform is on the working side
+/// (sin(θ2 - θ) >= 0, θ2 the forearm's angle), `second` the other. Status and output as in DeltaAngles.
+struct DeltaRoots {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Vector3 first_rad = Vector3::Zero();
+  Vector3 second_rad = Vector3::Zero();
+};
+
+/// Position of the platform. kFound: it closes all loops in the assembly asked for. kSingular: the assemblies
+/// meet here or the forearms' ends lie in a line. kFound only lets `p_m` be used: else it is the previous
+/// position where one was given, zero where not.
+struct DeltaPosition {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Vector3 p_m = Vector3::Zero();
+  int iterations = 0;  // 0: closed form
+};
+
+/// All positions of given motor angles, the working assembly first: two without offset (closed form). With an
+/// offset: what a search from many starts finds, usually two; four were seen.
+struct DeltaPositions {
+  static constexpr int kMost = 8;
+
+  SolutionStatus status = SolutionStatus::kNoSolution;  // kFound: count > 0
+  int count = 0;
+  std::array<Vector3, kMost> p_m{};  // the first `count`
+};
+
+class DeltaKinematics {
+ public:
+  static constexpr int kMaxIterations = 12;
+
+  explicit DeltaKinematics(const DeltaGeometry& geometry) : g_(geometry) {}
+
+  [[nodiscard]] const DeltaGeometry& geometry() const { return g_; }
+
+  /// The angles of the working mode: bit i of `mode` set takes the second root for leg i.
+  [[nodiscard]] DeltaAngles inverse(const Vector3& p_m, unsigned mode = 0) const;
+  [[nodiscard]] DeltaRoots inverse_all(const Vector3& p_m) const;
+
+  /// The position that `assembly` has at these angles. `near_m` (the previous position) starts the iteration
+  /// of a geometry with offset, and comes back when there is no result; the assembly never changes.
+  [[nodiscard]] DeltaPosition forward(const Vector3& theta_rad, DeltaAssembly assembly,
+                                      const Vector3& near_m) const;
+  [[nodiscard]] DeltaPositions forward_all(const Vector3& theta_rad) const;
+
+ private:
+  DeltaGeometry g_;
+};
+
+}  // namespace longreach

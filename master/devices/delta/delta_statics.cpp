@@ -1,0 +1,99 @@
+#include "master/devices/delta/delta_statics.hpp"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "common/spatial/singular_value.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDependent = 1e-9;  // volume of the unit rods below which they are called dependent
+
+Matrix3 adjugate_columns(const Matrix3& rows) {
+  Matrix3 columns;
+  const Vector3 a = rows.row(0), b = rows.row(1), c = rows.row(2);
+  columns << b.cross(c), c.cross(a), a.cross(b);
+  return columns;
+}
+
+/// Direction in which the arm of leg i moves its end, per radian, m.
+Vector3 swing(const DeltaGeometry& g, int i, double theta) {
+  return g.to_world(i, g.arm_m() * Vector3(-std::sin(theta), 0.0, std::cos(theta)));
+}
+
+}  // namespace
+
+void require_valid(const DeltaMasses& masses) {
+  const auto mass = [](std::string_view name, double kg) {
+    if (!std::isfinite(kg) || kg < 0.0)
+      throw GeometryError(std::string(name) + " must be a finite mass that is not negative");
+  };
+  mass("platform", masses.platform_kg);
+  mass("arm", masses.arm_kg);
+  mass("forearm", masses.forearm_kg);
+  if (!(std::abs(masses.arm_com_fraction) <= 1.0))
+    throw GeometryError("arm_com_fraction must be within -1 and 1");
+}
+
+DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const Vector3& p_m) {
+  DeltaVelocity at;
+  for (int i = 0; i < 3; ++i) {
+    const double c = std::cos(theta_rad[i]), s = std::sin(theta_rad[i]);
+    Vector3 rod = g.to_leg(i, p_m - g.elbow(i, c, s));
+    const double distance = std::hypot(rod.x(), rod.z());
+    // The offset lies in the leg's plane between the arm's end and the rods.
+    const double kept = distance > 0.0 ? (distance - g.offset_m()) / distance : 0.0;
+    rod.x() *= kept;
+    rod.z() *= kept;
+    const double length = rod.stableNorm();
+    if (length > 0.0) rod /= length;
+    at.rods.row(i) = g.to_world(i, rod);
+    at.lever_m[i] = g.arm_m() * (rod.z() * c - rod.x() * s);
+  }
+  return at;
+}
+
+DeltaSingularity singularity(const DeltaGeometry& g, const DeltaVelocity& at) {
+  return {at.lever_m.cwiseAbs().minCoeff() / g.arm_m(), smallest_singular_value(at.rods)};
+}
+
+DeltaJacobian jacobian(const DeltaVelocity& at) {
+  const Matrix3 columns = adjugate_columns(at.rods);
+  const double volume = at.rods.row(0).dot(columns.col(0));
+  if (!(std::abs(volume) > kDependent)) return {};
+  return {SolutionStatus::kFound, columns * (at.lever_m / volume).asDiagonal()};
+}
+
+DeltaTorques statics(const DeltaVelocity& at, const Vector3& force_n) {
+  const DeltaJacobian J = jacobian(at);
+  if (J.status != SolutionStatus::kFound || !force_n.allFinite()) return {};
+  return {SolutionStatus::kFound, J.m_per_rad.transpose() * force_n};
+}
+
+DeltaTorques gravity_torques(const DeltaGeometry& g, const DeltaMasses& masses,
+                             const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
+                             const DeltaVelocity& at) {
+  const double with_platform = masses.platform_kg + 1.5 * masses.forearm_kg;
+  const double with_arm = masses.arm_kg * masses.arm_com_fraction + 0.5 * masses.forearm_kg;
+  DeltaTorques result = statics(at, -with_platform * gravity_m_per_s2);
+  if (result.status != SolutionStatus::kFound) return result;
+  for (int i = 0; i < 3; ++i) result.tau_nm[i] -= with_arm * gravity_m_per_s2.dot(swing(g, i, theta_rad[i]));
+  return result;
+}
+
+double potential_energy(const DeltaGeometry& g, const DeltaMasses& masses, const Vector3& gravity_m_per_s2,
+                        const Vector3& theta_rad, const Vector3& p_m) {
+  Vector3 moment = (masses.platform_kg + 1.5 * masses.forearm_kg) * p_m;  // mass times place
+  for (int i = 0; i < 3; ++i) {
+    const double c = std::cos(theta_rad[i]), s = std::sin(theta_rad[i]);
+    const Vector3 motor = g.to_world(i, {g.radius_m(), g.side_m(), 0.0});
+    const Vector3 arm = g.to_world(i, g.arm_m() * Vector3(c, 0.0, s));
+    moment +=
+        masses.arm_kg * (motor + masses.arm_com_fraction * arm) + 0.5 * masses.forearm_kg * (motor + arm);
+  }
+  return -gravity_m_per_s2.dot(moment);
+}
+
+}  // namespace longreach

@@ -1,0 +1,80 @@
+#pragma once
+// Orientations of a 3-RRR spherical mechanism: motor angles of an orientation, orientations of motor angles.
+//
+// Inverse: E cos θ + F sin θ + G = 0 a leg, E = w_cos . v, F = w_sin . v, G = w_axial . v - cos(alpha2): two
+// roots. Forward, tracking: with q = (1, g) q_previous the closures are exactly quadratic in g,
+//   F_i(g) = (k - c)/2 + g . (v x w) + (g . w)(g . v) - (k + c)/2 |g|² = 0,   k = w . v, c = cos(alpha2).
+// Newton steps, shortened to the radius in which the Jacobian cannot become singular (Kantorovich), so the
+// answer is connected with the previous pose without a type 2 singularity between: the assembly mode is kept.
+// At most kMaxIterations. Converges for every step of up to 5 degrees a tick where the type 2 measure
+// (spherical_statics.hpp) is at least kTrackedDistance before and after. Forward, all: the orientations on
+// two cones are φ (v1 about w1) and ψ (about v1); ψ is eliminated, which leaves a trigonometric polynomial of
+// degree 4 in φ: at most 8 roots, each polished on the closures.
+//
+// Every function takes anything, finite or not, and returns finite numbers. Nothing allocates or throws.
+
+#include <array>
+
+#include "common/core/solution_status.hpp"
+#include "master/devices/spherical/spherical_geometry.hpp"
+
+namespace longreach {
+
+/// Motor angles of an orientation. kFound: all three. kSingular: a leg is stretched or folded, or turns
+/// freely; the angles close the loop. Else: zero.
+struct SphericalMotors {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Vector3 theta_rad = Vector3::Zero();  // (-pi, pi]
+};
+
+/// Both roots of each leg: `first` has u . (w x v) >= 0, `second` <= 0. Status and output as in
+/// SphericalMotors.
+struct SphericalRoots {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Vector3 first_rad = Vector3::Zero();
+  Vector3 second_rad = Vector3::Zero();
+};
+
+/// Orientation from the previous one. kFound: closes all loops, same assembly mode. Else `q`, `side`: the
+/// previous ones. kNoSolution: an input is not finite. kSingular: the previous pose is singular, or a
+/// singularity lies on the way.
+struct SphericalPose {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  Quaternion q = Quaternion::Identity();
+  int side = 0;  // sign of det[v_i x w_i], which an assembly mode keeps; 0: not known
+  int iterations = 0;
+};
+
+/// All orientations of given motor angles. kFound: `count` of them. kSingular: some of the `count` are
+/// singular (two meet), or there is a continuum of which only singular members are listed. kNoSolution: none.
+struct SphericalPoses {
+  SolutionStatus status = SolutionStatus::kNoSolution;
+  int count = 0;
+  std::array<Quaternion, 8> q{};
+};
+
+class SphericalKinematics {
+ public:
+  static constexpr int kMaxIterations = 24;
+  static constexpr double kTrackedDistance = 0.1;
+
+  explicit SphericalKinematics(const SphericalGeometry& geometry);
+
+  [[nodiscard]] const SphericalGeometry& geometry() const { return g_; }
+
+  /// The angles of the working mode: bit i of `mode` set takes the second root for leg i (8 working modes).
+  [[nodiscard]] SphericalMotors inverse(const Quaternion& q, unsigned mode = 0) const;
+  [[nodiscard]] SphericalRoots inverse_all(const Quaternion& q) const;
+
+  /// `previous.q` is a unit quaternion, or the identity is taken for it. With `previous.side` 0 the side is
+  /// taken from the previous orientation and the new angles, which a step across a singularity may deceive:
+  /// hand over the last result.
+  [[nodiscard]] SphericalPose forward(const Vector3& theta_rad, const SphericalPose& previous) const;
+  [[nodiscard]] SphericalPoses forward_all(const Vector3& theta_rad) const;
+
+ private:
+  SphericalGeometry g_;
+  double curvature_;  // bound of the change of the closures' Jacobian per unit of g
+};
+
+}  // namespace longreach
