@@ -1,0 +1,53 @@
+#include "tests/experiments/solve.hpp"
+
+#include <istream>
+#include <ostream>
+
+#include "common/core/geometry_error.hpp"
+#include "tests/experiments/solve_delta.hpp"
+#include "tests/experiments/solve_spherical.hpp"
+
+namespace longreach {
+namespace {
+
+using solve_json::Json;
+
+struct Kind {
+  std::string_view name;
+  Json (*answer)(const Json& request);
+};
+
+constexpr Kind kKinds[] = {{"delta-ik", solve_delta_ik},
+                           {"delta-fk", solve_delta_fk},
+                           {"delta-statics", solve_delta_statics},
+                           {"spherical-ik", solve_spherical_ik},
+                           {"spherical-fk", solve_spherical_fk}};
+
+}  // namespace
+
+int solve(std::string_view kind, std::istream& in, std::ostream& out) {
+  const Kind* chosen = nullptr;
+  for (const Kind& k : kKinds) {
+    if (k.name == kind) chosen = &k;
+  }
+  if (!chosen) return 2;
+  bool bad = false;
+  std::string line;
+  while (std::getline(in, line)) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    Json answer;
+    try {
+      answer = chosen->answer(solve_json::parse(line));
+    } catch (const solve_json::BadRequest& e) {
+      answer = {{"error", e.what()}};
+    } catch (const GeometryError& e) {
+      answer = {{"error", e.what()}};
+    }
+    bad |= answer.contains("error");
+    // Somebody waits for each answer at the other end of a pipe; what is not UTF-8 is replaced.
+    out << answer.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
+  }
+  return bad ? 1 : 0;
+}
+
+}  // namespace longreach
