@@ -192,7 +192,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
                          s.view.clutched ? ", clutched" : ""));
   page.whole("");
   page.line("hand at", millimetres(s.view.p_MH));
-  page.line("goal", millimetres(s.view.goal_m) + " of anchor");
+  page.line("goal", millimetres(s.view.goal_m) + " from anchor");
   page.line("tool at", tool_line(s));
   page.whole("");
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
