@@ -1,7 +1,7 @@
 #pragma once
-// What a side lets the RPC service do. One implementation a side; called from RPC threads, one call at a time.
-// A call that changes something returns nothing when it was carried out as a whole, or why it was refused; then
-// nothing has changed.
+// What a side lets the RPC service do. One implementation a side; called from RPC threads, one call at a
+// time. A call that changes something returns nothing when it was carried out as a whole, or why it was
+// refused; then nothing has changed.
 
 #include <memory>
 #include <optional>
@@ -15,12 +15,16 @@
 namespace longreach {
 
 struct Refusal {
-  enum class Kind { kInvalid, kPrecondition, kUnavailable };  // bad value; not now or not here; no answer in time
+  enum class Kind {
+    kInvalid,
+    kPrecondition,
+    kUnavailable
+  };  // bad value; not now or not here; no answer in time
   Kind kind = Kind::kInvalid;
-  std::string message;   // one sentence: which field, why, what to do
+  std::string message;  // one sentence: which field, why, what to do
 };
 
-using Assignments = std::vector<std::pair<std::string, std::string>>;   // field path, value as text
+using Assignments = std::vector<std::pair<std::string, std::string>>;  // field path, value as text
 
 class ControlBackend {
  public:
