@@ -14,7 +14,7 @@ const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> kExperiments = {
       {"touch",
        "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
-       run_touch},
+       run_touch, touch_plots},
   };
   return kExperiments;
 }
@@ -26,7 +26,8 @@ const Experiment* find_experiment(std::string_view name) {
   return nullptr;
 }
 
-proto::LabConfig configure(const std::vector<std::string>& settings, const std::filesystem::path& deploy_folder) {
+proto::LabConfig configure(const std::vector<std::string>& settings,
+                           const std::filesystem::path& deploy_folder) {
   const auto names_file = [](std::string_view setting) {
     const std::string_view path = setting.substr(0, setting.find('='));
     return path == "profile" || path.ends_with("robot_file") || path.ends_with("scene_file");
@@ -43,7 +44,7 @@ proto::LabConfig configure(const std::vector<std::string>& settings, const std::
   for (const std::string& setting : settings) {
     if (!names_file(setting)) set_lab_field(config, setting);
   }
-  resolve_files(*config.mutable_slave(), deploy_folder);   // once more for what the settings changed
+  resolve_files(*config.mutable_slave(), deploy_folder);  // once more for what the settings changed
   validate(config);
   return config;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What an experiment of the laboratory is: a name, a sentence, and a function from (config, seed) to metrics.
-// It may write traces and plots into its folder.
+// What an experiment of the laboratory is: a name, a sentence, a function from (config, seed) to metrics that
+// may write traces into its folder, and the plots that are drawn of them.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "proto/config.pb.h"
+#include "tests/experiments/plot.hpp"
 
 namespace longreach {
 
@@ -22,7 +23,7 @@ struct Metric {
 struct ExperimentRun {
   proto::LabConfig config;  // complete: files and profile resolved
   std::uint64_t seed = 1;
-  std::filesystem::path out;                  // folder for traces and plots, exists; empty: write none
+  std::filesystem::path out;                  // folder for traces, exists; empty: write none
   std::function<void(double done)> progress;  // share of the work, 0 to 1; may be empty
 };
 
@@ -30,15 +31,17 @@ struct Experiment {
   std::string_view name;
   std::string_view summary;
   std::vector<Metric> (*run)(const ExperimentRun&);
+  std::vector<Plot> (*plots)();
 };
 
 /// All experiments, in the order in which `longreach-lab list` shows them.
 const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
-/// A complete configuration from settings "path=value": first those that name files (profile, robot_file, scene_file),
-/// then what the files say, then the other settings in their order. Throws ConfigError.
-proto::LabConfig configure(const std::vector<std::string>& settings, const std::filesystem::path& deploy_folder);
+/// A complete configuration from settings "path=value": first those that name files (profile, robot_file,
+/// scene_file), then what the files say, then the other settings in their order. Throws ConfigError.
+proto::LabConfig configure(const std::vector<std::string>& settings,
+                           const std::filesystem::path& deploy_folder);
 
 /// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);
@@ -51,5 +54,6 @@ std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
 
 // The experiments.
 std::vector<Metric> run_touch(const ExperimentRun& run);
+std::vector<Plot> touch_plots();
 
 }  // namespace longreach

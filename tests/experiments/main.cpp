@@ -77,6 +77,10 @@ int run(const RunOptions& o) {
   if (!r.out.empty()) {
     std::ofstream file(r.out / "metrics.json", std::ios::trunc);
     file << json;
+    for (const Plot& plot : experiment->plots()) {
+      if (const std::string trouble = draw(r.out, plot); !trouble.empty())
+        std::fprintf(stderr, "%s\n", trouble.c_str());
+    }
     if (!file.flush()) throw std::runtime_error("cannot write " + (r.out / "metrics.json").string());
   }
   if (o.quiet) return kDone;

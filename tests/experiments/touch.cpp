@@ -115,36 +115,34 @@ void trace_row(Trace& trace, const Laboratory& lab) {
   const SlaveView& s = lab.slave();
   const double hand = m.inward.dot(m.p_MH);
   trace.row({lab.now_s(), hand, m.surface_known ? m.surface_m : NAN, m.inward.dot(m.goal_m),
-             s.engagement > 0 ? m.inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN, -m.inward.dot(m.F_H_M.force), m.spring_force_n.norm(),
-             lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m, s.reported_stiffness_n_per_m,
-             lab.arm().true_penetration_m(), m.port_energy_j, m.stored_energy_j, m.tank_j, m.scale,
-             static_cast<double>(m.mode), static_cast<double>(m.state),
+             s.engagement > 0 ? m.inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN, -m.inward.dot(m.F_H_M.force),
+             m.spring_force_n.norm(), lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m,
+             s.reported_stiffness_n_per_m, lab.arm().true_penetration_m(), m.port_energy_j, m.stored_energy_j,
+             m.tank_j, m.scale, static_cast<double>(m.mode), static_cast<double>(m.state),
              static_cast<double>(lab.script().phase())});
 }
 
-const Plot& touch_plot() {
-  static const Plot kPlot = {
-      .name = "touch",
-      .csv = "touch",
-      .title = "Touching a wall across the link",
-      .x_column = "t_s",
-      .x_label = "time (s)",
-      .panels = {
-          {"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
-          {"tool (mm)", {{"goal_m", "commanded", 1e3}, {"tool_m", "measured", 1e3}}, ""},
-          {"force (N)",
-           {{"spring_force_n", "contact at the hand"}, {"tool_force_n", "at the tool, far away"}},
-           ""},
-          {"stiffness (N/mm)",
-           {{"stiffness_n_per_m", "rendered", 1e-3}, {"reported_n_per_m", "reported by the slave", 1e-3}},
-           "set yrange [0:*]"},
-          {"energy (mJ)",
-           {{"port_energy_j", "into the device", 1e3}, {"stored_energy_j", "stored", 1e3}},
-           ""}}};
-  return kPlot;
-}
-
 }  // namespace
+
+std::vector<Plot> touch_plots() {
+  return {{.name = "touch",
+           .csv = "touch",
+           .title = "Touching a wall across the link",
+           .x_column = "t_s",
+           .x_label = "time (s)",
+           .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
+                      {"tool (mm)", {{"goal_m", "commanded", 1e3}, {"tool_m", "measured", 1e3}}, ""},
+                      {"force (N)",
+                       {{"spring_force_n", "contact at the hand"}, {"tool_force_n", "at the tool, far away"}},
+                       ""},
+                      {"stiffness (N/mm)",
+                       {{"stiffness_n_per_m", "rendered", 1e-3},
+                        {"reported_n_per_m", "reported by the slave", 1e-3}},
+                       "set yrange [0:*]"},
+                      {"energy (mJ)",
+                       {{"port_energy_j", "into the device", 1e3}, {"stored_energy_j", "stored", 1e3}},
+                       ""}}}};
+}
 
 std::vector<Metric> run_touch(const ExperimentRun& run) {
   const MasterConfig master = to_struct(run.config.master());
@@ -166,11 +164,6 @@ std::vector<Metric> run_touch(const ExperimentRun& run) {
   }
   trace.close();
   if (run.progress) run.progress(1.0);
-  if (!run.out.empty()) {
-    if (const std::string trouble = draw(run.out, touch_plot()); !trouble.empty()) {
-      std::fprintf(stderr, "%s\n", trouble.c_str());
-    }
-  }
   return metrics_of(watch, lab);
 }
 
