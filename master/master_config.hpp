@@ -1,6 +1,6 @@
 #pragma once
-// Every parameter of the master as plain values. Meaning, unit, default and range: proto/config.proto; the same
-// names.
+// Every parameter of the master as plain values. Meaning, unit, default and range: proto/config.proto; the
+// same names.
 
 #include <string>
 
@@ -30,7 +30,7 @@ struct MasterConfig {
   LoopConfig loop{};
   DeviceConfig device{};
   HandConfig hand{};
-  OperatorConfig operator_{};   // `operator` in the schema
+  OperatorConfig operator_{};  // `operator` in the schema
   MappingConfig mapping{};
   RenderingConfig rendering{};
   MasterSafetyConfig safety{};

@@ -1,5 +1,7 @@
 #include "master/master_safety.hpp"
 
+#include <algorithm>
+
 namespace longreach {
 
 void MasterSafety::on_report(const StiffnessReport& report) {
@@ -42,7 +44,8 @@ bool MasterSafety::step(const MasterSafetyInput& in) {
     return false;
   }
   if (engage && heard && !stale_) {
-    ++engagement_;
+    engagement_ =
+        std::max(engagement_, far_engagement_) + 1;  // the slave may remember another master's numbers
     engaged_once_ = true;
     confirmed_ = false;
     state_ = SafetyState::kObserving;

@@ -122,6 +122,20 @@ TEST(MasterSafety, FollowsTheSlaveIntoItsHoldAndOutOfIt) {
   EXPECT_EQ(d.safety.state(), SafetyState::kEngaged);
 }
 
+TEST(MasterSafety, EngagesASlaveThatAnotherMasterHasStopped) {
+  Driver d;
+  d.safety.on_report({.engagement = 5, .state = SafetyState::kStopped, .cause = HoldCause::kOperator});
+  d.hear(0.0);
+  d.tick(0.0);
+  d.in.engage = true;
+  d.tick(0.1);
+  EXPECT_GT(d.safety.engagement(), 5U);
+  d.tick(0.2);  // the old state is still what was heard
+  EXPECT_EQ(d.safety.request(), Request::kEngage);
+  d.slave_says(SafetyState::kEngaged);
+  EXPECT_TRUE(d.tick(0.3));
+}
+
 TEST(MasterSafety, HoldsWhenTheSlaveRestartedAndDoesNotGoOnByItself) {
   Driver d;
   d.engage();
