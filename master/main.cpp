@@ -157,7 +157,8 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
 }
 
 int operate(const MasterOptions& options) {
-  const auto config = load_config<proto::MasterConfig>(with_shorthands(options), &proto::LinkProfile::down);
+  const auto config =
+      load_config<proto::MasterConfig>(with_shorthands(options), &proto::LinkProfile::down, [](auto&) {});
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);
     return 0;

@@ -55,8 +55,9 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
 }
 
 int serve(const ProgramOptions& options) {
-  auto config = load_config<proto::SlaveConfig>(options, &proto::LinkProfile::up);
-  resolve_files(config, find_deploy_folder());
+  const auto config = load_config<proto::SlaveConfig>(
+      options, &proto::LinkProfile::up,
+      [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);
     return 0;

@@ -42,10 +42,25 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
 }
 
-/// The file, over it the profile's direction, over it the settings. Throws ConfigError.
-template <class Message>
+inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError("--set '" + setting + "': write path=value, e.g. loop.rate_hz=2000");
+  }
+  set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+/// Whether a setting is about what a file of its own describes.
+inline bool concerns_named_file(const std::string& setting) {
+  return setting.starts_with("scene.") || setting.starts_with("robot.");
+}
+
+/// The file, over it the profile's direction, over it the settings; `resolve` reads the files that it names,
+/// before the settings that change what they say. Throws ConfigError.
+template <class Message, class Resolve>
 Message load_config(const ProgramOptions& options,
-                    const proto::Impairment& (proto::LinkProfile::*direction)() const) {
+                    const proto::Impairment& (proto::LinkProfile::*direction)() const,
+                    const Resolve& resolve) {
   Message message;
   if (!options.config.empty()) load_text_file(options.config, message);
   if (!options.profile.empty()) {
@@ -53,11 +68,11 @@ Message load_config(const ProgramOptions& options,
     *message.mutable_link()->mutable_impairment() = (profile.*direction)();
   }
   for (const std::string& setting : options.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw ConfigError("--set '" + setting + "': write path=value, e.g. loop.rate_hz=2000");
-    }
-    set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
+    if (!concerns_named_file(setting)) apply_setting(message, setting);
+  }
+  resolve(message);
+  for (const std::string& setting : options.settings) {
+    if (concerns_named_file(setting)) apply_setting(message, setting);
   }
   validate(message);
   return message;

@@ -14,6 +14,8 @@ const SideFigures& SideObserver::observe(Time now, Port& port, const UdpChannel&
     figures_.link = endpoint.monitor().figures(now);
     link_due_ = now + kLinkPeriod;
   }
+  // Always of this tick: whether the other side is heard is decided with it.
+  if (const auto heard = endpoint.monitor().last_heard()) figures_.link.silence_s = to_seconds(now - *heard);
   figures_.rejected = port.rejected();
   figures_.accepted = port.accepted_total();
   figures_.impaired = port.impairment().counts();
