@@ -1,0 +1,92 @@
+// What a user can do wrong at the start: one sentence on standard error, and an exit status that tells usage
+// (2) from failure (1).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/process/running_program.hpp"
+#include "tests/process/station.hpp"
+
+namespace longreach {
+namespace {
+
+struct Ended {
+  std::optional<int> status{};
+  std::string output;
+};
+
+Ended run(const std::string& name, const std::vector<std::string>& arguments) {
+  RunningProgram program(name, arguments);
+  const auto status = program.wait(std::chrono::seconds(30));
+  return {status, program.output()};
+}
+
+void expect_one_sentence(const Ended& ended, int status, const std::string& about, const std::string& what) {
+  EXPECT_EQ(ended.status, status) << what << ": " << ended.output;
+  EXPECT_EQ(std::count(ended.output.begin(), ended.output.end(), '\n'), 1) << what << ": " << ended.output;
+  EXPECT_NE(ended.output.find(about), std::string::npos) << what << ": " << ended.output;
+}
+
+TEST(Usage, BadOptionsAndConfigurationsEndWithStatus2AndASentenceThatNamesThem) {
+  for (const std::string name : {"longreach-slave", "longreach-master"}) {
+    const auto expect = [&name](const std::vector<std::string>& arguments, const std::string& about) {
+      expect_one_sentence(run(name, arguments), 2, about, name + " " + arguments.back());
+    };
+    expect({"--no-such-option"}, "no-such-option");
+    expect({"--seconds", "-3"}, "--seconds");
+    expect({"--config", "no-such-file.txtpb"}, "no-such-file.txtpb");
+    expect({"--set", "loop.rate_hz=1"}, "loop.rate_hz");
+    expect({"--set", "loop.rate_hz=nan"}, "loop.rate_hz");
+    expect({"--set", "no.such.field=1"}, "no");
+    expect({"--set", "loop.rate_hz"}, "loop.rate_hz");
+    expect({"--set", "link.listen=nowhere"}, "nowhere");
+    expect({"--profile", "no-such-link"}, "no-such-link");
+  }
+  expect_one_sentence(run("longreach-master", {"--operator", "ghost"}), 2, "ghost", "--operator ghost");
+  expect_one_sentence(run("longreach-master", {"--mode", "sideways"}), 2, "sideways", "--mode sideways");
+}
+
+TEST(Usage, AConfigurationFileWithAMistakeIsNamedWithItsLine) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("longreach-bad-" + std::to_string(getpid()) + ".txtpb");
+  std::ofstream(file) << "loop {\n  rate_hz: 1000\n  speed: 3\n}\n";
+  expect_one_sentence(run("longreach-slave", {"--config", file.string()}), 2, file.string() + ":3",
+                      "unknown field");
+  std::filesystem::remove(file);
+}
+
+TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
+  const Ended slave = run("longreach-slave", {"--check", "--set", "safety.gap_s=0.25", "--profile", "moon"});
+  EXPECT_EQ(slave.status, 0) << slave.output;
+  EXPECT_NE(slave.output.find("gap_s: 0.25"), std::string::npos) << slave.output;
+  EXPECT_NE(slave.output.find("delay_s: 1.3"), std::string::npos) << slave.output;
+  const Ended stiff =
+      run("longreach-slave", {"--check", "--set", "scene.material.wall.stiffness_n_per_m=4321"});
+  EXPECT_EQ(stiff.status, 0) << stiff.output;
+  EXPECT_NE(stiff.output.find("stiffness_n_per_m: 4321"), std::string::npos) << stiff.output;
+  const Ended master = run("longreach-master", {"--check", "--engage", "--mode", "rate"});
+  EXPECT_EQ(master.status, 0) << master.output;
+  EXPECT_NE(master.output.find("engage_at_start: true"), std::string::npos) << master.output;
+  EXPECT_NE(master.output.find("mode: RATE"), std::string::npos) << master.output;
+}
+
+TEST_F(Station, APortThatIsTakenEndsTheSecondProgramWithStatus1) {
+  start_slave();
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
+  const Ended second = run("longreach-slave", {"--set", "link.listen=" + link_address()});
+  expect_one_sentence(second, 1, "link.listen", "same port");
+  const Ended third = run("longreach-slave", {"--set", "link.listen=127.0.0.1:0", "--set",
+                                              "rpc.listen=127.0.0.1:" + std::to_string(ports_.slave_rpc)});
+  expect_one_sentence(third, 1, "rpc", "same RPC port");
+}
+
+TEST(Usage, ARunOfGivenLengthEndsByItself) {
+  const Ended slave = run("longreach-slave", {"--seconds", "0.5", "--set", "link.listen=127.0.0.1:0", "--set",
+                                              "rpc.listen=127.0.0.1:0"});
+  EXPECT_EQ(slave.status, 0) << slave.output;
+  EXPECT_NE(slave.output.find("end ticks="), std::string::npos) << slave.output;
+}
+
+}  // namespace
+}  // namespace longreach
