@@ -27,6 +27,7 @@ struct MasterOptions : ProgramOptions {
   std::string mode;
   std::string view = "auto";
   bool engage = false;
+  std::optional<double> wall_n_per_m{};
 };
 
 std::uint64_t new_session() {
@@ -175,8 +176,9 @@ int operate(const MasterOptions& options) {
   // The live view owns the terminal; it shows what the log would say.
   if (housekeeping.live() && isatty(STDERR_FILENO) == 1) set_up_log("master", options.log, true);
 
-  RunSummary summary(
-      {.ke = plain.rendering.ke, .contact_expected = plain.operator_.kind == OperatorKind::kScript});
+  RunSummary summary({.ke = plain.rendering.ke,
+                      .contact_expected = plain.operator_.kind == OperatorKind::kScript,
+                      .wall_n_per_m = options.wall_n_per_m});
   std::atomic<bool> end{false};
   std::exception_ptr failure;
   std::thread loop_thread([&] {
@@ -218,5 +220,9 @@ int main(int argc, char** argv) {
   app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
       ->check(CLI::IsMember({"auto", "plain", "none"}))
       ->capture_default_str();
+  app.add_option("--wall", options.wall_n_per_m,
+                 "True stiffness of what will be touched, where it is known: the summary judges by it")
+      ->type_name("N_PER_M")
+      ->check(CLI::PositiveNumber);
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });
 }
