@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/solve.hpp"
 
 namespace longreach {
 namespace {
@@ -104,6 +106,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string(longreach::commit()));
   app.require_subcommand(1);
   app.add_subcommand("list", "Show the experiments");
+  std::string kind;
+  app.add_subcommand("solve", "Answer JSON objects, one a line, about a haptic device's geometry")
+      ->add_option("kind", kind, "Kind of question")
+      ->required()
+      ->check(CLI::IsMember(longreach::solve_kinds()));
   RunOptions o;
   CLI::App* run =
       app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
@@ -124,6 +131,7 @@ int main(int argc, char** argv) {
     return status == 0 ? 0 : longreach::kBadUsage;
   }
   try {
+    if (app.got_subcommand("solve")) return longreach::solve(kind, std::cin, std::cout);
     return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "longreach-lab: %s\n", e.what());

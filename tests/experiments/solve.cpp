@@ -25,6 +25,12 @@ constexpr Kind kKinds[] = {{"delta-ik", solve_delta_ik},
 
 }  // namespace
 
+std::vector<std::string> solve_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  return names;
+}
+
 int solve(std::string_view kind, std::istream& in, std::ostream& out) {
   const Kind* chosen = nullptr;
   for (const Kind& k : kKinds) {

@@ -14,9 +14,14 @@
 // assembly (delta_kinematics.hpp).
 
 #include <iosfwd>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace longreach {
+
+/// Names of the kinds.
+std::vector<std::string> solve_kinds();
 
 /// Answers every line of `in`. Returns 0; 1 after a bad line; 2 for an unknown kind, with nothing read.
 int solve(std::string_view kind, std::istream& in, std::ostream& out);

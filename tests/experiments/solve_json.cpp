@@ -39,7 +39,10 @@ Json parse(const std::string& line) {
   } catch (const Json::out_of_range&) {
     throw BadRequest("a number is not a finite number");
   } catch (const Json::parse_error& e) {
-    throw BadRequest("not JSON, at byte " + std::to_string(e.byte));
+    const bool literal =
+        e.byte > 0 && e.byte <= line.size() && line.find_first_of("NI", e.byte - 1) <= e.byte;
+    throw BadRequest("not JSON, at byte " + std::to_string(e.byte) +
+                     (literal ? ": NaN and Infinity are not finite numbers" : ""));
   }
   if (!request.is_object()) throw BadRequest("a line must be one JSON object");
   if (!twice.empty()) throw BadRequest("key \"" + twice + "\" is there twice");

@@ -155,7 +155,7 @@ TEST(Delta, FindsThePositionOfAFalconWithoutAPreviousOne) {
     const DeltaAngles angles = k.inverse(p);
     if (angles.status != SolutionStatus::kFound) continue;
     const double distance = singularity(k.geometry(), velocity(k.geometry(), angles.theta_rad, p)).rods;
-    if (distance < 0.05) continue;
+    if (distance < 0.1) continue;
     ++seen;
     const DeltaPositions found = k.forward_all(angles.theta_rad);
     double error = 1.0;

@@ -65,9 +65,13 @@ struct MultiStart {
   }
 };
 
-MultiStart multi_start(const SphericalGeometry& g, const std::array<Vector3, 3>& w, Random& random) {
+/// `wanted`: where fewer were found, the search goes on, since some are met only rarely.
+MultiStart multi_start(const SphericalGeometry& g, const std::array<Vector3, 3>& w, int wanted,
+                       Random& random) {
   MultiStart search;
   for (int n = 0; n < 20'000 && (n < 60 || search.least_hits() < 6); ++n)
+    search.start(g, w, any_rotation(random));
+  for (int n = 0; n < 20'000 && static_cast<int>(search.found.size()) < wanted; ++n)
     search.start(g, w, any_rotation(random));
   return search;
 }
@@ -100,7 +104,7 @@ std::vector<SphericalGeometry> geometries() {
 TEST(Spherical, HasTheOrientationsThatManyNewtonStartsFind) {
   const int share = campaign(10'000, 400) / 4;
   const std::vector<SphericalGeometry> all = geometries();
-  int ours_only = 0, near_singular = 0;
+  int near_singular = 0;
   std::array<int, 9> counts{};
   for (std::size_t n = 0; n < all.size(); ++n) {
     const SphericalKinematics k(all[n]);
@@ -110,7 +114,7 @@ TEST(Spherical, HasTheOrientationsThatManyNewtonStartsFind) {
           std::numbers::pi * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       const std::array<Vector3, 3> w = middle_axes(all[n], theta);
       const SphericalPoses ours = k.forward_all(theta);
-      const MultiStart theirs = multi_start(all[n], w, random);
+      const MultiStart theirs = multi_start(all[n], w, ours.count, random);
       ++counts[static_cast<std::size_t>(ours.count)];
       for (int i = 0; i < ours.count; ++i)
         ASSERT_LE(residual(all[n], w, ours.q[static_cast<std::size_t>(i)]).norm(), 1e-12)
@@ -127,14 +131,13 @@ TEST(Spherical, HasTheOrientationsThatManyNewtonStartsFind) {
         ASSERT_LE(nearest * d, 1e-12)
             << "geometry " << n << " theta " << theta.transpose() << " distance " << d;
       }
-      if (ours.count > static_cast<int>(theirs.found.size())) ++ours_only;
-      ASSERT_LE(theirs.found.size(), 8U);
+      ASSERT_EQ(ours.count, static_cast<int>(theirs.found.size()))
+          << "geometry " << n << " theta " << theta.transpose();
     }
   }
   std::printf("orientations: ");
   for (std::size_t c = 0; c < counts.size(); ++c) std::printf("%zu: %d times  ", c, counts[c]);
-  std::printf("\nmissed by the multi-start only: %d, left out as singular: %d\n", ours_only, near_singular);
-  EXPECT_LE(ours_only, share / 500);
+  std::printf("\nvalues left out as singular: %d\n", near_singular);
 }
 
 // Agile Eye with w1 = (0, -s1, c1) and so on: v_i = (t_i, c, s) up to length and sign, where orthogonality is

@@ -161,11 +161,12 @@ void search(const OffsetSolver& solver, const DeltaGeometry& g, DeltaAssembly fi
     if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
   }
   const Vector3 middle = (solver.elbows()[0] + solver.elbows()[1] + solver.elbows()[2]) / 3.0;
-  for (int n = 0; n < 27; ++n) {
-    const Vector3 direction(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-    const DeltaPosition found =
-        solver.newton(middle + (g.rod_m() + g.offset_m()) * direction.stableNormalized());
-    if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
+  for (const double share : {1.0, 0.5}) {
+    for (int n = 0; n < 27; ++n) {
+      const Vector3 direction = Vector3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).stableNormalized();
+      const DeltaPosition found = solver.newton(middle + share * (g.rod_m() + g.offset_m()) * direction);
+      if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
+    }
   }
 }
 
