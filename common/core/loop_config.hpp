@@ -13,7 +13,7 @@ struct LoopConfig {
 };
 
 struct RpcServerConfig {
-  std::string listen;   // empty: 127.0.0.1:47010 (master), 127.0.0.1:47020 (slave)
+  std::string listen;  // empty: 127.0.0.1:47010 (master), 127.0.0.1:47020 (slave)
 };
 
 }  // namespace longreach

@@ -1,8 +1,8 @@
 #pragma once
-// Seeded random streams. The only source of randomness in the system; a stream is named by (seed, path of child
-// names), so that adding a consumer never changes what another one draws.
-// Generator: xoshiro256++ (Blackman, Vigna 2019), seeded through SplitMix64. Normal deviates: Marsaglia's polar
-// method, own code because std::normal_distribution is not the same on every library.
+// Seeded random streams. The only source of randomness in the system; a stream is named by (seed, path of
+// child names), so that adding a consumer never changes what another one draws. Generator: xoshiro256++
+// (Blackman, Vigna 2019), seeded through SplitMix64. Normal deviates: Marsaglia's polar method, own code
+// because std::normal_distribution is not the same on every library.
 
 #include <array>
 #include <cstdint>
@@ -17,10 +17,10 @@ class Random {
   /// An independent stream named by `name`; does not advance this one.
   [[nodiscard]] Random child(std::string_view name) const;
 
-  std::uint64_t next();          // uniform over all 64-bit values
-  double uniform();              // [0, 1)
+  std::uint64_t next();  // uniform over all 64-bit values
+  double uniform();      // [0, 1)
   double uniform(double low, double high);
-  double normal();               // mean 0, standard deviation 1
+  double normal();  // mean 0, standard deviation 1
   bool chance(double probability) { return uniform() < probability; }
 
  private:

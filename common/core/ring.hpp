@@ -1,6 +1,6 @@
 #pragma once
-// A bounded queue over storage that is allocated once, at construction: the oldest element gives way when it is
-// full. Index 0 is the oldest element.
+// A bounded queue over storage that is allocated once, at construction: the oldest element gives way when it
+// is full. Index 0 is the oldest element.
 
 #include <cstddef>
 #include <vector>

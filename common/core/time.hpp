@@ -27,8 +27,8 @@ struct PeerClock {
   static constexpr bool is_steady = true;
 };
 
-using Time = LocalClock::time_point;      // an instant on this side's monotonic clock
-using PeerTime = PeerClock::time_point;   // an instant on the other side's monotonic clock
+using Time = LocalClock::time_point;     // an instant on this side's monotonic clock
+using PeerTime = PeerClock::time_point;  // an instant on the other side's monotonic clock
 
 constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
 

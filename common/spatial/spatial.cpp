@@ -9,7 +9,8 @@ Quaternion exp_rotation(const Vector3& rotation_rad) {
   const double half = 0.5 * angle;
   // sin(half)/angle by its series where the quotient would lose digits.
   const double s = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(half) / angle;
-  return Quaternion(std::cos(half), s * rotation_rad.x(), s * rotation_rad.y(), s * rotation_rad.z()).normalized();
+  return Quaternion(std::cos(half), s * rotation_rad.x(), s * rotation_rad.y(), s * rotation_rad.z())
+      .normalized();
 }
 
 Vector3 log_rotation(const Quaternion& q) {

@@ -1,8 +1,8 @@
 #pragma once
 // Poses, twists, wrenches and the exponential coordinates of rotations.
 // Frames: W slave world, M master base, H handle, S robot base, E tool, F force sensor, C contact.
-// X_AB is the pose of B in A; V_AB a twist [angular; linear]; F_E_W a wrench [moment; force] at E in W, by the
-// environment on the tool.
+// X_AB is the pose of B in A; V_AB a twist [angular; linear]; F_E_W a wrench [moment; force] at E in W, by
+// the environment on the tool.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,8 +15,8 @@ using Matrix3 = Eigen::Matrix3d;
 using Quaternion = Eigen::Quaterniond;
 
 struct Pose {
-  Vector3 p = Vector3::Zero();                       // position, m
-  Quaternion q = Quaternion::Identity();             // orientation, unit quaternion
+  Vector3 p = Vector3::Zero();            // position, m
+  Quaternion q = Quaternion::Identity();  // orientation, unit quaternion
 };
 
 struct Twist {
