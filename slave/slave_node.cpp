@@ -128,7 +128,9 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
   if (s.robot_ok) s.feel(input.robot, dt);
   Clamps clamps;
-  if (dt > 0.0) clamps = s.motion.step({X_WE_goal, s.contact.force(), dt});
+  // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
+  // was missed is caught up within them.
+  if (dt > 0.0) clamps = s.motion.step({X_WE_goal, s.contact.force(), 1.0 / s.loop_hz});
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(input.robot, clamps, s.rejected_values);
   s.book_reached();
