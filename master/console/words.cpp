@@ -39,6 +39,10 @@ std::string following(const ConsoleSnapshot& s) {
   }
   if (s.view.clutched) return "clutch: the hand moves freely, the robot keeps its place";
   if (s.view.in_contact) return touching(s);
+  if (s.view.spring_force_n.norm() > 0.0) {
+    return text("the hand is in the wall as remembered, %.2f N/mm; no news of the robot's touch yet",
+                s.view.stiffness_n_per_m * 1e-3);
+  }
   if (s.view.mode == MotionMode::kRate) return "moving freely: the hand's deflection sets the robot's speed";
   return text("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale);
 }

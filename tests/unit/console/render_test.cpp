@@ -137,12 +137,20 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   EXPECT_EQ(happening(s), "engaging: the slave's answer takes 2.60 s");
   s.view.far_state = SafetyState::kEngaged;
   s.view.in_contact = false;
+  s.view.spring_force_n.setZero();
   EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80");
   s.view.in_contact = true;
   s.view.stiffness_n_per_m = 0.0;
   EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall");
   s.view.stiffness_n_per_m = 981.0;
   EXPECT_EQ(happening(s), "touching: the wall gives 0.98 N/mm");
+}
+
+TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
+  ConsoleSnapshot s = touching();
+  s.view.in_contact = false;
+  EXPECT_EQ(happening(s),
+            "the hand is in the wall as remembered, 0.98 N/mm; no news of the robot's touch yet");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {
