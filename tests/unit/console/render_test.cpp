@@ -140,6 +140,7 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.spring_force_n.setZero();
   EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80");
   s.view.in_contact = true;
+  s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   s.view.stiffness_n_per_m = 0.0;
   EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall");
   s.view.stiffness_n_per_m = 981.0;
