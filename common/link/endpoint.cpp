@@ -60,11 +60,10 @@ std::variant<Endpoint::Accepted, Rejection> Endpoint::commit(Time now, const Hea
     rtt = round_trip(now, *accepted.echo_sent, stamp.echo.held);
   }
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
-  // A late, older datagram must not make the echo look staler than it is.
-  if (accepted.new_session || stamp.sent > heard_sent_) {
-    heard_at_ = now;
-    heard_sent_ = stamp.sent;
-  }
+  // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link
+  // would look shorter than it is.
+  heard_at_ = now;
+  heard_sent_ = stamp.sent;
   return accepted;
 }
 

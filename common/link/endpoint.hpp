@@ -51,7 +51,7 @@ class Endpoint {
   std::uint32_t peer_restarts_ = 0;
   std::array<ReplayWindow, 3> windows_;  // one a type
   DelayMonitor monitor_;
-  Time heard_at_{};  // of the datagram that is echoed: the last sent of those received
+  Time heard_at_{};  // of the datagram that is echoed: the last one that came
   PeerTime heard_sent_{};
 };
 

@@ -129,8 +129,8 @@ TEST(Endpoint, NumbersAndStampsWhatLeaves) {
   EXPECT_EQ(unheard.sent, peer(3.0));
   EXPECT_EQ(unheard.echo.session, 0U);
 
-  (void)receive(endpoint, at(4.0), {kType, 7, 2}, {.sent = peer(77.0)});
-  (void)receive(endpoint, at(4.2), {kType, 7, 1}, {.sent = peer(76.0)});  // late: not what is echoed
+  (void)receive(endpoint, at(3.8), {kType, 7, 2}, {.sent = peer(78.0)});
+  (void)receive(endpoint, at(4.0), {kType, 7, 1}, {.sent = peer(77.0)});  // late, but what came last
   const Stamp heard = endpoint.stamp_for(at(4.5));
   EXPECT_EQ(heard.echo.session, 7U);
   EXPECT_EQ(heard.echo.sent_ns, from_seconds(77.0).count());
