@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "common/spatial/sin_cos.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach {
@@ -44,7 +45,10 @@ Intersection intersect(const Points& centre, double rod, double side) {
 class OffsetSolver {
  public:
   OffsetSolver(const DeltaGeometry& g, const Vector3& theta) : g_(g) {
-    for (int i = 0; i < 3; ++i) elbow_[i] = g.elbow(i, std::cos(theta[i]), std::sin(theta[i]));
+    for (int i = 0; i < 3; ++i) {
+      const SinCos turn = sin_cos(theta[i]);
+      elbow_[i] = g.elbow(i, turn.c, turn.s);
+    }
   }
 
   /// Centres of the spheres that touch the three surfaces as seen from p.

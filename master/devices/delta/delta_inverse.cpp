@@ -10,42 +10,55 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// The leg closes where U cos θ + w sin θ = H; D² = U² + w² - H².
 struct LegLoop {
-  double U = 0.0, w = 0.0, H = 0.0, D = 0.0;
-  bool closes = false;
-  bool double_root = false;
+  double U, w, H, D;
+  bool closes;
+  bool double_root;
 };
 
-LegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
+/// Near a double root: D² and what rounding of H may do to it.
+void judge(LegLoop& leg, double D2, double slack) {
+  leg.closes = D2 >= -slack;
+  leg.double_root = D2 <= slack;
+  leg.D = D2 > 0.0 ? std::sqrt(D2) : 0.0;
+}
+
+inline LegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
+  constexpr double kNearRoot = 1e-6;  // of D² in d²
   const Vector3 q = g.to_leg(i, p);
   const double arm = g.arm_m(), rod = g.rod_m();
   const double across = q.y() - g.side_m();
   double flat2 = (rod - across) * (rod + across);  // rods seen in the leg's plane, squared
-  if (!(flat2 >= -8.0 * kEps * rod * rod)) return {};
-  if (flat2 < 0.0) flat2 = 0.0;
-  const double reach = g.offset_m() + std::sqrt(flat2);
   LegLoop leg;
+  leg.closes = true;
+  leg.double_root = false;
+  if (!(flat2 >= 0.0)) {
+    leg.closes = flat2 >= -8.0 * kEps * rod * rod;
+    if (!leg.closes) return leg;
+    flat2 = 0.0;
+  }
+  const double reach = g.offset_m() + std::sqrt(flat2);
   leg.U = q.x() - g.radius_m();
   leg.w = q.z();
   const double d2 = leg.U * leg.U + leg.w * leg.w;
   const double d = std::sqrt(d2);
-  leg.H = (arm * arm + (d - reach) * (d + reach)) / (2.0 * arm);
+  leg.H = 0.5 * (arm + (d - reach) * (d + reach) / arm);
   const double D2 = (d - leg.H) * (d + leg.H);
-  // What rounding of H may do to D².
-  const double slack = 4.0 * kEps * std::abs(leg.H) * (arm * arm + d2 + reach * reach) / arm;
-  leg.closes = D2 >= -slack && D2 <= std::numeric_limits<double>::max();
-  leg.double_root = D2 <= slack;
-  leg.D = D2 > 0.0 ? std::sqrt(D2) : 0.0;
+  if (D2 > kNearRoot * d2) {
+    leg.D = std::sqrt(D2);
+  } else {
+    judge(leg, D2, 4.0 * kEps * std::abs(leg.H) * (arm * arm + d2 + reach * reach) / arm);
+  }
   return leg;
 }
 
 // tan(θ/2) = (w - D) / (H + U) = (H - U) / (w + D): the form whose sum does not cancel.
-double first_root(const LegLoop& leg) {
+inline double first_root(const LegLoop& leg) {
   const double wide = leg.w + leg.D;
-  if (leg.w >= 0.0) return wide == 0.0 && leg.H == leg.U ? 0.0 : 2.0 * std::atan((leg.H - leg.U) / wide);
-  return 2.0 * std::atan((leg.w - leg.D) / (leg.H + leg.U));
+  if (leg.w < 0.0) return 2.0 * std::atan((leg.w - leg.D) / (leg.H + leg.U));
+  return wide == 0.0 && leg.H == leg.U ? 0.0 : 2.0 * std::atan((leg.H - leg.U) / wide);
 }
 
-double second_root(const LegLoop& leg) {
+inline double second_root(const LegLoop& leg) {
   if (leg.D == 0.0) return first_root(leg);
   if (leg.w >= 0.0) return 2.0 * std::atan((leg.w + leg.D) / (leg.H + leg.U));
   return 2.0 * std::atan((leg.H - leg.U) / (leg.w - leg.D));
@@ -56,6 +69,7 @@ double second_root(const LegLoop& leg) {
 DeltaAngles DeltaKinematics::inverse(const Vector3& p_m, unsigned mode) const {
   DeltaAngles result;
   bool singular = false;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     const LegLoop leg = leg_loop(g_, i, p_m);
     if (!leg.closes) return {};

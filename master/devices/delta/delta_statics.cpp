@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/spatial/sin_cos.hpp"
 #include "common/spatial/singular_value.hpp"
 
 namespace longreach {
@@ -40,7 +41,7 @@ void require_valid(const DeltaMasses& masses) {
 DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const Vector3& p_m) {
   DeltaVelocity at;
   for (int i = 0; i < 3; ++i) {
-    const double c = std::cos(theta_rad[i]), s = std::sin(theta_rad[i]);
+    const auto [s, c] = sin_cos(theta_rad[i]);
     Vector3 rod = g.to_leg(i, p_m - g.elbow(i, c, s));
     const double distance = std::hypot(rod.x(), rod.z());
     // The offset lies in the leg's plane between the arm's end and the rods.
@@ -87,7 +88,7 @@ double potential_energy(const DeltaGeometry& g, const DeltaMasses& masses, const
                         const Vector3& theta_rad, const Vector3& p_m) {
   Vector3 moment = (masses.platform_kg + 1.5 * masses.forearm_kg) * p_m;  // mass times place
   for (int i = 0; i < 3; ++i) {
-    const double c = std::cos(theta_rad[i]), s = std::sin(theta_rad[i]);
+    const auto [s, c] = sin_cos(theta_rad[i]);
     const Vector3 motor = g.to_world(i, {g.radius_m(), g.side_m(), 0.0});
     const Vector3 arm = g.to_world(i, g.arm_m() * Vector3(c, 0.0, s));
     moment +=

@@ -1,8 +1,8 @@
 #pragma once
 // The closure of one leg about a present orientation q0, as a function of g in q = (1, g) q0 (g = axis
 // tan(angle/2)):
-//   F(g) = (k - c)/2 + g . n + (g . w)(g . v) - (k + c)/2 |g|²,   n = v x w,  k = w . v,  c = cos(alpha2)
-// exactly (1 + |g|²)/2 times w . (R v*) - c. And the linear algebra of three of them.
+//   F(g) = (k - c)/2 + g . n + ...,   n = v x w,  k = w . v,  c = cos(alpha2)
+// to first order (spherical_kinematics.hpp has the rest). And the linear algebra of three of them.
 
 #include "common/spatial/spatial.hpp"
 
@@ -11,20 +11,12 @@ namespace longreach {
 struct SphericalClosure {
   Vector3 w, v, n;
   double half_gap = 0.0;  // (k - c)/2
-  double sum = 0.0;       // k + c
 
   SphericalClosure() = default;
   SphericalClosure(const Vector3& middle_axis, const Vector3& platform_axis, double c)
       : w(middle_axis), v(platform_axis), n(platform_axis.cross(middle_axis)) {
-    const double k = w.dot(v);
-    half_gap = 0.5 * (k - c);
-    sum = k + c;
+    half_gap = 0.5 * (w.dot(v) - c);
   }
-
-  [[nodiscard]] double at(const Vector3& g, double half_square) const {
-    return half_gap + g.dot(n) + g.dot(w) * g.dot(v) - sum * half_square;
-  }
-  [[nodiscard]] Vector3 gradient(const Vector3& g) const { return n + g.dot(v) * w + g.dot(w) * v - sum * g; }
 };
 
 /// Adjugate of the matrix with rows a, b, c: its inverse is [x y z] / volume.

@@ -73,7 +73,16 @@ class SphericalKinematics {
   [[nodiscard]] SphericalPoses forward_all(const Vector3& theta_rad) const;
 
  private:
+  /// Three vectors, one a leg, side by side: the legs are computed together. The fourth lane repeats the
+  /// third leg.
+  struct Vectors {
+    Eigen::Array4d x, y, z;
+  };
+  struct Closures;
+  struct Search;
+
   SphericalGeometry g_;
+  Vectors w_axial_, w_cos_, w_sin_, v_;
   double curvature_;  // bound of the change of the closures' Jacobian per unit of g
 };
 
