@@ -49,6 +49,8 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
 }
 
 void Mapping::step_rate(const HandleState& handle, double dt_s) {
+  // The centre goes home with the hand, so that letting go commands nothing.
+  x_ref_ = clamp_norm(x_ref_, handle.p_MH.stableNorm());
   const Vector3 speed = config_.kv_per_s * rate_law(handle.p_MH - x_ref_, config_.dead_zone_m,
                                                     config_.radius_max_m, config_.rate_law);
   goal_.position_m += dt_s * clamp_norm(speed, config_.speed_max_m_per_s);

@@ -6,8 +6,8 @@
 //   r_max position  g  = g_ref + k_scale (x - x_ref),   R_g = exp(k_scale log(R_H R_ref^T)) R_gref
 //
 // Every change of mode, scale, clutch or freeze takes new references where handle and goal are, so the goal
-// never steps. The centre of rate mode is where the handle was when the mode began. Frames M and W are taken
-// as parallel.
+// never steps. The centre of rate mode is where the handle was when the mode began; it goes home with it.
+// Frames M and W are taken as parallel.
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"

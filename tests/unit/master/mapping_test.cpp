@@ -103,6 +103,17 @@ TEST(Mapping, SwitchingToRateModeAtADeflectionCommandsNoSpeed) {
   EXPECT_EQ(mapping.goal().position_m, before);
 }
 
+TEST(Mapping, LettingGoInRateModeCommandsNothing) {
+  Mapping mapping({});
+  mapping.reset({});
+  mapping.step(at({0.04, 0.0, 0.0}, MotionMode::kPosition, 1.0), kTick_s);
+  const Vector3 before = mapping.goal().position_m;
+  for (int i = 0; i <= 1000; ++i) {
+    mapping.step(at({0.04 - 4e-5 * i, 0.0, 0.0}, MotionMode::kRate, 1.0), kTick_s);
+  }
+  EXPECT_EQ(mapping.goal().position_m, before);
+}
+
 TEST(Mapping, KeepsTheGoalWhenTheHandleIsNotFinite) {
   Mapping mapping({});
   mapping.reset({});
