@@ -133,7 +133,7 @@ struct SphericalKinematics::Search {
   }
 };
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // whose runtime starts after the choice is made
 // Compiled twice and chosen by the processor when the program starts: instructions with three operands spare
 // a third of the moves. No contraction, so the results are the same to the bit.
 [[gnu::target_clones("avx", "default")]]
