@@ -15,6 +15,7 @@
 #include "master/console/keyboard.hpp"
 #include "master/console/summary.hpp"
 #include "master/console/terminal_view.hpp"
+#include "master/devices/simulated_devices.hpp"
 #include "master/master_service.hpp"
 
 namespace longreach {
@@ -97,7 +98,7 @@ class Housekeeping {
                MasterService& service)
       : options_(options), config_(config), shell_(shell), service_(service), view_(view_kind(options.view)) {
     if (config.operator_.kind == OperatorKind::kKeyboard) {
-      keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.workspace_m});
+      keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
     }
   }
 
@@ -157,9 +158,20 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
   return options.seconds && !result.passed() ? kExitFailed : 0;
 }
 
+/// What ranges cannot tell: whether the mechanisms close their loops.
+void require_device(const DeviceConfig& device) {
+  try {
+    SimulatedDevices{device};
+  } catch (const GeometryError& e) {
+    throw ConfigError(std::string("device: ") + e.what());
+  }
+}
+
 int operate(const MasterOptions& options) {
-  const auto config =
-      load_config<proto::MasterConfig>(with_shorthands(options), &proto::LinkProfile::down, [](auto&) {});
+  const auto config = load_config<proto::MasterConfig>(
+      with_shorthands(options), &proto::LinkProfile::down,
+      [](proto::MasterConfig& c) { resolve_files(c, find_deploy_folder()); });
+  require_device(to_struct(config).device);
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);
     return 0;

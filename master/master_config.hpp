@@ -28,6 +28,7 @@ struct MasterSafetyConfig {
 struct MasterConfig {
   MasterLinkConfig link{};
   LoopConfig loop{};
+  std::string device_file = "devices/desktop.txtpb";
   DeviceConfig device{};
   HandConfig hand{};
   OperatorConfig operator_{};  // `operator` in the schema

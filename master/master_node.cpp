@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "master/devices/handle_behaviour.hpp"
+#include "master/devices/simulated_devices.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/master_safety.hpp"
 #include "master/rendering/goal_history.hpp"
@@ -19,9 +21,21 @@ std::size_t history_capacity(double send_hz) {
 }
 
 RenderedDevice rendered_device(const MasterConfig& c) {
-  return {.handle_mass_kg = c.device.mass_kg,
-          .damping_n_s_per_m = c.device.damping_n_s_per_m,
-          .period_s = 1.0 / c.loop.rate_hz};
+  const double period_s = 1.0 / c.loop.rate_hz;
+  const DeviceFigures device = device_figures(c.device, period_s);
+  return {.handle_mass_kg = device.mass_kg,
+          .damping_n_s_per_m = device.damping_n_s_per_m,
+          .period_s = period_s,
+          .delay_s = device.delay_s};
+}
+
+/// Whether a device can be there: what is not, or not finite, is a device that has failed.
+bool plausible(const HandleState& h) {
+  constexpr double kFar_m = 10.0, kFast = 1e4;
+  return h.p_MH.cwiseAbs().maxCoeff() < kFar_m && h.velocity_m_per_s.cwiseAbs().maxCoeff() < kFast &&
+         h.angular_rad_per_s.cwiseAbs().maxCoeff() < kFast && h.p_MH.allFinite() &&
+         h.velocity_m_per_s.allFinite() && h.angular_rad_per_s.allFinite() &&
+         std::abs(h.q_MH.squaredNorm() - 1.0) < 1e-6;
 }
 
 }  // namespace
@@ -30,6 +44,7 @@ struct MasterNode::State {
   explicit State(const MasterConfig& c)
       : config(c),
         safety(c.safety),
+        behaviour(c.device),
         mapping(c.mapping),
         renderer(c.rendering, rendered_device(c)),
         history(history_capacity(c.link.send_hz)),
@@ -38,17 +53,24 @@ struct MasterNode::State {
     view.scale = c.mapping.scale;
   }
 
+  void take_handle(const HandleState& h);
   void take_requests(const OperatorRequests& r);
+  void take_buttons(const Buttons& now);
+  void change_scale(double scale, int steps);
+  RendererInput renderer_input();
   void take_reports(const MasterInput& input, const RendererInput& at);
   MotionCommand command();
-  void publish(const MasterInput& input, const Wrench& F);
+  void publish(const Wrench& F);
 
   MasterConfig config;
   MasterSafety safety;
+  HandleBehaviour behaviour;
   Mapping mapping;
   Renderer renderer;
   GoalHistory history;
   double period_s;
+  HandleState handle{};  // as last read, or as last plausible
+  Buttons buttons{};     // in the last tick
   std::uint64_t sequence = 0;
   std::uint32_t idle_turns = 0;  // datagrams since the goal that did not move was sent
   double send_phase = 1.0;       // of the send period
@@ -58,6 +80,14 @@ struct MasterNode::State {
 MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
 MasterNode::~MasterNode() = default;
 
+void MasterNode::State::take_handle(const HandleState& h) {
+  if (plausible(h)) {
+    handle = h;
+  } else {
+    handle.ok = false;
+  }
+}
+
 void MasterNode::State::take_requests(const OperatorRequests& r) {
   if (r.mode) view.mode = *r.mode;
   double scale = r.scale.value_or(view.scale);
@@ -65,10 +95,38 @@ void MasterNode::State::take_requests(const OperatorRequests& r) {
     ++view.rejected_values;
     scale = view.scale;
   }
-  // Steps land on multiples of 0.05, whatever scale was set before.
-  if (r.scale_steps != 0) scale = std::round(scale / kScaleStep + r.scale_steps) * kScaleStep;
-  view.scale = std::clamp(scale, kScaleStep, 1.0);
+  change_scale(scale, r.scale_steps);
   view.clutched = r.clutch;
+}
+
+/// Steps land on multiples of 0.05, whatever scale was set before.
+void MasterNode::State::change_scale(double scale, int steps) {
+  if (steps != 0) scale = std::round(scale / kScaleStep + steps) * kScaleStep;
+  view.scale = std::clamp(scale, kScaleStep, 1.0);
+}
+
+/// The buttons act when they go down; the clutch while it is down.
+void MasterNode::State::take_buttons(const Buttons& now) {
+  if (now.mode && !buttons.mode)
+    view.mode = view.mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
+  const int steps = (now.scale_up && !buttons.scale_up) - (now.scale_down && !buttons.scale_down);
+  if (steps != 0) change_scale(view.scale, steps);
+  view.clutched = view.clutched || now.clutch;
+  buttons = now;
+}
+
+RendererInput MasterNode::State::renderer_input() {
+  const SafetyState state = safety.state();
+  RendererInput at;
+  at.handle = handle;
+  at.behaviour = behaviour.step(handle, period_s);
+  at.behaviour_j = behaviour.translation().energy_j();
+  at.behaviour_supplied_j = behaviour.translation().supplied_j();
+  at.mode = view.mode;
+  at.scale = view.scale;
+  at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
+  at.stale = safety.stale();
+  return at;
 }
 
 void MasterNode::State::take_reports(const MasterInput& input, const RendererInput& at) {
@@ -112,28 +170,27 @@ MotionCommand MasterNode::State::command() {
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
+  s.take_handle(input.handle);
   s.take_requests(input.requests);
+  s.take_buttons(s.handle.buttons);
   const bool begun = s.safety.step({.now = input.now,
                                     .last_heard = input.last_heard,
                                     .peer_restarts = input.peer_restarts,
-                                    .device_ok = input.handle.ok,
+                                    .device_ok = s.handle.ok,
                                     .engage = input.requests.engage,
                                     .hold = input.requests.hold,
                                     .stop = input.requests.stop});
   if (begun) {
-    s.mapping.reset(input.handle);
-    s.renderer.reset(input.handle);
+    s.mapping.reset(s.handle);
+    s.renderer.reset(s.handle);
     s.history.clear();
   }
-  const SafetyState state = s.safety.state();
-  const bool engaged = state == SafetyState::kEngaged;
-  s.mapping.step({input.handle, s.view.mode, s.view.scale, !engaged || s.view.clutched}, s.period_s);
+  const bool engaged = s.safety.state() == SafetyState::kEngaged;
+  // Letting go moves the goal by nothing, wherever the handle goes then.
+  const bool frozen = !engaged || s.view.clutched || !s.handle.held;
+  s.mapping.step({s.handle, s.view.mode, s.view.scale, frozen}, s.period_s);
 
-  const RendererInput at{.handle = input.handle,
-                         .mode = s.view.mode,
-                         .scale = s.view.scale,
-                         .live = engaged || state == SafetyState::kHolding,
-                         .stale = s.safety.stale()};
+  const RendererInput at = s.renderer_input();
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
@@ -145,16 +202,16 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     out.command = s.command();
     s.history.push(out.sequence, s.mapping.goal().position_m);
   }
-  s.publish(input, out.F_H_M);
+  s.publish(out.F_H_M);
   return out;
 }
 
-void MasterNode::State::publish(const MasterInput& input, const Wrench& F) {
+void MasterNode::State::publish(const Wrench& F) {
   view.state = safety.state();
   view.cause = safety.cause();
   view.far_state = safety.far_state();
   view.engagement = safety.engagement();
-  view.p_MH = input.handle.p_MH;
+  view.p_MH = handle.p_MH;
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = log_rotation(mapping.goal().rotation);
   view.F_H_M = F;
@@ -177,6 +234,7 @@ void MasterNode::State::publish(const MasterInput& input, const Wrench& F) {
 void MasterNode::configure(const MasterConfig& config) {
   State& s = *state_;
   s.safety.configure(config.safety);
+  s.behaviour.configure(config.device);
   s.mapping.configure(config.mapping);
   s.renderer.configure(config.rendering);
   if (config.mapping.mode != s.config.mapping.mode) s.view.mode = config.mapping.mode;

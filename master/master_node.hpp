@@ -18,7 +18,7 @@
 
 namespace longreach {
 
-/// What buttons, keys or RPC ask for in this tick.
+/// What keys or RPC ask for in this tick, besides the buttons of the device.
 struct OperatorRequests {
   bool engage = false;  // begin a new engagement
   bool hold = false;    // stop following, resume with engage

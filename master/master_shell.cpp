@@ -11,7 +11,7 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t session)
     : config_(config),
       channel_(config.link.listen, config.link.slave),
       port_(channel_, session, config.link.impairment, Random(session).child("down")),
-      handle_(config.device),
+      devices_(config.device),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
       node_(config) {}
@@ -24,8 +24,8 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   const Endpoint& endpoint = port_.endpoint();
   MasterInput in;
   in.now = now;
-  in.handle = handle_.read(now);
-  handle_.set_target(operate(now, in.handle, requests));
+  in.handle = devices_.read(now);
+  devices_.set_target(operate(now, in.handle, requests));
   in.reports = port_.reports();
   in.telemetry = port_.telemetry();
   in.requests = requests;
@@ -33,7 +33,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.peer_restarts = endpoint.peer_restarts();
 
   const MasterOutput out = node_.step(in);
-  handle_.write(out.F_H_M);
+  devices_.write(out.F_H_M);
   if (out.command) port_.send(now, out.sequence, *out.command);
 
   snapshot_.side = observer_.observe(now, port_, channel_, loop);

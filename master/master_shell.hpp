@@ -12,7 +12,7 @@
 #include "common/io/udp_channel.hpp"
 #include "common/wire/port.hpp"
 #include "master/devices/scripted_operator.hpp"
-#include "master/devices/simulated_handle.hpp"
+#include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
 
 namespace longreach {
@@ -62,7 +62,7 @@ class MasterShell {
   MasterConfig config_;
   UdpChannel channel_;
   MasterPort port_;
-  SimulatedHandle handle_;
+  SimulatedDevices devices_;
   ScriptedOperator script_;
   Grip script_grip_;
   MasterNode node_;

@@ -65,6 +65,10 @@ std::filesystem::path find_deploy_folder();
 /// Throws ConfigError, and then `config` is unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
+/// Reads the devices/ file that a master configuration names under what its `device` says; none for an empty
+/// name. Then validates all. Throws ConfigError, and then `config` is unchanged.
+void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
+
 /// deploy/links/NAME.txtpb; its `name` where the file gives none. Throws ConfigError that lists the known
 /// names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);

@@ -16,7 +16,7 @@ constexpr auto kExtension = ".txtpb";
 
 // A folder that is only called `deploy` (of a build, say) holds none of these.
 bool is_deploy_folder(const fs::path& folder) {
-  constexpr std::array<const char*, 4> kParts{"config", "links", "robots", "scenes"};
+  constexpr std::array<const char*, 5> kParts{"config", "links", "devices", "robots", "scenes"};
   std::error_code ignored;
   return std::ranges::any_of(kParts,
                              [&](const char* part) { return fs::is_directory(folder / part, ignored); });
@@ -48,13 +48,13 @@ fs::path find_deploy_folder(const DeploySearch& search) {
     if (is_deploy_folder(home)) return home;
     throw ConfigError(
         "LONGREACH_HOME = " + home.string() +
-        " holds none of the folders config, links, robots, scenes; set it to the deploy folder");
+        " holds none of the folders config, links, devices, robots, scenes; set it to the deploy folder");
   }
   if (const auto folder = nearest_above(search.program_folder)) return *folder;
   if (const auto folder = nearest_above(search.working_folder)) return *folder;
-  throw ConfigError("no deploy folder above " + search.program_folder.string() + " or " +
-                    search.working_folder.string() +
-                    "; set LONGREACH_HOME to the folder that holds config, links, robots and scenes");
+  throw ConfigError(
+      "no deploy folder above " + search.program_folder.string() + " or " + search.working_folder.string() +
+      "; set LONGREACH_HOME to the folder that holds config, links, devices, robots and scenes");
 }
 
 fs::path find_deploy_folder() {

@@ -1,4 +1,4 @@
-// Robot and scene of a slave from the files that it names.
+// What both sides keep in files of their own: the devices of a master, robot and scene of a slave.
 
 #include "common/config/config.hpp"
 #include "common/config/violation.hpp"
@@ -38,6 +38,20 @@ void resolve_robot(proto::SlaveConfig& config, const fs::path& deploy_folder) {
 }
 
 }  // namespace
+
+void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
+  proto::MasterConfig resolved = config;
+  if (!config.device_file().empty()) {
+    auto device = load_part<proto::Device>(deploy_folder, config.device_file(), "device");
+    // Lists replace each other as a whole.
+    if (config.device().gravity_m_per_s2_size() > 0) device.clear_gravity_m_per_s2();
+    if (config.device().delta().azimuth_rad_size() > 0) device.mutable_delta()->clear_azimuth_rad();
+    device.MergeFrom(config.device());
+    resolved.mutable_device()->Swap(&device);
+  }
+  validate(resolved);
+  config.Swap(&resolved);
+}
 
 void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
   proto::SlaveConfig resolved = config;

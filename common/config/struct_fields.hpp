@@ -55,18 +55,75 @@ void visit_fields(Visitor& visit, S& s) {
   visit("impairment", s.impairment);
 }
 
+template <class Visitor, Is<DriveConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("inertia_kg_m2", s.inertia_kg_m2);
+  visit("viscous_nm_s_per_rad", s.viscous_nm_s_per_rad);
+  visit("coulomb_nm", s.coulomb_nm);
+  visit("resolution_rad", s.resolution_rad);
+  visit("torque_max_nm", s.torque_max_nm);
+  visit("bandwidth_hz", s.bandwidth_hz);
+}
+
+template <class Visitor, Is<DeltaConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("arm_m", s.arm_m);
+  visit("rod_m", s.rod_m);
+  visit("radius_m", s.radius_m);
+  visit("offset_m", s.offset_m);
+  visit("side_m", s.side_m);
+  visit("upwards", s.upwards);
+  visit("azimuth_rad", s.azimuth_rad);
+  visit("home_height_m", s.home_height_m);
+  visit("platform_kg", s.platform_kg);
+  visit("arm_kg", s.arm_kg);
+  visit("arm_com_fraction", s.arm_com_fraction);
+  visit("forearm_kg", s.forearm_kg);
+  visit("drive", s.drive);
+  visit("workspace_m", s.workspace_m);
+}
+
+template <class Visitor, Is<SphericalConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("alpha1_rad", s.alpha1_rad);
+  visit("alpha2_rad", s.alpha2_rad);
+  visit("beta1_rad", s.beta1_rad);
+  visit("beta2_rad", s.beta2_rad);
+  visit("inertia_kg_m2", s.inertia_kg_m2);
+  visit("drive", s.drive);
+  visit("workspace_rad", s.workspace_rad);
+}
+
+template <class Visitor, Is<BehaviourConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("idle", s.idle);
+  visit("motion", s.motion);
+  visit("home_n_per_m", s.home_n_per_m);
+  visit("home_n_s_per_m", s.home_n_s_per_m);
+  visit("home_speed_m_per_s", s.home_speed_m_per_s);
+  visit("home_nm_per_rad", s.home_nm_per_rad);
+  visit("home_nm_s_per_rad", s.home_nm_s_per_rad);
+  visit("home_speed_rad_per_s", s.home_speed_rad_per_s);
+  visit("guide_n_per_m", s.guide_n_per_m);
+  visit("guide_nm_per_rad", s.guide_nm_per_rad);
+  visit("free_m", s.free_m);
+  visit("free_rad", s.free_rad);
+  visit("stop_share", s.stop_share);
+  visit("stop_n_per_m", s.stop_n_per_m);
+  visit("stop_nm_per_rad", s.stop_nm_per_rad);
+}
+
 template <class Visitor, Is<DeviceConfig> S>
 void visit_fields(Visitor& visit, S& s) {
-  visit("mass_kg", s.mass_kg);
-  visit("damping_n_s_per_m", s.damping_n_s_per_m);
-  visit("inertia_kg_m2", s.inertia_kg_m2);
-  visit("rotational_damping_nm_s_per_rad", s.rotational_damping_nm_s_per_rad);
-  visit("resolution_m", s.resolution_m);
-  visit("resolution_rad", s.resolution_rad);
-  visit("workspace_m", s.workspace_m);
-  visit("workspace_rad", s.workspace_rad);
-  visit("force_max_n", s.force_max_n);
-  visit("moment_max_nm", s.moment_max_nm);
+  visit("name", s.name);
+  visit("basis", s.basis);
+  visit("delta", s.delta);
+  visit("spherical", s.spherical);
+  visit("gravity_m_per_s2", s.gravity_m_per_s2);
+  visit("gravity_compensation", s.gravity_compensation);
+  visit("delay_samples", s.delay_samples);
+  visit("velocity_filter_s", s.velocity_filter_s);
+  visit("behaviour", s.behaviour);
 }
 
 template <class Visitor, Is<HandConfig> S>
@@ -133,6 +190,7 @@ template <class Visitor, Is<MasterConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("link", s.link);
   visit("loop", s.loop);
+  visit("device_file", s.device_file);
   visit("device", s.device);
   visit("hand", s.hand);
   visit("operator", s.operator_);

@@ -33,6 +33,11 @@ static_assert(same(RateLaw::kContinuous, proto::Mapping::CONTINUOUS) &&
               same(RateLaw::kLiteral, proto::Mapping::LITERAL) && proto::Mapping::RateLaw_ARRAYSIZE == 2);
 static_assert(same(RenderingLaw::kStiffness, proto::Rendering::STIFFNESS) &&
               same(RenderingLaw::kNaive, proto::Rendering::NAIVE) && proto::Rendering::Law_ARRAYSIZE == 2);
+static_assert(same(IdleRule::kHome, proto::Behaviour::HOME) &&
+              same(IdleRule::kStay, proto::Behaviour::STAY) && proto::Behaviour::Idle_ARRAYSIZE == 2);
+static_assert(same(HandleMotion::kCoupled, proto::Behaviour::COUPLED) &&
+              same(HandleMotion::kDecoupled, proto::Behaviour::DECOUPLED) &&
+              proto::Behaviour::Motion_ARRAYSIZE == 2);
 static_assert(same(Grip::kLight, proto::Hand::LIGHT) && same(Grip::kFirm, proto::Hand::FIRM) &&
               same(Grip::kReleased, proto::Hand::RELEASED) && proto::Hand::Grip_ARRAYSIZE == 3);
 static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&

@@ -1,16 +1,26 @@
 #pragma once
-// What a haptic device tells and takes, once a tick.
+// What a pair of haptic devices tells, once a tick.
 
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
+
+/// Levels: true while pressed.
+struct Buttons {
+  bool mode = false;        // rate or position
+  bool scale_up = false;    // coarser
+  bool scale_down = false;  // finer
+  bool clutch = false;      // the handle moves without the robot
+};
 
 struct HandleState {
   Vector3 p_MH = Vector3::Zero();  // position of the handle from home, m, in M
   Vector3 velocity_m_per_s = Vector3::Zero();
   Quaternion q_MH = Quaternion::Identity();  // orientation of the handle
   Vector3 angular_rad_per_s = Vector3::Zero();
-  bool ok = true;  // false: device fault; the other fields hold the last good values
+  Buttons buttons{};
+  bool held = true;  // a hand is on the handles; devices that cannot tell say true
+  bool ok = true;    // false: device fault; the other fields hold the last good values
 };
 
 }  // namespace longreach

@@ -9,8 +9,9 @@
 #include <optional>
 #include <string_view>
 
+#include "common/core/time.hpp"
 #include "common/link/motion_command.hpp"
-#include "master/devices/simulated_handle.hpp"
+#include "master/devices/hand.hpp"
 #include "master/mapping/mapping_config.hpp"
 
 namespace longreach {

@@ -24,10 +24,12 @@ double PortGuard::repay(double energy_j) {
   return energy_j - paid;
 }
 
-Wrench PortGuard::apply(const Wrench& F, const Vector3& velocity_m_per_s, bool live, double dt_s) {
+Wrench PortGuard::apply(const Wrench& F, const Wrench& always, const Vector3& velocity_m_per_s, bool live,
+                        double dt_s) {
   gain_ = live ? gain_ : std::max(0.0, gain_ - dt_s / config_.ramp_s);
   Wrench out;
-  if (F.force.allFinite() && F.moment.allFinite() && velocity_m_per_s.allFinite()) {
+  if ((F.force + always.force).allFinite() && (F.moment + always.moment).allFinite() &&
+      velocity_m_per_s.allFinite()) {
     const double v2 = velocity_m_per_s.squaredNorm();
     injecting_ = deficit_j_ > 0.0 && v2 > 0.0;
     Vector3 force = F.force;
@@ -35,9 +37,10 @@ Wrench PortGuard::apply(const Wrench& F, const Vector3& velocity_m_per_s, bool l
       const double damping = std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass_kg / dt_s);
       force -= damping * velocity_m_per_s;
     }
+    force = gain_ * force + always.force;
     force_clamped_ = force.stableNorm() > config_.force_max_n;
-    out.force = gain_ * clamp_norm(force, config_.force_max_n);
-    out.moment = gain_ * clamp_norm(F.moment, config_.moment_max_nm);
+    out.force = clamp_norm(force, config_.force_max_n);
+    out.moment = clamp_norm(gain_ * F.moment + always.moment, config_.moment_max_nm);
   }
   f_last_ = out.force;
   return out;

@@ -39,8 +39,10 @@ class PortGuard {
     deficit_max_j_ = std::max(deficit_max_j_, deficit_j_);
   }
 
-  /// Final wrench on the hand: injected damping, limits, ramp (`live` false: towards zero). Never non-finite.
-  Wrench apply(const Wrench& F, const Vector3& velocity_m_per_s, bool live, double dt_s);
+  /// Final wrench on the hand: `F` with injected damping and ramp (`live` false: towards zero), `always`
+  /// without, limits on their sum. Never non-finite.
+  Wrench apply(const Wrench& F, const Wrench& always, const Vector3& velocity_m_per_s, bool live,
+               double dt_s);
 
   [[nodiscard]] double port_energy_j() const { return port_energy_j_; }
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }

@@ -7,8 +7,9 @@ namespace longreach {
 namespace {
 
 ContactSpringConfig spring_config(const RenderingConfig& c, const RenderedDevice& d) {
-  // Sampled spring on a damped device: K < 2 b/T (Colgate and Schenkel 1997, virtual damping left out).
-  const double device_limit = 2.0 * d.damping_n_s_per_m / d.period_s;
+  // Sampled spring on a damped device: K < b/(T/2 + t_d) (Colgate and Schenkel 1997, virtual damping left
+  // out).
+  const double device_limit = d.damping_n_s_per_m / (0.5 * d.period_s + d.delay_s);
   return {.fade_s = c.fade_s,
           .stiffness_max_n_per_m = std::min(c.stiffness_max_n_per_m, device_limit),
           .force_max_n = c.force_max_n,
@@ -113,7 +114,8 @@ double Renderer::contact_force(const RendererInput& input, double s_m) {
 }
 
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
-  if (!finite(input.handle)) return guard_.apply(Wrench{}, Vector3::Zero(), false, device_.period_s);
+  if (!finite(input.handle))
+    return guard_.apply(Wrench{}, Wrench{}, Vector3::Zero(), false, device_.period_s);
   const Vector3& x = input.handle.p_MH;
   const Vector3& n = surface_.inward();
   const double s_m = n.dot(x);
@@ -133,16 +135,21 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
     contact_n =
         std::max(0.0, contact_n + config_.contact_damping_n_s_per_m * n.dot(input.handle.velocity_m_per_s));
   }
-  Wrench F = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
-  if (config_.law == RenderingLaw::kStiffness) account(entered_j, s_m);
+  Wrench F;
+  if (input.handle.held) {
+    F = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
+  } else {
+    resistance_.reset(input.handle);
+  }
+  if (config_.law == RenderingLaw::kStiffness) account(entered_j, input, s_m);
   F.force -= contact_n * n;
-  return guard_.apply(F, input.handle.velocity_m_per_s, input.live, device_.period_s);
+  return guard_.apply(F, input.behaviour, input.handle.velocity_m_per_s, input.live, device_.period_s);
 }
 
-void Renderer::account(double entered_j, double s_m) {
-  const double stored_j = spring_.energy_j(s_m) + resistance_.energy_j();
-  // What came in and was neither stored nor paid for by the tank has been dissipated, or leaked if negative.
-  double rest_j = entered_j - (stored_j - stored_j_) + spring_.paid_j();
+void Renderer::account(double entered_j, const RendererInput& input, double s_m) {
+  const double stored_j = spring_.energy_j(s_m) + resistance_.energy_j() + input.behaviour_j;
+  // What came in and was neither stored nor paid for has been dissipated, or leaked if negative.
+  double rest_j = entered_j - (stored_j - stored_j_) + spring_.paid_j() + input.behaviour_supplied_j;
   stored_j_ = stored_j;
   if (rest_j > 0.0) {
     rest_j = guard_.repay(rest_j);

@@ -3,8 +3,9 @@
 // estimated stiffness, energy accounting, limits. Sees StiffnessReports and the master's own motion, nothing
 // else from afar.
 //
-//   F = F_resistance - n max(0, k (s - a) + B n.v)      s = n . x
+//   F = F_behaviour + F_resistance - n max(0, k (s - a) + B n.v)      s = n . x
 //
+// A handle that nobody holds has no resistance, and what it does by itself remains when nothing is engaged.
 // Law NAIVE applies stiffness and surface as they come, for contrast; it keeps the force limit.
 
 #include <cstdint>
@@ -26,10 +27,14 @@ struct RenderedDevice {
   double handle_mass_kg = 0.2;
   double damping_n_s_per_m = 3.5;
   double period_s = 0.001;
+  double delay_s = 0.0;  // from reading the handle to the torque of its motors
 };
 
 struct RendererInput {
   HandleState handle{};
+  Wrench behaviour{};                 // what the handle does by itself, engaged or not
+  double behaviour_j = 0.0;           // stored in its translational springs
+  double behaviour_supplied_j = 0.0;  // by its anchor, in this tick
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool live = false;   // false: the wrench ramps to zero
@@ -63,7 +68,7 @@ class Renderer {
  private:
   double locate_surface(const RendererInput& input, const Mapping& mapping, double s_m) const;
   double contact_force(const RendererInput& input, double s_m);
-  void account(double entered_j, double s_m);
+  void account(double entered_j, const RendererInput& input, double s_m);
 
   RenderingConfig config_;
   RenderedDevice device_;

@@ -30,7 +30,8 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder) {
   const auto names_file = [](std::string_view setting) {
     const std::string_view path = setting.substr(0, setting.find('='));
-    return path == "profile" || path.ends_with("robot_file") || path.ends_with("scene_file");
+    return path == "profile" || path.ends_with("device_file") || path.ends_with("robot_file") ||
+           path.ends_with("scene_file");
   };
   proto::LabConfig config;
   for (const std::string& setting : settings) {
@@ -40,6 +41,7 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
   *config.mutable_slave()->mutable_link()->mutable_impairment() = profile.up();
   *config.mutable_master()->mutable_link()->mutable_impairment() = profile.down();
   config.mutable_master()->mutable_safety()->set_engage_at_start(true);
+  resolve_files(*config.mutable_master(), deploy_folder);
   resolve_files(*config.mutable_slave(), deploy_folder);
   for (const std::string& setting : settings) {
     if (!names_file(setting)) set_lab_field(config, setting);

@@ -10,7 +10,7 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       slave_node_(slave),
       master_node_(master),
       arm_(slave, random_.child("arm")),
-      handle_(master.device),
+      devices_(master.device),
       script_(master.operator_, master.mapping, master.hand.grip) {}
 
 void Laboratory::step() {
@@ -44,7 +44,7 @@ void Laboratory::step_master() {
   const Time now = master_now();
   master_port_.receive(now);
   const Endpoint& endpoint = master_port_.endpoint();
-  const HandleState handle = handle_.read(now);
+  const HandleState handle = devices_.read(now);
   const MasterView& view = master_node_.view();
   const ScriptOutput script = script_.step({.now = now,
                                             .handle_m = handle.p_MH,
@@ -54,7 +54,7 @@ void Laboratory::step_master() {
                                             .engaged = view.state == SafetyState::kEngaged,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
-  handle_.set_target(script.target);
+  devices_.set_target(script.target);
   MasterInput in;
   in.now = now;
   in.handle = handle;
@@ -65,7 +65,7 @@ void Laboratory::step_master() {
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.peer_restarts();
   const MasterOutput out = master_node_.step(in);
-  handle_.write(out.F_H_M);
+  devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);
   requests_ = OperatorRequests{};
   for (const auto& received : in.reports) {

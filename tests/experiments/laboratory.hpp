@@ -8,7 +8,7 @@
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
 #include "master/devices/scripted_operator.hpp"
-#include "master/devices/simulated_handle.hpp"
+#include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
 #include "slave/robot/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
@@ -28,7 +28,7 @@ class Laboratory {
   [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
   [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
   [[nodiscard]] const SimulatedArm& arm() const { return arm_; }
-  [[nodiscard]] const SimulatedHandle& handle() const { return handle_; }
+  [[nodiscard]] const SimulatedDevices& devices() const { return devices_; }
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
@@ -53,7 +53,7 @@ class Laboratory {
   SlaveNode slave_node_;
   MasterNode master_node_;
   SimulatedArm arm_;
-  SimulatedHandle handle_;
+  SimulatedDevices devices_;
   ScriptedOperator script_;
   OperatorRequests requests_{};
   Ring<double> report_depths_{4096};  // of the last reports, by sequence

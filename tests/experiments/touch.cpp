@@ -48,7 +48,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   const MasterView& m = lab.master();
   const double spring_n = m.spring_force_n.norm();
   w.force_peak_n = std::max(w.force_peak_n, lab.arm().true_wrench().force.norm());
-  w.speed_peak_m_per_s = std::max(w.speed_peak_m_per_s, lab.handle().true_velocity_m_per_s().norm());
+  w.speed_peak_m_per_s = std::max(w.speed_peak_m_per_s, lab.devices().delta().velocity_m_per_s().norm());
   if (m.reports != w.reports) {
     w.reports = m.reports;
     const double step_n = std::abs(m.force_step_n);

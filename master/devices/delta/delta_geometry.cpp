@@ -53,6 +53,17 @@ DeltaGeometry::DeltaGeometry(const DeltaGeneral& general)
   require_closed_loop();
 }
 
+DeltaGeometry::DeltaGeometry(const DeltaDimensions& d)
+    : arm_(positive("arm_m", d.arm_m)),
+      rod_(positive("rod_m", d.rod_m)),
+      offset_(not_negative("offset_m", d.offset_m)),
+      radius_(finite("radius_m", d.radius_m)),
+      side_(finite("side_m", d.side_m)),
+      up_(d.upwards ? 1.0 : -1.0) {
+  place_legs(d.azimuth_rad);
+  require_closed_loop();
+}
+
 void DeltaGeometry::place_legs(const std::array<double, 3>& azimuth_rad) {
   for (std::size_t i = 0; i < 3; ++i) {
     finite("azimuth", azimuth_rad[i]);

@@ -37,6 +37,17 @@ struct DeltaGeneral {
   std::array<double, 3> azimuth_rad{};
 };
 
+/// The same in what the closure depends on: how a device file gives it.
+struct DeltaDimensions {
+  double arm_m = 0.0;     // > 0
+  double rod_m = 0.0;     // > 0
+  double radius_m = 0.0;  // motor axis minus platform joint, outwards
+  double offset_m = 0.0;  // d + e, >= 0
+  double side_m = 0.0;    // s - f
+  bool upwards = false;   // positive θ turns the arms to +z
+  std::array<double, 3> azimuth_rad{};
+};
+
 /// Side of the plane through the three forearms' ends on which the platform is: sign of det[n1 n2 n3], n the
 /// rods.
 enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
@@ -45,6 +56,7 @@ class DeltaGeometry {
  public:
   explicit DeltaGeometry(const DeltaSimple& simple);
   explicit DeltaGeometry(const DeltaGeneral& general);
+  explicit DeltaGeometry(const DeltaDimensions& dimensions);
 
   [[nodiscard]] double arm_m() const { return arm_; }
   [[nodiscard]] double rod_m() const { return rod_; }

@@ -17,6 +17,7 @@ const fs::path kDeploy = LONGREACH_DEPLOY;
 std::unique_ptr<Message> message_for(const fs::path& file) {
   const std::string folder = file.parent_path().filename().string();
   if (folder == "links") return std::make_unique<proto::LinkProfile>();
+  if (folder == "devices") return std::make_unique<proto::Device>();
   if (folder == "robots") return std::make_unique<proto::Robot>();
   if (folder == "scenes") return std::make_unique<proto::Scene>();
   if (folder != "config") return nullptr;

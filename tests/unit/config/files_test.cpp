@@ -146,16 +146,17 @@ TEST(DeployFolder, PrefersTheEnvironmentThenTheProgramThenTheWorkingFolder) {
   // build/deploy is nearer, but holds nothing that a user edits.
   EXPECT_EQ(find_deploy_folder({std::nullopt, program, root / "work/a/b"}), root / "program/deploy");
   EXPECT_EQ(find_deploy_folder({"", root / "empty", root / "work/a/b"}), root / "work/deploy");
-  EXPECT_EQ(error_of([&] {
-              find_deploy_folder({(root / "empty").string(), program, root});
-            }),
-            "LONGREACH_HOME = " + (root / "empty").string() +
-                " holds none of the folders config, links, robots, scenes; set it to the deploy folder");
+  EXPECT_EQ(
+      error_of([&] {
+        find_deploy_folder({(root / "empty").string(), program, root});
+      }),
+      "LONGREACH_HOME = " + (root / "empty").string() +
+          " holds none of the folders config, links, devices, robots, scenes; set it to the deploy folder");
   EXPECT_EQ(error_of([&] {
               find_deploy_folder({std::nullopt, root / "empty", root / "home"});
             }),
             "no deploy folder above " + (root / "empty").string() + " or " + (root / "home").string() +
-                "; set LONGREACH_HOME to the folder that holds config, links, robots and scenes");
+                "; set LONGREACH_HOME to the folder that holds config, links, devices, robots and scenes");
 }
 
 }  // namespace

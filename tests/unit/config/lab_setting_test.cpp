@@ -66,7 +66,8 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
   EXPECT_EQ(lab_error({}, "estimtor.forgetting=1"),
             "neither the laboratory nor a side has a field \"estimtor\"; did you mean \"estimator\"? There "
             "are: profile, "
-            "duration_s, trace_hz, master, slave, link, loop, device, hand, operator, mapping, rendering, "
+            "duration_s, trace_hz, master, slave, link, loop, device_file, device, hand, operator, mapping, "
+            "rendering, "
             "safety, rpc, "
             "playout, command, robot_file, robot, scene_file, scene, sensing, estimator");
   EXPECT_EQ(lab_error({}, "mapping.scale"), "\"mapping.scale\" is not a setting; write PATH=VALUE");

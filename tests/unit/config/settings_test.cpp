@@ -69,8 +69,8 @@ TEST(SetField, TakesUnitsWhereTheFieldHasThem) {
   // Ends in _s, but is no time; at most 1, but no fraction.
   EXPECT_EQ(set_error(kMaster, "mapping.kv_per_s", "2ms"),
             "mapping.kv_per_s = \"2ms\" is not a finite decimal number");
-  EXPECT_EQ(set_error(kMaster, "device.workspace_m", "2%"),
-            "device.workspace_m = \"2%\" is not a finite decimal number");
+  EXPECT_EQ(set_error(kMaster, "device.delta.workspace_m", "2%"),
+            "device.delta.workspace_m = \"2%\" is not a finite decimal number");
   EXPECT_EQ(
       set_error(kMaster, "link.impairment.delay_s", "2%"),
       "link.impairment.delay_s = \"2%\" is not a finite decimal number of seconds, nor one with s, ms or us "
@@ -124,7 +124,8 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
   EXPECT_EQ(set_error(kMaster, "mapping.", "1"), "mapping has no field \"\"; it has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping", "1"), "mapping is a group; set one of its fields: " + fields);
   EXPECT_EQ(set_error(kMaster, "maping.scale", "1"),
-            "there is no field \"maping\"; did you mean \"mapping\"? There are: link, loop, device, hand, "
+            "there is no field \"maping\"; did you mean \"mapping\"? There are: link, loop, device_file, "
+            "device, hand, "
             "operator, "
             "mapping, rendering, safety, rpc");
   EXPECT_TRUE(set_error(kMaster, "", "1").starts_with("there is no field \"\"; there are: link, "));

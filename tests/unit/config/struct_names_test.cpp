@@ -39,17 +39,71 @@ void expect_same(const LoopConfig& s, const proto::Loop& m) {
   EXPECT_EQ(s.lock_memory, m.lock_memory());
 }
 
-void expect_same(const DeviceConfig& s, const proto::Device& m) {
-  EXPECT_EQ(s.mass_kg, m.mass_kg());
-  EXPECT_EQ(s.damping_n_s_per_m, m.damping_n_s_per_m());
+template <class Drive>
+void expect_same(const DriveConfig& s, const Drive& m) {
   EXPECT_EQ(s.inertia_kg_m2, m.inertia_kg_m2());
-  EXPECT_EQ(s.rotational_damping_nm_s_per_rad, m.rotational_damping_nm_s_per_rad());
-  EXPECT_EQ(s.resolution_m, m.resolution_m());
+  EXPECT_EQ(s.viscous_nm_s_per_rad, m.viscous_nm_s_per_rad());
+  EXPECT_EQ(s.coulomb_nm, m.coulomb_nm());
   EXPECT_EQ(s.resolution_rad, m.resolution_rad());
+  EXPECT_EQ(s.torque_max_nm, m.torque_max_nm());
+  EXPECT_EQ(s.bandwidth_hz, m.bandwidth_hz());
+}
+
+void expect_same(const DeltaConfig& s, const proto::Delta& m) {
+  EXPECT_EQ(s.arm_m, m.arm_m());
+  EXPECT_EQ(s.rod_m, m.rod_m());
+  EXPECT_EQ(s.radius_m, m.radius_m());
+  EXPECT_EQ(s.offset_m, m.offset_m());
+  EXPECT_EQ(s.side_m, m.side_m());
+  EXPECT_EQ(s.upwards, m.upwards());
+  expect_same(s.azimuth_rad, m.azimuth_rad());
+  EXPECT_EQ(s.home_height_m, m.home_height_m());
+  EXPECT_EQ(s.platform_kg, m.platform_kg());
+  EXPECT_EQ(s.arm_kg, m.arm_kg());
+  EXPECT_EQ(s.arm_com_fraction, m.arm_com_fraction());
+  EXPECT_EQ(s.forearm_kg, m.forearm_kg());
+  expect_same(s.drive, m.drive());
   EXPECT_EQ(s.workspace_m, m.workspace_m());
+}
+
+void expect_same(const SphericalConfig& s, const proto::Spherical& m) {
+  EXPECT_EQ(s.alpha1_rad, m.alpha1_rad());
+  EXPECT_EQ(s.alpha2_rad, m.alpha2_rad());
+  EXPECT_EQ(s.beta1_rad, m.beta1_rad());
+  EXPECT_EQ(s.beta2_rad, m.beta2_rad());
+  EXPECT_EQ(s.inertia_kg_m2, m.inertia_kg_m2());
+  expect_same(s.drive, m.drive());
   EXPECT_EQ(s.workspace_rad, m.workspace_rad());
-  EXPECT_EQ(s.force_max_n, m.force_max_n());
-  EXPECT_EQ(s.moment_max_nm, m.moment_max_nm());
+}
+
+void expect_same(const BehaviourConfig& s, const proto::Behaviour& m) {
+  EXPECT_EQ(static_cast<int>(s.idle), static_cast<int>(m.idle()));
+  EXPECT_EQ(static_cast<int>(s.motion), static_cast<int>(m.motion()));
+  EXPECT_EQ(s.home_n_per_m, m.home_n_per_m());
+  EXPECT_EQ(s.home_n_s_per_m, m.home_n_s_per_m());
+  EXPECT_EQ(s.home_speed_m_per_s, m.home_speed_m_per_s());
+  EXPECT_EQ(s.home_nm_per_rad, m.home_nm_per_rad());
+  EXPECT_EQ(s.home_nm_s_per_rad, m.home_nm_s_per_rad());
+  EXPECT_EQ(s.home_speed_rad_per_s, m.home_speed_rad_per_s());
+  EXPECT_EQ(s.guide_n_per_m, m.guide_n_per_m());
+  EXPECT_EQ(s.guide_nm_per_rad, m.guide_nm_per_rad());
+  EXPECT_EQ(s.free_m, m.free_m());
+  EXPECT_EQ(s.free_rad, m.free_rad());
+  EXPECT_EQ(s.stop_share, m.stop_share());
+  EXPECT_EQ(s.stop_n_per_m, m.stop_n_per_m());
+  EXPECT_EQ(s.stop_nm_per_rad, m.stop_nm_per_rad());
+}
+
+void expect_same(const DeviceConfig& s, const proto::Device& m) {
+  EXPECT_EQ(s.name, m.name());
+  EXPECT_EQ(s.basis, m.basis());
+  expect_same(s.delta, m.delta());
+  expect_same(s.spherical, m.spherical());
+  expect_same(s.gravity_m_per_s2, m.gravity_m_per_s2());
+  EXPECT_EQ(s.gravity_compensation, m.gravity_compensation());
+  EXPECT_EQ(s.delay_samples, m.delay_samples());
+  EXPECT_EQ(s.velocity_filter_s, m.velocity_filter_s());
+  expect_same(s.behaviour, m.behaviour());
 }
 
 void expect_same(const HandConfig& s, const proto::Hand& m) {
@@ -214,6 +268,7 @@ TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {
   const MasterConfig s = to_struct(m);
   expect_same(s.link, m.link());
   expect_same(s.loop, m.loop());
+  EXPECT_EQ(s.device_file, m.device_file());
   expect_same(s.device, m.device());
   expect_same(s.hand, m.hand());
   expect_same(s.operator_, m.operator_());

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "common/core/random.hpp"
-#include "master/devices/simulated_handle.hpp"
+#include "master/devices/simulated_devices.hpp"
 
 namespace {
 thread_local bool counting = false;
@@ -183,7 +183,7 @@ TEST(MasterNode, StaysPassiveAndLimitedUnderHostileReports) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     Bench b;
-    SimulatedHandle handle({});
+    SimulatedDevices handle(DeviceConfig{});
     b.in.handle = handle.read(b.in.now);
     b.engage();
     for (int i = 0; i < 5000; ++i) {
@@ -215,7 +215,7 @@ TEST(MasterNode, NaiveLawFailsWhereOursDoesNot) {
   MasterConfig config;
   config.rendering.law = RenderingLaw::kNaive;
   Bench b(config);
-  SimulatedHandle handle({});
+  SimulatedDevices handle(DeviceConfig{});
   b.in.handle = handle.read(b.in.now);
   b.engage();
   std::uint64_t touch = 0;

@@ -1,0 +1,61 @@
+#pragma once
+// Equation of motion of a DELTA in the position of its platform, forearms lumped at their ends:
+//
+//   M a = F + Wᵀ (τ - I β),   M = m 1 + Wᵀ I W,   θ' = W v,   θ'' = W a + β
+//   m = m_p + 3/2 m_f,   I = drive (rotor and arm) + ½ m_f arm²
+//
+// W has the rows n_i / l_i of delta_statics.hpp; β follows from the second derivative of the closure, with
+// the offset o of a general leg, q the vector from the arm's end, ρ its length in the leg's plane, v_t its
+// speed across itself there, A the arm:
+//
+//   β_i = ((q'² - o v_t²/ρ)/rod + n . A θ'²) / l_i
+//
+// Exact but for the lumping (Codourey, The International Journal of Robotics Research 17(12), 1998).
+
+#include "master/devices/delta/delta_kinematics.hpp"
+#include "master/devices/delta/delta_statics.hpp"
+#include "master/devices/device_config.hpp"
+
+namespace longreach {
+
+/// A pose with what the motion needs of it. `closed` false: out of reach or singular; nothing else is valid.
+struct DeltaPose {
+  bool closed = false;
+  Vector3 p_m = Vector3::Zero();
+  Vector3 theta_rad = Vector3::Zero();
+  DeltaVelocity at{};
+  Matrix3 rates = Matrix3::Zero();  // W, rad/m
+};
+
+class DeltaDynamics {
+ public:
+  /// Throws GeometryError for dimensions or masses that cannot be.
+  explicit DeltaDynamics(const DeltaConfig& config);
+
+  [[nodiscard]] const DeltaKinematics& kinematics() const { return kinematics_; }
+  [[nodiscard]] const DeltaGeometry& geometry() const { return kinematics_.geometry(); }
+  [[nodiscard]] const DeltaMasses& masses() const { return masses_; }
+  [[nodiscard]] Vector3 home_m() const { return home_; }  // in the base frame
+
+  /// `p_m` in the base frame.
+  [[nodiscard]] DeltaPose pose(const Vector3& p_m) const;
+  [[nodiscard]] Matrix3 mass_kg(const DeltaPose& at) const;
+  /// β, rad/s².
+  [[nodiscard]] Vector3 rate_bias(const DeltaPose& at, const Vector3& v_m_per_s) const;
+  /// Weight of all links, as a force on the platform, N.
+  [[nodiscard]] Vector3 weight(const DeltaPose& at, const Vector3& gravity_m_per_s2) const;
+  /// Axis torques as a force on the platform, N.
+  [[nodiscard]] static Vector3 force(const DeltaPose& at, const Vector3& tau_nm) {
+    return at.rates.transpose() * tau_nm;
+  }
+  [[nodiscard]] double axis_inertia_kg_m2() const { return axis_kg_m2_; }
+
+ private:
+  DeltaKinematics kinematics_;
+  DeltaMasses masses_;
+  Vector3 home_;
+  double platform_kg_;
+  double axis_kg_m2_;
+};
+
+}  // namespace longreach

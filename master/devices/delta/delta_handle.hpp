@@ -1,0 +1,37 @@
+#pragma once
+// The controller's side of a DELTA device: encoder angles to position and velocity of the handle, force to
+// motor torques. Knows nothing of how the device moves.
+//
+//   x from the forward kinematics in the working assembly, v its filtered backward difference,
+//   τ = Jᵀ F + τ_gravity
+
+#include "master/devices/delta/delta_dynamics.hpp"
+
+namespace longreach {
+
+class DeltaHandle {
+ public:
+  explicit DeltaHandle(const DeviceConfig& config);
+
+  /// Once a sample of `dt_s`; 0 for the first. False: no position closes the loops; the last one is kept.
+  bool read(const Vector3& theta_rad, double dt_s);
+
+  /// Motor torques that push the hand with `force_n`, N, and carry the device's weight.
+  [[nodiscard]] Vector3 torques(const Vector3& force_n) const;
+
+  [[nodiscard]] Vector3 position_m() const { return p_ - home_; }  // from home
+  [[nodiscard]] const Vector3& velocity_m_per_s() const { return v_; }
+
+ private:
+  DeltaKinematics kinematics_;
+  DeltaMasses masses_;
+  Vector3 home_;
+  Vector3 gravity_;  // to compensate, m/s²
+  double filter_s_;
+  Vector3 p_;
+  Vector3 v_ = Vector3::Zero();
+  Vector3 theta_ = Vector3::Zero();
+  bool started_ = false;
+};
+
+}  // namespace longreach

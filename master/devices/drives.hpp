@@ -1,0 +1,48 @@
+#pragma once
+// The three motor axes of a device, between controller and mechanism.
+//
+//   motor     τ' = (τ_c - τ)/t_m,  t_m = 1/(2π bandwidth); |τ_c| <= torque_max; commands may wait some
+//   samples friction  Coulomb as an elastic that slips (Prandtl): τ_f = -σ z, z follows the axis within ±
+//   τ_C/σ.
+//             It holds without creep, dissipates exactly, and stores at most τ_C²/(2σ).
+//   encoder   rounds to the resolution
+// Viscous friction is left to the mechanism, which takes it implicitly.
+
+#include <array>
+#include <cstdint>
+
+#include "common/spatial/spatial.hpp"
+#include "master/devices/device_config.hpp"
+
+namespace longreach {
+
+class Drives {
+ public:
+  static constexpr std::uint32_t kMostDelay = 4;  // samples
+
+  Drives(const DriveConfig& config, std::uint32_t delay_samples);
+
+  /// Once a sample: torques that the controller asks for, N m. What is not finite asks for nothing.
+  void command(const Vector3& tau_nm);
+
+  /// Mean torque of the motors over the next `dt_s`, N m.
+  Vector3 run(double dt_s);
+
+  /// Friction torque at these axis angles, N m, after following them there.
+  Vector3 friction(const Vector3& theta_rad);
+
+  [[nodiscard]] Vector3 encoder(const Vector3& theta_rad) const;
+  [[nodiscard]] double viscous_nm_s_per_rad() const { return config_.viscous_nm_s_per_rad; }
+
+ private:
+  DriveConfig config_;
+  std::uint32_t delay_samples_;
+  double lag_s_;
+  std::array<Vector3, kMostDelay + 1> waiting_{};  // newest first
+  Vector3 tau_ = Vector3::Zero();
+  Vector3 theta_ = Vector3::Zero();
+  Vector3 stretch_ = Vector3::Zero();
+  bool started_ = false;
+};
+
+}  // namespace longreach

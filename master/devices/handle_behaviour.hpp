@@ -1,0 +1,66 @@
+#pragma once
+// What the handles do by themselves, whatever the robot does: go home or stay where they are left when nobody
+// holds them, keep to one axis at a time if asked to, stop softly before the edge of the workspace.
+//
+//   idle     F = -k (x - a) - b v     anchor a: where the handle was left; HOME lets it glide home
+//   guide    F = -k (x - (x . e) e - o)    decoupled: e the axis that was moved first, o what was off it then
+//   stop     F = -k (|x| - r) x/|x|   beyond r, a share of the workspace
+//
+// All springs begin without force, so that nothing steps; only the gliding anchor supplies energy, and tells
+// how much. Rotations alike, x the rotation vector from home.
+
+#include "master/devices/device_config.hpp"
+#include "master/devices/handle_state.hpp"
+
+namespace longreach {
+
+/// One handle: three coordinates and what acts on them.
+class HandleSprings {
+ public:
+  struct Gains {
+    double home = 0.0, damping = 0.0, speed = 0.0;  // N/m, N s/m, m/s; or N m/rad ...
+    double guide = 0.0, free = 0.0;                 // N/m, m
+    double stop = 0.0, stop_radius = 0.0;           // N/m, m
+  };
+  struct Coordinates {
+    Vector3 x, rate;
+  };
+
+  /// Force on the hand. `dt_s` > 0.
+  Vector3 step(const Coordinates& at, bool held, const Gains& gains, const BehaviourConfig& config,
+               double dt_s);
+
+  [[nodiscard]] double energy_j() const { return energy_j_; }
+  [[nodiscard]] double supplied_j() const { return supplied_j_; }  // by the anchor, in the last step
+  [[nodiscard]] int guided_axis() const { return axis_; }          // -1: none
+
+ private:
+  Vector3 idle(const Coordinates& at, bool held, const Gains& gains, IdleRule rule, double dt_s);
+  Vector3 guide(const Vector3& x, const Gains& gains, HandleMotion motion);
+
+  bool left_ = false;
+  Vector3 anchor_ = Vector3::Zero();
+  int axis_ = -1;
+  Vector3 off_ = Vector3::Zero();
+  double energy_j_ = 0.0;
+  double supplied_j_ = 0.0;
+};
+
+class HandleBehaviour {
+ public:
+  explicit HandleBehaviour(const DeviceConfig& config);
+  void configure(const DeviceConfig& config);
+
+  /// Wrench on the hand, in M. Not finite values of the handle give none.
+  Wrench step(const HandleState& handle, double dt_s);
+
+  [[nodiscard]] const HandleSprings& translation() const { return translation_; }
+  [[nodiscard]] const HandleSprings& rotation() const { return rotation_; }
+
+ private:
+  BehaviourConfig config_;
+  HandleSprings::Gains linear_{}, angular_{};
+  HandleSprings translation_, rotation_;
+};
+
+}  // namespace longreach
