@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "master/devices/drive/hand_model.hpp"
+
 namespace longreach {
 namespace {
 

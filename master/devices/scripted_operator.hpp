@@ -11,7 +11,7 @@
 
 #include "common/core/time.hpp"
 #include "common/link/motion_command.hpp"
-#include "master/devices/hand.hpp"
+#include "master/devices/hand_target.hpp"
 #include "master/mapping/mapping_config.hpp"
 
 namespace longreach {

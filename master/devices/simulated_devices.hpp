@@ -4,6 +4,7 @@
 
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/delta/simulated_delta.hpp"
+#include "master/devices/hand_target.hpp"
 #include "master/devices/haptic_device.hpp"
 #include "master/devices/spherical/simulated_spherical.hpp"
 #include "master/devices/spherical/spherical_handle.hpp"

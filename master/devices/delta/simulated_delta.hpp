@@ -7,8 +7,8 @@
 // does not drift without friction. Steps of 1 ms at most; torques of the motors are held between commands.
 
 #include "master/devices/delta/delta_dynamics.hpp"
-#include "master/devices/drives.hpp"
-#include "master/devices/hand.hpp"
+#include "master/devices/drive/drives.hpp"
+#include "master/devices/drive/hand_model.hpp"
 
 namespace longreach {
 

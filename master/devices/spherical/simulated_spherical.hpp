@@ -6,8 +6,8 @@
 //
 // Integrated like simulated_delta.hpp, the orientation by the exponential map.
 
-#include "master/devices/drives.hpp"
-#include "master/devices/hand.hpp"
+#include "master/devices/drive/drives.hpp"
+#include "master/devices/drive/hand_model.hpp"
 #include "master/devices/spherical/spherical_dynamics.hpp"
 
 namespace longreach {

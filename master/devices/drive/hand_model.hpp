@@ -3,20 +3,9 @@
 // wants it. Figures of the translation: of a light and a firm grip as measured on people; of the rotation:
 // assumed, a wrist of the handle's own order of magnitude.
 
-#include "common/spatial/spatial.hpp"
 #include "master/devices/device_config.hpp"
-#include "master/devices/handle_state.hpp"
 
 namespace longreach {
-
-/// Where the person wants the handle to be, and what the fingers do.
-struct HandTarget {
-  Vector3 position_m = Vector3::Zero();  // in M, from home
-  Vector3 velocity_m_per_s = Vector3::Zero();
-  Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home
-  Grip grip = Grip::kLight;
-  Buttons buttons{};
-};
 
 struct HandModel {
   double mass_kg = 0.0;

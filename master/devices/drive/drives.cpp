@@ -1,4 +1,4 @@
-#include "master/devices/drives.hpp"
+#include "master/devices/drive/drives.hpp"
 
 #include <algorithm>
 #include <cmath>

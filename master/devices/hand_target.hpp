@@ -1,0 +1,19 @@
+#pragma once
+// What the person who holds the simulated handles does.
+
+#include "common/spatial/spatial.hpp"
+#include "master/devices/device_config.hpp"
+#include "master/devices/handle_state.hpp"
+
+namespace longreach {
+
+/// Where the person wants the handle to be, and what the fingers do.
+struct HandTarget {
+  Vector3 position_m = Vector3::Zero();  // in M, from home
+  Vector3 velocity_m_per_s = Vector3::Zero();
+  Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home
+  Grip grip = Grip::kLight;
+  Buttons buttons{};
+};
+
+}  // namespace longreach
