@@ -15,6 +15,9 @@ const std::vector<Experiment>& experiments() {
       {"touch",
        "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
        run_touch, touch_plots},
+      {"synthesis",
+       "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
+       run_synthesis, synthesis_plots},
   };
   return kExperiments;
 }

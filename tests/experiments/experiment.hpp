@@ -55,5 +55,7 @@ std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
 // The experiments.
 std::vector<Metric> run_touch(const ExperimentRun& run);
 std::vector<Plot> touch_plots();
+std::vector<Metric> run_synthesis(const ExperimentRun& run);
+std::vector<Plot> synthesis_plots();
 
 }  // namespace longreach
