@@ -194,8 +194,10 @@ std::vector<Metric> synthesise(const ExperimentRun& run, const SynthesisSize& si
   const CatalogFit fit = best_depth(catalog, synthesis_demand(), kSynthesisSide_m);
   metrics.push_back({"catalog_conditioning", fit.conditioning, ""});
   metrics.push_back({"catalog_depth_m", fit.depth_m, "m"});
-  trace_front(run, a, catalog, size.budget / 5);
-  trace_slice(run, a.problem().dimensions(a.best()), catalog, fit.depth_m);
+  if (a.feasible()) {
+    trace_front(run, a, catalog, size.budget / 5);
+    trace_slice(run, a.problem().dimensions(a.best()), catalog, fit.depth_m);
+  }
   if (run.progress) run.progress(1.0);
   return metrics;
 }

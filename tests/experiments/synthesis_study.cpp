@@ -54,6 +54,7 @@ Interchange interchange(const SearchLog& a, int budget) {
   SearchLog b(problem_b(), budget);
   run_sequential(b, b.problem().variables(a.problem().dimensions(a.best()), a.value()));
   SearchLog a_again(problem_a(b.value()), budget);
+  if (!b.feasible()) return {a, b, a_again};
   run_sequential(a_again,
                  a_again.problem().variables(b.problem().dimensions(b.best()), kSynthesisConditioning));
   return {a, b, a_again};

@@ -39,7 +39,8 @@ std::vector<SearchLog> searches(SearchMethod method, const SynthesisSize& size, 
 /// Values of all searches after so many evaluations, sorted; 0 where nothing feasible was found yet.
 std::vector<double> values_after(std::span<const SearchLog> searches, int evaluations);
 
-/// A, then B from its design, then A again from B's with the side that B has reached.
+/// A, then B from its design, then A again from B's with the side that B has reached; not searched, and so
+/// infeasible, where B is.
 struct Interchange {
   SearchLog a, b, a_again;
 };

@@ -74,7 +74,8 @@ DeltaCubeFigures figures(const DeltaGeometry& g, const DeltaDemand& demand, cons
 
 /// Side of the largest cube about `centre_m` that meets the demand on the grid; 0 where the centre itself
 /// does not. Bisection: exact to 1e-6 of the device's size, as larger cubes about the same centre contain
-/// smaller ones.
+/// smaller ones. Between the positions the torque may be higher: with 5, 9, 17 an edge the reconstructed
+/// device's cube of 4 N at 0.3 N m is 2.5, 0.9, 0.3 % larger than with 49.
 double largest_cube_m(const DeltaGeometry& g, const DeltaDemand& demand, const Vector3& centre_m,
                       int per_edge);
 
