@@ -55,6 +55,16 @@ std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
 // The experiments.
 std::vector<Metric> run_touch(const ExperimentRun& run);
 std::vector<Plot> touch_plots();
+std::vector<Metric> run_home_rotation(const ExperimentRun& run);
+std::vector<Plot> home_rotation_plots();
+std::vector<Metric> run_home_translation(const ExperimentRun& run);
+std::vector<Plot> home_translation_plots();
+std::vector<Metric> run_wall_rotation(const ExperimentRun& run);
+std::vector<Plot> wall_rotation_plots();
+std::vector<Metric> run_wall_translation(const ExperimentRun& run);
+std::vector<Plot> wall_translation_plots();
+std::vector<Metric> run_gravity(const ExperimentRun& run);
+std::vector<Plot> gravity_plots();
 std::vector<Metric> run_synthesis(const ExperimentRun& run);
 std::vector<Plot> synthesis_plots();
 

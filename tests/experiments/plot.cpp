@@ -12,18 +12,25 @@ namespace {
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
 
+constexpr double kTitle_px = 50.0, kPanel_px = 190.0, kAxis_px = 45.0;
+
+double height_px(const Plot& plot) {
+  return kTitle_px + kPanel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
+}
+
 void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::size_t i) {
   const bool last = i + 1 == plot.panels.size();
-  const double height = 0.86 / static_cast<double>(plot.panels.size());
-  const double top = 0.93 - static_cast<double>(i) * height;
-  out << "set tmargin at screen " << top << "\nset bmargin at screen " << top - height + 0.03 << '\n';
+  const double height = kPanel_px / height_px(plot);
+  const double top = 1.0 - (kTitle_px + static_cast<double>(i) * kPanel_px) / height_px(plot);
+  out << "set tmargin at screen " << top << "\nset bmargin at screen " << top - 0.86 * height << '\n';
   out << "set ylabel '" << panel.y_label << "' offset 0.5,0\n";
   out << (last ? "set format x '%g'\nset xlabel '" + plot.x_label + "'\n" : "set format x ''\nset xlabel\n");
   out << "set yrange [*:*]\n" << panel.extra << "\nplot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
-    out << (c ? ", " : "") << "'" << plot.csv << ".csv' using '" << plot.x_column << "':(column('"
-        << curve.column << "')*" << curve.factor << ") with lines lw 1.6 lc rgb '"
+    out << (c ? ", " : "") << "'" << plot.csv << ".csv' using (column('" << plot.x_column << "')*"
+        << plot.x_factor << "):(column('" << curve.column << "')*" << curve.factor << ") with "
+        << (curve.points ? "points pt 7 ps 0.7" : "lines lw 1.6") << " lc rgb '"
         << kColours[c % kColours.size()] << "' title '" << curve.title << "'";
   }
   out << '\n';
@@ -35,13 +42,13 @@ std::string draw(const std::filesystem::path& folder, const Plot& plot) {
   const std::filesystem::path script = folder / (plot.name + ".gp");
   {
     std::ofstream out(script, std::ios::trunc);
-    out << "set terminal svg size 900," << 120 + 190 * plot.panels.size()
-        << " dynamic font 'sans,13' background '#ffffff'\n"
+    out << "set terminal svg size 900," << height_px(plot) << " dynamic font 'sans,13' background '#ffffff'\n"
         << "set output '" << plot.name << ".svg'\nset datafile separator ','\n"
         << "set title\nset grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n"
         << "set key outside right top samplen 1.5 width -2\nset lmargin at screen 0.10\nset rmargin at "
            "screen 0.78\n"
-        << "set label 1 '" << plot.title << "' at screen 0.10,0.97 font 'sans,15'\n"
+        << "set label 1 '" << plot.title << "' at screen 0.10," << 1.0 - 0.55 * kTitle_px / height_px(plot)
+        << " font 'sans,15'\n"
         << "set multiplot\n";
     for (std::size_t i = 0; i < plot.panels.size(); ++i) {
       write_panel(out, plot, plot.panels[i], i);

@@ -12,6 +12,7 @@ struct Curve {
   std::string column;  // of the CSV file
   std::string title;
   double factor = 1.0;  // from the column's unit to the axis's
+  bool points = false;  // instead of a line
 };
 
 struct Panel {
@@ -26,6 +27,7 @@ struct Plot {
   std::string title;
   std::string x_column;
   std::string x_label;
+  double x_factor = 1.0;  // from the column's unit to the axis's
   std::vector<Panel> panels;
 };
 

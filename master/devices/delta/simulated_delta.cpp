@@ -53,7 +53,8 @@ bool SimulatedDelta::place(const Vector3& x_m) {
   if (!at.closed) return false;
   pose_ = at;
   v_.setZero();
-  friction_nm_ = drives_.friction(pose_.theta_rad);
+  friction_nm_.setZero();
+  drives_.place(pose_.theta_rad);
   return true;
 }
 

@@ -7,15 +7,21 @@
 namespace longreach {
 namespace {
 
-constexpr double kPresliding_rad = 5e-4;  // elastic range of a bearing before it slips
+constexpr double kPresliding_rad = 5e-4;  // elastic range of a bearing before it slips, assumed
+// Longer where the friction is so strong that its elastic would be too stiff for steps of a millisecond.
+constexpr double kSoftest_s2 = 1e-5;
 
 }  // namespace
 
 Drives::Drives(const DriveConfig& config, std::uint32_t delay_samples)
     : config_(config),
       delay_samples_(std::min(delay_samples, kMostDelay)),
-      lag_s_(config.bandwidth_hz > 0.0 ? 0.5 * std::numbers::inv_pi / config.bandwidth_hz : 0.0) {
+      lag_s_(config.bandwidth_hz > 0.0 ? 0.5 * std::numbers::inv_pi / config.bandwidth_hz : 0.0),
+      presliding_rad_(kPresliding_rad) {
+  if (config.inertia_kg_m2 > 0.0)
+    presliding_rad_ = std::max(presliding_rad_, kSoftest_s2 * config.coulomb_nm / config.inertia_kg_m2);
   waiting_.fill(Vector3::Zero());
+  stretch_.fill(Vector3::Zero());
 }
 
 void Drives::command(const Vector3& tau_nm) {
@@ -33,12 +39,21 @@ Vector3 Drives::run(double dt_s) {
   return wanted + gap * (dt_s > 0.0 ? gone * lag_s_ / dt_s : 1.0);
 }
 
-Vector3 Drives::friction(const Vector3& theta_rad) {
-  if (!started_) theta_ = theta_rad;
-  started_ = true;
-  stretch_ = (stretch_ + theta_rad - theta_).cwiseMax(-kPresliding_rad).cwiseMin(kPresliding_rad);
+void Drives::place(const Vector3& theta_rad) {
   theta_ = theta_rad;
-  return -config_.coulomb_nm / kPresliding_rad * stretch_;
+  stretch_.fill(Vector3::Zero());
+}
+
+Vector3 Drives::friction(const Vector3& theta_rad) {
+  Vector3 share = Vector3::Zero();  // of the Coulomb torque
+  double range = presliding_rad_;
+  for (Vector3& z : stretch_) {
+    z = (z + theta_rad - theta_).cwiseMax(-range).cwiseMin(range);
+    share += z / (kElements * range);
+    range *= 0.5;
+  }
+  theta_ = theta_rad;
+  return -config_.coulomb_nm * share;
 }
 
 Vector3 Drives::encoder(const Vector3& theta_rad) const {

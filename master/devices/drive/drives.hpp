@@ -19,6 +19,7 @@ namespace longreach {
 class Drives {
  public:
   static constexpr std::uint32_t kMostDelay = 4;  // samples
+  static constexpr int kElements = 6;
 
   Drives(const DriveConfig& config, std::uint32_t delay_samples);
 
@@ -27,6 +28,9 @@ class Drives {
 
   /// Mean torque of the motors over the next `dt_s`, N m.
   Vector3 run(double dt_s);
+
+  /// Puts the axes there with no friction torque.
+  void place(const Vector3& theta_rad);
 
   /// Friction torque at these axis angles, N m, after following them there.
   Vector3 friction(const Vector3& theta_rad);
@@ -41,8 +45,8 @@ class Drives {
   std::array<Vector3, kMostDelay + 1> waiting_{};  // newest first
   Vector3 tau_ = Vector3::Zero();
   Vector3 theta_ = Vector3::Zero();
-  Vector3 stretch_ = Vector3::Zero();
-  bool started_ = false;
+  double presliding_rad_;
+  std::array<Vector3, kElements> stretch_{};  // z_i
 };
 
 }  // namespace longreach

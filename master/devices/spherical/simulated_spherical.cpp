@@ -46,7 +46,8 @@ bool SimulatedSpherical::place(const Quaternion& q_MH) {
   if (!at.closed) return false;
   attitude_ = at;
   omega_.setZero();
-  friction_nm_ = drives_.friction(attitude_.theta_rad);
+  friction_nm_.setZero();
+  drives_.place(attitude_.theta_rad);
   return true;
 }
 

@@ -1,0 +1,33 @@
+#pragma once
+// The largest stiffness of a virtual wall that a sampled device can hold, by theory.
+//
+//   m x'' + b x' + k x = u,  u held for a sample,  u[j] = -K x[j-d] - B (x[j-d] - x[j-d-1])/T
+//
+// m, b, k of device and hand together. exact_limit: the K at which the spectral radius of the discrete model
+// is 1. The others are the textbook lines beside it.
+
+namespace longreach {
+
+struct SampledWall {
+  double mass_kg = 0.0;
+  double device_n_s_per_m = 0.0;  // physical damping of the device
+  double hand_n_s_per_m = 0.0;
+  double hand_n_per_m = 0.0;
+  double wall_n_s_per_m = 0.0;  // B
+  double period_s = 0.001;
+  int delay_samples = 0;  // d
+};
+
+/// Spectral radius of the model with stiffness `K`, N/m.
+double spectral_radius(const SampledWall& wall, double stiffness_n_per_m);
+
+/// Largest K with a spectral radius of at most 1, N/m; 0 where not even a small one is stable.
+double exact_limit_n_per_m(const SampledWall& wall);
+
+/// K (T/2 + t_d) = b + B: small delays, hand's spring left out.
+double formula_limit_n_per_m(const SampledWall& wall);
+
+/// b_device = K T/2 + |B| (Colgate and Schenkel 1997): passive whatever holds it. Delays are left out.
+double passive_limit_n_per_m(const SampledWall& wall);
+
+}  // namespace longreach
