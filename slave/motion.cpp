@@ -61,7 +61,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   const bool still = limiter_.at_rest();
   if (!still) {
     const InverseResult found =
-        inverse_.solve(wanted.X_WE, joint_rad_, {command_.tolerance_m, command_.iterations_max});
+        inverse_.follow(wanted.X_WE, joint_rad_, {command_.tolerance_m, command_.iterations_max});
     JointVector change = found.joint_rad - joint_rad_;
     double excess = 1.0;
     for (int i = 0; i < kMaxJoints; ++i) {
@@ -69,12 +69,12 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     }
     clamps.joint_speed = excess > 1.0;
     clamps.joint_position = found.at_joint_limit;
-    clamps.unreachable = found.status != InverseStatus::kFound;
+    clamps.unreachable = found.status == InverseStatus::kNearest;
     if (clamps.unreachable) ++failures_;
     if (clamps.joint_speed) change /= excess;
     joint_rad_ += change;
     X_WE_ = clamps.joint_speed ? inverse_.kinematics().forward(joint_rad_) : found.X_WE;
-    if (clamps.joint_speed || clamps.unreachable) limiter_.correct(X_WE_, input.dt);
+    if (clamps.joint_speed || clamps.unreachable || found.rotation_ignored) limiter_.correct(X_WE_, input.dt);
     slow_down(change, found.conditioning, input.dt, clamps);
   } else {
     speed_share_ = std::max(speed_share_, 0.1);

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "slave/command/goal_limiter.hpp"
-#include "slave/robot/numeric_inverse.hpp"
+#include "slave/robot/inverse.hpp"
 
 namespace longreach {
 
@@ -43,7 +43,7 @@ class SlaveMotion {
 
   CommandConfig command_;
   RobotConfig robot_;
-  NumericInverse inverse_;
+  Inverse inverse_;
   GoalLimiter limiter_;
   JointVector joint_rad_ = JointVector::Zero();
   Pose X_WE_{};

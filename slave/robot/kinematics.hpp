@@ -1,13 +1,14 @@
 #pragma once
-// Where the tool is, and how it moves, for a chain of six revolute joints.
-//   X_WE = A₁(q₁) ... A₆(q₆),  A = Rz(q + θ) Tz(d) Tx(a) Rx(α)     (Denavit, Hartenberg 1955, standard
-//   convention) V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o     (geometric
-//   Jacobian, at E in W)
+// Where the tool is, and how it moves, for a chain of six joints.
+//   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α)     (Denavit, Hartenberg 1955)
+//   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o, [0; z] of a prismatic joint
+// B = 1 in the standard convention. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); Rx Tx moves behind
+// the joint before it, that of the first row becomes B. E is the tool frame.
 // The robot's base S is the world W. Does not know limits, speeds or singularities.
 
 #include <array>
 
-#include "common/spatial/spatial.hpp"
+#include "slave/robot/rigid.hpp"
 #include "slave/robot/robot_config.hpp"
 
 namespace longreach {
@@ -19,22 +20,47 @@ struct ToolKinematics {
   Jacobian J = Jacobian::Zero();
 };
 
+/// The same with the rotation as matrix, for solvers.
+struct RigidKinematics {
+  Rigid X_WE{};
+  Jacobian J;
+};
+
+/// Row of a table in the standard convention, whatever the file's.
+struct DhLink {
+  double a_m = 0.0, alpha_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
+};
+
 class Kinematics {
  public:
   explicit Kinematics(const RobotConfig& robot);
 
-  [[nodiscard]] Pose forward(const JointVector& joint_rad) const;
+  [[nodiscard]] Pose forward(const JointVector& joint_rad) const { return to_pose(rigid_forward(joint_rad)); }
+  [[nodiscard]] Rigid rigid_forward(const JointVector& joint_rad) const;
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
+  [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths and offsets, at least 1 mm: the robot's characteristic length.
+  /// Sum of all link lengths and offsets, tool included, at least 1 mm: the characteristic length.
   [[nodiscard]] double reach_m() const { return reach_m_; }
+  [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
+  [[nodiscard]] const Rigid& base() const { return base_; }  // B
+  [[nodiscard]] const Rigid& tool() const { return tool_; }  // E
+  [[nodiscard]] bool all_revolute() const { return all_revolute_; }
 
  private:
+  // A = Rz(turns q + θ) Tz(slides q + d) Tx(a) Rx(α)
   struct Link {
-    double a_m, d_m, theta_rad, cos_alpha, sin_alpha;
+    double turns, slides, theta_rad, d_m, a_m, cos_alpha, sin_alpha;
   };
+  void enter(Rigid& X, std::size_t i, double q) const;
+  static void leave(Rigid& X, const Link& link);
+
   std::array<Link, kMaxJoints> link_{};
+  std::array<DhLink, kMaxJoints> row_{};
+  Rigid base_{}, tool_{};
+  Rigid last_{};  // behind the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
+  bool all_revolute_ = true;
 };
 
 }  // namespace longreach

@@ -2,72 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "slave/robot/joint_step.hpp"
 
 namespace longreach {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-// Below this share of the reach a direction counts as nearly singular and is damped.
-constexpr double kSingular = 0.005;
-// A step longer than this leaves the region in which the Jacobian means something.
-constexpr double kStepMaxRad = 0.3;
+// How a run goes about it. Chosen on random arms: the search by its cost a success, the other by its
+// smoothness.
+struct Temper {
+  double step_max_rad;  // a longer step leaves the region in which the Jacobian means something
+  double singular;      // below this share of the reach a direction counts as nearly singular and is damped
+  double damping;       // of |e|²
+  std::uint32_t patience;  // a run gives up when so many steps have not halved the residual
+  bool turns_freely;       // joints with a range of a whole turn pass their limits on the way
+};
+constexpr Temper kFollow{0.3, 0.005, 1.0, 12, false};
+constexpr Temper kSearch{0.5, 3e-5, 0.003, 4, true};
 
 struct Candidate {
   JointVector joint_rad;
-  ToolKinematics tool;
+  RigidKinematics tool;
   Vector6 error;
   double residual_m;
 };
 
-Candidate evaluate(const Kinematics& kinematics, const Pose& goal, const JointVector& joint_rad) {
-  Candidate c{joint_rad, kinematics.forward_with_jacobian(joint_rad), Vector6::Zero(), 0.0};
-  const double length = kinematics.reach_m();
-  c.error << length * log_rotation(goal.q * c.tool.X_WE.q.conjugate()), goal.p - c.tool.X_WE.p;
-  c.tool.J.topRows<3>() *= length;
+Candidate evaluate(const Kinematics& kinematics, const Rigid& goal, const JointVector& joint_rad) {
+  Candidate c{joint_rad, kinematics.rigid_with_jacobian(joint_rad), Vector6::Zero(), 0.0};
+  c.error << kinematics.reach_m() * rotation_between(c.tool.X_WE.R, goal.R), goal.p - c.tool.X_WE.p;
   c.residual_m = c.error.norm();
   return c;
 }
 
-struct Step {
-  JointVector joint_rad;
-  double least_pivot;  // of JᵀJ, m²
-};
-
-// Solves A x = b for symmetric A = L D Lᵀ by elimination without pivoting, which a positive definite A does
-// not need. Returns the least of D; x is meaningless unless that is positive.
-double solve_symmetric(Matrix6 A, JointVector& x) {
-  double least = A(0, 0);
-  for (int k = 0; k < 6; ++k) {
-    least = std::min(least, A(k, k));
-    for (int i = k + 1; i < 6; ++i) {
-      const double factor = A(i, k) / A(k, k);
-      for (int j = i; j < 6; ++j) A(j, i) -= factor * A(j, k);
-      x[i] -= factor * x[k];
-    }
-  }
-  for (int k = 5; k >= 0; --k) {
-    for (int i = k + 1; i < 6; ++i) x[k] -= A(i, k) * x[i];
-    x[k] /= A(k, k);
-  }
-  return least;
-}
-
-Step damped_step(const Candidate& c, double boost, double singular_m2) {
-  const JointVector gradient = c.tool.J.transpose() * c.error;
-  Matrix6 normal = c.tool.J.transpose() * c.tool.J;
-  const double damping = boost * c.residual_m * c.residual_m;
-  normal.diagonal().array() += damping;
-  JointVector step = gradient;
-  const double least = std::max(solve_symmetric(normal, step) - damping, 0.0);
-  if (!(least >= singular_m2)) {
-    normal.diagonal().array() += 0.1 * (singular_m2 - least);
-    step = gradient;
-    solve_symmetric(normal, step);
-  }
+JointVector step_from(const Candidate& c, double boost, double length_m, const Temper& temper) {
+  Jacobian J_m = c.tool.J;
+  J_m.topRows<3>() *= length_m;
+  const double singular_m = temper.singular * length_m;
+  const double damping_m2 = temper.damping * boost * c.residual_m * c.residual_m;
+  JointVector step = damped_step(J_m, c.error, damping_m2, singular_m * singular_m).joint_rad;
   const double largest = step.cwiseAbs().maxCoeff();
-  if (!(largest <= kStepMaxRad)) step *= kStepMaxRad / largest;
-  return {step, least};
+  if (!(largest <= temper.step_max_rad)) step *= temper.step_max_rad / largest;
+  return step;
 }
 
 }  // namespace
@@ -79,47 +55,97 @@ NumericInverse::NumericInverse(const RobotConfig& robot) : kinematics_(robot) {
   }
 }
 
-InverseResult NumericInverse::solve(const Pose& X_WE_goal, const JointVector& start_rad,
-                                    const InverseTolerance& tolerance) const {
-  const double length = kinematics_.reach_m();
-  const double singular_m2 = kSingular * kSingular * length * length;
-  Candidate best = evaluate(kinematics_, X_WE_goal, start_rad);
-  InverseResult result;
-  if (!std::isfinite(best.residual_m)) {
-    result.joint_rad = start_rad;
-    result.X_WE = kinematics_.forward(start_rad);
+// Evenly spread without randomness: multiples of the powers of 1/φ₆, φ₆ the root of x^7 = x + 1 (Roberts
+// 2018), over one turn of each joint about the middle of its range.
+JointVector NumericInverse::start(std::uint32_t number) const {
+  constexpr double kPhi = 1.1127756842787055;
+  JointVector q;
+  double share = 1.0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    share /= kPhi;
+    const double place = 0.5 + share * number;
+    const double width = std::min(max_rad_[i] - min_rad_[i], 2.0 * std::numbers::pi);
+    q[i] = 0.5 * (min_rad_[i] + max_rad_[i]) + width * (place - std::floor(place) - 0.5);
+  }
+  return q;
+}
+
+// One run of the iteration.
+struct NumericInverse::Run {
+  const NumericInverse& inverse;
+  const Rigid& goal;
+  const InverseTolerance& tolerance;
+  const Temper& temper;
+
+  [[nodiscard]] bool turns(int i) const {
+    constexpr double kTurn = 2.0 * std::numbers::pi - 1e-4;  // limits of 3.14159 mean a whole turn
+    return temper.turns_freely && inverse.max_rad_[i] - inverse.min_rad_[i] >= kTurn;
+  }
+
+  // Within the limits; a joint that turns freely only when the run is over.
+  [[nodiscard]] JointVector limited(const JointVector& q, bool over) const {
+    JointVector allowed = q.cwiseMax(inverse.min_rad_).cwiseMin(inverse.max_rad_);
+    for (int i = 0; i < kMaxJoints; ++i) {
+      if (!turns(i)) continue;
+      const double middle = 0.5 * (inverse.min_rad_[i] + inverse.max_rad_[i]);
+      const double folded = middle + std::remainder(q[i] - middle, 2.0 * std::numbers::pi);
+      allowed[i] = over ? std::clamp(folded, inverse.min_rad_[i], inverse.max_rad_[i]) : q[i];
+    }
+    return allowed;
+  }
+
+  [[nodiscard]] NumericResult from(const JointVector& start_rad) const {
+    const Kinematics& kinematics = inverse.kinematics_;
+    const double length = kinematics.reach_m();
+    Candidate best = evaluate(kinematics, goal, start_rad);
+    NumericResult result;
+    double boost = 1.0, milestone = best.residual_m;
+    std::uint32_t since = 0;
+    // A loose tolerance must not freeze a slow motion: one step is made unless the start is exact.
+    for (std::uint32_t i = 0; i < tolerance.iterations_max && std::isfinite(best.residual_m); ++i) {
+      const double enough = i == 0 ? 1e-14 * length : tolerance.residual_m;
+      if (best.residual_m <= enough || ++since > temper.patience) break;
+      const JointVector step = step_from(best, boost, length, temper);
+      ++result.iterations;
+      if (!step.allFinite()) break;
+      const JointVector wanted = best.joint_rad + step;
+      const JointVector allowed = limited(wanted, false);
+      result.at_joint_limit = result.at_joint_limit || allowed != wanted;
+      const Candidate next = evaluate(kinematics, goal, allowed);
+      if (next.residual_m < best.residual_m) {
+        best = next;
+        boost = std::max(0.1 * boost, 1.0);
+        if (best.residual_m < 0.5 * milestone) milestone = best.residual_m, since = 0;
+      } else {
+        boost = std::min(100.0 * boost, 1e12);
+      }
+    }
+    if (temper.turns_freely) best = evaluate(kinematics, goal, limited(best.joint_rad, true));
+    result.found = best.residual_m <= tolerance.residual_m;
+    result.joint_rad = best.joint_rad;
+    result.tool = best.tool;
     result.residual_m = best.residual_m;
     return result;
   }
-  double boost = 1.0;
-  // A loose tolerance must not freeze a slow motion: one step is made unless the start is exact.
-  for (std::uint32_t i = 0; i < tolerance.iterations_max; ++i) {
-    const double enough = i == 0 ? 1e-14 * length : tolerance.residual_m;
-    if (best.residual_m <= enough) break;
-    const Step step = damped_step(best, boost, singular_m2);
-    result.conditioning = std::sqrt(step.least_pivot) / length;
-    ++result.iterations;
-    if (!step.joint_rad.allFinite()) break;
-    const JointVector wanted = best.joint_rad + step.joint_rad;
-    const JointVector allowed = wanted.cwiseMax(min_rad_).cwiseMin(max_rad_);
-    result.at_joint_limit = result.at_joint_limit || allowed != wanted;
-    const Candidate next = evaluate(kinematics_, X_WE_goal, allowed);
-    if (next.residual_m < best.residual_m) {
-      best = next;
-      boost = std::max(0.1 * boost, 1.0);
-    } else {
-      boost = std::min(100.0 * boost, 1e12);
-    }
+};
+
+NumericResult NumericInverse::search_once(const Rigid& X_WE_goal, const JointVector& start_rad,
+                                          const InverseTolerance& tolerance) const {
+  return Run{*this, X_WE_goal, tolerance, kSearch}.from(start_rad);
+}
+
+NumericResult NumericInverse::solve(const Rigid& X_WE_goal, const JointVector& start_rad,
+                                    const InverseTolerance& tolerance) const {
+  const bool searches = tolerance.restarts_max > 0;
+  NumericResult best = Run{*this, X_WE_goal, tolerance, searches ? kSearch : kFollow}.from(start_rad);
+  for (std::uint32_t n = 1; n <= tolerance.restarts_max; ++n) {
+    if (best.found || !std::isfinite(best.residual_m)) break;
+    const NumericResult next = search_once(X_WE_goal, start(n), tolerance);
+    const std::uint32_t iterations = best.iterations + next.iterations;
+    if (next.residual_m < best.residual_m) best = next;
+    best.iterations = iterations;
   }
-  if (result.iterations == 0) {
-    result.conditioning = std::sqrt(damped_step(best, boost, singular_m2).least_pivot) / length;
-  }
-  result.status =
-      best.residual_m <= tolerance.residual_m ? InverseStatus::kFound : InverseStatus::kNotConverged;
-  result.joint_rad = best.joint_rad;
-  result.X_WE = best.tool.X_WE;
-  result.residual_m = best.residual_m;
-  return result;
+  return best;
 }
 
 }  // namespace longreach

@@ -3,8 +3,9 @@
 //   (JᵀJ + (|e|² + μ) I) Δq = Jᵀ e,   e = [L log(R_goal Rᵀ); p_goal - p]
 // with the robot's reach L making radians and metres comparable, damping |e|² that vanishes at the solution
 // (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after a step that did not
-// help (Levenberg). Joint limits are kept by projection. Finds the solution of the branch that it starts in
-// and no other.
+// help (Levenberg). Joint limits are kept by projection. One run finds a solution of the branch that it
+// starts in and no other; a search starts again from elsewhere, from a fixed sequence of starts, until it has
+// found one.
 
 #include <cstdint>
 
@@ -14,21 +15,16 @@ namespace longreach {
 
 struct InverseTolerance {
   double residual_m = 1e-10;          // |e| at which it stops, m
-  std::uint32_t iterations_max = 20;  // steps tried, at least 1
+  std::uint32_t iterations_max = 20;  // steps tried a run, at least 1
+  std::uint32_t restarts_max = 0;     // runs from elsewhere when the first fails
 };
 
-enum class InverseStatus : std::uint8_t {
-  kFound,        // joint_rad reaches the goal within the tolerance
-  kNotConverged  // joint_rad is the nearest that was found, within the joint limits
-};
-
-struct InverseResult {
-  InverseStatus status = InverseStatus::kNotConverged;
-  JointVector joint_rad = JointVector::Zero();  // finite if the start was
-  Pose X_WE{};                                  // of joint_rad
+struct NumericResult {
+  bool found = false;                           // within the tolerance; else the nearest that was seen
+  JointVector joint_rad = JointVector::Zero();  // within the joint limits; finite if the start was
+  RigidKinematics tool{};                       // of joint_rad
   double residual_m = 0.0;                      // |e| of joint_rad
-  double conditioning = 0.0;    // least pivot of J over L: 0 at a singular pose, about 0.3 at a good one
-  bool at_joint_limit = false;  // a joint limit was in the way
+  bool at_joint_limit = false;                  // a joint limit was in the way
   std::uint32_t iterations = 0;
 };
 
@@ -37,12 +33,23 @@ class NumericInverse {
   explicit NumericInverse(const RobotConfig& robot);
 
   /// `start_rad`: within the joint limits, finite. A goal that is not finite is answered with the start.
-  [[nodiscard]] InverseResult solve(const Pose& X_WE_goal, const JointVector& start_rad,
+  [[nodiscard]] NumericResult solve(const Rigid& X_WE_goal, const JointVector& start_rad,
                                     const InverseTolerance& tolerance) const;
 
+  /// One run of the search; its iteration passes limits of joints that can make a whole turn.
+  [[nodiscard]] NumericResult search_once(const Rigid& X_WE_goal, const JointVector& start_rad,
+                                          const InverseTolerance& tolerance) const;
+
+  /// The `number`-th start of a search, from 1.
+  [[nodiscard]] JointVector start(std::uint32_t number) const;
+
   [[nodiscard]] const Kinematics& kinematics() const { return kinematics_; }
+  [[nodiscard]] const JointVector& min_rad() const { return min_rad_; }
+  [[nodiscard]] const JointVector& max_rad() const { return max_rad_; }
 
  private:
+  struct Run;
+
   Kinematics kinematics_;
   JointVector min_rad_;
   JointVector max_rad_;

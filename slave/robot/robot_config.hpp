@@ -2,14 +2,31 @@
 // A robot as its file describes it.
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "slave/robot/robot.hpp"
 
 namespace longreach {
 
-/// Row of a standard Denavit-Hartenberg table, A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha), and the joint's
-/// limits.
+/// Which table the rows are of: A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha) (Denavit, Hartenberg 1955), or
+/// A = Rx(alpha) Tx(a) Rz(q + theta) Tz(d) (Craig).
+enum class DhConvention : std::uint8_t { kStandard, kModified };
+
+enum class JointKind : std::uint8_t {
+  kRevolute,
+  kPrismatic,  // q adds to d instead of theta: its fields _rad are in m
+  kFixed       // does not move: q counts as 0
+};
+
+/// Which of the solutions within the joint limits is taken.
+enum class BranchPreference : std::uint8_t {
+  kNearest,  // least distance in joint space from where the joints are
+  kSoonest,  // the joints are there first: least time of the slowest joint at its speed limit
+  kCentred   // farthest from the joint limits
+};
+
+/// Row of a Denavit-Hartenberg table and the joint's limits.
 struct JointConfig {
   double a_m = 0.0;
   double alpha_rad = 0.0;
@@ -20,12 +37,23 @@ struct JointConfig {
   double speed_max_rad_per_s = 1.0;
   double acceleration_max_rad_per_s2 = 5.0;
   double start_rad = 0.0;
+  JointKind kind = JointKind::kRevolute;
+  double draw_radius_m = 0.0;  // of the drawn link behind the joint; 0: in proportion to the robot
+};
+
+/// Pose of the tool E in the frame of the last row.
+struct ToolConfig {
+  Vector3 position_m = Vector3::Zero();
+  Vector3 rotation_rad = Vector3::Zero();  // rotation vector
 };
 
 struct RobotConfig {
   std::string name;
   std::string basis;
+  DhConvention convention = DhConvention::kStandard;
   std::array<JointConfig, kMaxJoints> joint{};
+  ToolConfig tool{};
+  BranchPreference prefer = BranchPreference::kNearest;
   double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
 };
 

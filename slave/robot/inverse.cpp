@@ -1,0 +1,269 @@
+#include "slave/robot/inverse.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "slave/robot/joint_step.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kWorthATry = 1e-6;  // a branch that misses by more has no solution next to it
+constexpr double kFollowMaxRad = 0.1;
+
+struct Error {
+  Vector3 rotation_rad, position_m;
+};
+
+Error error_of(const Rigid& goal, const Rigid& X) { return {rotation_between(X.R, goal.R), goal.p - X.p}; }
+
+bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
+
+// x less whole turns, in [-π, π], for |x| < 1e6: adding the constant rounds to an integer.
+double nearest_turn(double x) {
+  constexpr double kRound = 0x1.8p52;
+  return x - kTwoPi * ((x / kTwoPi + kRound) - kRound);
+}
+
+}  // namespace
+
+struct Inverse::Placed {
+  JointVector joint_rad;
+  RigidKinematics tool;
+  Error error;
+  double miss;  // the larger of both errors, rad and share of the reach
+};
+
+Inverse::Inverse(const RobotConfig& robot)
+    : numeric_(robot), closed_(numeric_.kinematics()), prefer_(robot.prefer) {
+  int sliders = 0, fixed = 0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const JointConfig& j = robot.joint[static_cast<std::size_t>(i)];
+    per_speed_s_[i] = 1.0 / j.speed_max_rad_per_s;
+    if (j.kind == JointKind::kFixed) ++fixed;
+    if (j.kind == JointKind::kPrismatic && sliders < 3) slider_[static_cast<std::size_t>(sliders++)] = i;
+  }
+  if (sliders != 3 || fixed != 3) return;
+  const Jacobian J = kinematics().rigid_with_jacobian(JointVector::Zero()).J;
+  Matrix3 axes;
+  for (int i = 0; i < 3; ++i) axes.col(i) = J.col(slider_[static_cast<std::size_t>(i)]).tail<3>();
+  cartesian_ = std::abs(axes.determinant()) > kRowTolerance;
+  if (cartesian_) from_position_ = axes.inverse();
+}
+
+std::string_view Inverse::words() const {
+  return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
+}
+
+// Newton steps, damped so little that only directions that are all but lost notice. Next to a singular pose
+// the first of them may lead away.
+bool Inverse::improve(const Rigid& goal, Placed& placed) const {
+  constexpr int kStepsMax = 12, kPatience = 3;
+  constexpr double kEnough = 0.4 * kExact;
+  constexpr double kDamping = 1e-15;  // of the reach squared
+  const double length = kinematics().reach_m();
+  const auto look = [&](Placed& p) {
+    p.tool = kinematics().rigid_with_jacobian(p.joint_rad);
+    p.error = error_of(goal, p.tool.X_WE);
+    p.miss = std::sqrt(
+        std::max(p.error.rotation_rad.squaredNorm(), p.error.position_m.squaredNorm() / (length * length)));
+  };
+  look(placed);
+  if (placed.miss <= kEnough) return true;
+  Placed next = placed;
+  for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience; ++i) {
+    Jacobian J_m = next.tool.J;
+    J_m.topRows<3>() *= length;
+    Vector6 e_m;
+    e_m << length * next.error.rotation_rad, next.error.position_m;
+    next.joint_rad += damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad;
+    look(next);
+    if (!(next.miss < 1.0)) break;
+    worse = next.miss < placed.miss ? 0 : worse + 1;
+    if (next.miss < placed.miss) placed = next;
+    if (placed.miss <= kEnough) break;
+  }
+  return placed.miss <= kExact;
+}
+
+// Each angle on the turn nearest to the joints before that the limits allow. False: there is none.
+bool Inverse::place(const JointVector& solution, const JointVector& near_rad, JointVector& placed) const {
+  constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const double low = numeric_.min_rad()[i], high = numeric_.max_rad()[i];
+    const double change = nearest_turn(solution[i] - near_rad[i]);
+    double q = near_rad[i] + change;
+    if (q > high + kSlack) q -= kTwoPi;
+    if (q < low - kSlack) q += kTwoPi;
+    if (!(q >= low - kSlack && q <= high + kSlack)) return false;
+    placed[i] = std::clamp(q, low, high);
+  }
+  return true;
+}
+
+double Inverse::cost(const JointVector& joint_rad, const JointVector& near_rad) const {
+  switch (prefer_) {
+    case BranchPreference::kSoonest:
+      return (joint_rad - near_rad).cwiseAbs().cwiseProduct(per_speed_s_).maxCoeff();
+    case BranchPreference::kCentred: {
+      const JointVector middle = 0.5 * (numeric_.min_rad() + numeric_.max_rad());
+      return (2.0 * (joint_rad - middle).cwiseAbs().cwiseQuotient(numeric_.max_rad() - numeric_.min_rad()))
+          .maxCoeff();
+    }
+    case BranchPreference::kNearest:
+      break;
+  }
+  return (joint_rad - near_rad).squaredNorm();
+}
+
+bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
+  Branches branches;
+  closed_.solve(goal, near_rad, branches);
+  std::array<double, Branches::kMax> costs;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < branches.count; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    Branch& b = branches.branch[n];
+    JointVector allowed;
+    const bool possible = b.miss <= kWorthATry && place(b.joint_rad, near_rad, allowed);
+    costs[n] = possible ? cost(allowed, near_rad) : kNever;
+    if (possible) b.joint_rad = allowed;
+  }
+  for (int tries = 0; tries < branches.count; ++tries) {
+    const auto best = std::min_element(costs.begin(), costs.begin() + branches.count);
+    if (!(*best < kNever)) return false;
+    placed.joint_rad = branches.branch[static_cast<std::size_t>(best - costs.begin())].joint_rad;
+    *best = kNever;
+    if (!improve(goal, placed)) continue;
+    const JointVector allowed = placed.joint_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
+    if (allowed != placed.joint_rad) {
+      placed.joint_rad = allowed;
+      placed.tool = kinematics().rigid_with_jacobian(allowed);
+      placed.error = error_of(goal, placed.tool.X_WE);
+    }
+    return true;
+  }
+  return false;
+}
+
+InverseResult Inverse::report(const Placed& placed, double enough_m) const {
+  const double length = kinematics().reach_m();
+  InverseResult result;
+  result.joint_rad = placed.joint_rad;
+  result.X_WE = to_pose(placed.tool.X_WE);
+  result.position_error_m = placed.error.position_m.norm();
+  result.rotation_error_rad = placed.error.rotation_rad.norm();
+  result.conditioning = conditioning(placed.tool.J, length);
+  const double residual_m = std::hypot(length * result.rotation_error_rad, result.position_error_m);
+  if (!(residual_m <= std::max(enough_m, 2.0 * kExact * length))) return result;
+  result.status = InverseStatus::kFound;
+  if (result.conditioning > kSingular) return result;
+  result.status = InverseStatus::kSingular;
+  result.lost = lost_direction(placed.tool.J, length);
+  return result;
+}
+
+InverseResult Inverse::iterate(const Rigid& goal, const JointVector& near_rad,
+                               const InverseTolerance& tolerance) const {
+  const NumericResult found = numeric_.solve(goal, near_rad, tolerance);
+  const Placed placed{found.joint_rad, found.tool, error_of(goal, found.tool.X_WE), 0.0};
+  InverseResult result = report(placed, tolerance.residual_m);
+  result.at_joint_limit = found.at_joint_limit;
+  result.iterations = found.iterations;
+  return result;
+}
+
+InverseResult Inverse::slide(const Rigid& goal, const JointVector& near_rad) const {
+  const RigidKinematics tool = kinematics().rigid_with_jacobian(near_rad);
+  const Vector3 change = from_position_ * (goal.p - tool.X_WE.p);
+  Placed placed{near_rad, tool, {}, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) placed.joint_rad[slider_[i]] += change[static_cast<int>(i)];
+  const JointVector wanted = placed.joint_rad;
+  placed.joint_rad = wanted.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
+  placed.tool = kinematics().rigid_with_jacobian(placed.joint_rad);
+  placed.error = error_of(goal, placed.tool.X_WE);
+  InverseResult result = report(placed, 0.0);
+  result.status = result.position_error_m <= 2.0 * kExact * kinematics().reach_m() ? InverseStatus::kFound
+                                                                                   : InverseStatus::kNearest;
+  result.lost.setZero();
+  result.conditioning = 1.0;
+  result.at_joint_limit = placed.joint_rad != wanted;
+  result.rotation_ignored = true;
+  return result;
+}
+
+InverseResult Inverse::solve(const Pose& X_WE_goal, const JointVector& near_rad,
+                             const InverseTolerance& tolerance) const {
+  const JointVector start = near_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
+  if (!finite(X_WE_goal)) {
+    InverseResult result;
+    result.joint_rad = start;
+    result.X_WE = kinematics().forward(start);
+    result.position_error_m = result.rotation_error_rad = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
+  if (cartesian_) return slide(goal, start);
+  Placed placed;
+  if (closed_.applies() && choose(goal, near_rad, placed)) return report(placed, tolerance.residual_m);
+  return iterate(goal, start, tolerance);
+}
+
+InverseResult Inverse::follow(const Pose& X_WE_goal, const JointVector& joint_rad,
+                              const InverseTolerance& tolerance) const {
+  if (cartesian_ || !closed_.applies() || !finite(X_WE_goal)) return solve(X_WE_goal, joint_rad, tolerance);
+  const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
+  Placed placed;
+  if (choose(goal, joint_rad, placed) &&
+      (placed.joint_rad - joint_rad).cwiseAbs().maxCoeff() <= kFollowMaxRad) {
+    return report(placed, tolerance.residual_m);
+  }
+  return iterate(goal, joint_rad, tolerance);
+}
+
+InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad,
+                              const InverseTolerance& tolerance) const {
+  constexpr double kSame = 1e-6;  // rad
+  InverseSolutions solutions;
+  if (!finite(X_WE_goal)) return solutions;
+  const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
+  const auto add = [&](JointVector q) {
+    for (int i = 0; i < kMaxJoints; ++i) q[i] = near_rad[i] + nearest_turn(q[i] - near_rad[i]);
+    for (int n = 0; n < solutions.count; ++n) {
+      const JointVector gap = q - solutions.joint_rad[static_cast<std::size_t>(n)];
+      double largest = 0.0;
+      for (int i = 0; i < kMaxJoints; ++i) largest = std::max(largest, std::abs(nearest_turn(gap[i])));
+      if (largest <= kSame) return;
+    }
+    if (solutions.count < InverseSolutions::kMax)
+      solutions.joint_rad[static_cast<std::size_t>(solutions.count++)] = q;
+  };
+  Placed placed;
+  if (closed_.applies()) {
+    Branches branches;
+    closed_.solve(goal, near_rad, branches);
+    for (int i = 0; i < branches.count; ++i) {
+      const Branch& b = branches.branch[static_cast<std::size_t>(i)];
+      placed.joint_rad = b.joint_rad;
+      if (b.miss <= kWorthATry && improve(goal, placed)) add(placed.joint_rad);
+    }
+    return solutions;
+  }
+  if (cartesian_) {
+    const InverseResult result = slide(goal, near_rad);
+    if (result.status != InverseStatus::kNearest)
+      solutions.joint_rad[0] = result.joint_rad, solutions.count = 1;
+    return solutions;
+  }
+  for (std::uint32_t n = 0; n <= tolerance.restarts_max; ++n) {
+    placed.joint_rad = numeric_.search_once(goal, n == 0 ? near_rad : numeric_.start(n), tolerance).joint_rad;
+    if (improve(goal, placed)) add(placed.joint_rad);
+  }
+  return solutions;
+}
+
+}  // namespace longreach

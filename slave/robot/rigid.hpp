@@ -1,0 +1,43 @@
+#pragma once
+// A rigid displacement as rotation matrix and translation: what chains of joints are multiplied with. Pose
+// (common/spatial) is the same with a quaternion, for interfaces.
+
+#include <cmath>
+
+#include "common/spatial/arc_tangent.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+struct Rigid {
+  Matrix3 R = Matrix3::Identity();
+  Vector3 p = Vector3::Zero();  // m
+};
+
+inline Rigid operator*(const Rigid& a, const Rigid& b) { return {a.R * b.R, a.p + a.R * b.p}; }
+
+inline Rigid inverse(const Rigid& a) {
+  const Matrix3 R = a.R.transpose();
+  return {R, -(R * a.p)};
+}
+
+inline Rigid to_rigid(const Pose& X) { return {X.q.toRotationMatrix(), X.p}; }
+inline Pose to_pose(const Rigid& X) { return {X.p, Quaternion(X.R).normalized()}; }
+
+/// Shortest rotation vector from `from` to `to`, both seen from the same frame, in that frame; rad. Accurate
+/// to rounding for small rotations.
+inline Vector3 rotation_between(const Matrix3& from, const Matrix3& to) {
+  const Vector3 w = 0.5 * (from.col(0).cross(to.col(0)) + from.col(1).cross(to.col(1)) +
+                           from.col(2).cross(to.col(2)));  // axis times sine
+  const double square = w.squaredNorm();
+  const double cosine = 0.5 * (from.cwiseProduct(to).sum() - 1.0);
+  constexpr double kSmall = 1e-8;
+  if (square < kSmall) {
+    if (cosine > 0.0) return w * (1.0 + square / 6.0);
+    return log_rotation(Quaternion(Matrix3(to * from.transpose())).normalized());
+  }
+  const double sine = std::sqrt(square);
+  return w * (arc_tangent(sine, cosine) / sine);
+}
+
+}  // namespace longreach
