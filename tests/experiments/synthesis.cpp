@@ -125,7 +125,7 @@ Panel progress_panel(const std::string& name, const std::string& title) {
 Panel slice_panel(const std::string& name, const std::string& title, double left) {
   const std::string margins = "set lmargin at screen " + std::to_string(left) + "\nset rmargin at screen " +
                               std::to_string(left + 0.36) +
-                              "\nset tmargin at screen 0.86\nset bmargin at screen 0.212\n";
+                              "\nset tmargin at screen 0.82\nset bmargin at screen 0.138\n";
   return {
       "z (mm)",
       {{name + "_z_mm", title}},
@@ -133,8 +133,8 @@ Panel slice_panel(const std::string& name, const std::string& title, double left
           "set format x '%g'\nset xlabel 'x (mm)'\nset xrange [-75:75]\nset yrange [-150:0]\n"
           "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n"
           "set cbrange [0:1]\nset cblabel 'conditioning'\nset key at screen " +
-          std::to_string(left + 0.36) + ",0.92 horizontal\n" +
-          (left < 0.3 ? "unset colorbox\n" : "set colorbox user origin 0.91,0.212 size 0.018,0.648\n") +
+          std::to_string(left + 0.36) + ",0.87 horizontal\n" +
+          (left < 0.3 ? "unset colorbox\n" : "set colorbox user origin 0.91,0.138 size 0.018,0.682\n") +
           "plot 'synthesis_slice.csv' using 'x_mm':'z_mm':'" + name +
           "' with image notitle, 'synthesis_cubes.csv' using 'x_mm':'" + name +
           "_z_mm' with lines lw 5 lc rgb '#ffffff' notitle"};
@@ -158,7 +158,7 @@ std::vector<Plot> synthesis_plots() {
            .x_label = "side of the cube (mm)",
            .panels = {{"worst conditioning",
                        {{"designed", "designed for it"}, {"catalog", "catalog device"}},
-                       "set yrange [0:1]\nset tmargin at screen 0.88\nset bmargin at screen 0.18"}}},
+                       "set yrange [0:1]"}}},
           {.name = "synthesis_slice",
            .csv = "synthesis_cubes",
            .title = "Conditioning in the plane y = 0, and the cube",
