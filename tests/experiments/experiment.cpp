@@ -25,6 +25,8 @@ const std::vector<Experiment>& experiments() {
        run_wall_translation, wall_translation_plots},
       {"gravity", "Torques that carry the translational device, and where it goes when let go (Fig. 15, 16).",
        run_gravity, gravity_plots},
+      {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
+       run_fk_network, fk_network_plots},
       {"synthesis",
        "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
        run_synthesis, synthesis_plots},

@@ -65,6 +65,8 @@ std::vector<Metric> run_wall_translation(const ExperimentRun& run);
 std::vector<Plot> wall_translation_plots();
 std::vector<Metric> run_gravity(const ExperimentRun& run);
 std::vector<Plot> gravity_plots();
+std::vector<Metric> run_fk_network(const ExperimentRun& run);
+std::vector<Plot> fk_network_plots();
 std::vector<Metric> run_synthesis(const ExperimentRun& run);
 std::vector<Plot> synthesis_plots();
 

@@ -11,6 +11,7 @@
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/solve.hpp"
+#include "tests/experiments/train.hpp"
 
 namespace longreach {
 namespace {
@@ -111,6 +112,15 @@ int main(int argc, char** argv) {
       ->add_option("kind", kind, "Kind of question")
       ->required()
       ->check(CLI::IsMember(longreach::solve_kinds()));
+  std::uint64_t train_seed = 1;
+  std::string train_out = "spherical_network.txtpb";
+  CLI::App* train = app.add_subcommand(
+      "train",
+      "Train the networks of a haptic device's forward kinematics (Levenberg-Marquardt by Ceres Solver, one "
+      "thread, a few minutes); the same seed writes the same bytes. deploy/devices/ holds those of seed 1");
+  train->add_option("kind", kind, "Device")->required()->check(CLI::IsMember(longreach::train_kinds()));
+  train->add_option("--seed", train_seed, "Seed of samples and first weights")->capture_default_str();
+  train->add_option("--out", train_out, "File that is written")->type_name("FILE")->capture_default_str();
   RunOptions o;
   CLI::App* run =
       app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
@@ -131,6 +141,10 @@ int main(int argc, char** argv) {
     return status == 0 ? 0 : longreach::kBadUsage;
   }
   try {
+    if (app.got_subcommand("train")) {
+      longreach::train(kind, train_seed, train_out);
+      return longreach::kDone;
+    }
     if (app.got_subcommand("solve")) return longreach::solve(kind, std::cin, std::cout);
     return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
   } catch (const std::exception& e) {

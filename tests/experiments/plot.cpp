@@ -12,25 +12,25 @@ namespace {
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
 
-constexpr double kTitle_px = 50.0, kPanel_px = 190.0, kAxis_px = 45.0;
+constexpr double kTitle_px = 50.0, kAxis_px = 45.0;
 
 double height_px(const Plot& plot) {
-  return kTitle_px + kPanel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
+  return kTitle_px + plot.panel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
 }
 
 void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::size_t i) {
   const bool last = i + 1 == plot.panels.size();
-  const double height = kPanel_px / height_px(plot);
-  const double top = 1.0 - (kTitle_px + static_cast<double>(i) * kPanel_px) / height_px(plot);
+  const double height = plot.panel_px / height_px(plot);
+  const double top = 1.0 - (kTitle_px + static_cast<double>(i) * plot.panel_px) / height_px(plot);
   out << "set tmargin at screen " << top << "\nset bmargin at screen " << top - 0.86 * height << '\n';
   out << "set ylabel '" << panel.y_label << "' offset 0.5,0\n";
   out << (last ? "set format x '%g'\nset xlabel '" + plot.x_label + "'\n" : "set format x ''\nset xlabel\n");
-  out << "set yrange [*:*]\n" << panel.extra << "\nplot ";
+  out << "set yrange [*:*]\nset pointsize 0.7\n" << panel.extra << "\nplot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
     out << (c ? ", " : "") << "'" << plot.csv << ".csv' using (column('" << plot.x_column << "')*"
         << plot.x_factor << "):(column('" << curve.column << "')*" << curve.factor << ") with "
-        << (curve.points ? "points pt 7 ps 0.7" : "lines lw 1.6") << " lc rgb '"
+        << (curve.points ? "points pt " + std::to_string(curve.mark) : "lines lw 1.6") << " lc rgb '"
         << kColours[c % kColours.size()] << "' title '" << curve.title << "'";
   }
   out << '\n';

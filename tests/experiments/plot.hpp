@@ -13,6 +13,7 @@ struct Curve {
   std::string title;
   double factor = 1.0;  // from the column's unit to the axis's
   bool points = false;  // instead of a line
+  int mark = 7;         // gnuplot's point type
 };
 
 struct Panel {
@@ -29,6 +30,7 @@ struct Plot {
   std::string x_label;
   double x_factor = 1.0;  // from the column's unit to the axis's
   std::vector<Panel> panels;
+  double panel_px = 190.0;  // height of a panel
 };
 
 /// Writes FOLDER/NAME.gp and FOLDER/NAME.svg. Returns a sentence when gnuplot is missing or fails, else

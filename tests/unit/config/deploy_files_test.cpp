@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/config/field_text.hpp"
+#include "proto/network.pb.h"
 #include "tests/unit/config/temporary_folder.hpp"
 
 namespace longreach {
@@ -17,6 +18,8 @@ const fs::path kDeploy = LONGREACH_DEPLOY;
 std::unique_ptr<Message> message_for(const fs::path& file) {
   const std::string folder = file.parent_path().filename().string();
   if (folder == "links") return std::make_unique<proto::LinkProfile>();
+  if (folder == "devices" && file.stem().string().ends_with("_network"))
+    return std::make_unique<proto::SphericalNetwork>();
   if (folder == "devices") return std::make_unique<proto::Device>();
   if (folder == "robots") return std::make_unique<proto::Robot>();
   if (folder == "scenes") return std::make_unique<proto::Scene>();
