@@ -129,19 +129,16 @@ int SphericalNetwork::cell_of(const Vector3& g) const {
   return cell;
 }
 
-bool SphericalNetwork::in_cell(const Vector3& g, int cell, double overlap) const {
-  const Vector3 off = (g - centre_[static_cast<std::size_t>(cell)]).cwiseAbs();
-  return (off.array() <= (0.5 + overlap) * config_.cells.width.array()).all();
-}
-
 SphericalEstimate SphericalNetwork::nothing(SolutionStatus status) const {
   return {status, config_.workspace.q_home, -1};
 }
 
 SphericalEstimate SphericalNetwork::accept(const Vector3& g, int cell) const {
   const double overlap = config_.cells.overlap;
-  if (!in_cell(g, cell, overlap)) return nothing(SolutionStatus::kNotConverged);
-  const int next = in_cell(g, cell, 0.5 * overlap) ? cell : cell_of(g);
+  const Vector3 centre = centre_[static_cast<std::size_t>(cell)];
+  const double off = (g - centre).cwiseAbs().cwiseProduct(per_width_).maxCoeff();  // in widths
+  if (off > 0.5 + overlap) return nothing(SolutionStatus::kNotConverged);
+  const int next = off <= 0.5 + 0.5 * overlap ? cell : cell_of(g);
   return {SolutionStatus::kFound, turned(g, config_.workspace.q_home), next};
 }
 
