@@ -3,6 +3,7 @@
 // `longreach-lab train spherical` makes and deploy/devices/ holds.
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "master/devices/spherical/spherical_geometry.hpp"
