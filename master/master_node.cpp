@@ -23,8 +23,10 @@ std::size_t history_capacity(double send_hz) {
 RenderedDevice rendered_device(const MasterConfig& c) {
   const double period_s = 1.0 / c.loop.rate_hz;
   const DeviceFigures device = device_figures(c.device, period_s);
-  return {.handle_mass_kg = device.mass_kg,
+  return {.mass_kg = device.mass_kg,
           .damping_n_s_per_m = device.damping_n_s_per_m,
+          .inertia_kg_m2 = device.inertia_kg_m2,
+          .damping_nm_s_per_rad = device.damping_nm_s_per_rad,
           .period_s = period_s,
           .delay_s = device.delay_s};
 }
@@ -67,7 +69,7 @@ struct MasterNode::State {
   HandleBehaviour behaviour;
   Mapping mapping;
   Renderer renderer;
-  GoalHistory history;
+  GoalHistories history;
   double period_s;
   HandleState handle{};  // as last read, or as last plausible
   Buttons buttons{};     // in the last tick
@@ -119,9 +121,10 @@ RendererInput MasterNode::State::renderer_input() {
   const SafetyState state = safety.state();
   RendererInput at;
   at.handle = handle;
-  at.behaviour = behaviour.step(handle, period_s);
-  at.behaviour_j = behaviour.translation().energy_j();
-  at.behaviour_supplied_j = behaviour.translation().supplied_j();
+  const Wrench by_itself = behaviour.step(handle, period_s);
+  const HandleSprings &linear = behaviour.translation(), &angular = behaviour.rotation();
+  at.translation = {by_itself.force, linear.energy_j(), linear.supplied_j()};
+  at.rotation = {by_itself.moment, angular.energy_j(), angular.supplied_j()};
   at.mode = view.mode;
   at.scale = view.scale;
   at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
@@ -138,7 +141,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
     if (renderer.on_report(report, history, at, mapping)) {
       ++view.reports;
-      view.force_step_n = renderer.force_step_n();
+      view.force_step_n = renderer.translation().contact.force_step();
     } else {
       ++view.rejected_values;
     }
@@ -200,7 +203,8 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
     out.sequence = ++s.sequence;
     out.command = s.command();
-    s.history.push(out.sequence, s.mapping.goal().position_m);
+    s.history.translation.push(out.sequence, s.mapping.goal().position_m);
+    s.history.rotation.push(out.sequence, log_rotation(s.mapping.goal().rotation));
   }
   s.publish(out.F_H_M);
   return out;
@@ -215,19 +219,23 @@ void MasterNode::State::publish(const Wrench& F) {
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = log_rotation(mapping.goal().rotation);
   view.F_H_M = F;
-  view.spring_force_n = -renderer.spring_force_n() * renderer.surface().inward();
-  view.surface_known = renderer.surface().known();
-  view.surface_m = renderer.surface_handle_m();
-  view.inward = renderer.surface().inward();
-  view.stiffness_n_per_m = renderer.stiffness_n_per_m();
-  view.port_energy_j = renderer.guard().port_energy_j();
-  view.port_energy_min_j = renderer.guard().port_energy_min_j();
+  const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
+  const ContactAxis& surface = linear.contact.foremost();
+  view.spring_force_n = -surface.force * surface.n_M;
+  view.surface_known = linear.contact.known();
+  view.surface_m = surface.surface;
+  view.inward = surface.n_M;
+  view.stiffness_n_per_m = renderer.stiffness(linear);
+  view.spring_moment_nm = -angular.contact.foremost().force * angular.contact.foremost().n_M;
+  view.rotational_stiffness_nm_per_rad = renderer.stiffness(angular);
+  view.port_energy_j = renderer.port_energy_j();
+  view.port_energy_min_j = renderer.port_energy_min_j();
   view.stored_energy_j = renderer.stored_energy_j();
-  view.energy_drawdown_j = renderer.guard().deficit_max_j();
-  view.tank_j = renderer.spring().tank_j();
-  view.force_clamped = renderer.guard().force_clamped() || renderer.spring().yielding();
-  view.stiffness_clamped = renderer.spring().clamped();
-  view.damping_injected = renderer.guard().injecting();
+  view.energy_drawdown_j = linear.guard.deficit_max_j() + angular.guard.deficit_max_j();
+  view.tank_j = linear.tank.level_j();
+  view.force_clamped = linear.guard.clamped() || linear.contact.yielding();
+  view.stiffness_clamped = linear.contact.clamped();
+  view.damping_injected = linear.guard.injecting() || angular.guard.injecting();
   view.false_holds = safety.false_holds();
 }
 

@@ -177,6 +177,12 @@ void visit_fields(Visitor& visit, S& s) {
   visit("moment_max_nm", s.moment_max_nm);
   visit("ramp_s", s.ramp_s);
   visit("forget_depth_m", s.forget_depth_m);
+  visit("ke_rotation", s.ke_rotation);
+  visit("contact_damping_nm_s_per_rad", s.contact_damping_nm_s_per_rad);
+  visit("stiffness_max_nm_per_rad", s.stiffness_max_nm_per_rad);
+  visit("slew_n_per_s", s.slew_n_per_s);
+  visit("slew_nm_per_s", s.slew_nm_per_s);
+  visit("forget_depth_rad", s.forget_depth_rad);
 }
 
 template <class Visitor, Is<MasterSafetyConfig> S>

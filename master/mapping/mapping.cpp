@@ -75,4 +75,9 @@ double Mapping::handle_offset_m(const Vector3& n, double offset_m) const {
   return n.dot(x_ref_) + (offset_m - n.dot(g_ref_)) / scale_;
 }
 
+Vector3 Mapping::handle_rotation_at(const Quaternion& goal_rotation) const {
+  const Vector3 turn = log_rotation(goal_rotation * q_gref_.conjugate()) / scale_;
+  return log_rotation(exp_rotation(turn) * q_ref_);
+}
+
 }  // namespace longreach

@@ -47,6 +47,10 @@ class Mapping {
   /// Where along `n` (unit) the handle meets the plane n . g = `offset_m` of the goal's space. Position mode
   /// only.
   [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
+  /// The handle's rotation vector, from home in M, at which position mode commands `goal_rotation`.
+  [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
+  /// R_WM.
+  [[nodiscard]] const Quaternion& base() const { return base_; }
 
  private:
   void take_references(const HandleState& handle);
@@ -54,6 +58,7 @@ class Mapping {
   void step_position(const HandleState& handle, double dt_s);
 
   MappingConfig config_;
+  Quaternion base_ = Quaternion::Identity();
   Goal goal_{};
   MotionMode mode_ = MotionMode::kPosition;
   double scale_ = 1.0;

@@ -35,18 +35,18 @@ bool ContactSpring::set_surface(double surface_m) {
   return true;
 }
 
-double ContactSpring::step(double s_m, double dt_s) {
+double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
   const double share = -std::expm1(-dt_s / config_.fade_s);
   fading_ -= share * fading_;
   if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
-  return_anchor(s_m, share);
+  return_anchor(s_m, share, tank);
   return force_n(s_m);
 }
 
-void ContactSpring::return_anchor(double s_m, double share) {
+void ContactSpring::return_anchor(double s_m, double share, EnergyTank& tank) {
   paid_j_ = 0.0;
   const double k = stiffness_n_per_m();
   const double depth = s_m - anchor_m_;
@@ -63,17 +63,10 @@ void ContactSpring::return_anchor(double s_m, double share) {
   // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
   double out = std::min(-move, std::max(0.0, config_.force_max_n / k - depth));
   const double cost = 0.5 * k * out * (2.0 * depth + out);
-  if (cost > tank_j_) out = (2.0 * tank_j_ / k) / (depth + std::sqrt(depth * depth + 2.0 * tank_j_ / k));
-  paid_j_ = std::min(0.5 * k * out * (2.0 * depth + out), tank_j_);
-  tank_j_ -= paid_j_;
+  const double there = tank.level_j();
+  if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));
+  paid_j_ = tank.spend(0.5 * k * out * (2.0 * depth + out));
   anchor_m_ -= out;
-}
-
-double ContactSpring::fill_tank(double energy_j) {
-  const double level = std::clamp(tank_j_ + energy_j, 0.0, config_.tank_max_j);
-  const double left = tank_j_ + energy_j - level;
-  tank_j_ = level;
-  return left;
 }
 
 double ContactSpring::force_n(double s_m) const {

@@ -10,7 +10,10 @@
 //   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy;
 //   above `force_max_n` the spring yields: the anchor gives way.
 //
-// Pure; every input may be anything, non-finite ones are refused by set_*.
+// Pure; every input may be anything, non-finite ones are refused by set_*. Lengths and forces may as well be
+// angles and moments.
+
+#include "master/rendering/energy_tank.hpp"
 
 namespace longreach {
 
@@ -18,7 +21,6 @@ struct ContactSpringConfig {
   double fade_s = 0.2;
   double stiffness_max_n_per_m = 7000.0;
   double force_max_n = 15.0;
-  double tank_max_j = 0.02;
 };
 
 class ContactSpring {
@@ -35,17 +37,12 @@ class ContactSpring {
   /// Registered surface, m. Returns false, changing nothing, if not finite.
   bool set_surface(double surface_m);
 
-  /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor. Returns the
-  /// force >= 0, N, against the inward direction.
-  double step(double s_m, double dt_s);
-
-  /// Energy that dissipation elsewhere at the port makes available; kept up to tank_max_j. May be negative (a
-  /// debt paid from the tank). Returns what the tank could not take or pay.
-  double fill_tank(double energy_j);
+  /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
+  /// tank. Returns the force >= 0, N, against the inward direction.
+  double step(double s_m, double dt_s, EnergyTank& tank);
 
   [[nodiscard]] double force_n(double s_m) const;
-  [[nodiscard]] double energy_j(double s_m) const;  // stored in the spring
-  [[nodiscard]] double tank_j() const { return tank_j_; }
+  [[nodiscard]] double energy_j(double s_m) const;         // stored in the spring
   [[nodiscard]] double paid_j() const { return paid_j_; }  // from tank to spring, in the last step
   [[nodiscard]] double stiffness_n_per_m() const { return target_ + fading_; }
   [[nodiscard]] double anchor_m() const { return anchor_m_; }
@@ -54,14 +51,13 @@ class ContactSpring {
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
 
  private:
-  void return_anchor(double s_m, double share);
+  void return_anchor(double s_m, double share, EnergyTank& tank);
 
   ContactSpringConfig config_;
   double target_ = 0.0;  // stiffness that stays, N/m
   double fading_ = 0.0;  // stiffness that is on its way out, N/m
   double anchor_m_ = 0.0;
   double surface_m_ = 0.0;
-  double tank_j_ = 0.0;
   double paid_j_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;

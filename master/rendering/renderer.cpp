@@ -6,157 +6,182 @@
 namespace longreach {
 namespace {
 
-ContactSpringConfig spring_config(const RenderingConfig& c, const RenderedDevice& d) {
-  // Sampled spring on a damped device: K < b/(T/2 + t_d) (Colgate and Schenkel 1997, virtual damping left
-  // out).
-  const double device_limit = d.damping_n_s_per_m / (0.5 * d.period_s + d.delay_s);
-  return {.fade_s = c.fade_s,
-          .stiffness_max_n_per_m = std::min(c.stiffness_max_n_per_m, device_limit),
-          .force_max_n = c.force_max_n,
-          .tank_max_j = c.tank_max_j};
+/// Sampled spring on a damped device: K < b/(T/2 + t_d) (Colgate and Schenkel 1997, virtual damping left
+/// out).
+double device_limit(const RenderedDevice& d, double damping) {
+  return damping / (0.5 * d.period_s + d.delay_s);
 }
 
-PortGuardConfig guard_config(const RenderingConfig& c, const RenderedDevice& d) {
-  return {.handle_mass_kg = d.handle_mass_kg,
-          .force_max_n = c.force_max_n,
-          .moment_max_nm = c.moment_max_nm,
+ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice& d) {
+  return {.spring = {.fade_s = c.fade_s,
+                     .stiffness_max_n_per_m =
+                         std::min(c.stiffness_max_n_per_m, device_limit(d, d.damping_n_s_per_m)),
+                     .force_max_n = c.force_max_n},
+          .ke = c.ke,
+          .damping = c.contact_damping_n_s_per_m,
+          .forget_depth = c.forget_depth_m,
+          .least_motion = 1e-4};
+}
+
+ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d) {
+  return {.spring = {.fade_s = c.fade_s,
+                     .stiffness_max_n_per_m =
+                         std::min(c.stiffness_max_nm_per_rad, device_limit(d, d.damping_nm_s_per_rad)),
+                     .force_max_n = c.moment_max_nm},
+          .ke = c.ke_rotation,
+          .damping = c.contact_damping_nm_s_per_rad,
+          .forget_depth = c.forget_depth_rad,
+          .least_motion = 1e-3};
+}
+
+PortGuardConfig translation_guard(const RenderingConfig& c, const RenderedDevice& d) {
+  return {
+      .handle_mass = d.mass_kg, .force_max = c.force_max_n, .slew_per_s = c.slew_n_per_s, .ramp_s = c.ramp_s};
+}
+
+PortGuardConfig rotation_guard(const RenderingConfig& c, const RenderedDevice& d) {
+  return {.handle_mass = d.inertia_kg_m2,
+          .force_max = c.moment_max_nm,
+          .slew_per_s = c.slew_nm_per_s,
           .ramp_s = c.ramp_s};
 }
 
-bool finite(const HandleState& h) {
-  return h.p_MH.allFinite() && h.velocity_m_per_s.allFinite() && h.q_MH.coeffs().allFinite() &&
-         h.angular_rad_per_s.allFinite();
+/// D in φ' = D(φ) ω, φ = log(R), ω in the frame of the base: the inverse left Jacobian of SO(3).
+Matrix3 rotation_vector_rate(const Vector3& phi) {
+  Matrix3 cross;
+  cross << 0.0, -phi.z(), phi.y(), phi.z(), 0.0, -phi.x(), -phi.y(), phi.x(), 0.0;
+  const double angle = phi.norm();
+  // (1 - (a/2) cot(a/2))/a²; its series near zero.
+  const double c = angle < 1e-3 ? 1.0 / 12.0 + angle * angle / 720.0
+                                : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  return Matrix3::Identity() - 0.5 * cross + c * cross * cross;
+}
+
+ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping) {
+  return {in.handle.p_MH, in.handle.velocity_m_per_s, mapping.goal().position_m,
+          in.mode == MotionMode::kRate};
+}
+
+ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping) {
+  const Vector3 phi = log_rotation(in.handle.q_MH);
+  return {phi, rotation_vector_rate(phi) * in.handle.angular_rad_per_s, log_rotation(mapping.goal().rotation),
+          in.mode == MotionMode::kRate};
 }
 
 }  // namespace
+
+void HandPort::account(double entered_j, double now_j, double supplied_j) {
+  double rest_j = entered_j - (now_j - stored_j) + contact.paid_j() + supplied_j;
+  stored_j = now_j;
+  if (rest_j > 0.0) {
+    rest_j = guard.repay(rest_j);
+    tank.fill(rest_j);
+  } else {
+    guard.owe(-tank.fill(rest_j));
+  }
+}
 
 Renderer::Renderer(const RenderingConfig& config, const RenderedDevice& device)
     : config_(config),
       device_(device),
       resistance_(config),
-      spring_(spring_config(config, device)),
-      guard_(guard_config(config, device)) {}
+      translation_(ContactMotion::kTranslation, translation_contact(config, device),
+                   translation_guard(config, device), config.tank_max_j),
+      rotation_(ContactMotion::kRotation, rotation_contact(config, device), rotation_guard(config, device),
+                config.tank_max_j) {}
 
 void Renderer::configure(const RenderingConfig& config) {
   config_ = config;
   resistance_.configure(config);
-  spring_.configure(spring_config(config, device_));
-  guard_.configure(guard_config(config, device_));
+  translation_.contact.configure(translation_contact(config, device_));
+  rotation_.contact.configure(rotation_contact(config, device_));
+  translation_.guard.configure(translation_guard(config, device_));
+  rotation_.guard.configure(rotation_guard(config, device_));
+  translation_.tank.resize(config.tank_max_j);
+  rotation_.tank.resize(config.tank_max_j);
 }
 
 void Renderer::reset(const HandleState& handle) {
   resistance_.reset(handle);
-  surface_.clear();
-  spring_.begin(0.0, 0.0);
-  naive_stiffness_ = 0.0;
-  guard_.reset(handle.p_MH);
-  guard_.open();
-  stored_j_ = 0.0;
-  spring_force_n_ = 0.0;
+  x_last_ = handle.p_MH;
+  q_last_ = handle.q_MH;
+  for (HandPort* port : {&translation_, &rotation_}) {
+    port->contact.reset();
+    port->guard.reset();
+    port->guard.open();
+    port->stored_j = 0.0;
+  }
 }
 
-bool Renderer::on_report(const StiffnessReport& report, const GoalHistory& history,
+bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& history,
                          const RendererInput& input, const Mapping& mapping) {
-  if (!finite(input.handle)) return true;
-  const double before_n = contact_force(input, surface_.inward().dot(input.handle.p_MH));
-  const bool at_rest = spring_.energy_j(surface_.inward().dot(input.handle.p_MH)) <= 0.0;
-  const SurfaceChange change = surface_.on_report(report.translation, report.reached_sequence, history,
-                                                  at_rest, config_.forget_depth_m);
-  const double s_m = surface_.inward().dot(input.handle.p_MH);
-  switch (change) {
-    case SurfaceChange::kRejected:
-      return false;
-    case SurfaceChange::kNone:
-      return true;
-    case SurfaceChange::kNew:
-      if (at_rest) {
-        spring_.begin(s_m, locate_surface(input, mapping, s_m));
-        spring_.set_stiffness(s_m, config_.ke * surface_.stiffness_n_per_m());
-      } else {
-        spring_.set_stiffness(s_m, 0.0);  // fades first; a later report brings the new normal
-      }
-      break;
-    case SurfaceChange::kUpdated:
-      spring_.set_stiffness(s_m, config_.ke * surface_.stiffness_n_per_m());
-      break;
-    case SurfaceChange::kGone:
-      spring_.set_stiffness(s_m, 0.0);
-      break;
+  const ContactChange first =
+      translation_.contact.on_report(report.translation, report.reached_sequence, history.translation,
+                                     translation_handle(input, mapping), mapping);
+  const ContactChange second = rotation_.contact.on_report(
+      report.rotation, report.reached_sequence, history.rotation, rotation_handle(input, mapping), mapping);
+  return first != ContactChange::kRejected && second != ContactChange::kRejected;
+}
+
+Vector3 Renderer::contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale) {
+  if (config_.law == RenderingLaw::kNaive) return port.contact.step_naive(at, mapping, stale);
+  return port.contact.step(at, mapping, stale, port.tank, device_.period_s);
+}
+
+Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {
+  const double entered_j = translation_.guard.observe(in.handle.p_MH - x_last_);
+  x_last_ = in.handle.p_MH;
+  const Vector3 contact = contact_force(translation_, translation_handle(in, mapping), mapping, in.stale);
+  if (config_.law == RenderingLaw::kStiffness) {
+    translation_.account(
+        entered_j,
+        translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j() + in.translation.stored_j,
+        in.translation.supplied_j);
   }
-  naive_stiffness_ = surface_.known() ? config_.ke * surface_.stiffness_n_per_m() : 0.0;
-  if (surface_.known()) surface_handle_m_ = locate_surface(input, mapping, s_m);
-  const double after_n = contact_force(input, s_m);
-  force_step_n_ = after_n - before_n;
-  return true;
+  return translation_.guard.apply(
+      {resistance + contact, in.translation.force, in.handle.velocity_m_per_s, in.live}, device_.period_s);
 }
 
-double Renderer::locate_surface(const RendererInput& input, const Mapping& mapping, double s_m) const {
-  if (input.mode == MotionMode::kPosition)
-    return mapping.handle_offset_m(surface_.inward(), surface_.offset_m());
-  // Rate mode has no position to press against: the surface lies as deep in the hand as the goal is commanded
-  // behind it, up to the force limit.
-  const double commanded = surface_.inward().dot(mapping.goal().position_m) - surface_.offset_m();
-  const double k = std::max(stiffness_n_per_m(), 1.0);
-  return s_m - std::clamp(commanded, 0.0, config_.force_max_n / k);
-}
-
-double Renderer::stiffness_n_per_m() const {
-  return config_.law == RenderingLaw::kNaive ? naive_stiffness_ : spring_.stiffness_n_per_m();
-}
-
-double Renderer::contact_force(const RendererInput& input, double s_m) {
-  if (config_.law == RenderingLaw::kNaive) {
-    spring_force_n_ = input.stale ? 0.0 : naive_stiffness_ * std::max(0.0, s_m - surface_handle_m_);
-  } else {
-    spring_force_n_ = spring_.force_n(s_m);
+Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {
+  const double entered_j = rotation_.guard.observe(log_rotation(in.handle.q_MH * q_last_.conjugate()));
+  q_last_ = in.handle.q_MH;
+  const ContactHandle at = rotation_handle(in, mapping);
+  const Vector3 contact =
+      rotation_vector_rate(at.x).transpose() * contact_force(rotation_, at, mapping, in.stale);
+  if (config_.law == RenderingLaw::kStiffness) {
+    rotation_.account(
+        entered_j, rotation_.contact.energy_j(at.x) + resistance_.rotation_energy_j() + in.rotation.stored_j,
+        in.rotation.supplied_j);
   }
-  return spring_force_n_;
+  return rotation_.guard.apply(
+      {resistance + contact, in.rotation.force, in.handle.angular_rad_per_s, in.live}, device_.period_s);
 }
 
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
-  if (!finite(input.handle))
-    return guard_.apply(Wrench{}, Wrench{}, Vector3::Zero(), false, device_.period_s);
-  const Vector3& x = input.handle.p_MH;
-  const Vector3& n = surface_.inward();
-  const double s_m = n.dot(x);
-  const double entered_j = guard_.observe(x);
-
-  if (input.stale) {
-    surface_.clear();
-    spring_.set_stiffness(s_m, 0.0);
-  }
-  if (surface_.known()) {
-    surface_handle_m_ = locate_surface(input, mapping, s_m);
-    spring_.set_surface(surface_handle_m_);
-  }
-  spring_.step(s_m, device_.period_s);
-  double contact_n = contact_force(input, s_m);
-  if (contact_n > 0.0) {
-    contact_n =
-        std::max(0.0, contact_n + config_.contact_damping_n_s_per_m * n.dot(input.handle.velocity_m_per_s));
-  }
-  Wrench F;
+  Wrench resistance;
   if (input.handle.held) {
-    F = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
+    resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
   } else {
     resistance_.reset(input.handle);
   }
-  if (config_.law == RenderingLaw::kStiffness) account(entered_j, input, s_m);
-  F.force -= contact_n * n;
-  return guard_.apply(F, input.behaviour, input.handle.velocity_m_per_s, input.live, device_.period_s);
+  Wrench F;
+  F.force = translate(input, mapping, resistance.force);
+  F.moment = rotate(input, mapping, resistance.moment);
+  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j());
+  return F;
 }
 
-void Renderer::account(double entered_j, const RendererInput& input, double s_m) {
-  const double stored_j = spring_.energy_j(s_m) + resistance_.energy_j() + input.behaviour_j;
-  // What came in and was neither stored nor paid for has been dissipated, or leaked if negative.
-  double rest_j = entered_j - (stored_j - stored_j_) + spring_.paid_j() + input.behaviour_supplied_j;
-  stored_j_ = stored_j;
-  if (rest_j > 0.0) {
-    rest_j = guard_.repay(rest_j);
-    spring_.fill_tank(rest_j);
-  } else {
-    guard_.owe(-spring_.fill_tank(rest_j));
-  }
+double Renderer::stiffness(const HandPort& port) const {
+  const ContactAxis& axis = port.contact.foremost();
+  return config_.law == RenderingLaw::kNaive ? axis.reported : axis.spring.stiffness_n_per_m();
+}
+
+double Renderer::port_energy_j() const {
+  return translation_.guard.port_energy_j() + rotation_.guard.port_energy_j();
+}
+
+double Renderer::stored_energy_j() const {
+  return translation_.stored_j + translation_.tank.level_j() + rotation_.stored_j + rotation_.tank.level_j();
 }
 
 }  // namespace longreach

@@ -1,44 +1,78 @@
 #pragma once
-// Everything that the hand feels: resistance of the mapping, contact by the registered surface and the
-// estimated stiffness, energy accounting, limits. Sees StiffnessReports and the master's own motion, nothing
-// else from afar.
+// Everything that the hand feels: resistance of the mapping, contact by the registered surfaces and the
+// estimated stiffness, in translation and in rotation; energy accounting, limits. Sees StiffnessReports and
+// the master's own motion, nothing else from afar.
 //
-//   F = F_behaviour + F_resistance - n max(0, k (s - a) + B n.v)      s = n . x
+//   F = F_behaviour + F_resistance + F_contact(x),      M = M_behaviour + M_resistance + D(φ)ᵀ M_contact(φ)
 //
-// A handle that nobody holds has no resistance, and what it does by itself remains when nothing is engaged.
-// Law NAIVE applies stiffness and surface as they come, for contrast; it keeps the force limit.
+// φ the rotation vector of the handle, φ' = D(φ) ω: a spring in φ gives a moment by the transpose, so that
+// what it does is exactly what it stores. A handle that nobody holds has no resistance, and what it does by
+// itself remains when nothing is engaged. Law NAIVE applies stiffness and surfaces as they come, for
+// contrast; it keeps the limits.
 
 #include <cstdint>
 
 #include "common/link/stiffness_report.hpp"
 #include "master/devices/handle_state.hpp"
 #include "master/mapping/mapping.hpp"
-#include "master/rendering/contact_spring.hpp"
+#include "master/rendering/contact.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/port_guard.hpp"
 #include "master/rendering/rendering_config.hpp"
 #include "master/rendering/resistance.hpp"
-#include "master/rendering/surface.hpp"
 
 namespace longreach {
 
-/// What of the device limits the rendering.
+/// What of the device limits the rendering: the least over its workspace.
 struct RenderedDevice {
-  double handle_mass_kg = 0.2;
+  double mass_kg = 0.2;
   double damping_n_s_per_m = 3.5;
+  double inertia_kg_m2 = 1e-4;
+  double damping_nm_s_per_rad = 4e-4;
   double period_s = 0.001;
   double delay_s = 0.0;  // from reading the handle to the torque of its motors
 };
 
+/// What the handle does by itself, engaged or not.
+struct HandleDoing {
+  Vector3 force = Vector3::Zero();  // or moment
+  double stored_j = 0.0;            // in its springs
+  double supplied_j = 0.0;          // by its anchor, in this tick
+};
+
 struct RendererInput {
   HandleState handle{};
-  Wrench behaviour{};                 // what the handle does by itself, engaged or not
-  double behaviour_j = 0.0;           // stored in its translational springs
-  double behaviour_supplied_j = 0.0;  // by its anchor, in this tick
+  HandleDoing translation{}, rotation{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool live = false;   // false: the wrench ramps to zero
   bool stale = false;  // nothing heard from the slave: stiffness only decays
+};
+
+/// Goals of the commands that were sent.
+struct GoalHistories {
+  explicit GoalHistories(std::size_t capacity) : translation(capacity), rotation(capacity) {}
+  void clear() {
+    translation.clear();
+    rotation.clear();
+  }
+  GoalHistory translation;  // displacements, m
+  GoalHistory rotation;     // rotation vectors, rad
+};
+
+/// One port of the hand: what it touches, what keeps it passive.
+struct HandPort {
+  HandPort(ContactMotion motion, const ContactConfig& touch, const PortGuardConfig& limits, double tank_j)
+      : contact(motion, touch), guard(limits), tank(tank_j) {}
+
+  /// Books the energy of the last tick: what came in and was neither stored nor paid for has been dissipated,
+  /// or leaked if negative.
+  void account(double entered_j, double stored_j, double supplied_j);
+
+  Contact contact;
+  PortGuard guard;
+  EnergyTank tank;
+  double stored_j = 0.0;
 };
 
 class Renderer {
@@ -50,37 +84,32 @@ class Renderer {
   void reset(const HandleState& handle);
 
   /// Takes a report of the present engagement. False: refused because a value is impossible.
-  bool on_report(const StiffnessReport& report, const GoalHistory& history, const RendererInput& input,
+  bool on_report(const StiffnessReport& report, const GoalHistories& history, const RendererInput& input,
                  const Mapping& mapping);
 
-  /// One tick. Non-finite handle values give a zero wrench.
+  /// One tick; the handle's values are finite. The wrench never is anything else.
   Wrench step(const RendererInput& input, const Mapping& mapping);
 
-  [[nodiscard]] const Surface& surface() const { return surface_; }
-  [[nodiscard]] const ContactSpring& spring() const { return spring_; }
-  [[nodiscard]] const PortGuard& guard() const { return guard_; }
-  [[nodiscard]] double spring_force_n() const { return spring_force_n_; }      // against the inward normal
-  [[nodiscard]] double stiffness_n_per_m() const;                              // rendered now
-  [[nodiscard]] double surface_handle_m() const { return surface_handle_m_; }  // along the normal, in M
-  [[nodiscard]] double force_step_n() const { return force_step_n_; }          // by the last report
-  [[nodiscard]] double stored_energy_j() const { return stored_j_ + spring_.tank_j(); }
+  [[nodiscard]] const HandPort& translation() const { return translation_; }
+  [[nodiscard]] const HandPort& rotation() const { return rotation_; }
+  /// Of the foremost axis, rendered now.
+  [[nodiscard]] double stiffness(const HandPort& port) const;
+  [[nodiscard]] double port_energy_j() const;
+  [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
+  [[nodiscard]] double stored_energy_j() const;
 
  private:
-  double locate_surface(const RendererInput& input, const Mapping& mapping, double s_m) const;
-  double contact_force(const RendererInput& input, double s_m);
-  void account(double entered_j, const RendererInput& input, double s_m);
+  Vector3 translate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
+  Vector3 rotate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
+  Vector3 contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale);
 
   RenderingConfig config_;
   RenderedDevice device_;
   Resistance resistance_;
-  Surface surface_;
-  ContactSpring spring_;
-  PortGuard guard_;
-  double naive_stiffness_ = 0.0;
-  double surface_handle_m_ = 0.0;
-  double spring_force_n_ = 0.0;
-  double force_step_n_ = 0.0;
-  double stored_j_ = 0.0;
+  HandPort translation_, rotation_;
+  Vector3 x_last_ = Vector3::Zero();
+  Quaternion q_last_ = Quaternion::Identity();
+  double port_energy_min_j_ = 0.0;
 };
 
 }  // namespace longreach

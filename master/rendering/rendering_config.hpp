@@ -20,6 +20,12 @@ struct RenderingConfig {
   double friction_stiffness_n_per_m = 1000.0;
   double rotational_stiffness_nm_per_rad = 0.45837;
   double rotational_damping_nm_s_per_rad = 1.05e-2;
+  double ke_rotation = 1.0;
+  double contact_damping_nm_s_per_rad = 1e-3;
+  double stiffness_max_nm_per_rad = 10.0;
+  double slew_n_per_s = 5000.0;
+  double slew_nm_per_s = 200.0;
+  double forget_depth_rad = 0.02;
   double force_max_n = 15.0;
   double moment_max_nm = 0.3;
   double ramp_s = 0.05;

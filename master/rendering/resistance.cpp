@@ -5,7 +5,7 @@ namespace longreach {
 void Resistance::reset(const HandleState& handle) {
   x_last_ = handle.p_MH;
   stretch_m_.setZero();
-  energy_j_ = 0.0;
+  energy_j_ = rotation_energy_j_ = 0.0;
 }
 
 Wrench Resistance::step(const ResistanceInput& input) {
@@ -25,6 +25,7 @@ Wrench Resistance::step(const ResistanceInput& input) {
     energy_j_ = 0.5 * sigma * stretch_m_.squaredNorm();
   }
   x_last_ = h.p_MH;
+  rotation_energy_j_ = 0.5 * config_.rotational_stiffness_nm_per_rad * log_rotation(h.q_MH).squaredNorm();
   F.moment = -config_.rotational_stiffness_nm_per_rad * log_rotation(h.q_MH) -
              config_.rotational_damping_nm_s_per_rad * h.angular_rad_per_s;
   return F;

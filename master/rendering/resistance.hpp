@@ -30,12 +30,14 @@ class Resistance {
   Wrench step(const ResistanceInput& input);
 
   [[nodiscard]] double energy_j() const { return energy_j_; }  // stored by the translational springs
+  [[nodiscard]] double rotation_energy_j() const { return rotation_energy_j_; }
 
  private:
   RenderingConfig config_;
   Vector3 x_last_ = Vector3::Zero();
   Vector3 stretch_m_ = Vector3::Zero();
   double energy_j_ = 0.0;
+  double rotation_energy_j_ = 0.0;
 };
 
 }  // namespace longreach

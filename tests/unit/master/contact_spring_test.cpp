@@ -13,8 +13,15 @@ namespace {
 
 constexpr double kTick_s = 0.001;
 
+/// A spring with a tank of its own.
+struct Spring : ContactSpring {
+  explicit Spring(const ContactSpringConfig& config) : ContactSpring(config) {}
+  double step(double s_m, double dt_s) { return ContactSpring::step(s_m, dt_s, tank); }
+  EnergyTank tank{0.02};
+};
+
 TEST(ContactSpring, PushesWithStiffnessTimesDepthBehindTheSurface) {
-  ContactSpring spring({});
+  Spring spring({});
   spring.begin(-0.01, 0.0);
   ASSERT_TRUE(spring.set_stiffness(-0.01, 1000.0));
   EXPECT_EQ(spring.step(-0.01, kTick_s), 0.0);
@@ -23,7 +30,7 @@ TEST(ContactSpring, PushesWithStiffnessTimesDepthBehindTheSurface) {
 }
 
 TEST(ContactSpring, BeginsAtZeroForceWhenTheHandIsAlreadyDeep) {
-  ContactSpring spring({});
+  Spring spring({});
   spring.begin(0.012, 0.0);
   spring.set_stiffness(0.012, 5000.0);
   EXPECT_EQ(spring.step(0.012, kTick_s), 0.0);
@@ -31,7 +38,7 @@ TEST(ContactSpring, BeginsAtZeroForceWhenTheHandIsAlreadyDeep) {
 }
 
 TEST(ContactSpring, ReturnsToTheSurfaceForFreeWhenTheHandRetreats) {
-  ContactSpring spring({});
+  Spring spring({});
   spring.begin(0.012, 0.0);
   spring.set_stiffness(0.012, 5000.0);
   for (double s = 0.012; s > -0.001; s -= 1e-5) EXPECT_LT(spring.step(s, kTick_s), 1e-9);
@@ -40,7 +47,7 @@ TEST(ContactSpring, ReturnsToTheSurfaceForFreeWhenTheHandRetreats) {
 }
 
 TEST(ContactSpring, TakesAHigherStiffnessWithoutAForceStepAndWithLessEnergy) {
-  ContactSpring spring({});
+  Spring spring({});
   spring.begin(-0.001, 0.0);
   spring.set_stiffness(-0.001, 500.0);
   const double s = 0.004;
@@ -52,7 +59,7 @@ TEST(ContactSpring, TakesAHigherStiffnessWithoutAForceStepAndWithLessEnergy) {
 }
 
 TEST(ContactSpring, EasesToALowerStiffnessWithItsTimeConstant) {
-  ContactSpring spring({.fade_s = 0.2});
+  Spring spring({.fade_s = 0.2});
   spring.begin(-0.001, 0.0);
   spring.set_stiffness(-0.001, 4000.0);
   const double s = 0.001;
@@ -64,7 +71,7 @@ TEST(ContactSpring, EasesToALowerStiffnessWithItsTimeConstant) {
 }
 
 TEST(ContactSpring, YieldsAtTheForceLimit) {
-  ContactSpring spring({.force_max_n = 10.0});
+  Spring spring({.force_max_n = 10.0});
   spring.begin(-0.001, 0.0);
   spring.set_stiffness(-0.001, 5000.0);
   EXPECT_NEAR(spring.step(0.05, kTick_s), 10.0, 1e-9);
@@ -72,12 +79,12 @@ TEST(ContactSpring, YieldsAtTheForceLimit) {
 }
 
 TEST(ContactSpring, PaysForAnOutwardAnchorFromTheTankExactly) {
-  ContactSpring spring({.tank_max_j = 0.02});
+  Spring spring({});
   spring.begin(0.010, 0.0);  // deep at first touch: the anchor wants to come back by 10 mm
   spring.set_stiffness(0.010, 1000.0);
   const double s = 0.012;
   spring.step(s, kTick_s);
-  EXPECT_EQ(spring.fill_tank(0.005), 0.0);
+  EXPECT_EQ(spring.tank.fill(0.005), 0.0);
   double springs_j = spring.energy_j(s);
   for (int i = 0; i < 1000; ++i) {
     spring.step(s, kTick_s);
@@ -85,17 +92,23 @@ TEST(ContactSpring, PaysForAnOutwardAnchorFromTheTankExactly) {
     springs_j = spring.energy_j(s);
   }
   EXPECT_NEAR(springs_j, 0.5 * 1000.0 * 0.002 * 0.002 + 0.005, 1e-6);
-  EXPECT_GE(spring.tank_j(), 0.0);
+  EXPECT_GE(spring.tank.level_j(), 0.0);
 }
 
-TEST(ContactSpring, NamesWhatTheTankCouldNotTake) {
-  ContactSpring spring({.tank_max_j = 0.02});
-  EXPECT_NEAR(spring.fill_tank(0.05), 0.03, 1e-15);
-  EXPECT_NEAR(spring.fill_tank(-0.05), -0.03, 1e-15);
+TEST(EnergyTank, NamesWhatItCouldNotTakeOrPayAndSpendsOnlyWhatIsThere) {
+  EnergyTank tank(0.02);
+  EXPECT_NEAR(tank.fill(0.05), 0.03, 1e-15);
+  EXPECT_NEAR(tank.spend(0.005), 0.005, 1e-15);
+  EXPECT_EQ(tank.spend(-1.0), 0.0);
+  EXPECT_NEAR(tank.fill(-0.05), -0.035, 1e-15);
+  EXPECT_EQ(tank.spend(1.0), 0.0);
+  tank.fill(0.02);
+  tank.resize(0.01);
+  EXPECT_NEAR(tank.level_j(), 0.01, 1e-15);
 }
 
 TEST(ContactSpring, RefusesWhatIsNotFinite) {
-  ContactSpring spring({});
+  Spring spring({});
   spring.begin(-0.001, 0.0);
   spring.set_stiffness(-0.001, 1000.0);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -HUGE_VAL}) {
@@ -110,7 +123,7 @@ TEST(ContactSpring, RefusesWhatIsNotFinite) {
 TEST(ContactSpring, NeverGainsEnergyFromAnySequenceOfUpdates) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Random random(seed);
-    ContactSpring spring({});
+    Spring spring({});
     double s = -0.002;
     spring.begin(s, 0.0);
     for (int i = 0; i < 4000; ++i) {
@@ -124,7 +137,7 @@ TEST(ContactSpring, NeverGainsEnergyFromAnySequenceOfUpdates) {
         ASSERT_LE(spring.energy_j(s), before_j + 1e-12) << "seed " << seed << " tick " << i;
       }
       if (random.chance(0.1)) spring.set_surface(random.uniform(-0.01, 0.01));
-      if (random.chance(0.1)) spring.fill_tank(random.uniform(-0.001, 0.001));
+      if (random.chance(0.1)) spring.tank.fill(random.uniform(-0.001, 0.001));
       const double before_j = spring.energy_j(s);
       spring.step(s, kTick_s);
       ASSERT_LE(spring.energy_j(s), before_j + spring.paid_j() + 1e-12) << "seed " << seed << " tick " << i;

@@ -1,0 +1,213 @@
+#include "master/rendering/contact.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kSameAxis = 0.2;     // sine: 11 degrees
+constexpr double kLeastShare = 1e-3;  // of the largest stiffness: less is no surface but noise
+constexpr double kLeastSense = 0.02;  // cosine of the motion with an axis that tells its sense
+
+struct Principal {
+  Vector3 values;  // ascending
+  Matrix3 vectors;
+};
+
+Principal principal(const Matrix3& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+  solver.computeDirect(symmetric);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+/// What is left of the tensor across `n`.
+Matrix3 across(const Matrix3& K, const Vector3& n) {
+  const Matrix3 P = Matrix3::Identity() - n * n.transpose();
+  return P * K * P;
+}
+
+}  // namespace
+
+void Contact::configure(const ContactConfig& config) {
+  config_ = config;
+  for (ContactAxis& a : axes_) a.spring.configure(config.spring);
+}
+
+void Contact::reset() {
+  axes_ = {};
+  for (ContactAxis& a : axes_) a.spring.configure(config_.spring);
+  force_step_ = 0.0;
+}
+
+ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t reached_sequence,
+                                 const GoalHistory& history, const ContactHandle& handle,
+                                 const Mapping& mapping) {
+  if (!contact.stiffness.allFinite() || !std::isfinite(contact.touch_sequence))
+    return ContactChange::kRejected;
+  if (!contact.in_contact) {
+    for (ContactAxis& a : axes_) a.released = true;
+    forget_what_is_free(reached_sequence, history, handle.x);
+    return ContactChange::kNone;
+  }
+  const auto goal = history.at(contact.touch_sequence);
+  if (!(contact.stiffness.cwiseAbs().maxCoeff() > 0.0)) return ContactChange::kNone;  // not identified yet
+  if (!goal) return ContactChange::kRejected;
+  const Vector3 motion = history.motion_before(contact.touch_sequence, config_.least_motion);
+  const Vector3 before = spring_force(handle.x);
+  if (!take_tensor(contact, *goal, motion, handle, mapping)) return ContactChange::kNone;
+  force_step_ = (spring_force(handle.x) - before).norm();
+  return ContactChange::kUpdated;
+}
+
+void Contact::forget_what_is_free(std::uint64_t reached_sequence, const GoalHistory& history,
+                                  const Vector3& x) {
+  const auto reached = history.at(static_cast<double>(reached_sequence));
+  if (!reached) return;
+  for (ContactAxis& a : axes_) {
+    if (!a.known || a.n_W.dot(*reached - a.goal) < config_.forget_depth) continue;
+    a.known = false;
+    a.spring.set_stiffness(a.s(x), 0.0);
+  }
+}
+
+bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, const Vector3& motion,
+                          const ContactHandle& handle, const Mapping& mapping) {
+  Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
+  const double least = kLeastShare * left.cwiseAbs().maxCoeff();
+  bool any = false;
+  for (ContactAxis& a : axes_) {
+    if (!a.known) continue;
+    const Vector3 row = left * a.n_W;
+    const double k = a.n_W.dot(row);
+    if (k > least && (row - k * a.n_W).norm() <= kSameAxis * k) {
+      // Met again, or known better: another touch while this one lasts does not move it.
+      if (a.released || a.touch == contact.touch) a.goal = goal;
+      a.touch = a.released ? contact.touch : a.touch;
+      a.released = false;
+      a.reported = config_.ke * k;
+      left = across(left, a.n_W);
+      any = true;
+    } else {
+      a.known = false;
+      a.reported = 0.0;
+    }
+    a.spring.set_stiffness(a.s(handle.x), a.reported);
+  }
+  const Principal rest = principal(left);
+  for (int i = 2; i >= 0; --i) {
+    if (!(rest.values[i] > least)) continue;
+    const Vector3 n = rest.vectors.col(i).normalized();
+    const double sense = n.dot(motion);
+    if (!n.allFinite() || !(std::abs(sense) > kLeastSense * motion.norm())) continue;
+    add_axis(sense > 0.0 ? n : Vector3(-n), contact, goal, handle, mapping, config_.ke * rest.values[i]);
+    any = true;
+  }
+  return any;
+}
+
+/// Takes the first place without force; where there is none, the report after the fading brings the axis
+/// again.
+void Contact::add_axis(const Vector3& n_W, const ContactStiffness& contact, const Vector3& goal,
+                       const ContactHandle& handle, const Mapping& mapping, double stiffness) {
+  for (ContactAxis& a : axes_) {
+    if (a.known || a.spring.energy_j(a.s(handle.x)) > 0.0) continue;
+    a = ContactAxis{.known = true,
+                    .n_W = n_W,
+                    .n_M = mapping.base().conjugate() * n_W,
+                    .goal = goal,
+                    .reported = stiffness,
+                    .touch = contact.touch};
+    a.spring.configure(config_.spring);
+    a.surface = locate(a, handle, mapping);
+    a.spring.begin(a.s(handle.x), a.surface);
+    a.spring.set_stiffness(a.s(handle.x), stiffness);
+    return;
+  }
+}
+
+double Contact::along(const ContactAxis& a, const Mapping& mapping) const {
+  if (motion_ == ContactMotion::kTranslation) return mapping.handle_offset_m(a.n_W, a.n_W.dot(a.goal));
+  return a.n_M.dot(mapping.handle_rotation_at(exp_rotation(a.goal)));
+}
+
+double Contact::locate(const ContactAxis& a, const ContactHandle& handle, const Mapping& mapping) const {
+  if (!handle.rate_mode) return along(a, mapping);
+  // Rate mode has no position to press against: the surface lies as deep in the hand as the goal is commanded
+  // behind it, up to the force limit.
+  const double commanded = a.n_W.dot(handle.goal - a.goal);
+  const double k = a.spring.stiffness_n_per_m();
+  const double most = k > 0.0 ? config_.spring.force_max_n / k : 0.0;
+  return a.s(handle.x) - std::clamp(commanded, 0.0, most);
+}
+
+Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergyTank& tank,
+                      double dt_s) {
+  Vector3 force = Vector3::Zero();
+  for (ContactAxis& a : axes_) {
+    const double s = a.s(handle.x);
+    if (stale) {
+      a.known = false;
+      a.spring.set_stiffness(s, 0.0);
+    }
+    if (a.known) {
+      a.surface = locate(a, handle, mapping);
+      a.spring.set_surface(a.surface);
+    }
+    a.force = a.spring.step(s, dt_s, tank);
+    if (a.force <= 0.0) continue;
+    const double damped = std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate));
+    force -= damped * a.n_M;
+  }
+  return force;
+}
+
+Vector3 Contact::step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale) {
+  Vector3 force = Vector3::Zero();
+  for (ContactAxis& a : axes_) {
+    a.force = 0.0;
+    if (stale || !a.known) continue;
+    a.surface = locate(a, handle, mapping);
+    a.force = a.reported * std::max(0.0, a.s(handle.x) - a.surface);
+    if (a.force > 0.0) force -= std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate)) * a.n_M;
+  }
+  return force;
+}
+
+Vector3 Contact::spring_force(const Vector3& x) const {
+  Vector3 force = Vector3::Zero();
+  for (const ContactAxis& a : axes_) force -= a.spring.force_n(a.s(x)) * a.n_M;
+  return force;
+}
+
+double Contact::energy_j(const Vector3& x) const {
+  double sum = 0.0;
+  for (const ContactAxis& a : axes_) sum += a.spring.energy_j(a.s(x));
+  return sum;
+}
+
+double Contact::paid_j() const {
+  double sum = 0.0;
+  for (const ContactAxis& a : axes_) sum += a.spring.paid_j();
+  return sum;
+}
+
+const ContactAxis& Contact::foremost() const {
+  return *std::ranges::max_element(axes_, [](const ContactAxis& a, const ContactAxis& b) {
+    if (a.force != b.force) return a.force < b.force;
+    return (a.known ? a.reported : -1.0) < (b.known ? b.reported : -1.0);
+  });
+}
+
+bool Contact::known() const {
+  return std::ranges::any_of(axes_, [](const ContactAxis& a) { return a.known; });
+}
+bool Contact::clamped() const {
+  return std::ranges::any_of(axes_, [](const ContactAxis& a) { return a.known && a.spring.clamped(); });
+}
+bool Contact::yielding() const {
+  return std::ranges::any_of(axes_, [](const ContactAxis& a) { return a.spring.yielding(); });
+}
+
+}  // namespace longreach

@@ -1,0 +1,37 @@
+#pragma once
+// Energy that dissipation at the port has earned and that a spring's anchor may spend to come home, J. Never
+// below zero, never above its size (Franken et al., T-RO 2011, reduced to what is needed here).
+
+#include <algorithm>
+
+namespace longreach {
+
+class EnergyTank {
+ public:
+  explicit EnergyTank(double size_j) : size_j_(size_j) {}
+  void resize(double size_j) {
+    size_j_ = size_j;
+    level_j_ = std::min(level_j_, size_j);
+  }
+
+  /// Takes in `energy_j`, or pays a negative one. Returns what it could not take (>= 0) or pay (<= 0).
+  double fill(double energy_j) {
+    const double before = level_j_;
+    level_j_ = std::clamp(before + energy_j, 0.0, size_j_);
+    return before + energy_j - level_j_;
+  }
+  /// Spends at most what is there.
+  double spend(double energy_j) {
+    const double spent = std::clamp(energy_j, 0.0, level_j_);
+    level_j_ -= spent;
+    return spent;
+  }
+  void empty() { level_j_ = 0.0; }
+  [[nodiscard]] double level_j() const { return level_j_; }
+
+ private:
+  double size_j_;
+  double level_j_ = 0.0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,185 @@
+#include "master/rendering/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+/// The goal moves along `direction` by 0.1 mm a command, from zero at sequence 1.
+GoalHistory moving(const Vector3& direction, int commands) {
+  GoalHistory history(1024);
+  for (int i = 0; i < commands; ++i) history.push(static_cast<std::uint64_t>(i) + 1, 1e-4 * i * direction);
+  return history;
+}
+
+ContactStiffness contact(const Matrix3& K, double sequence) {
+  ContactStiffness c;
+  c.stiffness = K;
+  c.touch_sequence = sequence;
+  c.touch = 1;
+  c.in_contact = true;
+  return c;
+}
+
+Matrix3 along(const Vector3& n, double k) { return k * n * n.transpose(); }
+
+/// A contact and the mapping that it is felt through: position mode, scale 1, the handle at rest at `x`.
+struct Bench {
+  explicit Bench(const Vector3& direction, int commands = 400) : history(moving(direction, commands)) {
+    mapping.reset({});
+    mapping.step({{}, MotionMode::kPosition, 1.0, false}, 1e-3);
+  }
+
+  ContactChange report(const ContactStiffness& c, std::uint64_t reached = 0) {
+    return felt.on_report(c, reached, history, at, mapping);
+  }
+  Vector3 press(const Vector3& x) {
+    at.x = x;
+    return felt.step(at, mapping, false, tank, 1e-3);
+  }
+
+  GoalHistory history;
+  Mapping mapping{MappingConfig{}};
+  EnergyTank tank{0.02};
+  Contact felt{ContactMotion::kTranslation, ContactConfig{}};
+  ContactHandle at{};
+};
+
+TEST(GoalHistory, InterpolatesBetweenCommandsAndKnowsItsEnds) {
+  const GoalHistory history = moving(Vector3::UnitX(), 100);
+  EXPECT_NEAR(history.at(50.25)->x(), 49.25e-4, 1e-15);
+  EXPECT_TRUE(history.at(1.0).has_value());
+  EXPECT_TRUE(history.at(100.0).has_value());
+  EXPECT_FALSE(history.at(0.5).has_value());
+  EXPECT_FALSE(history.at(100.5).has_value());
+  EXPECT_FALSE(history.at(std::nan("")).has_value());
+  EXPECT_FALSE(history.at(1e300).has_value());
+}
+
+TEST(GoalHistory, ForgetsTheOldestWhenFull) {
+  GoalHistory history(16);
+  for (std::uint64_t i = 1; i <= 40; ++i) history.push(i, Vector3(static_cast<double>(i), 0.0, 0.0));
+  EXPECT_FALSE(history.at(24.0).has_value());
+  EXPECT_NEAR(history.at(25.0)->x(), 25.0, 1e-12);
+  EXPECT_NEAR(history.at(40.0)->x(), 40.0, 1e-12);
+}
+
+TEST(Contact, LiesWhereTheGoalWasAtTheTouchAndFacesTheMotion) {
+  const Vector3 n = Vector3(1.0, 2.0, -2.0).normalized();
+  Bench b(n);
+  EXPECT_EQ(b.report(contact(along(n, 1000.0), 101.5)), ContactChange::kUpdated);
+  const ContactAxis& axis = b.felt.foremost();
+  EXPECT_NEAR((axis.n_W - n).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(axis.surface, 100.5e-4, 1e-12);
+  EXPECT_NEAR(axis.reported, 1000.0, 1e-9);
+  // The same tensor met from the other side.
+  Bench other(-n);
+  other.report(contact(along(n, 1000.0), 101.5));
+  EXPECT_NEAR((other.felt.foremost().n_W + n).norm(), 0.0, 1e-9);
+}
+
+TEST(Contact, PushesAgainstDepthAndNotAlongTheSurface) {
+  const Vector3 n = Vector3(1.0, 2.0, -2.0).normalized();
+  Bench b(n);
+  b.report(contact(along(n, 1000.0), 101.0));
+  const Vector3 beside = n.cross(Vector3::UnitX()).normalized();
+  b.press(0.005 * n);  // before the surface
+  const Vector3 force = b.press(0.012 * n + 0.003 * beside);
+  EXPECT_NEAR(force.dot(n), -2.0, 1e-6);
+  EXPECT_NEAR(force.dot(beside), 0.0, 1e-9);
+}
+
+TEST(Contact, FeelsEveryPlaneOfACorner) {
+  // A corner met along its diagonal: three planes with stiffness of their own.
+  const Vector3 diagonal = Vector3::Ones().normalized();
+  Bench b(diagonal);
+  const Matrix3 K = Vector3(500.0, 1000.0, 2000.0).asDiagonal();
+  b.report(contact(K, 101.0));
+  b.press(Vector3::Zero());
+  const double surface = 100e-4 / std::sqrt(3.0);
+  const Vector3 force = b.press(Vector3::Constant(surface + 1e-3));
+  EXPECT_LT((force - Vector3(-0.5, -1.0, -2.0)).norm(), 1e-6);
+}
+
+TEST(Contact, KeepsAPlaneThatHoldsWhenASecondOneIsMet) {
+  Bench b(Vector3(1.0, 1.0, 0.0));
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  b.press(Vector3::Zero());
+  const Vector3 pressing(12e-3, 11e-3, 0.0);
+  const double before_n = b.press(pressing).x();
+  // The second plane at a deeper goal: the first keeps its place and its force.
+  ContactStiffness corner = contact(along(Vector3::UnitX(), 1000.0) + along(Vector3::UnitY(), 1000.0), 111.0);
+  corner.touch = 2;
+  b.report(corner);
+  EXPECT_NEAR(b.press(pressing).x(), before_n, 1e-9);
+  EXPECT_NEAR(b.press(pressing + Vector3(0.0, 1e-3, 0.0)).y(), -1.0, 0.02);
+}
+
+TEST(Contact, IsRememberedAfterTheContactAndForgottenWhenProvenGone) {
+  Bench b(Vector3::UnitX());
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  b.report({}, 120);  // 1.9 mm behind
+  EXPECT_TRUE(b.felt.known());
+  b.report({}, 160);  // 5.9 mm behind
+  EXPECT_FALSE(b.felt.known());
+}
+
+TEST(Contact, DoesNotTurnWhileForceIsRenderedButFadesAndTurnsThen) {
+  Bench b(Vector3(1.0, 1.0, 0.0));
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  b.press(Vector3::Zero());
+  const Vector3 pressing(12e-3, 12e-3, 0.0);
+  const Vector3 before = b.press(pressing);
+  ASSERT_NEAR(before.x(), -2.0, 1e-6);
+  const Vector3 oblique = Vector3(1.0, 1.0, 0.0).normalized();
+  b.report(contact(along(oblique, 900.0), 150.0));
+  EXPECT_LT((b.press(pressing) - before).norm(), 0.02);
+  for (int i = 0; i < 3000; ++i) b.press(pressing);
+  EXPECT_LT(b.press(pressing).norm(), 0.05);  // what was wrong has eased away
+  b.press(Vector3::Zero());
+  b.report(contact(along(oblique, 900.0), 150.0));
+  EXPECT_NEAR(b.felt.foremost().n_W.dot(oblique), 1.0, 1e-9);
+}
+
+TEST(Contact, RejectsWhatIsNotFiniteOrWasNeverCommanded) {
+  Bench b(Vector3::UnitX(), 100);
+  ContactStiffness bad = contact(along(Vector3::UnitX(), 1000.0), 50.0);
+  bad.stiffness(1, 2) = std::nan("");
+  EXPECT_EQ(b.report(bad), ContactChange::kRejected);
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitX(), 1000.0), std::nan(""))), ContactChange::kRejected);
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitX(), 1000.0), 5000.0)), ContactChange::kRejected);
+  EXPECT_FALSE(b.felt.known());
+}
+
+TEST(Contact, TakesNothingFromAContactThatIsNotIdentifiedYetOrPulls) {
+  Bench b(Vector3::UnitX(), 100);
+  EXPECT_EQ(b.report(contact(Matrix3::Zero(), 50.0)), ContactChange::kNone);
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitX(), -100.0), 50.0)), ContactChange::kNone);
+  EXPECT_FALSE(b.felt.known());
+}
+
+TEST(Contact, TakesTheSymmetricPartOnly) {
+  Bench b(Vector3::UnitX());
+  Matrix3 K = along(Vector3::UnitX(), 1000.0);
+  K(0, 1) = 300.0;
+  K(1, 0) = -300.0;
+  b.report(contact(K, 101.0));
+  EXPECT_NEAR(b.felt.foremost().reported, 1000.0, 1e-9);
+}
+
+TEST(Contact, InRotationPushesAgainstTheRotationVector) {
+  const Vector3 axis = Vector3(0.0, 1.0, 1.0).normalized();
+  Bench b(100.0 * axis);  // 0.01 rad a command
+  Contact turn(ContactMotion::kRotation, {.damping = 0.0, .least_motion = 1e-3});
+  turn.on_report(contact(along(axis, 0.2), 21.0), 0, b.history, b.at, b.mapping);
+  ContactHandle at;
+  turn.step(at, b.mapping, false, b.tank, 1e-3);
+  at.x = 0.3 * axis;  // 0.1 rad behind
+  const Vector3 moment = turn.step(at, b.mapping, false, b.tank, 1e-3);
+  EXPECT_LT((moment + 0.02 * axis).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace longreach
