@@ -43,7 +43,7 @@ struct SphericalConfig {
   double beta2_rad = 0.9553166181245093;
   double inertia_kg_m2 = 1e-4;
   DriveConfig drive{
-      .inertia_kg_m2 = 4.7e-5, .viscous_nm_s_per_rad = 4.775e-3, .coulomb_nm = 0.001, .torque_max_nm = 0.5};
+      .inertia_kg_m2 = 4.8e-5, .viscous_nm_s_per_rad = 2.5e-3, .coulomb_nm = 0.001, .torque_max_nm = 0.5};
   double workspace_rad = 0.8;
 };
 
