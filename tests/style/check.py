@@ -65,7 +65,8 @@ def tree(root):
     paths = []
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(name for name in folders if name not in IGNORED)
-        paths += [os.path.relpath(os.path.join(folder, name), root).replace(os.sep, '/') for name in files]
+        paths += [os.path.relpath(os.path.join(folder, name), root).replace(os.sep, '/') for name in files
+                  if name not in IGNORED]
     return sorted(paths)
 
 
