@@ -249,7 +249,7 @@ class Solving {
     const Vector3 u = turned_back(a, target_);
     const double gx = u.x(), gy = cos * u.y() + sin * u.z();
     Turn b = direction(flat(n_at_), {gx, gy}, Role::kB);
-    if (free_) b = within_reach(a, b);
+    if (n_at_.x() * n_at_.x() + n_at_.y() * n_at_.y() < kVagueSquare) b = within_reach(a, b);
     set(Role::kA, a);
     set(Role::kB, b);
     const Vector3 axis = behind_a(a, turned(b, x_axis_), 0.0);
@@ -280,10 +280,9 @@ class Solving {
   }
 
   // The turn from one vector to another; where one of them vanishes, the angle before.
-  [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) {
+  [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) const {
     const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
-    free_ = !(std::min(square, other) > kFreeSquare);
-    if (free_) return before(role);
+    if (!(std::min(square, other) > kFreeSquare)) return before(role);
     const double scale = 1.0 / sqrt(square * other);
     return {(from.x * to.x + from.y * to.y) * scale, (from.x * to.y - from.y * to.x) * scale};
   }
@@ -304,6 +303,8 @@ class Solving {
     out_.branch[static_cast<std::size_t>(out_.count++)] = {joint_rad_, miss};
   }
 
+  // A vector so short gives its direction to a tenth of a millionth only.
+  static constexpr double kVagueSquare = 1e-18;
   static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
 
   const ArmLoop& loop_;
@@ -311,7 +312,6 @@ class Solving {
   Branches& out_;
   int only_;
   bool spherical_ = false;
-  bool free_ = false;  // the last direction was
   Rigid b_, c_, f_;
   Vector3 target_;        // spherical: t; parallel: n
   Vector3 y0_, yc_, ys_;  // r(c) = y0 + yc cos c + ys sin c

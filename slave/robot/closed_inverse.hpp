@@ -34,7 +34,7 @@ struct Branches {
 
 class ClosedInverse {
  public:
-  static constexpr double kFree = 4e-15;
+  static constexpr double kFree = 2e-15;
   static constexpr int kAll = -1;
 
   explicit ClosedInverse(const Kinematics& arm);

@@ -59,12 +59,12 @@ std::string_view Inverse::words() const {
   return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
 }
 
-// Newton steps, damped so little that only directions that are all but lost notice. Next to a singular pose
-// the first of them may lead away.
+// Newton steps, each the better of two: one leaves out directions that are all but lost, and so keeps their
+// rounding out; the other goes along with them first, towards the one root of two that have met.
 bool Inverse::improve(const Rigid& goal, Placed& placed) const {
-  constexpr int kStepsMax = 12, kPatience = 3;
+  constexpr int kStepsMax = 24, kPatience = 2;  // between two roots that met, a step halves the distance
   constexpr double kEnough = 0.4 * kExact;
-  constexpr double kDamping = 1e-15;  // of the reach squared
+  constexpr double kDamping = 1e-12;  // of the reach squared
   const double length = kinematics().reach_m();
   const auto look = [&](Placed& p) {
     p.tool = kinematics().rigid_with_jacobian(p.joint_rad);
@@ -72,17 +72,26 @@ bool Inverse::improve(const Rigid& goal, Placed& placed) const {
     p.miss = std::sqrt(
         std::max(p.error.rotation_rad.squaredNorm(), p.error.position_m.squaredNorm() / (length * length)));
   };
+  const auto move = [&](Placed p, bool damped) {
+    Jacobian J_m = p.tool.J;
+    J_m.topRows<3>() *= length;
+    Vector6 e_m;
+    e_m << length * p.error.rotation_rad, p.error.position_m;
+    p.joint_rad +=
+        damped ? damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad : newton_step(J_m, e_m);
+    look(p);
+    return p;
+  };
   look(placed);
   if (placed.miss <= kEnough) return true;
   Placed next = placed;
-  for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience; ++i) {
-    Jacobian J_m = next.tool.J;
-    J_m.topRows<3>() *= length;
-    Vector6 e_m;
-    e_m << length * next.error.rotation_rad, next.error.position_m;
-    next.joint_rad += damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad;
-    look(next);
-    if (!(next.miss < 1.0)) break;
+  for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience && next.miss < 1.0; ++i) {
+    const Placed start = next;
+    next = move(start, true);
+    if (next.miss > kEnough) {
+      const Placed along = move(move(start, false), true);
+      if (along.miss < next.miss) next = along;
+    }
     worse = next.miss < placed.miss ? 0 : worse + 1;
     if (next.miss < placed.miss) placed = next;
     if (placed.miss <= kEnough) break;

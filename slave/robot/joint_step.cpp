@@ -1,5 +1,6 @@
 #include "slave/robot/joint_step.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -54,6 +55,16 @@ JointStep damped_step(const Jacobian& J_m, const Vector6& e_m, double damping_m2
     solve_symmetric(normal, step);
   }
   return {step, least};
+}
+
+JointVector newton_step(const Jacobian& J_m, const Vector6& e_m) {
+  constexpr double kLost = 1e-11, kStepMaxRad = 0.1;
+  Eigen::ColPivHouseholderQR<Jacobian> decomposition;
+  decomposition.setThreshold(kLost);
+  decomposition.compute(J_m);
+  const JointVector step = decomposition.solve(e_m);
+  const double largest = step.cwiseAbs().maxCoeff();
+  return largest > kStepMaxRad ? JointVector(step * (kStepMaxRad / largest)) : step;
 }
 
 double conditioning(const Jacobian& J, double length_m) {

@@ -23,6 +23,10 @@ struct JointStep {
 /// more.
 JointStep damped_step(const Jacobian& J_m, const Vector6& e_m, double damping_m2, double singular_m2);
 
+/// Undamped, by orthogonal decomposition of J, which keeps the digits that JᵀJ loses. What J moves by less
+/// than 1e-11 of its largest column is left as it is. At most 0.1 rad.
+JointVector newton_step(const Jacobian& J_m, const Vector6& e_m);
+
 /// Square root of the least pivot over `length_m`: 0 at a singular pose, about 0.3 at a good one. `J` in SI.
 double conditioning(const Jacobian& J, double length_m);
 

@@ -6,6 +6,8 @@
 namespace longreach {
 namespace {
 
+constexpr double kRounding = 2e-14;  // of the terms, in F at a touch
+
 using Coefficients = std::array<double, 5>;  // of t^0 .. t^4
 
 struct Value {
@@ -41,7 +43,7 @@ double bracketed(const Coefficients& a, int degree, double low, double high, boo
 
 struct Zeros {
   int count = 0;
-  std::array<double, 7> t{};
+  std::array<double, QuarticTurns::kMax> t{};
   void add(double x) { t[static_cast<std::size_t>(count++)] = x; }
 };
 
@@ -56,7 +58,14 @@ Zeros between(const Coefficients& a, int degree, double bound, const Zeros& turn
     const Value v = evaluate(a, degree, high);
     const bool touches = !last && std::abs(v.f) <= touch * (1.0 + high * high) * (1.0 + high * high);
     if ((f_low < 0.0) != (v.f < 0.0)) found.add(bracketed(a, degree, low, high, v.f > f_low));
-    if (touches) found.add(high);
+    if (touches) {
+      // Rounding hides how far apart the two zeros are.
+      const double curvature = std::abs(2.0 * a[2] + high * (6.0 * a[3] + 12.0 * high * a[4]));
+      const double aside =
+          std::sqrt(kRounding / kTouch * touch * (1.0 + high * high) * (1.0 + high * high) / curvature);
+      found.add(high);
+      if (aside < 0.1) found.add(high - aside), found.add(high + aside);
+    }
     low = high;
     f_low = v.f;
   }

@@ -4,8 +4,8 @@
 // at most four. In t = tan(χ/2), χ counted from opposite the largest of eight samples, F is a quartic whose
 // leading coefficient is that sample, so no zero is far out. Its real zeros are bracketed by those of its
 // derivatives, so none is lost, and each is found by Newton steps that may not leave the bracket.
-// A place where F nearly touches zero (below kTouch of `size`) is listed, too: rounding
-// decides whether there are two zeros, one or none.
+// A place where F nearly touches zero (below kTouch of `size`) is listed, too, with a
+// neighbour on either side: rounding decides whether there are two zeros, one or none.
 
 #include <array>
 
@@ -31,8 +31,9 @@ Trig2 squared(const Trig& f, double weight);
 constexpr double kTouch = 1e-11;
 
 struct QuarticTurns {
+  static constexpr int kMax = 13;  // four zeros, and three touches with a neighbour on either side
   int count = 0;
-  std::array<Turn, 7> turn{};  // four zeros and three touches at most
+  std::array<Turn, kMax> turn{};
 };
 
 /// `size`: of the terms that F was added up from.

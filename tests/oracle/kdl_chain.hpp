@@ -1,0 +1,41 @@
+#pragma once
+// A robot's rows as a chain of KDL (Orocos), which knows both conventions of Denavit and Hartenberg itself.
+
+#include <kdl/chain.hpp>
+#include <kdl/frames.hpp>
+
+#include "slave/robot/robot_config.hpp"
+
+namespace longreach::oracle {
+
+inline KDL::Chain kdl_chain(const RobotConfig& robot) {
+  KDL::Chain chain;
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const JointConfig& j = robot.joint[i];
+    if (robot.convention == DhConvention::kModified) {
+      // Its frame is before the joint turns: the fixed part of a row comes first.
+      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None),
+                                    KDL::Frame::DH_Craig1989(j.a_m, j.alpha_rad, j.d_m, j.theta_rad)));
+      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ)));
+    } else {
+      chain.addSegment(
+          KDL::Segment(KDL::Joint(KDL::Joint::RotZ), KDL::Frame::DH(j.a_m, j.alpha_rad, j.d_m, j.theta_rad)));
+    }
+  }
+  const Vector3 &p = robot.tool.position_m, &r = robot.tool.rotation_rad;
+  const double angle = r.norm();
+  const KDL::Rotation turn = angle > 0.0
+                                 ? KDL::Rotation::Rot2(KDL::Vector(r.x(), r.y(), r.z()) / angle, angle)
+                                 : KDL::Rotation::Identity();
+  chain.addSegment(
+      KDL::Segment(KDL::Joint(KDL::Joint::None), KDL::Frame(turn, KDL::Vector(p.x(), p.y(), p.z()))));
+  return chain;
+}
+
+inline KDL::JntArray kdl_joints(const JointVector& q) {
+  KDL::JntArray joints(kMaxJoints);
+  for (unsigned i = 0; i < kMaxJoints; ++i) joints(i) = q[static_cast<int>(i)];
+  return joints;
+}
+
+}  // namespace longreach::oracle
