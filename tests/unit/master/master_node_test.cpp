@@ -3,25 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "common/core/random.hpp"
 #include "master/devices/simulated_devices.hpp"
-
-namespace {
-thread_local bool counting = false;
-thread_local int allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/unit/allocations.hpp"
 
 namespace longreach {
 namespace {
@@ -250,18 +236,68 @@ TEST(MasterNode, SurvivesADeviceThatReportsNonsense) {
   }
 }
 
-TEST(MasterNode, AllocatesNothingInAStep) {
+TEST(MasterNode, AllocatesNothingInAStepWithTheDevicesThatItRuns) {
   Bench b;
+  SimulatedDevices devices(DeviceConfig{});
+  b.in.handle = devices.read(b.in.now);
   b.engage();
   const StiffnessReport report = b.contact(1000.0, 3.0);
-  allocations = 0;
-  counting = true;
+  test::count_allocations(true);
   for (int i = 0; i < 2000; ++i) {
-    b.in.handle.p_MH.x() = 1e-5 * (i % 1000);
-    b.tick(i % 100 == 0 ? &report : nullptr);
+    HandTarget target{.position_m = {1e-5 * (i % 1000), 0.0, 0.0},
+                      .rotation_rad = {0.0, 1e-4 * (i % 1000), 0.0}};
+    target.grip = i % 500 < 400 ? Grip::kLight : Grip::kReleased;
+    devices.set_target(target);
+    b.in.handle = devices.read(b.in.now + std::chrono::milliseconds(1));
+    devices.write(b.tick(i % 100 == 0 ? &report : nullptr).F_H_M);
   }
-  counting = false;
-  EXPECT_EQ(allocations, 0);
+  test::count_allocations(false);
+  EXPECT_EQ(test::allocations(), 0);
+}
+
+TEST(MasterNode, TakesTheButtonsOfTheDeviceWhenTheyGoDown) {
+  Bench b;
+  b.engage();
+  const double scale = b.node.view().scale;
+  b.in.handle.buttons = {.mode = true, .scale_up = true, .clutch = true};
+  for (int i = 0; i < 5; ++i) b.tick();  // held: once, but for the clutch
+  EXPECT_EQ(b.node.view().mode, MotionMode::kRate);
+  EXPECT_NEAR(b.node.view().scale, scale + 0.05, 1e-12);
+  EXPECT_TRUE(b.node.view().clutched);
+  b.in.handle.buttons = {};
+  b.tick();
+  EXPECT_FALSE(b.node.view().clutched);
+  b.in.handle.buttons = {.mode = true, .scale_down = true};
+  b.tick();
+  EXPECT_EQ(b.node.view().mode, MotionMode::kPosition);
+  EXPECT_NEAR(b.node.view().scale, scale, 1e-12);
+}
+
+TEST(MasterNode, MovesTheGoalByNothingWhenTheHandleIsLetGo) {
+  for (const MotionMode mode : {MotionMode::kRate, MotionMode::kPosition}) {
+    Bench b;
+    SimulatedDevices devices(DeviceConfig{});
+    b.in.handle = devices.read(b.in.now);
+    b.engage();
+    b.in.requests.mode = mode;
+    const auto run = [&](const HandTarget& target, int ticks) {
+      for (int i = 0; i < ticks; ++i) {
+        devices.set_target(target);
+        b.in.handle = devices.read(b.in.now + std::chrono::milliseconds(1));
+        devices.write(b.tick().F_H_M);
+      }
+    };
+    run({.position_m = {0.03, 0.0, 0.0}, .rotation_rad = {0.0, 0.2, 0.0}, .grip = Grip::kFirm}, 1000);
+    const Vector3 goal = b.node.view().goal_m;
+    const Vector3 turn = b.node.view().goal_rad;
+    EXPECT_GT(goal.norm(), 1e-3);
+    run({.grip = Grip::kReleased}, 3000);
+    EXPECT_LT(devices.delta().position_m().norm(), 3e-3);  // it has gone home
+    EXPECT_EQ((b.node.view().goal_m - goal).norm(), 0.0);
+    EXPECT_EQ((b.node.view().goal_rad - turn).norm(), 0.0);
+    run({.grip = Grip::kLight}, 10);  // taken up again
+    EXPECT_LT((b.node.view().goal_m - goal).norm(), 1e-4);
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "slave/robot/simulated_arm.hpp"
-#include "tests/unit/slave/allocations.hpp"
+#include "tests/unit/allocations.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
 namespace longreach {

@@ -1,4 +1,4 @@
-#include "tests/unit/slave/allocations.hpp"
+#include "tests/unit/allocations.hpp"
 
 #include <atomic>
 #include <cstdlib>
