@@ -11,6 +11,7 @@
 #include "common/io/rpc_server.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/io/stop_signal.hpp"
+#include "slave/robot/inverse.hpp"
 #include "slave/slave_service.hpp"
 
 namespace longreach {
@@ -50,6 +51,8 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
   spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}", shell.address(),
                rpc.address(), config.loop().rate_hz(), config.robot().name(), config.scene().name(),
                config.scene().surface_size());
+  spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
+               Inverse(to_struct(config).robot).words());
   if (config.scene().surface().empty())
     spdlog::info("left out=\"contact, estimation\" because=\"free space\"");
 }

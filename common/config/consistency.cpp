@@ -1,12 +1,15 @@
 // Fields that must agree with each other: all such rules of the configuration live here, one function a
 // message.
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "common/config/number_text.hpp"
 #include "common/config/violation.hpp"
+#include "common/spatial/spatial.hpp"
 #include "proto/config.pb.h"
 
 namespace longreach {
@@ -68,6 +71,61 @@ Finding check_joint(const proto::Joint& joint) {
                 format_number(joint.min_rad()) + " to " + format_number(joint.max_rad()));
 }
 
+// The direction of each joint's axis, base to tool.
+std::vector<Vector3> axes(const proto::Robot& robot) {
+  const bool modified = robot.convention() == proto::Robot::MODIFIED;
+  std::vector<Vector3> axes;
+  Matrix3 R = Matrix3::Identity();
+  for (const proto::Joint& joint : robot.joint()) {
+    const Matrix3 twist = Eigen::AngleAxisd(joint.alpha_rad(), Vector3::UnitX()).toRotationMatrix();
+    const Matrix3 turn = Eigen::AngleAxisd(joint.theta_rad(), Vector3::UnitZ()).toRotationMatrix();
+    axes.emplace_back(modified ? Vector3(R * twist.col(2)) : Vector3(R.col(2)));
+    R = modified ? Matrix3(R * twist * turn) : Matrix3(R * turn * twist);
+  }
+  return axes;
+}
+
+// Two neighbours that turn about one axis are one joint.
+Finding check_neighbours(const proto::Robot& robot) {
+  constexpr double kSameAxis = 1e-6;  // m and rad
+  const bool modified = robot.convention() == proto::Robot::MODIFIED;
+  for (int i = 0; i + 1 < robot.joint_size(); ++i) {
+    const proto::Joint &one = robot.joint(i), &two = robot.joint(i + 1);
+    const proto::Joint& between = modified ? two : one;
+    if (one.kind() != proto::Joint::REVOLUTE || two.kind() != proto::Joint::REVOLUTE) continue;
+    if (std::abs(between.a_m()) > kSameAxis || std::abs(std::sin(between.alpha_rad())) > kSameAxis) continue;
+    return at_element(robot, "joint", modified ? i + 1 : i, "alpha_rad",
+                      " = " + format_number(between.alpha_rad()) + " with a_m = " +
+                          format_number(between.a_m()) + " lets the joints " + std::to_string(i) + " and " +
+                          std::to_string(i + 1) + " turn about one axis; one of them is lost");
+  }
+  return std::nullopt;
+}
+
+// Six revolute joints, or three prismatic ones in three directions and the rest fixed.
+Finding check_robot(const proto::Robot& robot) {
+  std::vector<int> prismatic;
+  int fixed = 0;
+  for (int i = 0; i < robot.joint_size(); ++i) {
+    if (robot.joint(i).kind() == proto::Joint::PRISMATIC) prismatic.push_back(i);
+    if (robot.joint(i).kind() == proto::Joint::FIXED) ++fixed;
+  }
+  if (prismatic.empty() && fixed == 0) return check_neighbours(robot);
+  if (prismatic.size() != 3 || fixed + 3 != robot.joint_size()) {
+    return at(robot, "joint",
+              " has " + std::to_string(prismatic.size()) + " prismatic and " + std::to_string(fixed) +
+                  " fixed elements; a robot has six revolute ones, or three prismatic and three fixed ones");
+  }
+  const std::vector<Vector3> all = axes(robot);
+  Matrix3 ways;
+  for (int i = 0; i < 3; ++i)
+    ways.col(i) = all[static_cast<std::size_t>(prismatic[static_cast<std::size_t>(i)])];
+  if (std::abs(ways.determinant()) > 1e-3) return std::nullopt;
+  return at_element(robot, "joint", prismatic[1], "alpha_rad",
+                    " = " + format_number(robot.joint(prismatic[1]).alpha_rad()) +
+                        ": the three prismatic joints move the tool in a plane only");
+}
+
 // Names that a path can address: "material.wall.exponent".
 template <class List>
 Finding check_names(const Message& parent, const char* list, const List& elements) {
@@ -117,6 +175,7 @@ Finding check_mapping(const proto::Mapping& mapping) {
 // The rules of one message, without those of its parts.
 Finding check_message(const Message& message) {
   if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
+  if (const auto* robot = dynamic_cast<const proto::Robot*>(&message)) return check_robot(*robot);
   if (const auto* scene = dynamic_cast<const proto::Scene*>(&message)) return check_scene(*scene);
   if (const auto* mapping = dynamic_cast<const proto::Mapping*>(&message)) return check_mapping(*mapping);
   if (const auto* plane = dynamic_cast<const proto::Plane*>(&message)) {

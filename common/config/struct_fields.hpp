@@ -247,6 +247,14 @@ void visit_fields(Visitor& visit, S& s) {
   visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
   visit("acceleration_max_rad_per_s2", s.acceleration_max_rad_per_s2);
   visit("start_rad", s.start_rad);
+  visit("kind", s.kind);
+  visit("draw_radius_m", s.draw_radius_m);
+}
+
+template <class Visitor, Is<ToolConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("position_m", s.position_m);
+  visit("rotation_rad", s.rotation_rad);
 }
 
 template <class Visitor, Is<RobotConfig> S>
@@ -255,6 +263,9 @@ void visit_fields(Visitor& visit, S& s) {
   visit("basis", s.basis);
   visit("joint", s.joint);
   visit("servo_hz", s.servo_hz);
+  visit("convention", s.convention);
+  visit("tool", s.tool);
+  visit("prefer", s.prefer);
 }
 
 template <class Visitor, Is<MaterialConfig> S>

@@ -44,6 +44,16 @@ static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&
               same(OperatorKind::kScript, proto::Operator::SCRIPT) &&
               same(OperatorKind::kKeyboard, proto::Operator::KEYBOARD) &&
               proto::Operator::Kind_ARRAYSIZE == 3);
+static_assert(same(JointKind::kRevolute, proto::Joint::REVOLUTE) &&
+              same(JointKind::kPrismatic, proto::Joint::PRISMATIC) &&
+              same(JointKind::kFixed, proto::Joint::FIXED) && proto::Joint::Kind_ARRAYSIZE == 3);
+static_assert(same(DhConvention::kStandard, proto::Robot::STANDARD) &&
+              same(DhConvention::kModified, proto::Robot::MODIFIED) &&
+              proto::Robot::Convention_ARRAYSIZE == 2);
+static_assert(same(BranchPreference::kNearest, proto::Robot::NEAREST) &&
+              same(BranchPreference::kSoonest, proto::Robot::SOONEST) &&
+              same(BranchPreference::kCentred, proto::Robot::CENTRED) &&
+              proto::Robot::Preference_ARRAYSIZE == 3);
 
 const FieldDescriptor* field_of(const Message& message, const char* name) {
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);

@@ -3,8 +3,10 @@
 #include <istream>
 #include <ostream>
 
+#include "common/config/config.hpp"
 #include "common/core/geometry_error.hpp"
 #include "tests/experiments/solve_delta.hpp"
+#include "tests/experiments/solve_robot.hpp"
 #include "tests/experiments/solve_spherical.hpp"
 
 namespace longreach {
@@ -21,7 +23,9 @@ constexpr Kind kKinds[] = {{"delta-ik", solve_delta_ik},
                            {"delta-fk", solve_delta_fk},
                            {"delta-statics", solve_delta_statics},
                            {"spherical-ik", solve_spherical_ik},
-                           {"spherical-fk", solve_spherical_fk}};
+                           {"spherical-fk", solve_spherical_fk},
+                           {"robot-fk", solve_robot_fk},
+                           {"robot-ik", solve_robot_ik}};
 
 }  // namespace
 
@@ -47,6 +51,8 @@ int solve(std::string_view kind, std::istream& in, std::ostream& out) {
     } catch (const solve_json::BadRequest& e) {
       answer = {{"error", e.what()}};
     } catch (const GeometryError& e) {
+      answer = {{"error", e.what()}};
+    } catch (const ConfigError& e) {
       answer = {{"error", e.what()}};
     }
     bad |= answer.contains("error");

@@ -1,14 +1,21 @@
 #pragma once
-// `longreach-lab solve KIND`: kinematics and statics of the haptic devices for anybody's geometry. One JSON
-// object a line in, one a line out; {"error": "..."} for a line that cannot be answered. Radians unless a key
-// says _deg.
+// `longreach-lab solve KIND`: kinematics and statics of the devices and the robot, for anybody's geometry.
+// One JSON object a line in, one a line out; {"error": "..."} for a line that cannot be answered. Radians
+// unless a key says _deg.
 //
 //   delta-ik        geometry, p                 -> {"theta": [[two roots] a leg]}
 //   delta-fk        geometry, theta             -> {"solutions": [[x, y, z], ...]}
 //   delta-statics   geometry, p or theta, masses, gravity -> {"tau": [3]}    torques that hold the device
-//   still spherical-ik    angles or axes, R           -> {"theta": [[two roots] a leg]} spherical-fk angles
-//   or axes, theta       -> {"solutions": [R, ...]}
+//   spherical-ik    angles or axes, R           -> {"theta": [[two roots] a leg]}
+//   spherical-fk    angles or axes, theta       -> {"solutions": [R, ...]}
 //                   and near                    -> {"R": 3x3, "iterations": n, "status": "FOUND"}
+//
+//   robot-fk        robot or dh, convention, q  -> {"X": 4x4, "J": 6x6}      angular rows of J first
+//   robot-ik        robot or dh, convention, X, near -> {"status", "solutions": [[6], ...], "nearest": [6],
+//                   "position_error", "rotation_error", "kind"}              m, rad; slave/robot/inverse.hpp
+//
+// robot: name of a file of deploy/robots; dh: six of {"a", "alpha", "d", "theta"}; convention "standard" (the
+// default) or "modified". Joint limits do not count.
 //
 // Unreachable: an empty list. In delta-statics a position takes the first working mode, angles the working
 // assembly (delta_kinematics.hpp).

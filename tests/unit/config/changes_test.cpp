@@ -34,7 +34,7 @@ TEST(RefusedChanges, CompareEffectiveValues) {
 
 TEST(RefusedChanges, TakePartsOfWhatIsReadAtStartAsReadAtStart) {
   proto::SlaveConfig before;
-  for (int i = 0; i < 6; ++i) before.mutable_robot()->add_joint();
+  for (int i = 0; i < 6; ++i) before.mutable_robot()->add_joint()->set_a_m(1.0);
   before.mutable_scene()->add_material()->set_name("wall");
   proto::SlaveConfig after = before;
   after.mutable_robot()->mutable_joint(3)->set_max_rad(1.0);

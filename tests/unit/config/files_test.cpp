@@ -9,7 +9,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kRobot =
-    "name: \"arm\" joint {} joint {} joint {} joint {} joint {} joint { a_m: 0.5 } servo_hz: 7";
+    "name: \"arm\" joint { a_m: 1 } joint { a_m: 1 } joint { a_m: 1 } joint { a_m: 1 } joint { a_m: 1 } "
+    "joint { a_m: 0.5 } servo_hz: 7";
 const std::string kScene =
     "name: \"wall\" material { name: \"steel\" }\nsurface { name: \"front\" material: \"steel\" plane { "
     "normal: [1, 0, 0] } }";
@@ -61,12 +62,12 @@ TEST_F(ResolveFiles, PutsFieldsInPlaceOverThoseOfTheRobotsFile) {
 }
 
 TEST_F(ResolveFiles, TakesWhatIsGivenInPlace) {
-  for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint()->set_d_m(0.1 * i);
+  for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint()->set_a_m(0.1 * (i + 1));
   config.mutable_scene();  // free space
   config.set_robot_file("none.txtpb");
   config.set_scene_file("");
   EXPECT_EQ(resolve_error(), "no error");
-  EXPECT_EQ(config.robot().joint(3).d_m(), 0.1 * 3);
+  EXPECT_EQ(config.robot().joint(3).a_m(), 0.1 * 4);
   EXPECT_EQ(config.scene().surface_size(), 0);
 }
 
@@ -100,6 +101,45 @@ TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
                                  ":3:2: surface.a.plane.normal has the length 0, which is "
                                  "outside 1e-9 to 1e9: it gives no direction");
+}
+
+// Each bad row is refused with file, line, field and reason.
+TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
+  const auto refused = [&](const std::string& third_row, const std::string& after = "") {
+    std::string text = "joint { a_m: 1 }\njoint { a_m: 1 }\njoint { " + third_row + " }\n";
+    for (int i = 0; i < 3; ++i) text += "joint { a_m: 1 }\n";
+    folder.write("robots/space_arm.txtpb", text + after);
+    const std::string error = resolve_error(), file = path("robots/space_arm.txtpb") + ":";
+    return error.starts_with(file) ? error.substr(file.size()) : error;
+  };
+  EXPECT_EQ(refused("a_m: 1"), "no error");
+  config.Clear();
+  EXPECT_EQ(refused("a_m: nan"), "3:9: joint.2.a_m = nan is not a finite number");
+  EXPECT_EQ(refused("a_m: 1 alpha_rad: inf"), "3:16: joint.2.alpha_rad = inf is not a finite number");
+  EXPECT_EQ(refused("a_m: 1 min_rad: 2 max_rad: 1"), "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
+  EXPECT_EQ(
+      refused("a_m: 0 alpha_rad: 0"),
+      "3:16: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 turn about one axis; one of them is "
+      "lost");
+  EXPECT_EQ(refused("a_m: 1", "joint {}"), "1:1: joint has 7 elements; 6 are needed");
+  EXPECT_EQ(refused("a_m: 1 kind: PRISMATIC"),
+            "1:1: joint has 1 prismatic and 0 fixed elements; a robot has six revolute ones, or three "
+            "prismatic and "
+            "three fixed ones");
+  EXPECT_EQ(refused("a_m: 1 speed_max_rad_per_s: 0"),
+            "3:16: joint.2.speed_max_rad_per_s = 0 is outside 0 (excluded) to 100");
+}
+
+TEST_F(ResolveFiles, RefusesPrismaticJointsThatMoveInAPlaneOnly) {
+  std::string text;
+  for (const char* twist : {"0", "1.5707963267948966", "0"})
+    text += "joint { kind: PRISMATIC alpha_rad: " + std::string(twist) + " }\n";
+  for (int i = 0; i < 3; ++i) text += "joint { kind: FIXED }\n";
+  folder.write("robots/space_arm.txtpb", text);
+  EXPECT_EQ(resolve_error(),
+            path("robots/space_arm.txtpb") +
+                ":2:25: joint.1.alpha_rad = 1.5707963267948966: the three prismatic joints move "
+                "the tool in a plane only");
 }
 
 TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {

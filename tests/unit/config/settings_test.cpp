@@ -13,7 +13,7 @@ proto::SlaveConfig slave_with_wall() {
   proto::SlaveConfig config;
   config.mutable_scene()->add_material()->set_name("floor");
   config.mutable_scene()->add_material()->set_name("wall");
-  for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint();
+  for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint()->set_a_m(1.0);
   return config;
 }
 

@@ -196,6 +196,8 @@ void expect_same(const JointConfig& s, const proto::Joint& m) {
   EXPECT_EQ(s.speed_max_rad_per_s, m.speed_max_rad_per_s());
   EXPECT_EQ(s.acceleration_max_rad_per_s2, m.acceleration_max_rad_per_s2());
   EXPECT_EQ(s.start_rad, m.start_rad());
+  EXPECT_EQ(static_cast<int>(s.kind), m.kind());
+  EXPECT_EQ(s.draw_radius_m, m.draw_radius_m());
 }
 
 void expect_same(const MaterialConfig& s, const proto::Material& m) {
@@ -255,10 +257,18 @@ void expect_same(const SurfaceConfig& s, const proto::Surface& m) {
   expect_same(s.plane, m.plane());
 }
 
+void expect_same(const ToolConfig& s, const proto::Tool& m) {
+  expect_same(s.position_m, m.position_m());
+  expect_same(s.rotation_rad, m.rotation_rad());
+}
+
 void expect_same(const RobotConfig& s, const proto::Robot& m) {
   EXPECT_EQ(s.name, m.name());
   EXPECT_EQ(s.basis, m.basis());
   EXPECT_EQ(s.servo_hz, m.servo_hz());
+  EXPECT_EQ(static_cast<int>(s.convention), m.convention());
+  EXPECT_EQ(static_cast<int>(s.prefer), m.prefer());
+  expect_same(s.tool, m.tool());
   ASSERT_EQ(m.joint_size(), 6);
   for (int i = 0; i < 6; ++i) expect_same(s.joint[static_cast<std::size_t>(i)], m.joint(i));
 }

@@ -131,7 +131,8 @@ TEST(TextFile, LeavesTheMessageAloneOnError) {
 TEST(TextFile, SurvivesMutatedText) {
   const std::string valid =
       "link { listen: \"0.0.0.0:1\" impairment { delay_s: 0.3 loss: 1e-2 } }\nplayout { adaptive: false }\n"
-      "robot { name: \"r\" joint { a_m: 1 } joint {} joint {} joint {} joint {} joint { min_rad: -1 } }\n"
+      "robot { name: \"r\" joint { a_m: 1 } joint { a_m: 1 } joint { a_m: 1 } joint { a_m: 1 } joint { a_m: "
+      "1 } joint { min_rad: -1 } }\n"
       "scene { material { name: \"w\" exponent: 1.5 } surface { name: \"s\" material: \"w\" plane { normal: "
       "[0, 0, 1] } } }\n";
   const TemporaryFolder folder;

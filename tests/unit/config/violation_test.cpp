@@ -96,7 +96,7 @@ TEST(Validation, WantsTheDeadZoneInsideTheRadius) {
 
 proto::Robot six_joints() {
   proto::Robot robot;
-  for (int i = 0; i < 6; ++i) robot.add_joint();
+  for (int i = 0; i < 6; ++i) robot.add_joint()->set_a_m(1.0);
   return robot;
 }
 
@@ -174,7 +174,9 @@ TEST(Schema, GivesEveryNumberARangeThatHoldsItsDefault) {
 
 TEST(Schema, HasDefaultsThatAgreeWithEachOther) {
   EXPECT_EQ(validation_error(to_message(MasterConfig{})), "no error");
-  EXPECT_EQ(validation_error(to_message(SlaveConfig{})), "no error");
+  SlaveConfig slave;
+  for (JointConfig& joint : slave.robot.joint) joint.a_m = 1.0;  // there is no robot by default
+  EXPECT_EQ(validation_error(to_message(slave)), "no error");
 }
 
 }  // namespace
