@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "slave/robot/joint_step.hpp"
-#include "tests/unit/slave/allocations.hpp"
+#include "tests/unit/allocations.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
 namespace longreach {
