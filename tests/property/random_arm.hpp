@@ -36,7 +36,7 @@ inline RobotConfig from_rows(const std::array<ShortRow, kMaxJoints>& rows) {
   return unlimited(robot);
 }
 
-/// The rows of deploy/robots; a test of the configuration compares them.
+/// The rows of deploy/robots.
 inline std::vector<NamedArm> ready_arms() {
   constexpr double h = kHalfPi;
   return {{"space_arm", from_rows({{{0, h, 0, 0},
