@@ -80,7 +80,11 @@ double SlaveContact::surface_m() const {
 }
 
 void SlaveContact::locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence) {
-  if (!reading_.in_contact || played_at_touch_ <= 0.0) return;
+  if (!reading_.in_contact) return;
+  if (played_at_touch_ <= 0.0) {  // older than the goals: it is felt from the first of them on
+    if (touch_sequence_ <= 0.0) touch_sequence_ = std::max(played_sequence, 0.0);
+    return;
+  }
   if (played_sequence - played_at_touch_ > kHistoryGoals) return;
   const auto crossing = playout.crossing(-reading_.normal, surface_point() - anchor_m, played_at_touch_);
   if (crossing) touch_sequence_ = *crossing;

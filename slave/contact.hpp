@@ -35,7 +35,7 @@ class SlaveContact {
   /// Looks up, in the goals that were followed, the one that lies at the surface. While the history reaches
   /// back.
   void locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence);
-  /// The goals begin anew: the present contact was not met by any of them.
+  /// The goals begin anew: the present contact was met by none of them and counts from the first.
   void forget_goals() { touch_sequence_ = played_at_touch_ = 0.0; }
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }

@@ -19,7 +19,7 @@ namespace longreach {
 struct SlaveLinkConfig {
   std::string listen = "127.0.0.1:47001";
   double telemetry_hz = 30.0;
-  double heartbeat_contact_hz = 10.0;
+  double heartbeat_contact_hz = 4.0;
   double heartbeat_free_hz = 2.0;
   ImpairmentConfig impairment{};
 };

@@ -180,6 +180,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("ke_rotation", s.ke_rotation);
   visit("contact_damping_nm_s_per_rad", s.contact_damping_nm_s_per_rad);
   visit("stiffness_max_nm_per_rad", s.stiffness_max_nm_per_rad);
+  visit("registration", s.registration);
   visit("slew_n_per_s", s.slew_n_per_s);
   visit("slew_nm_per_s", s.slew_nm_per_s);
   visit("forget_depth_rad", s.forget_depth_rad);

@@ -38,6 +38,9 @@ static_assert(same(IdleRule::kHome, proto::Behaviour::HOME) &&
 static_assert(same(HandleMotion::kCoupled, proto::Behaviour::COUPLED) &&
               same(HandleMotion::kDecoupled, proto::Behaviour::DECOUPLED) &&
               proto::Behaviour::Motion_ARRAYSIZE == 2);
+static_assert(same(Registration::kTouch, proto::Rendering::TOUCH) &&
+              same(Registration::kArrival, proto::Rendering::ARRIVAL) &&
+              proto::Rendering::Registration_ARRAYSIZE == 2);
 static_assert(same(Grip::kLight, proto::Hand::LIGHT) && same(Grip::kFirm, proto::Hand::FIRM) &&
               same(Grip::kReleased, proto::Hand::RELEASED) && proto::Hand::Grip_ARRAYSIZE == 3);
 static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&

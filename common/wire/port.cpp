@@ -75,13 +75,14 @@ std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time
 }
 
 template <class Message>
-void Port::send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message) {
+std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message) {
   std::array<std::byte, kDatagramMaxBytes> datagram;
   const auto body = std::span(datagram).subspan(kHeaderBytes);
   const std::size_t size = kHeaderBytes + codec_.encode(endpoint_.stamp_for(now), message, body);
   const auto bytes = std::span(datagram).first(size);
   write_header(endpoint_.header_for(type, sequence), bytes);
   channel_.send(bytes);
+  return size;
 }
 
 bool MasterPort::takes(DatagramType type) const {
@@ -119,8 +120,8 @@ void SlavePort::open_inboxes() { commands_.open(); }
 
 void SlavePort::close_inboxes() { commands_.close(); }
 
-void SlavePort::send(Time now, std::uint64_t sequence, const StiffnessReport& report) {
-  send_message(now, DatagramType::kStiffnessReport, sequence, report);
+std::size_t SlavePort::send(Time now, std::uint64_t sequence, const StiffnessReport& report) {
+  return send_message(now, DatagramType::kStiffnessReport, sequence, report);
 }
 
 void SlavePort::send(Time now, std::uint64_t sequence, const Telemetry& telemetry) {

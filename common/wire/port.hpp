@@ -60,7 +60,7 @@ class Port {
   std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Header& header,
                                        std::span<const std::byte> body, std::size_t bytes);
   template <class Message>
-  void send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
+  std::size_t send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
 
  private:
   std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram);
@@ -97,7 +97,8 @@ class SlavePort : public Port {
  public:
   using Port::Port;
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
-  void send(Time now, std::uint64_t sequence, const StiffnessReport& report);
+  /// Returns the size of the datagram, bytes.
+  std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
 
  private:

@@ -8,6 +8,7 @@ namespace longreach {
 namespace {
 
 constexpr double kSameAxis = 0.2;     // sine: 11 degrees
+constexpr double kAcross = 0.5;       // cosine: 60 degrees
 constexpr double kLeastShare = 1e-3;  // of the largest stiffness: less is no surface but noise
 constexpr double kLeastSense = 0.02;  // cosine of the motion with an axis that tells its sense
 
@@ -51,7 +52,7 @@ ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t 
     forget_what_is_free(reached_sequence, history, handle.x);
     return ContactChange::kNone;
   }
-  const auto goal = history.at(contact.touch_sequence);
+  const auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
   if (!(contact.stiffness.cwiseAbs().maxCoeff() > 0.0)) return ContactChange::kNone;  // not identified yet
   if (!goal) return ContactChange::kRejected;
   const Vector3 motion = history.motion_before(contact.touch_sequence, config_.least_motion);
@@ -77,42 +78,62 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
   Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
   const double least = kLeastShare * left.cwiseAbs().maxCoeff();
   bool any = false;
+  // News is old: an axis that is not in it may be pressed again by now, and stays until free space disproves
+  // it.
   for (ContactAxis& a : axes_) {
     if (!a.known) continue;
     const Vector3 row = left * a.n_W;
     const double k = a.n_W.dot(row);
     if (k > least && (row - k * a.n_W).norm() <= kSameAxis * k) {
       // Met again, or known better: another touch while this one lasts does not move it.
-      if (a.released || a.touch == contact.touch) a.goal = goal;
+      if (a.released || (a.touch == contact.touch && !config_.by_arrival)) a.goal = goal;
       a.touch = a.released ? contact.touch : a.touch;
       a.released = false;
       a.reported = config_.ke * k;
       left = across(left, a.n_W);
       any = true;
-    } else {
-      a.known = false;
-      a.reported = 0.0;
+      a.spring.set_stiffness(a.s(handle.x), a.reported);
     }
-    a.spring.set_stiffness(a.s(handle.x), a.reported);
   }
   const Principal rest = principal(left);
   for (int i = 2; i >= 0; --i) {
     if (!(rest.values[i] > least)) continue;
     const Vector3 n = rest.vectors.col(i).normalized();
-    const double sense = n.dot(motion);
-    if (!n.allFinite() || !(std::abs(sense) > kLeastSense * motion.norm())) continue;
-    add_axis(sense > 0.0 ? n : Vector3(-n), contact, goal, handle, mapping, config_.ke * rest.values[i]);
+    const Vector3 into = inward(n, motion);
+    if (!n.allFinite() || into.isZero(0.0)) continue;
+    forget_beside(n, handle.x);
+    add_axis(into, contact, goal, handle, mapping, config_.ke * rest.values[i]);
     any = true;
   }
   return any;
+}
+
+Vector3 Contact::inward(const Vector3& n, const Vector3& motion) const {
+  const double sense = n.dot(motion);
+  if (std::abs(sense) > kLeastSense * motion.norm()) return sense > 0.0 ? n : Vector3(-n);
+  for (const Vector3& met : met_) {
+    if (std::abs(n.dot(met)) > 1.0 - kSameAxis) return n.dot(met) > 0.0 ? n : Vector3(-n);
+  }
+  return Vector3::Zero();
+}
+
+/// A remembered axis that is neither this one nor well across it is the same surface, measured otherwise.
+void Contact::forget_beside(const Vector3& n_W, const Vector3& x) {
+  for (ContactAxis& a : axes_) {
+    if (!a.known || std::abs(a.n_W.dot(n_W)) < kAcross) continue;
+    a.known = false;
+    a.spring.set_stiffness(a.s(x), 0.0);
+  }
 }
 
 /// Takes the first place without force; where there is none, the report after the fading brings the axis
 /// again.
 void Contact::add_axis(const Vector3& n_W, const ContactStiffness& contact, const Vector3& goal,
                        const ContactHandle& handle, const Mapping& mapping, double stiffness) {
-  for (ContactAxis& a : axes_) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    ContactAxis& a = axes_[i];
     if (a.known || a.spring.energy_j(a.s(handle.x)) > 0.0) continue;
+    met_[i] = n_W;
     a = ContactAxis{.known = true,
                     .n_W = n_W,
                     .n_M = mapping.base().conjugate() * n_W,

@@ -28,6 +28,7 @@ struct ContactConfig {
   double ke = 1.0;
   double damping = 0.0;         // B, N s/m
   double forget_depth = 0.005;  // behind a surface, m
+  bool by_arrival = false;      // surfaces lie at the newest goal, for contrast
   double least_motion = 1e-4;   // from which the sense of an axis is believed, m
 };
 
@@ -94,16 +95,21 @@ class Contact {
   bool take_tensor(const ContactStiffness& contact, const Vector3& goal, const Vector3& motion,
                    const ContactHandle& handle, const Mapping& mapping);
   void forget_what_is_free(std::uint64_t reached_sequence, const GoalHistory& history, const Vector3& x);
+  void forget_beside(const Vector3& n_W, const Vector3& x);
   void add_axis(const Vector3& n_W, const ContactStiffness& contact, const Vector3& goal,
                 const ContactHandle& handle, const Mapping& mapping, double stiffness);
   /// Handle's coordinate along the axis where it commands the goal at the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;
   [[nodiscard]] Vector3 spring_force(const Vector3& x) const;
+  /// `n` or -n; zero where nothing tells.
+  [[nodiscard]] Vector3 inward(const Vector3& n, const Vector3& motion) const;
 
   ContactMotion motion_;
   ContactConfig config_{};
   std::array<ContactAxis, kAxes> axes_{};
+  std::array<Vector3, kAxes> met_{Vector3::Zero(), Vector3::Zero(),
+                                  Vector3::Zero()};  // inward normals before
   double force_step_ = 0.0;
 };
 

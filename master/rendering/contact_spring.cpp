@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace longreach {
+namespace {
+
+constexpr double kFullForce_s = 0.75;
+
+}  // namespace
 
 void ContactSpring::begin(double s_m, double surface_m) {
   target_ = fading_ = 0.0;
@@ -42,11 +47,11 @@ double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
-  return_anchor(s_m, share, tank);
+  return_anchor(s_m, dt_s, tank);
   return force_n(s_m);
 }
 
-void ContactSpring::return_anchor(double s_m, double share, EnergyTank& tank) {
+void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
   paid_j_ = 0.0;
   const double k = stiffness_n_per_m();
   const double depth = s_m - anchor_m_;
@@ -54,14 +59,15 @@ void ContactSpring::return_anchor(double s_m, double share, EnergyTank& tank) {
     anchor_m_ = std::max(s_m, surface_m_);
     return;
   }
-  const double move = share * (surface_m_ - anchor_m_);
+  const double move = -std::expm1(-dt_s / config_.fade_s) * (surface_m_ - anchor_m_);
   if (move >= 0.0) {
     anchor_m_ += std::min(move, depth);
     return;
   }
   if (yielding_) return;
   // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
-  double out = std::min(-move, std::max(0.0, config_.force_max_n / k - depth));
+  const double most = config_.force_max_n / k;
+  double out = std::min({-move, std::max(0.0, most - depth), most * dt_s / kFullForce_s});
   const double cost = 0.5 * k * out * (2.0 * depth + out);
   const double there = tank.level_j();
   if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));

@@ -7,7 +7,9 @@
 //   a higher k enters at once, with the anchor moved so that the force is continuous: a' = s - k (s - a)/k';
 //   a lower k enters with the time constant `fade_s`, anchor fixed: force eases, energy falls;
 //   without force the anchor returns to the surface for free: a = max(s, w);
-//   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy;
+//   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy,
+//   never faster than from no force to the limit in kFullForce_s: a wall that was learnt late grows, and does
+//   not step;
 //   above `force_max_n` the spring yields: the anchor gives way.
 //
 // Pure; every input may be anything, non-finite ones are refused by set_*. Lengths and forces may as well be
@@ -51,7 +53,7 @@ class ContactSpring {
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
 
  private:
-  void return_anchor(double s_m, double share, EnergyTank& tank);
+  void return_anchor(double s_m, double dt_s, EnergyTank& tank);
 
   ContactSpringConfig config_;
   double target_ = 0.0;  // stiffness that stays, N/m

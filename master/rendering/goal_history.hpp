@@ -14,13 +14,19 @@ class GoalHistory {
  public:
   explicit GoalHistory(std::size_t capacity) : goals_(capacity) {}
 
-  void clear() { goals_.clear(); }
+  void clear() {
+    goals_.clear();
+    whole_ = true;
+  }
 
   /// `sequence` must be one above the last one; otherwise the history starts anew.
   void push(std::uint64_t sequence, const Vector3& goal_m);
 
-  /// Goal at a fractional sequence, m, linear between two commands; none outside of what is remembered.
+  /// Goal at a fractional sequence, linear between two commands; none outside of what is remembered. What was
+  /// commanded before the history began is its first goal: an engagement begins where the robot is.
   [[nodiscard]] std::optional<Vector3> at(double sequence) const;
+
+  [[nodiscard]] std::optional<Vector3> newest() const;
 
   /// Direction (not unit) in which the goal moved up to `sequence`: the displacement over the shortest reach
   /// back, doubled from 16 commands on, that exceeds `least_m`; zero if there is none.
@@ -28,6 +34,7 @@ class GoalHistory {
 
  private:
   std::uint64_t first_ = 0;  // sequence of goals_[0]
+  bool whole_ = true;        // nothing has been dropped since it began
   Ring<Vector3> goals_;
 };
 

@@ -20,6 +20,7 @@ ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice
           .ke = c.ke,
           .damping = c.contact_damping_n_s_per_m,
           .forget_depth = c.forget_depth_m,
+          .by_arrival = c.registration == Registration::kArrival,
           .least_motion = 1e-4};
 }
 
@@ -31,6 +32,7 @@ ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d
           .ke = c.ke_rotation,
           .damping = c.contact_damping_nm_s_per_rad,
           .forget_depth = c.forget_depth_rad,
+          .by_arrival = c.registration == Registration::kArrival,
           .least_motion = 1e-3};
 }
 

@@ -7,6 +7,8 @@ namespace longreach {
 
 enum class RenderingLaw : std::uint8_t { kStiffness = 0, kNaive = 1 };
 
+enum class Registration : std::uint8_t { kTouch = 0, kArrival = 1 };
+
 struct RenderingConfig {
   RenderingLaw law = RenderingLaw::kStiffness;
   double ke = 1.0;
@@ -23,6 +25,7 @@ struct RenderingConfig {
   double ke_rotation = 1.0;
   double contact_damping_nm_s_per_rad = 1e-3;
   double stiffness_max_nm_per_rad = 10.0;
+  Registration registration = Registration::kTouch;
   double slew_n_per_s = 5000.0;
   double slew_nm_per_s = 200.0;
   double forget_depth_rad = 0.02;

@@ -55,6 +55,16 @@ std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
 // The experiments.
 std::vector<Metric> run_touch(const ExperimentRun& run);
 std::vector<Plot> touch_plots();
+std::vector<Metric> run_hostile_updates(const ExperimentRun& run);
+std::vector<Plot> hostile_updates_plots();
+std::vector<Metric> run_first_touch(const ExperimentRun& run);
+std::vector<Plot> first_touch_plots();
+std::vector<Metric> run_spike(const ExperimentRun& run);
+std::vector<Plot> spike_plots();
+std::vector<Metric> run_rate_contact(const ExperimentRun& run);
+std::vector<Plot> rate_contact_plots();
+std::vector<Metric> run_six_dof_contact(const ExperimentRun& run);
+std::vector<Plot> six_dof_contact_plots();
 std::vector<Metric> run_home_rotation(const ExperimentRun& run);
 std::vector<Plot> home_rotation_plots();
 std::vector<Metric> run_home_translation(const ExperimentRun& run);

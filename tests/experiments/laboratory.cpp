@@ -35,7 +35,8 @@ void Laboratory::step_slave() {
   if (out.report) {
     report_depths_.push(slave_node_.view().reported_depth_m);
     last_report_ = out.report_sequence;
-    slave_port_.send(now, out.report_sequence, *out.report);
+    ++haptic_return_.datagrams;
+    haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kHeaderBytes;
   }
   if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
 }
@@ -54,14 +55,14 @@ void Laboratory::step_master() {
                                             .engaged = view.state == SafetyState::kEngaged,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
-  devices_.set_target(script.target);
+  devices_.set_target(driven_.value_or(script.target));
   MasterInput in;
   in.now = now;
   in.handle = handle;
   in.reports = master_port_.reports();
   in.telemetry = master_port_.telemetry();
   in.requests = requests_;
-  if (script.mode) in.requests.mode = script.mode;
+  if (script.mode && !driven_) in.requests.mode = script.mode;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.peer_restarts();
   const MasterOutput out = master_node_.step(in);

@@ -4,6 +4,7 @@
 // named by (commit, config, seed): the same name gives the same bytes.
 
 #include <cstdint>
+#include <optional>
 
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
@@ -14,6 +15,12 @@
 #include "slave/slave_node.hpp"
 
 namespace longreach {
+
+/// What the slave has sent of the one haptic quantity.
+struct HapticReturn {
+  std::uint64_t datagrams = 0;
+  std::uint64_t bytes = 0;  // without header
+};
 
 class Laboratory {
  public:
@@ -33,8 +40,11 @@ class Laboratory {
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
+  [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
   /// Depth that the stiffness which the master renders now was estimated at, m; zero before the first.
   [[nodiscard]] double rendered_depth_m() const { return rendered_depth_m_; }
+  /// What the person does from now on, instead of the script.
+  void drive(const HandTarget& target) { driven_ = target; }
   /// Asked for in the next tick, besides what the script does.
   OperatorRequests& requests() { return requests_; }
 
@@ -55,9 +65,11 @@ class Laboratory {
   SimulatedArm arm_;
   SimulatedDevices devices_;
   ScriptedOperator script_;
+  std::optional<HandTarget> driven_{};
   OperatorRequests requests_{};
   Ring<double> report_depths_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
+  HapticReturn haptic_return_{};
   double rendered_depth_m_ = 0.0;
 };
 

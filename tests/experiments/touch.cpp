@@ -23,6 +23,8 @@ constexpr double kSpringLeast_n = 0.2;
 
 /// What is watched during the run.
 struct Watch {
+  HapticReturn return_before{}, return_after{};  // while probing
+  double return_s = 0.0;
   LineFit displayed;
   double reference_sum = 0.0;  // of ke times the true secant, over the samples of `displayed`
   double displayed_span_s = 0.0;
@@ -69,6 +71,11 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
     const double registered = m.inward.dot(m.p_MH) - m.surface_m;
     w.registration_m = std::abs(registered - true_handle_depth(lab, point, inward));
   }
+  if (phase == ScriptPhase::kProbe) {
+    if (w.phase != phase) w.return_before = lab.haptic_return();
+    w.return_s += lab.period_s();
+    w.return_after = lab.haptic_return();
+  }
   w.phase = phase;
   if (w.first_touch_s < 0.0 || lab.now_s() < w.first_touch_s + w.rtt_s + 1.0) return;
   if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
@@ -86,6 +93,7 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
   const double displayed = w.displayed.slope();
   const double error = reference > 0.0 ? std::abs(displayed - reference) / reference : 1.0;
   const double rendered_error = reference > 0.0 ? std::abs(m.stiffness_n_per_m - reference) / reference : 1.0;
+  const double probed_s = std::max(w.return_s, lab.period_s());
   return {{"displayed_stiffness_n_per_m", displayed, "N/m"},
           {"reference_stiffness_n_per_m", reference, "N/m"},
           {"displayed_stiffness_error", error, ""},
@@ -107,6 +115,10 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"rejected_values", static_cast<double>(m.rejected_values + s.rejected_values), ""},
           {"false_holds", static_cast<double>(m.false_holds + s.false_holds), ""},
           {"limit_violations", static_cast<double>(s.limit_violations), ""},
+          {"haptic_return_datagrams_per_s",
+           static_cast<double>(w.return_after.datagrams - w.return_before.datagrams) / probed_s, "1/s"},
+          {"haptic_return_bit_per_s",
+           8.0 * static_cast<double>(w.return_after.bytes - w.return_before.bytes) / probed_s, "bit/s"},
           {"duration_s", lab.now_s(), "s"}};
 }
 

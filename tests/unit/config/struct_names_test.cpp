@@ -156,6 +156,7 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.ke_rotation, m.ke_rotation());
   EXPECT_EQ(s.contact_damping_nm_s_per_rad, m.contact_damping_nm_s_per_rad());
   EXPECT_EQ(s.stiffness_max_nm_per_rad, m.stiffness_max_nm_per_rad());
+  EXPECT_EQ(static_cast<int>(s.registration), static_cast<int>(m.registration()));
   EXPECT_EQ(s.slew_n_per_s, m.slew_n_per_s());
   EXPECT_EQ(s.slew_nm_per_s, m.slew_nm_per_s());
   EXPECT_EQ(s.forget_depth_rad, m.forget_depth_rad());

@@ -1,0 +1,87 @@
+// What the hand feels under hostile news, at a first touch, in a spike of the delay, in rate mode and in six
+// degrees of freedom.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "tests/experiments/experiment.hpp"
+
+namespace longreach {
+namespace {
+
+std::map<std::string, double> metrics(std::string_view name, const std::vector<std::string>& settings = {}) {
+  ExperimentRun run;
+  run.config = configure(settings, LONGREACH_DEPLOY);
+  std::map<std::string, double> values;
+  for (const Metric& m : find_experiment(name)->run(run)) values[m.name] = m.value;
+  return values;
+}
+
+TEST(HostileUpdates, GiveNoEnergyAndNoStepAndTheNaiveLawFailsUnderTheSame) {
+  auto m = metrics("hostile-updates");
+  EXPECT_EQ(m.at("updates"), 1e6);
+  EXPECT_GT(m.at("reports_applied"), 1e5);
+  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_LE(m.at("energy_drawdown_j"), 1e-3);
+  EXPECT_LE(m.at("force_step_excess_n"), 0.0);
+  EXPECT_EQ(m.at("unsafe_wrenches"), 0.0);
+  EXPECT_LT(m.at("naive_port_energy_min_j"), -1.0);
+  EXPECT_EQ(m.at("naive_unsafe_wrenches"), 0.0);
+}
+
+TEST(FirstTouch, GrowsWithoutAStepAndRegistersTheWallByTheTouchSequence) {
+  auto m = metrics("first-touch");
+  EXPECT_LE(m.at("felt_after_round_trip_s"), 0.2);
+  EXPECT_GT(m.at("felt_after_round_trip_s"), 0.0);
+  EXPECT_LE(m.at("force_step_max_n"), 0.1);
+  EXPECT_LE(m.at("registration_error_m"), 1e-3);
+  EXPECT_GT(m.at("registration_error_without_touch_sequence_m"), 10.0 * 1e-3);
+  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+}
+
+TEST(Spike, EasesTheForceAndLetsTheWorkGoOnAfterANewEngagement) {
+  auto m = metrics("spike");
+  EXPECT_GT(m.at("force_when_it_began_n"), 1.0);
+  EXPECT_NEAR(m.at("stiffness_left_after_time_constant"), std::exp(-1.0), 0.01);
+  EXPECT_LE(m.at("force_rise_max_n"), 0.1);
+  EXPECT_LT(m.at("force_two_seconds_later_n"), 0.01);
+  EXPECT_EQ(m.at("engagements"), 2.0);
+  EXPECT_EQ(m.at("pressed_again"), 1.0);
+  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_LE(m.at("energy_drawdown_j"), 1e-3);
+}
+
+TEST(RateContact, IsProportionalToTheForceOfTheSlaveWhileTheHandIsStill) {
+  auto m = metrics("rate-contact");
+  EXPECT_NEAR(m.at("felt_over_tool_force"), 1.0, 0.1);
+  EXPECT_LE(m.at("force_rise_max_n"), 0.1);
+  EXPECT_EQ(m.at("left"), 1.0);
+  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+}
+
+TEST(SixDofContact, DisplaysAnObliquePlaneACornerAndATorque) {
+  auto m = metrics("six-dof-contact");
+  EXPECT_LE(m.at("oblique_displayed_error"), 0.05);
+  EXPECT_LE(m.at("oblique_tangential_n"), 0.01);
+  EXPECT_LE(m.at("oblique_registration_error_m"), 1e-3);
+  EXPECT_LE(m.at("corner_displayed_error_x"), 0.05);
+  EXPECT_LE(m.at("corner_displayed_error_y"), 0.05);
+  EXPECT_LE(m.at("torque_displayed_error"), 0.05);
+  for (const char* scene : {"oblique", "corner", "torque"})
+    EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -1e-3) << scene;
+}
+
+TEST(HapticReturn, IsAtMostTenDatagramsAndFourKilobitsASecondInSteadyContact) {
+  for (const char* profile : {"lab", "moon"}) {
+    auto m = metrics("touch", {std::string("profile=") + profile});
+    EXPECT_LE(m.at("haptic_return_datagrams_per_s"), 10.1) << profile;
+    EXPECT_GE(m.at("haptic_return_datagrams_per_s"), 3.0) << profile;
+    EXPECT_LE(m.at("haptic_return_bit_per_s"), 4000.0) << profile;
+    EXPECT_LE(m.at("displayed_stiffness_error"), 0.05) << profile;
+  }
+}
+
+}  // namespace
+}  // namespace longreach
