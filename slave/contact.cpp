@@ -61,6 +61,7 @@ void SlaveContact::identify(const ContactInput& input) {
   sample.v_m_per_s = -normal.dot(input.v_WE);
   sample.force_n = normal.dot(input.force_n);
   sample.force_filtered_n = normal.dot(reading_.filtered_n);
+  sample.guarded = input.guarded;
   if (reported_.step(estimator_.step(sample, input.dt))) {
     stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
   }

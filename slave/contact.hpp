@@ -23,6 +23,7 @@ struct ContactInput {
   double played_sequence = 0.0;       // of the goal that is followed; 0: none
   double scale = 1.0;                 // k_scale: a force at the hand is this much at the tool
   double dt = 0.0;                    // s
+  bool guarded = false;               // the force guard held the tool in the last step
 };
 
 class SlaveContact {

@@ -225,7 +225,8 @@ void SlaveNode::State::feel(const RobotState& robot, double dt) {
   view.X_WE = tool.X_WE;
   const Vector3 v_WE = tool.J.bottomRows<3>() * robot.joint_rad_per_s;
   const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
-  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, scale, dt});
+  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, scale, dt,
+                view.clamps.force_guard});
 }
 
 void SlaveNode::State::book_reached() {

@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kFullForce_s = 0.75;
+constexpr double kFullForce_s = 0.4;
 
 }  // namespace
 
@@ -15,6 +15,7 @@ void ContactSpring::begin(double s_m, double surface_m) {
   clamped_ = yielding_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
+  s_last_m_ = s_m;
 }
 
 bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
@@ -48,6 +49,7 @@ double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
   return_anchor(s_m, dt_s, tank);
+  s_last_m_ = s_m;
   return force_n(s_m);
 }
 
@@ -67,7 +69,10 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
   if (yielding_) return;
   // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
   const double most = config_.force_max_n / k;
-  double out = std::min({-move, std::max(0.0, most - depth), most * dt_s / kFullForce_s});
+  // A wall that was learnt late, far behind: it grows, and not while the hand retreats from it.
+  const double fastest = most * dt_s / kFullForce_s;
+  if (-move > fastest && s_m < s_last_m_) return;
+  double out = std::min({-move, std::max(0.0, most - depth), fastest});
   const double cost = 0.5 * k * out * (2.0 * depth + out);
   const double there = tank.level_j();
   if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));

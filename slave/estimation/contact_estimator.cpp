@@ -67,7 +67,7 @@ const SecantEstimate& ContactEstimator::step(const ContactSample& sample, double
       ++ignored_;
     }
   }
-  answer(sample.x_m, dt);
+  answer(sample, dt);
   return estimate_;
 }
 
@@ -110,7 +110,7 @@ void ContactEstimator::choose_depth(double present_m, double dt) {
   if (left && depth_filtered_m_ > 0.0) depth_held_m_ = depth_filtered_m_;
 }
 
-void ContactEstimator::answer(double x_m, double dt) {
+void ContactEstimator::answer(const ContactSample& sample, double dt) {
   SecantEstimate e;
   e.n = n_;
   e.force_sd_n = std::sqrt(variance_n2_);
@@ -129,7 +129,7 @@ void ContactEstimator::answer(double x_m, double dt) {
   const double fraction =
       std::sqrt(n_ * n_ * std::max(covariance(0, 0), 0.0) / (b * b) + kModelSd * kModelSd);
   e.valid = fraction < 0.5;
-  if (fraction < config_.first_sd) choose_depth(x_m - e.surface_m, dt);
+  if (fraction < config_.first_sd && !sample.guarded) choose_depth(sample.x_m - e.surface_m, dt);
   e.depth_m = depth_held_m_ > 0.0 ? depth_held_m_ : power(working_force_n_, 1.0 / n_) / b * kLengthM;
   e.stiffness_n_per_m = e.k * power(e.depth_m, n_ - 1.0);
   e.stiffness_sd_n_per_m = fraction * e.stiffness_n_per_m;

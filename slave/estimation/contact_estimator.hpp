@@ -26,6 +26,7 @@ struct ContactSample {
   double v_m_per_s = 0.0;         // its derivative
   double force_n = 0.0;           // measured, along the outward normal
   double force_filtered_n = 0.0;  // the same, low-passed
+  bool guarded = false;           // the force guard holds the tool: this depth is not the work's
 };
 
 struct SecantEstimate {
@@ -63,7 +64,7 @@ class ContactEstimator {
   using Vector = Eigen::Vector3d;
 
   bool update(const ContactSample& sample, double force_before_n, double dt);
-  void answer(double x_m, double dt);
+  void answer(const ContactSample& sample, double dt);
   void choose_depth(double present_m, double dt);
 
   EstimatorConfig config_;

@@ -13,6 +13,7 @@ namespace longreach {
 namespace {
 
 constexpr double kTowards_m = 0.04;   // deflection of the hand: 70 mm/s with the defaults
+constexpr double kNear_m = 0.012;     // 14 mm/s
 constexpr double kGentle_m = 0.0055;  // 1 mm/s
 constexpr double kWall_m = 0.15;
 
@@ -30,7 +31,7 @@ class Person {
     double deflection = 0.0;
     switch (phase_) {
       case Phase::kTowards:
-        deflection = kTowards_m;
+        deflection = m.goal_m.x() < 0.8 * kWall_m ? kTowards_m : kNear_m;
         go(m.goal_m.x() > kWall_m + 0.002, Phase::kWait, t);
         break;
       case Phase::kWait:
@@ -52,6 +53,7 @@ class Person {
     }
     HandTarget target;
     target.position_m = {deflection * gain_, 0.0, 0.0};
+    target.grip = Grip::kFirm;
     return target;
   }
   [[nodiscard]] Phase phase() const { return phase_; }
@@ -95,8 +97,8 @@ std::vector<Metric> run_rate_contact(const ExperimentRun& run) {
   Laboratory lab(master, slave, run.seed);
   Person person;
   const double k_f = master.rendering.rate_stiffness_n_per_m;
-  const HandModel light = hand_model(Grip::kLight);
-  person.lean(1.0 + k_f / light.stiffness_n_per_m);
+  const HandModel hand = hand_model(Grip::kFirm);
+  person.lean(1.0 + k_f / hand.stiffness_n_per_m);
   Trace trace(run.out, "rate-contact",
               {"t_s", "hand_m", "depth_m", "felt_n", "tool_n", "port_energy_j", "tank_j"});
   double felt_sum = 0.0, tool_sum = 0.0, rise_max_n = 0.0, last_n = 0.0;
