@@ -267,8 +267,8 @@ std::vector<Metric> run_hostile_updates(const ExperimentRun& run) {
       worsen(ours, one);
       worsen(theirs, other);
       naive_sum_j += other.energy_min_j;
-      trace.row({static_cast<double>(n), one.energy_min_j, one.drawdown_j, other.energy_min_j});
-      if (run.progress) run.progress(static_cast<double>(++n) / kCases);
+      trace.row({static_cast<double>(++n), one.energy_min_j, one.drawdown_j, other.energy_min_j});
+      if (run.progress) run.progress(static_cast<double>(n) / kCases);
     }
   }
   trace.close();

@@ -16,23 +16,57 @@ constexpr double kSpike_s = 30.0;  // by then the hand presses
 constexpr double kSpikeLength_s = 60.0;
 constexpr double kDuration_s = 160.0;
 
-struct Spike {
+/// What happened to the force, tick by tick.
+class Spike {
+ public:
+  explicit Spike(double fade_s) : fade_s_(fade_s) {}
+
+  void watch(const Laboratory& lab) {
+    const MasterView& m = lab.master();
+    const double t = lab.now_s(), felt_n = m.spring_force_n.norm(), half_tick_s = 0.6 * lab.period_s();
+    if (std::abs(t - kSpike_s) < half_tick_s) in_contact_n = felt_n;
+    if (t > kSpike_s && t < kSpike_s + kSpikeLength_s) rise_max_n = std::max(rise_max_n, felt_n - last_n_);
+    if (t > kSpike_s && held_s < 0.0 && m.state == SafetyState::kHolding) {
+      held_s = t - kSpike_s;
+      stiffness_at_hold = m.stiffness_n_per_m;
+    }
+    if (held_s >= 0.0) {
+      const double since = t - kSpike_s - held_s;
+      if (std::abs(since - fade_s_) < half_tick_s) stiffness_later = m.stiffness_n_per_m;
+      if (std::abs(since - 2.0) < half_tick_s) residual_n = felt_n;
+    }
+    if (m.state == SafetyState::kEngaged && m.engagement != engagement_) {
+      engagement_ = m.engagement;
+      ++engagements;
+      engaged_since_s_ = t;
+    }
+    pressed_again = pressed_again || (engagements > 1 && felt_n > 2.0 && t > engaged_since_s_ + 5.0);
+    last_n_ = felt_n;
+  }
+
   double in_contact_n = 0.0;  // felt when the spike began
   double held_s = -1.0;       // from the beginning of the spike to the hold of the master
-  double stiffness_at_hold = 0.0, stiffness_later = 0.0;  // one time constant later
-  double rise_max_n = 0.0;  // of the contact force within a tick, after the spike began
-  double residual_n = 0.0;  // felt two seconds after the hold
+  double stiffness_at_hold = 0.0;
+  double stiffness_later = 0.0;  // one time constant later
+  double rise_max_n = 0.0;       // of the contact force within a tick, after the spike began
+  double residual_n = 0.0;       // felt two seconds after the hold
   int engagements = 0;
-  int cycles_before = 0, cycles_after = 0;
+  bool pressed_again = false;
+
+ private:
+  double fade_s_;
+  double last_n_ = 0.0;
+  double engaged_since_s_ = -1.0;
+  std::uint32_t engagement_ = 0;
 };
 
 void spike_into(ImpairmentConfig& way) {
+  way = {.delay_s = 0.4, .jitter_s = 0.02, .loss = 0.015};
   way.step_delay_s = 5.6;
   way.step_start_s = kSpike_s;
   way.step_duration_s = kSpikeLength_s;
   way.blackout_start_s = kSpike_s;
   way.blackout_duration_s = 1.0;
-  way.blackout_period_s = 0.0;
 }
 
 }  // namespace
@@ -52,8 +86,6 @@ std::vector<Plot> spike_plots() {
 std::vector<Metric> run_spike(const ExperimentRun& run) {
   MasterConfig master = to_struct(run.config.master());
   SlaveConfig slave = to_struct(run.config.slave());
-  master.link.impairment = slave.link.impairment =
-      ImpairmentConfig{.delay_s = 0.4, .jitter_s = 0.02, .loss = 0.015};
   spike_into(master.link.impairment);
   spike_into(slave.link.impairment);
   // A wall near by, and a script that stays in contact until the spike.
@@ -61,49 +93,26 @@ std::vector<Metric> run_spike(const ExperimentRun& run) {
   slave.scene.surface[0].plane = {.point_m = {0.02, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}};
   master.operator_.rate_distance_m = 0.0;
   master.operator_.probe_cycles = 1000;
-  const double fade_s = master.rendering.fade_s;
 
   Laboratory lab(master, slave, run.seed);
   Trace trace(run.out, "spike", {"t_s", "felt_n", "tool_n", "stiffness_n_per_m", "port_energy_j", "state"});
-  Spike s;
-  double last_n = 0.0, engaged_since_s = -1.0;
-  std::uint32_t engagement = 0;
+  Spike s(master.rendering.fade_s);
+  const MasterView& m = lab.master();
   const auto ticks = static_cast<std::int64_t>(kDuration_s / lab.period_s());
   for (std::int64_t i = 0; i < ticks; ++i) {
-    const MasterView& m = lab.master();
-    const double t = lab.now_s();
     // The person engages anew when the slave is heard again and the spike is over.
-    if (t > kSpike_s + kSpikeLength_s + 5.0 && m.state != SafetyState::kEngaged && i % 1000 == 0)
+    if (lab.now_s() > kSpike_s + kSpikeLength_s + 5.0 && m.state != SafetyState::kEngaged && i % 1000 == 0)
       lab.requests().engage = true;
     lab.step();
-    const double felt_n = m.spring_force_n.norm();
-    if (std::abs(t - kSpike_s) < 0.5 * lab.period_s()) s.in_contact_n = felt_n;
-    if (t > kSpike_s && t < kSpike_s + kSpikeLength_s) s.rise_max_n = std::max(s.rise_max_n, felt_n - last_n);
-    if (t > kSpike_s && s.held_s < 0.0 && m.state == SafetyState::kHolding) {
-      s.held_s = t - kSpike_s;
-      s.stiffness_at_hold = m.stiffness_n_per_m;
-    }
-    if (s.held_s >= 0.0) {
-      const double since = t - kSpike_s - s.held_s;
-      if (std::abs(since - fade_s) < 0.6 * lab.period_s()) s.stiffness_later = m.stiffness_n_per_m;
-      if (std::abs(since - 2.0) < 0.6 * lab.period_s()) s.residual_n = felt_n;
-    }
-    if (m.state == SafetyState::kEngaged && m.engagement != engagement) {
-      engagement = m.engagement;
-      ++s.engagements;
-      engaged_since_s = t;
-    }
-    last_n = felt_n;
-    if (s.engagements > 1 && felt_n > 2.0 && t > engaged_since_s + 5.0) s.cycles_after = 1;
+    s.watch(lab);
     if (i % 50 == 0) {
-      trace.row({t, felt_n, lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m, m.port_energy_j,
-                 static_cast<double>(m.state)});
+      trace.row({lab.now_s(), m.spring_force_n.norm(), lab.arm().true_wrench().force.norm(),
+                 m.stiffness_n_per_m, m.port_energy_j, static_cast<double>(m.state)});
     }
     if (run.progress && i % 1000 == 0) run.progress(static_cast<double>(i) / static_cast<double>(ticks));
   }
   trace.close();
   if (run.progress) run.progress(1.0);
-  const MasterView& m = lab.master();
   return {{"duration_s", lab.now_s(), "s"},
           {"force_when_it_began_n", s.in_contact_n, "N"},
           {"held_after_s", s.held_s, "s"},
@@ -111,7 +120,7 @@ std::vector<Metric> run_spike(const ExperimentRun& run) {
           {"force_rise_max_n", s.rise_max_n, "N"},
           {"force_two_seconds_later_n", s.residual_n, "N"},
           {"engagements", static_cast<double>(s.engagements), ""},
-          {"pressed_again", static_cast<double>(s.cycles_after), ""},
+          {"pressed_again", s.pressed_again ? 1.0 : 0.0, ""},
           {"port_energy_min_j", m.port_energy_min_j, "J"},
           {"energy_drawdown_j", m.energy_drawdown_j, "J"}};
 }
