@@ -2,23 +2,33 @@
 
 #include <cmath>
 
+#include "common/spatial/arc_tangent.hpp"
+#include "common/spatial/sin_cos.hpp"
+
 namespace longreach {
+namespace {
+
+/// Euclidean norm; the careful way only where the square leaves the range.
+double norm(const Vector3& v) {
+  const double square = v.squaredNorm();
+  return square > 1e-200 && square < 1e200 ? std::sqrt(square) : v.stableNorm();
+}
+
+}  // namespace
 
 Quaternion exp_rotation(const Vector3& rotation_rad) {
-  const double angle = rotation_rad.stableNorm();
-  const double half = 0.5 * angle;
+  const double angle = norm(rotation_rad);
+  const auto [sine, cosine] = sin_cos(0.5 * angle);
   // sin(half)/angle by its series where the quotient would lose digits.
-  const double s = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(half) / angle;
-  return Quaternion(std::cos(half), s * rotation_rad.x(), s * rotation_rad.y(), s * rotation_rad.z())
-      .normalized();
+  const double s = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : sine / angle;
+  return {cosine, s * rotation_rad.x(), s * rotation_rad.y(), s * rotation_rad.z()};
 }
 
 Vector3 log_rotation(const Quaternion& q) {
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;  // the shorter way round
   const Vector3 v = sign * q.vec();
-  const double s = v.stableNorm();
-  const double angle = 2.0 * std::atan2(s, std::abs(q.w()));
-  return s < 1e-10 ? Vector3(2.0 * v) : Vector3(v * (angle / s));
+  const double s = norm(v);
+  return s < 1e-10 ? Vector3(2.0 * v) : Vector3(v * (2.0 * arc_tangent(s, std::abs(q.w())) / s));
 }
 
 }  // namespace longreach

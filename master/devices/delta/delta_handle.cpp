@@ -22,8 +22,7 @@ bool DeltaHandle::read(const Vector3& theta_rad, double dt_s) {
 
 Vector3 DeltaHandle::torques(const Vector3& force_n) const {
   const DeltaVelocity at = velocity(kinematics_.geometry(), theta_, p_);
-  return statics(at, force_n).tau_nm +
-         gravity_torques(kinematics_.geometry(), masses_, gravity_, theta_, at).tau_nm;
+  return holding_torques(kinematics_.geometry(), masses_, gravity_, theta_, at, force_n).tau_nm;
 }
 
 }  // namespace longreach

@@ -21,7 +21,8 @@ Matrix3 adjugate_columns(const Matrix3& rows) {
 
 /// Direction in which the arm of leg i moves its end, per radian, m.
 Vector3 swing(const DeltaGeometry& g, int i, double theta) {
-  return g.to_world(i, g.arm_m() * Vector3(-std::sin(theta), 0.0, std::cos(theta)));
+  const auto [s, c] = sin_cos(theta);
+  return g.to_world(i, g.arm_m() * Vector3(-s, 0.0, c));
 }
 
 }  // namespace
@@ -43,12 +44,12 @@ DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const V
   for (int i = 0; i < 3; ++i) {
     const auto [s, c] = sin_cos(theta_rad[i]);
     Vector3 rod = g.to_leg(i, p_m - g.elbow(i, c, s));
-    const double distance = std::hypot(rod.x(), rod.z());
+    const double distance = std::sqrt(rod.x() * rod.x() + rod.z() * rod.z());
     // The offset lies in the leg's plane between the arm's end and the rods.
     const double kept = distance > 0.0 ? (distance - g.offset_m()) / distance : 0.0;
     rod.x() *= kept;
     rod.z() *= kept;
-    const double length = rod.stableNorm();
+    const double length = rod.norm();
     if (length > 0.0) rod /= length;
     at.rods.row(i) = g.to_world(i, rod);
     at.lever_m[i] = g.arm_m() * (rod.z() * c - rod.x() * s);
@@ -76,9 +77,15 @@ DeltaTorques statics(const DeltaVelocity& at, const Vector3& force_n) {
 DeltaTorques gravity_torques(const DeltaGeometry& g, const DeltaMasses& masses,
                              const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
                              const DeltaVelocity& at) {
+  return holding_torques(g, masses, gravity_m_per_s2, theta_rad, at, Vector3::Zero());
+}
+
+DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
+                             const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
+                             const DeltaVelocity& at, const Vector3& force_n) {
   const double with_platform = masses.platform_kg + 1.5 * masses.forearm_kg;
   const double with_arm = masses.arm_kg * masses.arm_com_fraction + 0.5 * masses.forearm_kg;
-  DeltaTorques result = statics(at, -with_platform * gravity_m_per_s2);
+  DeltaTorques result = statics(at, force_n - with_platform * gravity_m_per_s2);
   if (result.status != SolutionStatus::kFound) return result;
   for (int i = 0; i < 3; ++i) result.tau_nm[i] -= with_arm * gravity_m_per_s2.dot(swing(g, i, theta_rad[i]));
   return result;

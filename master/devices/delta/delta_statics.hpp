@@ -60,6 +60,11 @@ DeltaTorques gravity_torques(const DeltaGeometry& g, const DeltaMasses& masses,
                              const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
                              const DeltaVelocity& at);
 
+/// Both at once: push with `force_n` and carry the weight.
+DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
+                             const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
+                             const DeltaVelocity& at, const Vector3& force_n);
+
 /// Potential energy of the device, J, zero with all masses in the base frame's origin.
 double potential_energy(const DeltaGeometry& g, const DeltaMasses& masses, const Vector3& gravity_m_per_s2,
                         const Vector3& theta_rad, const Vector3& p_m);

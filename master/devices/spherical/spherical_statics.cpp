@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/spatial/sin_cos.hpp"
 #include "common/spatial/singular_value.hpp"
 #include "master/devices/spherical/spherical_closure.hpp"
 
@@ -16,7 +17,8 @@ SphericalVelocity velocity(const SphericalGeometry& g, const Vector3& theta_rad,
   const Matrix3 R = q.toRotationMatrix();
   SphericalVelocity at;
   for (int i = 0; i < 3; ++i) {
-    const Vector3 w = g.middle_axis(i, std::cos(theta_rad[i]), std::sin(theta_rad[i]));
+    const auto [s, c] = sin_cos(theta_rad[i]);
+    const Vector3 w = g.middle_axis(i, c, s);
     const Vector3 normal = w.cross(R * g.leg(i).v) / g.sin_alpha2();
     at.normals.row(i) = normal;
     at.lever[i] = g.leg(i).u.dot(normal);
