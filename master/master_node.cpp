@@ -6,6 +6,7 @@
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/simulated_devices.hpp"
 #include "master/mapping/mapping.hpp"
+#include "master/mapping/turns.hpp"
 #include "master/master_safety.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/renderer.hpp"
@@ -38,6 +39,13 @@ bool plausible(const HandleState& h) {
          h.angular_rad_per_s.cwiseAbs().maxCoeff() < kFast && h.p_MH.allFinite() &&
          h.velocity_m_per_s.allFinite() && h.angular_rad_per_s.allFinite() &&
          std::abs(h.q_MH.squaredNorm() - 1.0) < 1e-6;
+}
+
+/// A handle is at the soft stop of its workspace.
+bool at_boundary(const HandleState& h, const DeviceConfig& device) {
+  const double share = device.behaviour.stop_share;
+  return h.p_MH.norm() >= share * device.delta.workspace_m ||
+         log_rotation(h.q_MH).norm() >= share * device.spherical.workspace_rad;
 }
 
 }  // namespace
@@ -74,8 +82,9 @@ struct MasterNode::State {
   HandleState handle{};  // as last read, or as last plausible
   Buttons buttons{};     // in the last tick
   std::uint64_t sequence = 0;
-  std::uint32_t idle_turns = 0;  // datagrams since the goal that did not move was sent
-  double send_phase = 1.0;       // of the send period
+  Turns turns;
+  double one_way_s = 0.0;   // half of the round trip
+  double send_phase = 1.0;  // of the send period
   MasterView view;
 };
 
@@ -99,6 +108,7 @@ void MasterNode::State::take_requests(const OperatorRequests& r) {
   }
   change_scale(scale, r.scale_steps);
   view.clutched = r.clutch;
+  view.load = r.load.value_or(view.load);
 }
 
 /// Steps land on multiples of 0.05, whatever scale was set before.
@@ -129,6 +139,7 @@ RendererInput MasterNode::State::renderer_input() {
   at.scale = view.scale;
   at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
   at.stale = safety.stale();
+  at.load = view.load;
   return at;
 }
 
@@ -162,18 +173,14 @@ MotionCommand MasterNode::State::command() {
   c.scale = view.scale;
   c.position_m = goal.position_m;
   c.rotation_rad = log_rotation(goal.rotation);
-  // One device a period; translation wins. The other's last goal takes every eighth turn, so its loss loses
-  // nothing.
-  const bool rotation_first = goal.rotation_moved && !goal.translation_moved;
-  const bool others_turn = ++idle_turns >= 8;
-  if (others_turn) idle_turns = 0;
-  c.goal_kind = rotation_first != others_turn ? GoalKind::kOrientation : GoalKind::kPosition;
+  c.goal_kind = turns.next(goal, view.scale);
   return c;
 }
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
   s.take_handle(input.handle);
+  s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
   s.take_requests(input.requests);
   s.take_buttons(s.handle.buttons);
   const bool begun = s.safety.step({.now = input.now,
@@ -218,6 +225,9 @@ void MasterNode::State::publish(const Wrench& F) {
   view.p_MH = handle.p_MH;
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = log_rotation(mapping.goal().rotation);
+  view.forecast = mapping.forecast(one_way_s);
+  view.at_boundary =
+      view.mode == MotionMode::kPosition && !mapping.frozen() && at_boundary(handle, config.device);
   view.F_H_M = F;
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
   const ContactAxis& surface = linear.contact.foremost();

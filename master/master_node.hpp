@@ -27,6 +27,7 @@ struct OperatorRequests {
   std::optional<double> scale{};  // 0.05 to 1; others are ignored and counted
   int scale_steps = 0;            // of 0.05
   bool clutch = false;            // level: while true the handle moves without the robot
+  std::optional<bool> load{};     // the gripper carries something
 };
 
 struct MasterInput {
@@ -37,6 +38,7 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
+  std::optional<double> rtt_s{};  // of the link, once known
 };
 
 /// Everything that eyes, status and log need to know, once a tick.
@@ -48,10 +50,13 @@ struct MasterView {
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
+  bool load = false;         // in the gripper
+  bool at_boundary = false;  // position mode: a handle meets its soft stop, time to relocate with the clutch
   Vector3 p_MH = Vector3::Zero();    // handle, m
   Vector3 goal_m = Vector3::Zero();  // goal minus anchor, W
   Vector3 goal_rad = Vector3::Zero();
-  Wrench F_H_M{};                            // rendered, on the hand
+  Pose forecast{};  // goal one way ahead, from the anchor, W: for a ghost in the picture
+  Wrench F_H_M{};   // rendered, on the hand
   Vector3 spring_force_n = Vector3::Zero();  // the contact spring's part of it
   bool in_contact = false;                   // as reported
   bool surface_known = false;

@@ -31,6 +31,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.requests = requests;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.peer_restarts();
+  in.rtt_s = snapshot_.side.link.rtt_s;
 
   const MasterOutput out = node_.step(in);
   devices_.write(out.F_H_M);

@@ -157,6 +157,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("radius_max_rad", s.radius_max_rad);
   visit("speed_max_m_per_s", s.speed_max_m_per_s);
   visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
+  visit("base_rotation_rad", s.base_rotation_rad);
 }
 
 template <class Visitor, Is<RenderingConfig> S>
@@ -184,6 +185,10 @@ void visit_fields(Visitor& visit, S& s) {
   visit("slew_n_per_s", s.slew_n_per_s);
   visit("slew_nm_per_s", s.slew_nm_per_s);
   visit("forget_depth_rad", s.forget_depth_rad);
+  visit("load_factor", s.load_factor);
+  visit("friction_nm", s.friction_nm);
+  visit("friction_stiffness_nm_per_rad", s.friction_stiffness_nm_per_rad);
+  visit("home_spring", s.home_spring);
 }
 
 template <class Visitor, Is<MasterSafetyConfig> S>

@@ -32,6 +32,7 @@ ScriptedOperator::ScriptedOperator(const OperatorConfig& config, const MappingCo
       mapping_(mapping),
       grip_(grip),
       direction_(config.direction.stableNormalized()),
+      goal_direction_(exp_rotation(mapping.base_rotation_rad) * direction_),
       hand_stiffness_(std::max(hand_model(grip).stiffness_n_per_m, 1.0)) {}
 
 void ScriptedOperator::enter(ScriptPhase phase, Time now) {
@@ -59,7 +60,7 @@ ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
 /// Changes of phase; returns the mode that the person switches to.
 std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
   const double elapsed_s = to_seconds(in.now - entered_);
-  const double left_m = config_.rate_distance_m - direction_.dot(in.goal_m);
+  const double left_m = config_.rate_distance_m - goal_direction_.dot(in.goal_m);
   switch (phase_) {
     case ScriptPhase::kWaiting:
       if (!in.engaged) break;
@@ -123,7 +124,7 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   double speed = 0.0;
   switch (phase_) {
     case ScriptPhase::kCoarse: {
-      const double left_m = config_.rate_distance_m - direction_.dot(in.goal_m);
+      const double left_m = config_.rate_distance_m - goal_direction_.dot(in.goal_m);
       speed = 8.0 * (coarse_deflection(left_m) - handle_m);
       break;
     }

@@ -36,7 +36,7 @@ struct ScriptInput {
   Time now{};
   Vector3 handle_m = Vector3::Zero();
   double felt_n = 0.0;               // contact force at the hand
-  Vector3 goal_m = Vector3::Zero();  // own commands, from the anchor
+  Vector3 goal_m = Vector3::Zero();  // own commands, from the anchor, W
   double scale = 1.0;
   bool engaged = false;
   bool surface_known = false;
@@ -66,8 +66,9 @@ class ScriptedOperator {
   OperatorConfig config_;
   MappingConfig mapping_;
   Grip grip_;
-  Vector3 direction_;
-  double hand_stiffness_;  // N/m
+  Vector3 direction_;       // in M
+  Vector3 goal_direction_;  // the same in W
+  double hand_stiffness_;   // N/m
   ScriptPhase phase_ = ScriptPhase::kWaiting;
   Time entered_{};
   Time now_{};

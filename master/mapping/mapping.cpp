@@ -1,8 +1,24 @@
 #include "master/mapping/mapping.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace longreach {
+namespace {
+
+constexpr double kReentry = 0.9;    // of the dead zone, where the literal law's motion ends
+constexpr double kSmooth_s = 0.1;   // of the speed that a forecast in position mode goes on with
+constexpr double kReach_rad = 2.0;  // farther than any handle turns
+
+/// The rate law of one device, which remembers on which side of the edge the handle was.
+Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law, bool& outside) {
+  const double edge = law == RateLaw::kLiteral && outside ? kReentry * dead_zone : dead_zone;
+  const Vector3 rate = rate_law(deflection, edge, radius_max, law);
+  outside = !rate.isZero(0.0);
+  return rate;
+}
+
+}  // namespace
 
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law) {
   const double r = deflection.stableNorm();
@@ -10,6 +26,12 @@ Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max,
   const double capped = std::min(r, std::max(radius_max, dead_zone));
   const double effective = law == RateLaw::kContinuous ? capped - dead_zone : capped;
   return deflection * (effective / r);
+}
+
+void Mapping::configure(const MappingConfig& config) {
+  if (config.base_rotation_rad != config_.base_rotation_rad) frozen_ = true;
+  config_ = config;
+  base_ = exp_rotation(config.base_rotation_rad);
 }
 
 void Mapping::reset(const HandleState& handle) {
@@ -23,61 +45,76 @@ void Mapping::take_references(const HandleState& handle) {
   q_ref_ = handle.q_MH;
   g_ref_ = goal_.position_m;
   q_gref_ = goal_.rotation;
+  outside_m_ = outside_rad_ = false;
+  speed_m_per_s_.setZero();
+  speed_rad_per_s_.setZero();
 }
 
 const Goal& Mapping::step(const MappingInput& input, double dt_s) {
-  goal_.translation_moved = goal_.rotation_moved = false;
   if (!input.handle.p_MH.allFinite() || !input.handle.q_MH.coeffs().allFinite()) return goal_;
-  if (input.mode != mode_ || input.scale != scale_ || input.frozen != frozen_ || input.frozen) {
-    mode_ = input.mode;
-    scale_ = input.scale;
-    frozen_ = input.frozen;
-    take_references(input.handle);
-  }
+  const bool rescaled = input.scale != scale_ && input.mode == MotionMode::kPosition;
+  const bool changed = input.mode != mode_ || rescaled || input.frozen != frozen_;
+  mode_ = input.mode;
+  scale_ = input.scale;
+  frozen_ = input.frozen;
+  if (changed || frozen_) take_references(input.handle);
   if (frozen_) return goal_;
-
-  const Vector3 before = goal_.position_m;
-  const Quaternion rotation_before = goal_.rotation;
   if (mode_ == MotionMode::kRate) {
     step_rate(input.handle, dt_s);
   } else {
     step_position(input.handle, dt_s);
   }
-  goal_.translation_moved = goal_.position_m != before;
-  goal_.rotation_moved = goal_.rotation.coeffs() != rotation_before.coeffs();
   return goal_;
 }
 
 void Mapping::step_rate(const HandleState& handle, double dt_s) {
   // The centre goes home with the hand, so that letting go commands nothing.
   x_ref_ = clamp_norm(x_ref_, handle.p_MH.stableNorm());
-  const Vector3 speed = config_.kv_per_s * rate_law(handle.p_MH - x_ref_, config_.dead_zone_m,
-                                                    config_.radius_max_m, config_.rate_law);
-  goal_.position_m += dt_s * clamp_norm(speed, config_.speed_max_m_per_s);
-  const Vector3 turn = log_rotation(handle.q_MH * q_ref_.conjugate());
-  const Vector3 rate = config_.kv_rotation_per_s *
-                       rate_law(turn, config_.dead_zone_rad, config_.radius_max_rad, config_.rate_law);
-  if (rate.isZero(0.0)) return;
-  goal_.rotation = exp_rotation(dt_s * clamp_norm(rate, config_.speed_max_rad_per_s)) * goal_.rotation;
+  if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
+    q_ref_ = exp_rotation(clamp_norm(log_rotation(q_ref_), log_rotation(handle.q_MH).norm()));
+  const Vector3 rate_m =
+      rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, outside_m_);
+  const Vector3 rate_rad = rate_of(log_rotation(handle.q_MH * q_ref_.conjugate()), config_.dead_zone_rad,
+                                   config_.radius_max_rad, config_.rate_law, outside_rad_);
+  speed_m_per_s_ = base_ * clamp_norm(config_.kv_per_s * rate_m, config_.speed_max_m_per_s);
+  speed_rad_per_s_ = base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
+  advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 
 void Mapping::step_position(const HandleState& handle, double dt_s) {
-  const Vector3 wanted = g_ref_ + scale_ * (handle.p_MH - x_ref_);
-  goal_.position_m += clamp_norm(wanted - goal_.position_m, config_.speed_max_m_per_s * dt_s);
-  const Vector3 turn = scale_ * log_rotation(handle.q_MH * q_ref_.conjugate());
-  const Quaternion wanted_q = exp_rotation(turn) * q_gref_;
-  const Vector3 left = log_rotation(wanted_q * goal_.rotation.conjugate());
-  if (left.isZero(0.0)) return;
-  goal_.rotation = exp_rotation(clamp_norm(left, config_.speed_max_rad_per_s * dt_s)) * goal_.rotation;
+  const Vector3 wanted = g_ref_ + scale_ * (base_ * (handle.p_MH - x_ref_));
+  const Vector3 turn = scale_ * (base_ * log_rotation(handle.q_MH * q_ref_.conjugate()));
+  const Vector3 left = log_rotation(exp_rotation(turn) * q_gref_ * goal_.rotation.conjugate());
+  const Vector3 move_m = clamp_norm(wanted - goal_.position_m, config_.speed_max_m_per_s * dt_s);
+  const Vector3 move_rad = clamp_norm(left, config_.speed_max_rad_per_s * dt_s);
+  const double share = -std::expm1(-dt_s / kSmooth_s);
+  speed_m_per_s_ += share * (move_m / dt_s - speed_m_per_s_);
+  speed_rad_per_s_ += share * (move_rad / dt_s - speed_rad_per_s_);
+  advance(move_m, move_rad);
+}
+
+void Mapping::advance(const Vector3& move_m, const Vector3& turn_rad) {
+  if (!move_m.allFinite() || !turn_rad.allFinite()) {
+    speed_m_per_s_.setZero();
+    speed_rad_per_s_.setZero();
+    return;
+  }
+  goal_.position_m += move_m;
+  if (!turn_rad.isZero(0.0)) goal_.rotation = (exp_rotation(turn_rad) * goal_.rotation).normalized();
+}
+
+Pose Mapping::forecast(double ahead_s) const {
+  return {goal_.position_m + ahead_s * speed_m_per_s_,
+          exp_rotation(ahead_s * speed_rad_per_s_) * goal_.rotation};
 }
 
 double Mapping::handle_offset_m(const Vector3& n, double offset_m) const {
-  return n.dot(x_ref_) + (offset_m - n.dot(g_ref_)) / scale_;
+  return n.dot(base_ * x_ref_) + (offset_m - n.dot(g_ref_)) / scale_;
 }
 
 Vector3 Mapping::handle_rotation_at(const Quaternion& goal_rotation) const {
-  const Vector3 turn = log_rotation(goal_rotation * q_gref_.conjugate()) / scale_;
-  return log_rotation(exp_rotation(turn) * q_ref_);
+  const Vector3 turn = base_.conjugate() * log_rotation(goal_rotation * q_gref_.conjugate());
+  return log_rotation(exp_rotation(clamp_norm(turn / scale_, kReach_rad)) * q_ref_);
 }
 
 }  // namespace longreach

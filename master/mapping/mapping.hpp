@@ -1,13 +1,17 @@
 #pragma once
 // From the motion of the handle to the goal of the robot, a displacement g (m) and a rotation R_g from the
-// engagement's anchor (Liu et al. 2019, hybrid control):
+// engagement's anchor, both in W (Liu et al. 2019, hybrid control). x, R_H are the handle in M, R_WM the
+// base:
 //
-//   rate      g' = kv (|x| - r_dz) x/|x|  outside the dead zone, x the deflection from the centre, |x| <=
-//   r_max position  g  = g_ref + k_scale (x - x_ref),   R_g = exp(k_scale log(R_H R_ref^T)) R_gref
+//   rate      g' = kv R_WM ρ(x - x_ref)              R_g' = [ω]ˣ R_g,  ω = kv R_WM ρ(log(R_H R_refᵀ))
+//   position  g  = g_ref + k_scale R_WM (x - x_ref)  R_g  = exp(k_scale R_WM log(R_H R_refᵀ)) R_gref
 //
-// Every change of mode, scale, clutch or freeze takes new references where handle and goal are, so the goal
-// never steps. The centre of rate mode is where the handle was when the mode began; it goes home with it.
-// Frames M and W are taken as parallel.
+// ρ has a dead zone and an effective radius (rate_law); rotations are composed exactly. Every change of mode,
+// clutch, freeze or (in position mode) scale takes new references where handle and goal are, so the goal
+// never steps. The centre x_ref, R_ref of rate mode is where the handle was when the mode began; it goes home
+// with it, so that letting go commands nothing. The literal law, which jumps at the edge of the dead zone,
+// re-enters it a tenth further in: noise at the edge makes one jump and no chatter.
+// Not handled: turns of the handle by more than π from its reference.
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
@@ -18,44 +22,52 @@ namespace longreach {
 struct MappingInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
-  double scale = 1.0;   // k_scale
-  bool frozen = false;  // clutch or hold: the handle moves without the robot
+  double scale = 1.0;   // k_scale, > 0
+  bool frozen = false;  // clutch, hold or released: the handle moves without the robot
 };
 
 struct Goal {
-  Vector3 position_m = Vector3::Zero();  // from the anchor, W
-  Quaternion rotation = Quaternion::Identity();
-  bool translation_moved = false;  // in this step
-  bool rotation_moved = false;
+  Vector3 position_m = Vector3::Zero();          // from the anchor, W
+  Quaternion rotation = Quaternion::Identity();  // from the anchor, W
 };
 
 class Mapping {
  public:
-  explicit Mapping(const MappingConfig& config) : config_(config) {}
-  void configure(const MappingConfig& config) { config_ = config; }
+  explicit Mapping(const MappingConfig& config) { configure(config); }
+  /// A new base takes new references at the next step.
+  void configure(const MappingConfig& config);
 
   /// Begins an engagement: zero goal, references at the handle.
   void reset(const HandleState& handle);
 
-  /// `dt_s` > 0. Non-finite handle values leave the goal unchanged.
+  /// `dt_s` > 0. The goal is always finite: values of the handle that would change that leave it unchanged.
   const Goal& step(const MappingInput& input, double dt_s);
 
   [[nodiscard]] const Goal& goal() const { return goal_; }
-  /// Centre of rate mode, m, in M.
-  [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
+  /// Where the goal will be `ahead_s` (>= 0) from now if the hand goes on as it does: in rate mode by the
+  /// speed commanded now, in position mode by the mean speed of the last tenth of a second.
+  [[nodiscard]] Pose forecast(double ahead_s) const;
 
-  /// Where along `n` (unit) the handle meets the plane n . g = `offset_m` of the goal's space. Position mode
-  /// only.
-  [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
-  /// The handle's rotation vector, from home in M, at which position mode commands `goal_rotation`.
-  [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
+  /// Centre of rate mode in M: m, and orientation.
+  [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
+  [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }
+  [[nodiscard]] bool frozen() const { return frozen_; }
   /// R_WM.
   [[nodiscard]] const Quaternion& base() const { return base_; }
+
+  /// Coordinate along R_WMᵀ n, in M from home, at which the handle meets the plane n . g = `offset_m` of the
+  /// goal's space; n unit, in W. Position mode only.
+  [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
+
+  /// Rotation vector of the handle, in M from home, at which it commands `goal_rotation`. Position mode only.
+  /// What lies more than 2 rad of the handle from its reference, beyond every device, is given at 2 rad.
+  [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
 
  private:
   void take_references(const HandleState& handle);
   void step_rate(const HandleState& handle, double dt_s);
   void step_position(const HandleState& handle, double dt_s);
+  void advance(const Vector3& move_m, const Vector3& turn_rad);
 
   MappingConfig config_;
   Quaternion base_ = Quaternion::Identity();
@@ -63,13 +75,17 @@ class Mapping {
   MotionMode mode_ = MotionMode::kPosition;
   double scale_ = 1.0;
   bool frozen_ = true;
-  Vector3 x_ref_ = Vector3::Zero();  // handle at the last change
-  Vector3 g_ref_ = Vector3::Zero();  // goal at the last change
+  bool outside_m_ = false, outside_rad_ = false;  // of the dead zones
+  Vector3 x_ref_ = Vector3::Zero();               // handle at the last change
+  Vector3 g_ref_ = Vector3::Zero();               // goal at the last change
   Quaternion q_ref_ = Quaternion::Identity();
   Quaternion q_gref_ = Quaternion::Identity();
+  Vector3 speed_m_per_s_ = Vector3::Zero();  // of the goal, W
+  Vector3 speed_rad_per_s_ = Vector3::Zero();
 };
 
 /// Speed that a deflection commands, per unit of kv: zero inside the dead zone, capped at `radius_max`.
+/// Continuous: |x| - dead_zone; literal: |x|.
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law);
 
 }  // namespace longreach

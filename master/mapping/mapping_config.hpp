@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/link/motion_command.hpp"
+#include "common/spatial/spatial.hpp"
 
 namespace longreach {
 
@@ -22,6 +23,7 @@ struct MappingConfig {
   double radius_max_rad = 0.5;
   double speed_max_m_per_s = 0.25;
   double speed_max_rad_per_s = 0.3;
+  Vector3 base_rotation_rad = Vector3::Zero();
 };
 
 }  // namespace longreach

@@ -162,7 +162,9 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   Wrench resistance;
   if (input.handle.held) {
-    resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m()});
+    resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m(),
+                                   mapping.centre_rotation(), mapping.frozen(), input.load},
+                                  device_.period_s);
   } else {
     resistance_.reset(input.handle);
   }

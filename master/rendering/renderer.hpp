@@ -47,6 +47,7 @@ struct RendererInput {
   double scale = 1.0;
   bool live = false;   // false: the wrench ramps to zero
   bool stale = false;  // nothing heard from the slave: stiffness only decays
+  bool load = false;   // in the gripper
 };
 
 /// Goals of the commands that were sent.

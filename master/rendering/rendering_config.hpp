@@ -33,6 +33,10 @@ struct RenderingConfig {
   double moment_max_nm = 0.3;
   double ramp_s = 0.05;
   double forget_depth_m = 0.005;
+  double load_factor = 1.5;
+  double friction_nm = 0.003;
+  double friction_stiffness_nm_per_rad = 1.0;
+  bool home_spring = false;
 };
 
 }  // namespace longreach

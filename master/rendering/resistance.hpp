@@ -1,10 +1,19 @@
 #pragma once
-// What the hand feels of the mapping itself.
-//   rate mode      F = -k_f (x - centre) - b v
-//   position mode  elastic friction (Dahl): F = -sigma z, z follows the handle and slips where |z| >
-//   (f/k_scale)/sigma:
-//                  quiet at rest, passive by its stored energy sigma |z|^2 / 2
-//   rotation       M = -k_r log(R_H) - b_r omega
+// What the hand feels of the mapping itself, for each handle (translation x, k_f, b, f; rotation alike, x a
+// rotation vector):
+//   rate mode      F = -k_f (x - centre) - b v       k_f load_factor with a load in the gripper
+//   position mode  F = -σ z                          elastic friction (Prandtl, the single element of Iwan
+//                  1966; Dahl's law with exponent 0): z goes with the handle and slips at |z| = f/(k_scale σ)
+//   home spring    F = -k_f x                        in position mode, as an option
+//
+// Friction is quiet at rest: noise of the encoders is felt as σ times itself, and nothing else. No force
+// steps, and what is stored never grows but by the hand: where mode, scale, load or clutch ask for less, it
+// fades with fade_s (centre and stretch as they are, stiffness, slip or stretch falling); a stiffer spring
+// enters at once with less stretch, and a spring that is to be stretched more is stretched as far as its
+// damping has paid. A spring held for a sample gives back up to k |dx|²/2 a sample: the caller's account.
+// Not handled: handles that are not finite.
+
+#include <cstdint>
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
@@ -13,31 +22,69 @@
 
 namespace longreach {
 
+/// What one handle resists with.
+class ElasticResistance {
+ public:
+  struct Gains {
+    double spring = 0.0;              // N/m or N m/rad
+    double damping = 0.0;             // N s/m or N m s/rad
+    double friction = 0.0;            // N or N m: where it slips
+    double friction_stiffness = 1.0;  // > 0
+    double fade_s = 0.2;
+  };
+  enum class Centre : std::uint8_t { kNone, kRate, kHome };
+  struct Motion {
+    Vector3 moved = Vector3::Zero();       // since the last step
+    Vector3 rate = Vector3::Zero();        // velocity
+    Vector3 deflection = Vector3::Zero();  // from the centre
+    Centre centre = Centre::kNone;         // none: no spring, deflection ignored
+  };
+
+  /// Force or moment on the hand.
+  Vector3 step(const Motion& motion, const Gains& gains, double dt_s);
+  [[nodiscard]] double energy_j() const;  // stored
+
+ private:
+  Vector3 spring(const Motion& motion, const Gains& gains, double share);
+  void follow(const Vector3& carried, const Motion& motion, double share);
+  Vector3 friction(const Vector3& moved, const Gains& gains, double share);
+
+  Centre centre_ = Centre::kNone;
+  double spring_ = 0.0, damping_ = 0.0, friction_ = 0.0, friction_stiffness_ = 1.0;  // in effect
+  bool attached_ = false;              // stretch is deflection; else it follows
+  Vector3 stretch_ = Vector3::Zero();  // of the spring
+  Vector3 bristle_ = Vector3::Zero();  // stretch of the friction
+  Vector3 drag_ = Vector3::Zero();     // damping force of the last step
+};
+
 struct ResistanceInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
-  double scale = 1.0;                  // k_scale, > 0
-  Vector3 centre_m = Vector3::Zero();  // of rate mode
+  double scale = 1.0;                                   // k_scale, > 0
+  Vector3 centre_m = Vector3::Zero();                   // of rate mode, M
+  Quaternion centre_rotation = Quaternion::Identity();  // likewise
+  bool frozen = false;                                  // the goal does not follow: rate mode has no centre
+  bool load = false;                                    // in the gripper
 };
 
 class Resistance {
  public:
   explicit Resistance(const RenderingConfig& config) : config_(config) {}
   void configure(const RenderingConfig& config) { config_ = config; }
+  /// Begins without force.
   void reset(const HandleState& handle);
 
-  /// Wrench on the hand, in M.
-  Wrench step(const ResistanceInput& input);
+  /// Wrench on the hand, in M. `dt_s` > 0.
+  Wrench step(const ResistanceInput& input, double dt_s);
 
-  [[nodiscard]] double energy_j() const { return energy_j_; }  // stored by the translational springs
-  [[nodiscard]] double rotation_energy_j() const { return rotation_energy_j_; }
+  [[nodiscard]] double energy_j() const { return translation_.energy_j(); }  // stored
+  [[nodiscard]] double rotation_energy_j() const { return rotation_.energy_j(); }
 
  private:
   RenderingConfig config_;
+  ElasticResistance translation_, rotation_;
   Vector3 x_last_ = Vector3::Zero();
-  Vector3 stretch_m_ = Vector3::Zero();
-  double energy_j_ = 0.0;
-  double rotation_energy_j_ = 0.0;
+  Quaternion q_last_ = Quaternion::Identity();
 };
 
 }  // namespace longreach

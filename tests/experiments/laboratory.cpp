@@ -2,6 +2,8 @@
 
 namespace longreach {
 
+constexpr Duration kFigures = std::chrono::milliseconds(250);
+
 Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
     : period_(from_seconds(1.0 / master.loop.rate_hz)),
       random_(seed),
@@ -65,6 +67,9 @@ void Laboratory::step_master() {
   if (script.mode && !driven_) in.requests.mode = script.mode;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.peer_restarts();
+  // As the programs do, not every tick: it sorts what was heard in the last seconds.
+  if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
+  in.rtt_s = rtt_s_;
   const MasterOutput out = master_node_.step(in);
   devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);

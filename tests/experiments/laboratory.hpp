@@ -67,6 +67,7 @@ class Laboratory {
   ScriptedOperator script_;
   std::optional<HandTarget> driven_{};
   OperatorRequests requests_{};
+  std::optional<double> rtt_s_{};
   Ring<double> report_depths_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
   HapticReturn haptic_return_{};

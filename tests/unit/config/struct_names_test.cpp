@@ -134,6 +134,7 @@ void expect_same(const MappingConfig& s, const proto::Mapping& m) {
   EXPECT_EQ(s.radius_max_rad, m.radius_max_rad());
   EXPECT_EQ(s.speed_max_m_per_s, m.speed_max_m_per_s());
   EXPECT_EQ(s.speed_max_rad_per_s, m.speed_max_rad_per_s());
+  expect_same(s.base_rotation_rad, m.base_rotation_rad());
 }
 
 void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
@@ -160,6 +161,10 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.slew_n_per_s, m.slew_n_per_s());
   EXPECT_EQ(s.slew_nm_per_s, m.slew_nm_per_s());
   EXPECT_EQ(s.forget_depth_rad, m.forget_depth_rad());
+  EXPECT_EQ(s.load_factor, m.load_factor());
+  EXPECT_EQ(s.friction_nm, m.friction_nm());
+  EXPECT_EQ(s.friction_stiffness_nm_per_rad, m.friction_stiffness_nm_per_rad());
+  EXPECT_EQ(s.home_spring, m.home_spring());
 }
 
 void expect_same(const MasterSafetyConfig& s, const proto::MasterSafety& m) {

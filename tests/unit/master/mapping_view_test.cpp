@@ -1,0 +1,90 @@
+// What the master tells of the mapping: the forecast, the boundary of the handle, the load.
+
+#include <gtest/gtest.h>
+
+#include "master/master_node.hpp"
+
+namespace longreach {
+namespace {
+
+struct Bench {
+  Bench() {
+    in.requests.engage = true;
+    tick();
+    report.message = {.engagement = node.view().engagement, .state = SafetyState::kEngaged};
+    report.sequence = 1;
+    in.reports = {&report, 1};
+    tick();
+    tick();
+  }
+  MasterOutput tick() {
+    in.now += std::chrono::milliseconds(1);
+    in.last_heard = in.now;
+    const MasterOutput out = node.step(in);
+    in.requests = {};
+    in.reports = {};
+    return out;
+  }
+  MasterNode node{MasterConfig{}};
+  MasterInput in{};
+  Received<StiffnessReport> report{};
+};
+
+TEST(MasterView, ForecastsTheGoalHalfARoundTripAhead) {
+  Bench b;
+  b.in.requests.mode = MotionMode::kRate;
+  b.tick();
+  b.in.rtt_s = 2.6;
+  b.in.handle.p_MH.x() = 0.015;
+  b.tick();
+  EXPECT_NEAR(b.node.view().forecast.p.x() - b.node.view().goal_m.x(), 1.3 * 2.0 * 0.010, 1e-12);
+}
+
+TEST(MasterView, SaysWhenAHandleIsToBeRelocated) {
+  Bench b;
+  const double radius_m = 0.93 * DeviceConfig{}.delta.workspace_m;
+  b.in.handle.p_MH.z() = -0.99 * radius_m;
+  b.tick();
+  EXPECT_FALSE(b.node.view().at_boundary);
+  b.in.handle.p_MH.z() = -1.01 * radius_m;
+  b.tick();
+  EXPECT_TRUE(b.node.view().at_boundary);
+  b.in.requests.clutch = true;
+  b.tick();
+  EXPECT_FALSE(b.node.view().at_boundary) << "it is being relocated";
+  b.in.handle.p_MH.setZero();
+  b.in.handle.q_MH = exp_rotation({0.0, 0.76, 0.0});
+  b.tick();
+  b.tick();
+  EXPECT_TRUE(b.node.view().at_boundary);
+  b.in.requests.mode = MotionMode::kRate;
+  b.tick();
+  EXPECT_FALSE(b.node.view().at_boundary);
+}
+
+TEST(MasterView, KeepsTheLoadUntilItIsPutDown) {
+  Bench b;
+  b.in.requests.load = true;
+  b.tick();
+  b.tick();
+  EXPECT_TRUE(b.node.view().load);
+  b.in.requests.load = false;
+  b.tick();
+  EXPECT_FALSE(b.node.view().load);
+}
+
+TEST(MasterView, ALoadIsFeltInRateMode) {
+  double force_n[2];
+  for (const bool load : {false, true}) {
+    Bench b;
+    b.in.requests.load = load;
+    b.in.requests.mode = MotionMode::kRate;
+    for (int i = 0; i < 4000; ++i) b.tick();  // the friction of position mode fades
+    b.in.handle.p_MH.x() = 0.02;
+    force_n[load] = -b.tick().F_H_M.force.x();
+  }
+  EXPECT_NEAR(force_n[1] / force_n[0], RenderingConfig{}.load_factor, 1e-6);
+}
+
+}  // namespace
+}  // namespace longreach
