@@ -1,16 +1,17 @@
 #pragma once
-// What the hand feels of the mapping itself, for each handle (translation x, k_f, b, f; rotation alike, x a
-// rotation vector):
-//   rate mode      F = -k_f (x - centre) - b v       k_f load_factor with a load in the gripper
-//   position mode  F = -σ z                          elastic friction (Prandtl, the single element of Iwan
-//                  1966; Dahl's law with exponent 0): z goes with the handle and slips at |z| = f/(k_scale σ)
-//   home spring    F = -k_f x                        in position mode, as an option
+// What the hand feels of the mapping itself, alike for both handles (x a position or a rotation vector):
 //
-// Friction is quiet at rest: noise of the encoders is felt as σ times itself, and nothing else. No force
-// steps, and what is stored never grows but by the hand: where mode, scale, load or clutch ask for less, it
-// fades with fade_s (centre and stretch as they are, stiffness, slip or stretch falling); a stiffer spring
-// enters at once with less stretch, and a spring that is to be stretched more is stretched as far as its
-// damping has paid. A spring held for a sample gives back up to k |dx|²/2 a sample: the caller's account.
+//   rate mode      F = -k_f (x - centre) - b v    k_f times load_factor with a load in the gripper
+//   position mode  F = -σ z                       z goes with the handle and slips at |z| = f/(k_scale σ)
+//   home spring    F = -k_f x - b v               besides, in position mode, as an option
+//
+// Friction is elastic and perfectly plastic (Prandtl 1928; one element of Iwan 1966; Dahl's with exponent 0),
+// so it is quiet at rest: noise of the encoders is felt as σ times itself.
+//
+// Whatever changes, the force does not step and the stored energy does not rise by itself: where less is
+// asked for (coarser scale, load put down, rate mode left, clutch), it fades with fade_s; a stiffer spring
+// begins with the force that is there; a spring that must be stretched further is so as far as its own
+// damping pays. Springs that are held for a sample give back up to k|dx|²/2 each: the caller's account.
 // Not handled: handles that are not finite.
 
 #include <cstdint>

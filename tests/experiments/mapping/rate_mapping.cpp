@@ -1,5 +1,5 @@
 // Figures 13 and 14 of Liu et al. 2019: deflection of the handle and speed of the robot against time in rate
-// mode, translation and rotation, by the continuous and by the literal law. The same hand, two loops.
+// mode, translation and then rotation, by the continuous and by the literal law. The same hand, two loops.
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kHand_s = 10.0;   // the hand deflects to either side
-constexpr double kShown_s = 15.0;  // and the robot answers
+constexpr double kHand_s = 10.0;   // the hand deflects one device to either side
+constexpr double kShown_s = 15.0;  // and the robot answers; then the other device
 constexpr double kWait_s = 30.0;   // at most, until the robot is engaged
 constexpr double kReach_m = 0.04, kReach_rad = 0.5;
 constexpr double kMean_s = 0.02;  // over which the speed of the tool is taken
@@ -53,14 +53,11 @@ class RateLoop {
  public:
   RateLoop(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
       : config_(master.mapping), grip_(master.hand.grip), lab_(master, slave, seed) {
-    while (lab_.now_s() < kWait_s && lab_.master().state != SafetyState::kEngaged) step(0.0);
+    while (lab_.now_s() < kWait_s && lab_.master().state != SafetyState::kEngaged) step(0.0, 0.0);
   }
 
-  /// `share` of the hand's reach.
-  void step(double share) {
-    lab_.set_hand({.position_m = {0.0, share * kReach_m, 0.0},
-                   .rotation_rad = {0.0, share * kReach_rad, 0.0},
-                   .grip = grip_});
+  void step(double reach_m, double reach_rad) {
+    lab_.set_hand({.position_m = {0.0, reach_m, 0.0}, .rotation_rad = {0.0, reach_rad, 0.0}, .grip = grip_});
     lab_.step();
     const MasterView& m = lab_.master();
     translation.deflection = m.p_MH.y();
@@ -99,6 +96,12 @@ Plot rate_plot(const std::string& name, const std::string& title, const std::str
           .x_column = "t_s",
           .x_label = "time (s)",
           .panels = {panels.begin(), panels.end()}};
+}
+
+/// Both edges of the dead zone in one column of points.
+double dotted(double edge, int row) {
+  if (row % 5 != 0) return std::nan("");
+  return row % 10 == 0 ? edge : -edge;
 }
 
 void add_metrics(std::vector<Metric>& metrics, const std::string& law, const Axis& axis, const char* unit,
@@ -141,28 +144,30 @@ std::vector<Metric> run_rate_mapping(const ExperimentRun& run) {
   RateLoop continuous(rate_control(master, RateLaw::kContinuous), slave, run.seed);
   RateLoop literal(rate_control(master, RateLaw::kLiteral), slave, run.seed);
   Trace linear(run.out, "translation",
-               {"t_s", "deflection_m", "dead_zone_m", "dead_zone_low_m", "goal_m_per_s_continuous",
-                "goal_m_per_s_literal", "tool_m_per_s_continuous", "tool_m_per_s_literal"});
+               {"t_s", "deflection_m", "dead_zone_edge_m", "goal_m_per_s_continuous", "goal_m_per_s_literal",
+                "tool_m_per_s_continuous", "tool_m_per_s_literal"});
   Trace angular(run.out, "rotation",
-                {"t_s", "deflection_rad", "dead_zone_rad", "dead_zone_low_rad", "goal_rad_per_s_continuous",
+                {"t_s", "deflection_rad", "dead_zone_edge_rad", "goal_rad_per_s_continuous",
                  "goal_rad_per_s_literal", "tool_rad_per_s_continuous", "tool_rad_per_s_literal"});
-  const auto trace = [](Trace& to, double t, double edge, const Axis& a, const Axis& b) {
-    to.row({t, a.deflection, edge, -edge, a.goal.speed, b.goal.speed, a.tool.speed, b.tool.speed});
-  };
   const auto ticks = static_cast<int>(kShown_s / continuous.period_s());
   const int every = static_cast<int>(std::lround(kMean_s / continuous.period_s()));
-  for (int i = 0; i < ticks; ++i) {
-    const double t = i * continuous.period_s();
+  for (int i = 0; i < 2 * ticks; ++i) {
+    const bool turns = i >= ticks;
+    const double t = i % ticks * continuous.period_s();
     const double share = t < kHand_s ? std::sin(2.0 * std::numbers::pi * t / kHand_s) : 0.0;
     for (RateLoop* loop : {&continuous, &literal}) {
-      loop->step(share);
+      loop->step(turns ? 0.0 : share * kReach_m, turns ? share * kReach_rad : 0.0);
       if (i % every == 0) loop->sample_tool();
     }
     if (i % every == 0) {
-      trace(linear, t, master.mapping.dead_zone_m, continuous.translation, literal.translation);
-      trace(angular, t, master.mapping.dead_zone_rad, continuous.rotation, literal.rotation);
+      const Axis& a = turns ? continuous.rotation : continuous.translation;
+      const Axis& b = turns ? literal.rotation : literal.translation;
+      const double edge = turns ? master.mapping.dead_zone_rad : master.mapping.dead_zone_m;
+      (turns ? angular : linear)
+          .row({t, a.deflection, dotted(edge, i / every), a.goal.speed, b.goal.speed, a.tool.speed,
+                b.tool.speed});
     }
-    if (run.progress && i % 500 == 0) run.progress(static_cast<double>(i) / ticks);
+    if (run.progress && i % 500 == 0) run.progress(0.5 * i / ticks);
   }
   linear.close();
   angular.close();

@@ -18,15 +18,16 @@ constexpr double kBegin_s = 3.0;  // of the steps, from the engagement
 constexpr double kStep_s = 1.5;   // between two
 constexpr int kSteps = 15;        // down, and as many up
 constexpr double kPressed_s = 0.1;
-constexpr double kRadius_m = 0.015, kTurn_s = 4.0;
+constexpr double kRadius_m = 0.015, kTurn_s = 4.0, kGentle_s = 0.5;
 
-/// The hand on its circle in the y-z plane, beside the wall that the scene may have.
+/// The hand on its circle in the y-z plane, beside the wall that the scene may have; it begins gently.
 HandTarget hand_at(double t, Grip grip) {
-  const double angle = 2.0 * std::numbers::pi * t / kTurn_s;
+  const double late_s = kGentle_s * (1.0 - std::exp(-t / kGentle_s));
+  const double angle = 2.0 * std::numbers::pi * (t - late_s) / kTurn_s;
   HandTarget hand;
   hand.position_m = kRadius_m * Vector3(0.0, std::sin(angle), 1.0 - std::cos(angle));
-  hand.velocity_m_per_s =
-      2.0 * std::numbers::pi / kTurn_s * kRadius_m * Vector3(0.0, std::cos(angle), std::sin(angle));
+  hand.velocity_m_per_s = 2.0 * std::numbers::pi / kTurn_s * (1.0 - std::exp(-t / kGentle_s)) * kRadius_m *
+                          Vector3(0.0, std::cos(angle), std::sin(angle));
   hand.grip = grip;
   const double since = t - kBegin_s;
   const int step = static_cast<int>(std::floor(since / kStep_s));
