@@ -57,7 +57,7 @@ class RateLoop {
   }
 
   void step(double reach_m, double reach_rad) {
-    lab_.set_hand({.position_m = {0.0, reach_m, 0.0}, .rotation_rad = {0.0, reach_rad, 0.0}, .grip = grip_});
+    lab_.drive({.position_m = {0.0, reach_m, 0.0}, .rotation_rad = {0.0, reach_rad, 0.0}, .grip = grip_});
     lab_.step();
     const MasterView& m = lab_.master();
     translation.deflection = m.p_MH.y();

@@ -81,7 +81,7 @@ std::vector<Metric> run_scale_steps(const ExperimentRun& run) {
   MasterConfig master = to_struct(run.config.master());
   master.mapping.mode = MotionMode::kPosition;
   Laboratory lab(master, to_struct(run.config.slave()), run.seed);
-  lab.set_hand(hand_at(0.0, master.hand.grip));
+  lab.drive(hand_at(0.0, master.hand.grip));
   while (lab.now_s() < kWait_s && lab.master().state != SafetyState::kEngaged) lab.step();
 
   Trace trace(
@@ -92,7 +92,7 @@ std::vector<Metric> run_scale_steps(const ExperimentRun& run) {
   const auto ticks = static_cast<int>(shown_s / lab.period_s());
   for (int i = 0; i < ticks; ++i) {
     const double t = i * lab.period_s();
-    lab.set_hand(hand_at(t, master.hand.grip));
+    lab.drive(hand_at(t, master.hand.grip));
     lab.step();
     const MasterView& m = lab.master();
     watch.sample(m, master.rendering, lab.period_s());
