@@ -195,9 +195,19 @@ Finding within(const PathStep& step, Finding finding) {
   return finding;
 }
 
-}  // namespace
+// What the laboratory can do and a program cannot: the configuration of a program is a message of its own,
+// not part of the laboratory's.
+Finding check_program(const Message& message) {
+  const auto* master = dynamic_cast<const proto::MasterConfig*>(&message);
+  if (!master || master->rendering().law() <= proto::Rendering::NAIVE) return std::nullopt;
+  const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
+  return within(section, at(master->rendering(), "law",
+                            " = " + proto::Rendering::Law_Name(master->rendering().law()) +
+                                " works in the laboratory only, which has the slave's end of it; a program "
+                                "takes STIFFNESS or NAIVE"));
+}
 
-std::optional<Violation> find_inconsistency(const Message& message) {
+Finding find_in_parts(const Message& message) {
   if (auto finding = check_message(message)) return finding;
   std::vector<const FieldDescriptor*> fields;
   message.GetReflection()->ListFields(message, &fields);
@@ -206,10 +216,17 @@ std::optional<Violation> find_inconsistency(const Message& message) {
     const int size = field->is_repeated() ? message.GetReflection()->FieldSize(message, field) : 1;
     for (int i = 0; i < size; ++i) {
       const PathStep step{field, field->is_repeated() ? i : -1};
-      if (auto finding = within(step, find_inconsistency(message_at(message, step)))) return finding;
+      if (auto finding = within(step, find_in_parts(message_at(message, step)))) return finding;
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Violation> find_inconsistency(const Message& message) {
+  if (auto finding = check_program(message)) return finding;
+  return find_in_parts(message);
 }
 
 }  // namespace longreach

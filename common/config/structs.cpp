@@ -32,7 +32,12 @@ static_assert(same(MotionMode::kRate, proto::Mapping::RATE) &&
 static_assert(same(RateLaw::kContinuous, proto::Mapping::CONTINUOUS) &&
               same(RateLaw::kLiteral, proto::Mapping::LITERAL) && proto::Mapping::RateLaw_ARRAYSIZE == 2);
 static_assert(same(RenderingLaw::kStiffness, proto::Rendering::STIFFNESS) &&
-              same(RenderingLaw::kNaive, proto::Rendering::NAIVE) && proto::Rendering::Law_ARRAYSIZE == 2);
+              same(RenderingLaw::kNaive, proto::Rendering::NAIVE) &&
+              same(RenderingLaw::kDirect, proto::Rendering::DIRECT) &&
+              same(RenderingLaw::kPositionPosition, proto::Rendering::POSITION_POSITION) &&
+              same(RenderingLaw::kWave, proto::Rendering::WAVE) &&
+              same(RenderingLaw::kTdpa, proto::Rendering::TDPA) &&
+              same(RenderingLaw::kTank, proto::Rendering::TANK) && proto::Rendering::Law_ARRAYSIZE == 7);
 static_assert(same(IdleRule::kHome, proto::Behaviour::HOME) &&
               same(IdleRule::kStay, proto::Behaviour::STAY) && proto::Behaviour::Idle_ARRAYSIZE == 2);
 static_assert(same(HandleMotion::kCoupled, proto::Behaviour::COUPLED) &&

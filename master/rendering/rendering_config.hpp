@@ -5,7 +5,15 @@
 
 namespace longreach {
 
-enum class RenderingLaw : std::uint8_t { kStiffness = 0, kNaive = 1 };
+enum class RenderingLaw : std::uint8_t {
+  kStiffness = 0,
+  kNaive = 1,
+  kDirect = 2,  // from here on in the laboratory only
+  kPositionPosition = 3,
+  kWave = 4,
+  kTdpa = 5,
+  kTank = 6
+};
 
 enum class Registration : std::uint8_t { kTouch = 0, kArrival = 1 };
 

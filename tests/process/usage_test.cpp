@@ -43,6 +43,7 @@ TEST(Usage, BadOptionsAndConfigurationsEndWithStatus2AndASentenceThatNamesThem) 
     expect({"--set", "link.listen=nowhere"}, "nowhere");
     expect({"--profile", "no-such-link"}, "no-such-link");
   }
+  expect_one_sentence(run("longreach-master", {"--set", "rendering.law=WAVE"}), 2, "laboratory only", "WAVE");
   expect_one_sentence(run("longreach-master", {"--operator", "ghost"}), 2, "ghost", "--operator ghost");
   expect_one_sentence(run("longreach-master", {"--mode", "sideways"}), 2, "sideways", "--mode sideways");
 }

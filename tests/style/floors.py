@@ -15,6 +15,7 @@ FOLDERS = {
     'master/devices/drive': 2.0, 'master/devices/delta': 2.01, 'master/devices/spherical': 2.01,
     'master/devices': 2.02, 'master/mapping': 2.1, 'master/rendering': 2.2,
     'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.3, 'slave/estimation': 2.4,
+    'slave/comparison': 2.4,
     'master': 3, 'slave': 3,
     'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io': 4.3, 'master/console': 4.4,
     'deploy/cli': 5, 'tests': 6,

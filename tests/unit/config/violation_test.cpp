@@ -32,6 +32,23 @@ TEST(Validation, AcceptsTheEndsOfARangeAndNothingBeyond) {
   }
 }
 
+TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
+  proto::LabConfig lab;
+  proto::MasterConfig& program = *lab.mutable_master();
+  for (int i = 0; i < proto::Rendering::Law_ARRAYSIZE; ++i) {
+    const auto law = static_cast<proto::Rendering::Law>(i);
+    const std::string name = proto::Rendering::Law_Name(law);
+    program.mutable_rendering()->set_law(law);
+    EXPECT_EQ(validation_error(lab), "no error") << name;
+    EXPECT_EQ(validation_error(program),
+              name == "STIFFNESS" || name == "NAIVE"
+                  ? "no error"
+                  : "rendering.law = " + name +
+                        " works in the laboratory only, which has the slave's end of " +
+                        "it; a program takes STIFFNESS or NAIVE");
+  }
+}
+
 TEST(Validation, ExcludesALowerEndThatIsMarkedAbove) {
   proto::Sensing sensing;
   sensing.set_release_n(0.0);

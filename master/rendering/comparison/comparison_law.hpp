@@ -1,0 +1,42 @@
+#pragma once
+// The closed set of comparison laws, master's end.
+
+#include <variant>
+
+#include "master/rendering/comparison/direct_law.hpp"
+#include "master/rendering/comparison/passivity_law.hpp"
+#include "master/rendering/comparison/position_position_law.hpp"
+#include "master/rendering/comparison/tank_law.hpp"
+#include "master/rendering/comparison/wave_law.hpp"
+#include "master/rendering/rendering_config.hpp"
+
+namespace longreach {
+
+using ComparisonLaw = std::variant<DirectLaw, PositionPositionLaw, WaveLaw, PassivityLaw, TankLaw>;
+
+/// Whether a law needs the ComparisonReport, which only the laboratory has.
+constexpr bool is_comparison(RenderingLaw law) {
+  return law != RenderingLaw::kStiffness && law != RenderingLaw::kNaive;
+}
+
+/// The law at its start; DIRECT for a law that is none of them.
+inline ComparisonLaw make_comparison_law(RenderingLaw law, const ComparisonConfig& config) {
+  switch (law) {
+    case RenderingLaw::kPositionPosition:
+      return PositionPositionLaw(config);
+    case RenderingLaw::kWave:
+      return WaveLaw(config);
+    case RenderingLaw::kTdpa:
+      return PassivityLaw(config);
+    case RenderingLaw::kTank:
+      return TankLaw(config);
+    default:
+      return DirectLaw{};
+  }
+}
+
+inline ComparisonOutput step(ComparisonLaw& law, const ComparisonInput& in, double dt_s) {
+  return std::visit([&](auto& l) { return l.step(in, dt_s); }, law);
+}
+
+}  // namespace longreach

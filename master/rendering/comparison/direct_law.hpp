@@ -1,0 +1,23 @@
+#pragma once
+// Direct force reflection: record and play.
+//
+//   F_m = F_e[k-d]
+//
+// Silence holds the last force. Not stable beyond a wall stiffness that the delay decides.
+
+#include "master/rendering/comparison/comparison_port.hpp"
+
+namespace longreach {
+
+class DirectLaw {
+ public:
+  ComparisonOutput step(const ComparisonInput& in, double /*dt_s*/) {
+    if (in.report) force_n_ = in.report->force_n;
+    return {.force_n = force_n_, .command = {.position_m = in.position_m}};
+  }
+
+ private:
+  Vector3 force_n_ = Vector3::Zero();
+};
+
+}  // namespace longreach

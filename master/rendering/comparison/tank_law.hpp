@@ -1,0 +1,32 @@
+#pragma once
+// Two layers with an energy tank (Franken, Stramigioli, Misra, Secchi, Macchelli 2011), master's end: the
+// transparent layer's force F_e[k-d] is given only while the tank pays for it.
+//
+//   H += -F[k-1] (x[k] - x[k-1]) + received - sent,   sent = share · H · T
+//   F = s F_e[k-d] - d v,   s = 0 where H <= 0, 1 from a tenth of the level on,  d = α max(0, H_level - H) <=
+//   m/T
+//
+// H falls below zero by what one held sample can give, at most.
+
+#include "common/link/comparison_config.hpp"
+#include "master/rendering/comparison/comparison_port.hpp"
+
+namespace longreach {
+
+class TankLaw {
+ public:
+  explicit TankLaw(const ComparisonConfig& config) : config_(config) {}
+
+  ComparisonOutput step(const ComparisonInput& in, double dt_s);
+
+  [[nodiscard]] double level_j() const { return level_j_; }
+
+ private:
+  ComparisonConfig config_;
+  ComparisonReport far_{};
+  Vector3 force_n_ = Vector3::Zero();
+  double level_j_ = 0.0;
+  double sent_j_ = 0.0;
+};
+
+}  // namespace longreach

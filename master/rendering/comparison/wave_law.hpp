@@ -1,0 +1,34 @@
+#pragma once
+// Wave variables (Niemeyer, Slotine 1991).
+//
+//   u_m = √(2b) v_m - w_m,   F_m = -(b v_m - √(2b) w_m),   so  -F_m v_m = (u_m² - w_m²)/2
+//
+// The line between two such ends stores energy and cannot make any, whatever the delay. A wave that does not
+// arrive counts as zero: its energy is lost, and the tool is no longer where the handle is (that drift is not
+// corrected here). It feels like a spring of b/(one-way delay) in series with the wall.
+
+#include <cmath>
+
+#include "common/link/comparison_config.hpp"
+#include "master/rendering/comparison/comparison_port.hpp"
+
+namespace longreach {
+
+class WaveLaw {
+ public:
+  explicit WaveLaw(const ComparisonConfig& config)
+      : impedance_(config.wave_n_s_per_m), root_(std::sqrt(2.0 * config.wave_n_s_per_m)) {}
+
+  ComparisonOutput step(const ComparisonInput& in, double /*dt_s*/) const {
+    const Vector3 w = in.report ? in.report->wave : Vector3::Zero().eval();
+    const Vector3& v = in.velocity_m_per_s;
+    return {.force_n = root_ * w - impedance_ * v,
+            .command = {.position_m = in.position_m, .wave = root_ * v - w}};
+  }
+
+ private:
+  double impedance_;  // b, N s/m
+  double root_;       // √(2b)
+};
+
+}  // namespace longreach

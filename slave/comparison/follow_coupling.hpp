@@ -1,0 +1,21 @@
+#pragma once
+// Slave's end of direct force reflection: the tool goes where the handle was, x_s = x_m[k-d], and the force
+// is reported as measured.
+
+#include "slave/comparison/coupling_port.hpp"
+
+namespace longreach {
+
+class FollowCoupling {
+ public:
+  CouplingOutput step(const CouplingInput& in, double /*dt_s*/) {
+    const Vector3 at_m = x_m_;
+    if (in.command) x_m_ = in.command->position_m;
+    return {.setpoint_m = x_m_, .report = {.position_m = at_m, .force_n = in.force_n}};
+  }
+
+ private:
+  Vector3 x_m_ = Vector3::Zero();
+};
+
+}  // namespace longreach

@@ -1,0 +1,62 @@
+#pragma once
+// An ideal link that is stepped once a sample: what is pushed comes out some samples later, or is lost, or
+// jitters; then the newest of what is due comes out, and what it has overtaken does not.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/core/random.hpp"
+
+namespace longreach {
+
+struct DelayLineConfig {
+  int samples = 0;
+  double jitter_samples = 0.0;  // standard deviation; late only up to six of them, early down to no delay
+  double loss = 0.0;
+};
+
+template <class T>
+class DelayLine {
+ public:
+  DelayLine(const DelayLineConfig& config, Random random)
+      : config_(config),
+        random_(random),
+        slots_(static_cast<std::size_t>(config.samples + std::ceil(6.0 * config.jitter_samples)) + 1) {}
+
+  /// Once a sample, before pop.
+  void push(const T& value) {
+    ++sequence_;
+    if (config_.loss > 0.0 && random_.chance(config_.loss)) return;
+    double due = config_.samples;
+    if (config_.jitter_samples > 0.0) due += std::round(config_.jitter_samples * random_.normal());
+    const auto ahead =
+        static_cast<std::uint64_t>(std::clamp(due, 0.0, static_cast<double>(slots_.size()) - 1.0));
+    slot(sequence_ + ahead) = {sequence_, value};
+  }
+
+  /// What arrived in this sample.
+  std::optional<T> pop() {
+    Parcel& parcel = slot(sequence_);
+    if (parcel.sequence <= newest_) return std::nullopt;
+    newest_ = parcel.sequence;
+    return parcel.value;
+  }
+
+ private:
+  struct Parcel {
+    std::uint64_t sequence = 0;  // from 1
+    T value{};
+  };
+  Parcel& slot(std::uint64_t at) { return slots_[at % slots_.size()]; }
+
+  DelayLineConfig config_;
+  Random random_;
+  std::vector<Parcel> slots_;
+  std::uint64_t sequence_ = 0;
+  std::uint64_t newest_ = 0;
+};
+
+}  // namespace longreach
