@@ -46,6 +46,10 @@ const std::vector<Experiment>& experiments() {
       {"synthesis",
        "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
        run_synthesis, synthesis_plots},
+      {"delay-sweep",
+       "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
+       "limits.",
+       run_delay_sweep, delay_sweep_plots},
   };
   return kExperiments;
 }

@@ -84,4 +84,7 @@ std::vector<Plot> fk_network_plots();
 std::vector<Metric> run_synthesis(const ExperimentRun& run);
 std::vector<Plot> synthesis_plots();
 
+std::vector<Metric> run_delay_sweep(const ExperimentRun& run);
+std::vector<Plot> delay_sweep_plots();
+
 }  // namespace longreach

@@ -1,5 +1,9 @@
 #include "tests/experiments/laboratory.hpp"
 
+#include <stdexcept>
+
+#include "master/rendering/comparison/comparison_law.hpp"
+
 namespace longreach {
 
 constexpr Duration kFigures = std::chrono::milliseconds(250);
@@ -13,7 +17,13 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       master_node_(master),
       arm_(slave, random_.child("arm")),
       devices_(master.device),
-      script_(master.operator_, master.mapping, master.hand.grip) {}
+      script_(master.operator_, master.mapping, master.hand.grip) {
+  if (is_comparison(master.rendering.law)) {
+    throw std::invalid_argument(
+        "the comparison laws run on the bench of the experiment delay-sweep; this one takes rendering.law = "
+        "STIFFNESS or NAIVE");
+  }
+}
 
 void Laboratory::step() {
   elapsed_ += period_;
@@ -57,7 +67,9 @@ void Laboratory::step_master() {
                                             .engaged = view.state == SafetyState::kEngaged,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
-  devices_.set_target(driven_.value_or(script.target));
+  HandTarget target = driven_.value_or(script.target);
+  if (let_go_) target.grip = Grip::kReleased;
+  devices_.set_target(target);
   MasterInput in;
   in.now = now;
   in.handle = handle;

@@ -24,7 +24,8 @@ struct HapticReturn {
 
 class Laboratory {
  public:
-  /// Configurations complete, files resolved, link profile already in the impairments.
+  /// Configurations complete, files resolved, link profile already in the impairments. Throws
+  /// std::invalid_argument for a comparison law, which has a bench of its own.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
 
   /// One tick of both sides.
@@ -47,6 +48,8 @@ class Laboratory {
   void drive(const HandTarget& target) { driven_ = target; }
   /// Asked for in the next tick, besides what the script does.
   OperatorRequests& requests() { return requests_; }
+  /// The person lets go of the handles for good.
+  void let_go() { let_go_ = true; }
 
  private:
   [[nodiscard]] Time master_now() const { return Time{std::chrono::seconds(100)} + elapsed_; }
@@ -68,6 +71,7 @@ class Laboratory {
   std::optional<HandTarget> driven_{};
   OperatorRequests requests_{};
   std::optional<double> rtt_s_{};
+  bool let_go_ = false;
   Ring<double> report_depths_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
   HapticReturn haptic_return_{};

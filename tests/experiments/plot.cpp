@@ -31,7 +31,8 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
     out << (c ? ", " : "") << "'" << plot.csv << ".csv' using (column('" << plot.x_column << "')*"
         << plot.x_factor << "):(column('" << curve.column << "')*" << curve.factor << ") with "
         << (curve.points ? "points pt " + std::to_string(curve.mark) : "lines lw 1.6") << " lc rgb '"
-        << kColours[c % kColours.size()] << "' title '" << curve.title << "'";
+        << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
+        << "' title '" << curve.title << "'";
   }
   out << '\n';
 }

@@ -14,6 +14,7 @@ struct Curve {
   double factor = 1.0;  // from the column's unit to the axis's
   bool points = false;  // instead of a line
   int mark = 7;         // gnuplot's point type
+  int colour = -1;      // place in the palette; negative: that of the curve in its panel
 };
 
 struct Panel {

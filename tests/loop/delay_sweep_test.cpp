@@ -1,0 +1,64 @@
+// Law against delay: the limits that theory gives the comparison laws, and none for ours. LONGREACH_FULL=1
+// runs the whole grid.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/experiments/delay/delay_limits.hpp"
+#include "tests/experiments/devices/sampled_wall.hpp"
+#include "tests/experiments/experiment.hpp"
+
+namespace longreach {
+namespace {
+
+TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
+  ExperimentRun run;
+  run.config = configure({}, LONGREACH_DEPLOY);
+  std::map<std::string, double> m;
+  for (const Metric& metric : run_delay_sweep(run)) m[metric.name] = metric.value;
+
+  EXPECT_LE(m.at("direct_limit_error_max"), 0.05);
+  EXPECT_LE(m.at("direct_table_error_max"), 0.15);
+  EXPECT_LE(m.at("wave_table_error_max"), 0.15);
+
+  EXPECT_EQ(m.at("stiffness_limit_cycles"), 0.0);
+  EXPECT_LE(m.at("stiffness_displayed_error_max"), 0.05);
+  EXPECT_GE(m.at("stiffness_port_energy_min_j"), -0.001);
+  EXPECT_LE(m.at("stiffness_drawdown_max_j"), 0.001);
+
+  EXPECT_GT(m.at("direct_limit_cycles"), 0.0);
+  EXPECT_LT(m.at("direct_port_energy_min_j"), -1.0);
+  EXPECT_EQ(m.at("wave_limit_cycles"), 0.0);
+  EXPECT_GE(m.at("wave_port_energy_min_j"), -0.001);
+  EXPECT_EQ(m.at("position_position_limit_cycles"), 0.0);
+}
+
+TEST(DelayMargin, HasTheLimitsThatAreKnownInClosedForm) {
+  // Far beyond the resonance period the delay can turn the phase anywhere: the limit is the least |k - mω² +
+  // jbω|.
+  const HeldHandle light{0.55, 6.5, 135.0};
+  const double zeta = 6.5 / (2.0 * std::sqrt(135.0 * 0.55));
+  EXPECT_NEAR(direct_limit_n_per_m(light, 300.0) / (135.0 * 2.0 * zeta * std::sqrt(1.0 - zeta * zeta)), 1.0,
+              1e-3);
+  // A damper alone: K = b ω at ω τ = π/2.
+  EXPECT_NEAR(direct_limit_n_per_m({1e-9, 5.0, 1e-9}, 0.1) / (5.0 * 0.5 * 3.14159265358979 / 0.1), 1.0, 1e-3);
+  // Short delays: the sampled wall's exact model, whose held force is half a sample late.
+  const SampledWall wall{.mass_kg = 0.8,
+                         .device_n_s_per_m = 2.0,
+                         .hand_n_s_per_m = 6.5,
+                         .hand_n_per_m = 135.0,
+                         .wall_n_s_per_m = 0.0,
+                         .period_s = 1e-3,
+                         .delay_samples = 30};
+  EXPECT_NEAR(direct_limit_n_per_m({0.8, 8.5, 135.0}, 0.0305) / exact_limit_n_per_m(wall), 1.0, 0.01);
+}
+
+TEST(DelayMargin, PositionPositionIsTheStabilityConditionSolvedForItsSpring) {
+  // 4 Bm Bs = (T1² + T2²) Kc² with Bm 20, Bs 10, T1 = T2 = 0.2 s.
+  const double kc = position_position_limit_n_per_m(20.0, 10.0, 0.4);
+  EXPECT_NEAR(4.0 * 20.0 * 10.0, (0.04 + 0.04) * kc * kc, 1e-9);
+}
+
+}  // namespace
+}  // namespace longreach
