@@ -10,6 +10,9 @@
 namespace longreach {
 namespace {
 
+/// Microjoules and more; rounding is no energy, and has no sign.
+double in_mj(double j) { return std::fabs(j) < 5e-7 ? 0.0 : j * 1e3; }
+
 constexpr std::size_t kRttSamples = 36000;
 constexpr double kRttPeriodS = 0.1;
 constexpr double kSpringForceMinN = 0.2;
@@ -134,8 +137,8 @@ void RunSummary::add_checks(Summary& s) const {
         {s.touched ? "displayed stiffness: touched too shortly to measure it" : "no contact", false});
   }
   checks.push_back(
-      {text("port energy at least %.3f mJ, %.3f mJ came out of the rendering", s.port_energy_min_j * 1e3,
-            s.energy_drawdown_j * 1e3),
+      {text("port energy at least %.3f mJ, %.3f mJ came out of the rendering", in_mj(s.port_energy_min_j),
+            in_mj(s.energy_drawdown_j)),
        s.port_energy_min_j >= -config_.energy_out_max_j && s.energy_drawdown_j <= config_.energy_out_max_j});
   checks.push_back(
       {text("largest force step by a report %.3f N", s.force_step_max_n), s.force_step_excess_n <= 0.0});
