@@ -6,8 +6,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kFlat = 1e-6;    // height over rod below which the two assemblies cannot be told apart
-constexpr double kInLine = 1e-7;  // |sin| of the angle in the triangle of centres below which it is a line
+constexpr double kFlat = 1e-6;     // height over rod below which the two assemblies cannot be told apart
+constexpr double kTrusted = 10.0;  // way over rod and volume of the unit rods at the start that a tick may go
+constexpr double kAnyWay = 1e300;  // where the start is no previous position
+constexpr double kInLine = 1e-7;   // |sin| of the angle in the triangle of centres below which it is a line
 
 using Points = std::array<Vector3, 3>;
 
@@ -48,84 +50,61 @@ class OffsetSolver {
     for (int i = 0; i < 3; ++i) {
       const SinCos turn = sin_cos(theta[i]);
       elbow_[i] = g.elbow(i, turn.c, turn.s);
+      outwards_[i] = g.to_world(i, Vector3::UnitX());
     }
   }
 
-  /// Centres of the spheres that touch the three surfaces as seen from p.
-  [[nodiscard]] Points centres(const Vector3& p) const {
-    Points centre;
-    for (int i = 0; i < 3; ++i) {
-      Vector3 in_plane = g_.to_leg(i, p - elbow_[i]);
-      in_plane.y() = 0.0;
-      const double distance = in_plane.norm();
-      const Vector3 shift = distance > 0.0 ? Vector3(in_plane * (g_.offset_m() / distance)) : Vector3::Zero();
-      centre[i] = elbow_[i] + g_.to_world(i, shift);
-    }
-    return centre;
-  }
-
-  /// From the spheres that touch at `start`; ends in `assembly` or without a result.
-  [[nodiscard]] DeltaPosition solve(const Vector3& start, DeltaAssembly assembly) const;
-  /// From `start` to any position that closes all loops.
-  [[nodiscard]] DeltaPosition newton(Vector3 p) const;
+  /// From `start` to a position that closes all loops, in `assembly`.
+  [[nodiscard]] DeltaPosition solve(const Vector3& start, DeltaAssembly assembly, double trusted) const;
   [[nodiscard]] const Points& elbows() const { return elbow_; }
 
-  /// Volume of the three rods: its sign is the assembly.
-  [[nodiscard]] double volume(const Vector3& p) const {
-    const Points centre = centres(p);
-    return (p - centre[0]).dot((p - centre[1]).cross(p - centre[2]));
-  }
-
  private:
-  /// Beyond the offset in every leg: the parallelograms cannot fold through themselves.
-  [[nodiscard]] bool is_outside(const Vector3& p) const {
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 in_leg = g_.to_leg(i, p - elbow_[i]);
-      if (!(std::hypot(in_leg.x(), in_leg.z()) >= g_.offset_m())) return false;
-    }
-    return true;
+  /// What is left of the way from elbow i to p without the offset, which lies in the plane of the leg; the
+  /// parallelogram is folded through itself where `share` (offset over way in the plane) is over 1.
+  [[nodiscard]] Vector3 rod(int i, const Vector3& p, double& share) const {
+    const Vector3 d = p - elbow_[i];
+    const double cos = outwards_[i].x(), sin = outwards_[i].y();
+    const double out = cos * d.x() + sin * d.y();
+    share = g_.offset_m() / std::sqrt(out * out + d.z() * d.z());
+    const double less = share * out;
+    return {d.x() - less * cos, d.y() - less * sin, d.z() - share * d.z()};
   }
 
   const DeltaGeometry& g_;
-  Points elbow_;
+  Points elbow_, outwards_;
 };
 
-DeltaPosition OffsetSolver::newton(Vector3 p) const {
-  const double rod = g_.rod_m();
-  DeltaPosition result{SolutionStatus::kNotConverged, p, 0};
+DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, double trusted) const {
+  const double length = g_.rod_m(), length2 = length * length, side = sign(assembly);
+  DeltaPosition result{SolutionStatus::kNotConverged, start, 0};
+  double trust = 0.0;
   while (result.iterations < DeltaKinematics::kMaxIterations) {
-    ++result.iterations;
-    const Points centre = centres(p);
     Points n;
-    Vector3 excess;
+    Vector3 excess, share;
     for (int i = 0; i < 3; ++i) {
-      n[i] = p - centre[i];
-      const double length = n[i].norm();
-      if (!(length > 0.0)) return {SolutionStatus::kSingular, p, result.iterations};
-      n[i] /= length;
-      excess[i] = length - rod;
+      n[i] = rod(i, result.p_m, share[i]);
+      excess[i] = 0.5 * (n[i].squaredNorm() - length2);
     }
-    const Vector3 c23 = n[1].cross(n[2]);
-    const double volume = n[0].dot(c23);
-    if (!(std::abs(volume) > kFlat)) return {SolutionStatus::kSingular, p, result.iterations};
-    const Vector3 step =
-        (excess[0] * c23 + excess[1] * n[2].cross(n[0]) + excess[2] * n[0].cross(n[1])) / volume;
-    p -= clamp_norm(step, 0.25 * rod);
+    const Vector3 n23 = n[1].cross(n[2]);
+    const double volume = n[0].dot(n23), regularity = volume * side / (length2 * length);
+    if (!(regularity > kFlat)) {
+      result.status = SolutionStatus::kSingular;
+      return result;
+    }
+    if (result.iterations++ == 0) trust = trusted * length * regularity;
+    Vector3 step =
+        (excess[0] * n23 + excess[1] * n[2].cross(n[0]) + excess[2] * n[0].cross(n[1])) * (1.0 / volume);
+    const double step2 = step.squaredNorm();
+    if (step2 > length2 / 16.0) step *= 0.25 * length / std::sqrt(step2);
+    result.p_m -= step;
     // The iteration squares its error: what is left after this step is below rounding.
-    if (step.squaredNorm() < 1e-18 * rod * rod * volume * volume) {
-      result.status = is_outside(p) ? SolutionStatus::kFound : SolutionStatus::kNotConverged;
-      result.p_m = p;
-      break;
+    if (step2 < 1e-17 * length2 * regularity * regularity) {
+      if (!(share.maxCoeff() < 1.0)) return result;
+      const bool near = (result.p_m - start).squaredNorm() <= trust * trust;
+      result.status = near ? SolutionStatus::kFound : SolutionStatus::kSingular;
+      return result;
     }
   }
-  return result;
-}
-
-DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly) const {
-  const Intersection first = intersect(centres(start), g_.rod_m(), sign(assembly));
-  DeltaPosition result = newton(first.status == SolutionStatus::kFound ? first.p : start);
-  if (result.status == SolutionStatus::kFound && !(volume(result.p_m) * sign(assembly) > 0.0))
-    result.status = SolutionStatus::kSingular;
   return result;
 }
 
@@ -133,15 +112,17 @@ DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly) 
 
 DeltaPosition DeltaKinematics::forward(const Vector3& theta_rad, DeltaAssembly assembly,
                                        const Vector3& near_m) const {
-  const Vector3 previous = near_m.allFinite() ? near_m : Vector3::Zero();
-  if (!theta_rad.allFinite()) return {SolutionStatus::kNoSolution, previous, 0};
   const OffsetSolver solver(g_, theta_rad);
+  DeltaPosition result;
   if (g_.offset_m() == 0.0) {
     const Intersection point = intersect(solver.elbows(), g_.rod_m(), sign(assembly));
-    return {point.status, point.status == SolutionStatus::kFound ? point.p : previous, 0};
+    result = {point.status, point.p, 0};
+  } else {
+    result = solver.solve(near_m, assembly, kTrusted);
   }
-  DeltaPosition result = solver.solve(previous, assembly);
-  if (result.status != SolutionStatus::kFound) result.p_m = previous;
+  if (result.status == SolutionStatus::kFound) return result;
+  result.p_m = near_m.allFinite() ? near_m : Vector3::Zero();
+  if (!theta_rad.allFinite()) result.status = SolutionStatus::kNoSolution;
   return result;
 }
 
@@ -158,18 +139,21 @@ void add(DeltaPositions& all, const Vector3& p, double same) {
 /// arms' ends.
 void search(const OffsetSolver& solver, const DeltaGeometry& g, DeltaAssembly first, DeltaPositions& all) {
   const double same = 1e-6 * g.rod_m();
+  const auto from = [&](const Vector3& start, double side) {
+    const auto assembly = static_cast<DeltaAssembly>(static_cast<int>(side));
+    const DeltaPosition found = solver.solve(start, assembly, kAnyWay);
+    if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
+  };
   for (const double side : {sign(first), -sign(first)}) {
     const Intersection start = intersect(solver.elbows(), g.rod_m() + g.offset_m(), side);
-    if (start.status != SolutionStatus::kFound) continue;
-    const DeltaPosition found = solver.solve(start.p, static_cast<DeltaAssembly>(static_cast<int>(side)));
-    if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
+    if (start.status == SolutionStatus::kFound) from(start.p, side);
   }
   const Vector3 middle = (solver.elbows()[0] + solver.elbows()[1] + solver.elbows()[2]) / 3.0;
   for (const double share : {1.0, 0.5}) {
     for (int n = 0; n < 27; ++n) {
       const Vector3 direction = Vector3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).stableNormalized();
-      const DeltaPosition found = solver.newton(middle + share * (g.rod_m() + g.offset_m()) * direction);
-      if (found.status == SolutionStatus::kFound) add(all, found.p_m, same);
+      for (const double side : {1.0, -1.0})
+        from(middle + share * (g.rod_m() + g.offset_m()) * direction, side);
     }
   }
 }

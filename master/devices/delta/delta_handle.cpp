@@ -11,6 +11,10 @@ DeltaHandle::DeltaHandle(const DeviceConfig& config)
       p_(home_) {}
 
 bool DeltaHandle::read(const Vector3& theta_rad, double dt_s) {
+  if (!started_) {  // wherever the device has been switched on
+    const DeltaPositions all = kinematics_.forward_all(theta_rad);
+    if (all.status == SolutionStatus::kFound) p_ = all.p_m[0];
+  }
   const DeltaPosition found = kinematics_.forward(theta_rad, kinematics_.geometry().working_assembly(), p_);
   if (found.status != SolutionStatus::kFound) return false;
   if (started_ && dt_s > 0.0) v_ += dt_s / (dt_s + filter_s_) * ((found.p_m - p_) / dt_s - v_);
