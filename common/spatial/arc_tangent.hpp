@@ -5,18 +5,12 @@
 // infinities and subnormal numbers; a NaN gives NaN; (0, 0) gives 0.
 
 #include <cmath>
+#include <cstddef>
 
 namespace longreach {
 
-inline double arc_tangent(double y, double x) {
-  constexpr double kEighth = 0.41421356237309503;  // tan(π/8)
-  constexpr double kQuarterPi = 7.85398163397448278999e-01, kQuarterPiLow = 3.06161699786838301793e-17;
-  constexpr double kPi = 3.14159265358979311600e+00, kPiLow = 1.22464679914735317636e-16;
-  const double ax = std::abs(x), ay = std::abs(y);
-  const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
-  if (large == 0.0) return 0.0;
-  const bool far = small > kEighth * large;
-  const double t = far ? (small - large) / (small + large) : small / large;
+/// Of |t| <= tan(π/8).
+inline double arc_tangent_of_small(double t) {
   const double z = t * t, w = z * z;
   const double even =
       z * (3.33333333333329318027e-01 +
@@ -28,11 +22,40 @@ inline double arc_tangent(double y, double x) {
                           w * (-1.11111104054623557880e-01 +
                                w * (-7.69187620504482999495e-02 +
                                     w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
-  double angle = t - t * (even + odd);
+  return t - t * (even + odd);
+}
+
+inline double arc_tangent(double y, double x) {
+  constexpr double kEighth = 0.41421356237309503;  // tan(π/8)
+  constexpr double kQuarterPi = 7.85398163397448278999e-01, kQuarterPiLow = 3.06161699786838301793e-17;
+  constexpr double kPi = 3.14159265358979311600e+00, kPiLow = 1.22464679914735317636e-16;
+  const double ax = std::abs(x), ay = std::abs(y);
+  const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
+  if (large == 0.0) return 0.0;
+  const bool far = small > kEighth * large;
+  const double t = far ? (small - large) / (small + large) : small / large;
+  double angle = arc_tangent_of_small(t);
   if (far) angle = kQuarterPi + (angle + kQuarterPiLow);
   if (ay > ax) angle = 2.0 * kQuarterPi - (angle - 2.0 * kQuarterPiLow);
   if (std::signbit(x)) angle = kPi - (angle - kPiLow);
   return std::copysign(angle, y);
+}
+
+/// The same of several directions at once, without branches: two for the price of one.
+template <std::size_t n>
+inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&angle)[n]) {
+  constexpr double kEighth = 0.41421356237309503, kTiny = 1e-300;
+  constexpr double kQuarterPi = 7.85398163397448278999e-01, kPi = 3.14159265358979311600e+00;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ax = std::abs(x[i]), ay = std::abs(y[i]);
+    const double large = (ax > ay ? ax : ay) + kTiny, small = ax > ay ? ay : ax;
+    const double far = small > kEighth * large ? 1.0 : 0.0;
+    const double t = (small - far * large) / (large + far * small);
+    const double steep = ay > ax ? 1.0 : 0.0, back = x[i] < 0.0 ? 1.0 : 0.0;
+    const double eighth = far * kQuarterPi + arc_tangent_of_small(t);
+    const double quarter = steep * (2.0 * kQuarterPi) + (1.0 - 2.0 * steep) * eighth;
+    angle[i] = std::copysign(back * kPi + (1.0 - 2.0 * back) * quarter, y[i]);
+  }
 }
 
 }  // namespace longreach

@@ -5,6 +5,7 @@
 // in the last place of 1 of the true value. Beyond kReducible radians, and for what is not finite, the C
 // library answers.
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -16,15 +17,19 @@ struct SinCos {
   double c = 1.0;
 };
 
-inline SinCos sin_cos(double x) {
-  constexpr double kReducible = 1e5;
+/// Before the quadrant is put in: sine and cosine of x less the nearest multiple of π/2, which are to change
+/// places and signs as the last bits of `quadrant` say. |x| < kReducible.
+struct ReducedSinCos {
+  static constexpr double kReducible = 1e5;
+  double s, c, quadrant;
+};
+
+inline ReducedSinCos reduced_sin_cos(double x) {
   constexpr double kTwoOverPi = 6.36619772367581382433e-01;
   constexpr double kHalfPiHigh = 1.57079632673412561417e+00, kHalfPiLow = 6.07710050650619224932e-11;
   constexpr double kRound = 0x1.8p52;  // adding it rounds to an integer, whose bits end the sum
-  if (!(std::abs(x) < kReducible)) return {std::sin(x), std::cos(x)};
   const double shifted = x * kTwoOverPi + kRound;
   const double turns = shifted - kRound;
-  const auto quadrant = std::bit_cast<std::uint64_t>(shifted);
   const double y = (x - turns * kHalfPiHigh) - turns * kHalfPiLow;
   const double z = y * y;
   const double s =
@@ -41,10 +46,38 @@ inline SinCos sin_cos(double x) {
                                  z * (-2.75573143513906633035e-07 +
                                       z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
   const double half = 0.5 * z, head = 1.0 - half;
-  const double c = head + (((1.0 - head) - half) + tail);
+  return {s, head + (((1.0 - head) - half) + tail), shifted};
+}
+
+inline SinCos in_quadrant(const ReducedSinCos& r) {
+  const auto quadrant = std::bit_cast<std::uint64_t>(r.quadrant);
   // By table instead of by branch: the quadrant changes without warning.
-  const double values[4] = {s, c, -s, -c};
+  const double values[4] = {r.s, r.c, -r.s, -r.c};
   return {values[quadrant & 3], values[(quadrant + 1) & 3]};
+}
+
+inline SinCos sin_cos(double x) {
+  if (!(std::abs(x) < ReducedSinCos::kReducible)) return {std::sin(x), std::cos(x)};
+  return in_quadrant(reduced_sin_cos(x));
+}
+
+/// The same of several angles at once: two for the price of one.
+template <std::size_t n>
+inline std::array<SinCos, n> sin_cos(const std::array<double, n>& x) {
+  std::array<SinCos, n> result;
+  double s[n], c[n], quadrant[n];
+  for (std::size_t i = 0; i < n; ++i) {
+    const ReducedSinCos r = reduced_sin_cos(x[i]);
+    s[i] = r.s, c[i] = r.c, quadrant[i] = r.quadrant;
+  }
+  bool reducible = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    reducible = reducible && std::abs(x[i]) < ReducedSinCos::kReducible;
+    result[i] = in_quadrant({s[i], c[i], quadrant[i]});
+  }
+  if (reducible) return result;
+  for (std::size_t i = 0; i < n; ++i) result[i] = sin_cos(x[i]);
+  return result;
 }
 
 }  // namespace longreach

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/spatial/arc_tangent.hpp"
-#include "common/spatial/sin_cos.hpp"
+#include "slave/robot/branch_tree.hpp"
 
 namespace longreach {
 namespace {
@@ -12,39 +11,16 @@ namespace {
 using Role = ArmLoop::Role;
 using std::sqrt;
 
-Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
-Turn reversed(const Turn& a) { return {a.c, -a.s}; }
-double at(const Trig& f, const Turn& t) { return f.k + f.c * t.c + f.s * t.s; }
-
-struct Plane {
-  double x, y;
-};
-Plane flat(const Vector3& v) { return {v.x(), v.y()}; }
-
-/// Rz(t) v and Rz(-t) v.
-Vector3 turned(const Turn& t, const Vector3& v) {
-  return {t.c * v.x() - t.s * v.y(), t.s * v.x() + t.c * v.y(), v.z()};
-}
-Vector3 turned_back(const Turn& t, const Vector3& v) {
-  return {t.c * v.x() + t.s * v.y(), t.c * v.y() - t.s * v.x(), v.z()};
-}
-
-/// g·Rz(φ) v as a function of φ.
-Trig turned_part(const Vector3& g, const Vector3& v) {
-  return {g.z() * v.z(), g.x() * v.x() + g.y() * v.y(), g.y() * v.x() - g.x() * v.y()};
-}
-
 /// One solve: the equations of the loop at one pose, and where solutions go. Lengths in shares of the reach.
-class Solving {
+class Solving : BranchTree {
  public:
-  Solving(const ArmLoop& loop, const Rigid& X_WE, const JointVector& before_rad, Branches& out, int only)
-      : loop_(loop), before_rad_(before_rad), out_(out), only_(only) {
-    const Rigid pose = loop.before * (loop.backwards ? X_WE : inverse(X_WE)) * loop.behind;
-    b_ = loop.pose_role == Role::kB ? pose : loop.link[Role::kB];
-    c_ = loop.pose_role == Role::kC ? pose : loop.link[Role::kC];
-    f_ = loop.pose_role == Role::kF ? pose : loop.link[Role::kF];
-    out.count = 0;
-  }
+  Solving(const ArmLoop& loop, const Rigid& X_WE, const JointVector& before_rad, Branches& out, bool nearest)
+      : BranchTree(loop, before_rad, out, nearest),
+        loop_(loop),
+        pose_(loop.before * (loop.backwards ? X_WE : inverse(X_WE)) * loop.behind),
+        b_(loop.pose_role == Role::kB ? pose_ : loop.link[Role::kB]),
+        c_(loop.pose_role == Role::kC ? pose_ : loop.link[Role::kC]),
+        f_(loop.pose_role == Role::kF ? pose_ : loop.link[Role::kF]) {}
 
   void run() {
     spherical_ = loop_.family == ArmFamily::kSpherical;
@@ -96,18 +72,18 @@ class Solving {
     const double R = sqrt(f.c * f.c + f.s * f.s);
     if (R <= ClosedInverse::kFree) {
       const Turn c = before(Role::kC);
-      both_of_plane(c, std::abs(f.k), 0);
+      both_of_plane(c, std::abs(f.k));
       return;
     }
     const double cos = std::clamp(-f.k / R, -1.0, 1.0);
     const double sin = sqrt(std::max((R - f.k) * (R + f.k), 0.0)) / R;
     const double miss = std::max(std::abs(f.k) - R, 0.0);
     const Turn middle{f.c / R, f.s / R};
-    if (only_ < 4) both_of_plane(middle * Turn{cos, sin}, miss, 0);
-    if (only_ < 0 || only_ >= 4) both_of_plane(middle * Turn{cos, -sin}, miss, 4);
+    fork(Role::kC, middle * Turn{cos, sin}, middle * Turn{cos, -sin},
+         [&](const Turn& c) { both_of_plane(c, miss); });
   }
 
-  void both_of_plane(const Turn& c, double miss, int index) {
+  void both_of_plane(const Turn& c, double miss) {
     begin(c);
     const bool x_vanishes = loop_.a_m == 0.0;
     const double known = x_vanishes ? at(y_, c) / loop_.sin_alpha : at(x_, c) / loop_.a_m;
@@ -119,12 +95,11 @@ class Solving {
     }
     const double other = sqrt(std::max((r - side) * (r + side), 0.0));
     miss = std::max(miss, std::abs(side) - r);
-    for (int i = 0; i < 2; ++i) {
-      const int branch = index + 2 * i;
-      if (only_ >= 0 && (only_ & ~1) != branch) continue;
-      const double signed_other = i == 0 ? other : -other;
-      in_plane(x_vanishes ? signed_other : known, x_vanishes ? known : signed_other, miss);
-    }
+    const auto beta = [&](double root) {
+      return in_plane(x_vanishes ? Plane{root, known} : Plane{known, root});
+    };
+    fork(spherical_ ? Role::kB : Role::kA, beta(other), beta(-other),
+         [&](const Turn& t) { finish(t, miss); });
   }
 
   void solve_quartic() {
@@ -139,15 +114,15 @@ class Solving {
     const QuarticTurns roots = zeros(F, size);
     for (int i = 0; i < roots.count; ++i) {
       const Turn& c = roots.turn[static_cast<std::size_t>(i)];
+      if (too_far(Role::kC, c)) continue;
       begin(c);
-      in_plane(at(x_, c) / a, at(y_, c) / s, 0.0);
+      finish(in_plane({at(x_, c) / a, at(y_, c) / s}), 0.0);
     }
   }
 
   // All that depends on φ_c alone.
   void begin(const Turn& c) {
     y_at_ = y0_ + c.c * yc_ + c.s * ys_;
-    turn_c_ = c;
     set(Role::kC, c);
     if (spherical_) {
       Matrix3 R;
@@ -162,13 +137,16 @@ class Solving {
     }
   }
 
-  // (X, Y) = Rot(β) r
-  void in_plane(double X, double Y, double miss) {
-    const Turn beta = direction(flat(y_at_), {X, Y}, spherical_ ? Role::kB : Role::kA);
+  // (X, Y) = Rot(β) r, as φ_b or φ_a.
+  [[nodiscard]] Turn in_plane(const Plane& XY) const {
+    return spherical_ ? direction(flat(y_at_), XY, Role::kB) : direction(XY, flat(y_at_), Role::kA);
+  }
+
+  void finish(const Turn& turn, double miss) {
     if (spherical_) {
-      wrist(beta, miss);
+      wrist(turn, miss);
     } else {
-      planar_arm(reversed(beta), miss);
+      planar_arm(turn, miss);
     }
   }
 
@@ -195,17 +173,16 @@ class Solving {
     double sin_e = sqrt(std::max(square, 0.0)) / std::abs(product);
     const double norm = 1.0 / sqrt(cos_e * cos_e + sin_e * sin_e);
     cos_e *= norm, sin_e *= norm;
-    for (int i = 0; i < 2; ++i, sin_e = -sin_e) {
-      if (only_ >= 0 && (only_ & 1) != i) continue;
-      const double kx = se * sin_e, ky = -cd * se * cos_e - sd * ce;
+    fork(Role::kE, {cos_e, sin_e}, {cos_e, -sin_e}, [&](const Turn& e) {
+      const double kx = se * e.s, ky = -cd * se * e.c - sd * ce;
       const Turn d = direction({kx, ky}, flat(m), Role::kD);
-      const Vector3 first = turned(d, {cos_e, cd * sin_e, sd * sin_e});
-      const Vector3 second = turned(d, {-sin_e * ce, cd * cos_e * ce - sd * se, sd * cos_e * ce + cd * se});
+      const Vector3 first = turned(d, {e.c, cd * e.s, sd * e.s});
+      const Vector3 second = turned(d, {-e.s * ce, cd * e.c * ce - sd * se, sd * e.c * ce + cd * se});
       set(Role::kD, d);
-      set(Role::kE, {cos_e, sin_e});
+      set(Role::kE, e);
       set(Role::kF, {first.dot(x_column), second.dot(x_column)});
       add(miss);
-    }
+    });
   }
 
   // Rz(φ_a) (A_a v + l_a), without l_a for a direction.
@@ -240,8 +217,7 @@ class Solving {
     const double cos = std::clamp((wanted - square.k) / R, -1.0, 1.0), sin = sqrt((1.0 - cos) * (1.0 + cos));
     const Turn ahead = Turn{square.c / R, square.s / R} * Turn{cos, sin},
                aside = Turn{square.c / R, square.s / R} * Turn{cos, -sin};
-    const auto likeness = [&](const Turn& t) { return t.c * b.c + t.s * b.s; };
-    return likeness(ahead) >= likeness(aside) ? ahead : aside;
+    return likeness(ahead, b) >= likeness(aside, b) ? ahead : aside;
   }
 
   void planar_arm(const Turn& a, double miss) {
@@ -262,64 +238,28 @@ class Solving {
     const double plus = (distance - difference) * (distance + difference) * scale;  // 1 + cos φ_e
     miss = std::max(miss, -minus * plus);
     const Turn e = unit({0.5 * (plus - minus), sqrt(std::max(minus * plus, 0.0))});
-    for (int i = 0; i < 2; ++i) {
-      if (only_ >= 0 && (only_ & 1) != i) continue;
-      const Turn elbow{e.c, i == 0 ? e.s : -e.s};
+    fork(Role::kE, e, reversed(e), [&](const Turn& elbow) {
       const Turn w{one + two * elbow.c, -two * elbow.s};
       const Turn d = direction({w.c, -w.s}, {Q.c, Q.s}, Role::kD);
       set(Role::kD, d);
       set(Role::kE, elbow);
       set(Role::kF, psi * reversed(d * elbow));
       add(miss);
-    }
-  }
-
-  static Turn unit(const Turn& t) {
-    const double scale = 1.0 / sqrt(t.c * t.c + t.s * t.s);
-    return {t.c * scale, t.s * scale};
-  }
-
-  // The turn from one vector to another; where one of them vanishes, the angle before.
-  [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) const {
-    const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
-    if (!(std::min(square, other) > kFreeSquare)) return before(role);
-    const double scale = 1.0 / sqrt(square * other);
-    return {(from.x * to.x + from.y * to.y) * scale, (from.x * to.y - from.y * to.x) * scale};
-  }
-
-  [[nodiscard]] Turn before(Role role) const {
-    const LoopJoint& j = loop_.joint[role];
-    const SinCos t = sin_cos(j.sign * (before_rad_[j.joint] + j.theta_rad));
-    return {t.c, t.s};
-  }
-
-  void set(Role role, const Turn& t) {
-    const LoopJoint& j = loop_.joint[role];
-    joint_rad_[j.joint] = j.sign * arc_tangent(t.s, t.c) - j.theta_rad;
-  }
-
-  void add(double miss) {
-    if (out_.count == Branches::kMax) return;
-    out_.branch[static_cast<std::size_t>(out_.count++)] = {joint_rad_, miss};
+    });
   }
 
   // A vector so short gives its direction to a tenth of a millionth only.
   static constexpr double kVagueSquare = 1e-18;
-  static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
 
   const ArmLoop& loop_;
-  const JointVector& before_rad_;
-  Branches& out_;
-  int only_;
+  const Rigid pose_;
+  const Rigid &b_, &c_, &f_;
   bool spherical_ = false;
-  Rigid b_, c_, f_;
   Vector3 target_;        // spherical: t; parallel: n
   Vector3 y0_, yc_, ys_;  // r(c) = y0 + yc cos c + ys sin c
   Trig x_, y_;
-  Turn turn_c_;
   Vector3 y_at_, x_axis_, origin_, n_at_;
   Matrix3 chain_;
-  JointVector joint_rad_;
 };
 
 }  // namespace
@@ -332,9 +272,10 @@ ClosedInverse::ClosedInverse(const Kinematics& arm) : loop_(recognise(arm)), per
   if (loop_.family == ArmFamily::kParallel) loop_.first *= per_m_, loop_.second *= per_m_;
 }
 
-void ClosedInverse::solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out, int only) const {
+void ClosedInverse::solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out,
+                          bool nearest) const {
   const Rigid scaled{X_WE.R, per_m_ * X_WE.p};
-  Solving(loop_, scaled, before_rad, out, only).run();
+  Solving(loop_, scaled, before_rad, out, nearest).run();
 }
 
 }  // namespace longreach

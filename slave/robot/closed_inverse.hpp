@@ -15,6 +15,7 @@
 // Newton steps (inverse.hpp). Does not know joint limits.
 
 #include <array>
+#include <numbers>
 
 #include "slave/robot/arm_loop.hpp"
 #include "slave/robot/quartic_turns.hpp"
@@ -23,7 +24,7 @@ namespace longreach {
 
 struct Branch {
   JointVector joint_rad;  // each angle from any turn
-  double miss = 0.0;  // 0: reached; else by how much an equation was missed, in sines and shares of the reach
+  double miss;  // 0: reached; else by how much an equation was missed, in sines and shares of the reach
 };
 
 struct Branches {
@@ -32,18 +33,26 @@ struct Branches {
   std::array<Branch, kMax> branch;
 };
 
+/// x less whole turns, in [-π, π], for |x| < 1e6: adding the constant rounds to an integer.
+inline double nearest_turn(double x) {
+  constexpr double kTwoPi = 2.0 * std::numbers::pi, kRound = 0x1.8p52;
+  return x - kTwoPi * ((x / kTwoPi + kRound) - kRound);
+}
+
 class ClosedInverse {
  public:
   static constexpr double kFree = 2e-15;
-  static constexpr int kAll = -1;
+  static constexpr double kMissMax = 1e-6;  // a branch that misses by more has no solution next to it
 
   explicit ClosedInverse(const Kinematics& arm);
 
   [[nodiscard]] bool applies() const { return loop_.family != ArmFamily::kNone; }
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
-  /// `X_WE` finite. `only`: one branch, 0 to 7, of an arm whose loop is triangular.
-  void solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out, int only = kAll) const;
+  /// `X_WE` finite. `nearest`: of all branches that miss by at most kMissMax only the one that is nearest to
+  /// `before_rad` (least Σ Δq², each angle on the nearest turn). Others are left out as soon as one angle
+  /// alone is farther off.
+  void solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out, bool nearest = false) const;
 
  private:
   ArmLoop loop_;  // its lengths in shares of the reach

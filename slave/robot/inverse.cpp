@@ -12,7 +12,7 @@ namespace longreach {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kWorthATry = 1e-6;  // a branch that misses by more has no solution next to it
+constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
 constexpr double kFollowMaxRad = 0.1;
 
 struct Error {
@@ -22,12 +22,6 @@ struct Error {
 Error error_of(const Rigid& goal, const Rigid& X) { return {rotation_between(X.R, goal.R), goal.p - X.p}; }
 
 bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
-
-// x less whole turns, in [-π, π], for |x| < 1e6: adding the constant rounds to an integer.
-double nearest_turn(double x) {
-  constexpr double kRound = 0x1.8p52;
-  return x - kTwoPi * ((x / kTwoPi + kRound) - kRound);
-}
 
 }  // namespace
 
@@ -59,37 +53,78 @@ std::string_view Inverse::words() const {
   return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
 }
 
-// Newton steps, each the better of two: one leaves out directions that are all but lost, and so keeps their
-// rounding out; the other goes along with them first, towards the one root of two that have met.
-bool Inverse::improve(const Rigid& goal, Placed& placed) const {
-  constexpr int kStepsMax = 24, kPatience = 2;  // between two roots that met, a step halves the distance
-  constexpr double kEnough = 0.4 * kExact;
+void Inverse::look(const Rigid& goal, Placed& placed) const {
+  const double length = kinematics().reach_m();
+  placed.tool = kinematics().rigid_with_jacobian(placed.joint_rad);
+  placed.error = error_of(goal, placed.tool.X_WE);
+  placed.miss = std::sqrt(std::max(placed.error.rotation_rad.squaredNorm(),
+                                   placed.error.position_m.squaredNorm() / (length * length)));
+}
+
+Inverse::Placed Inverse::moved(const Rigid& goal, const Placed& from, bool damped) const {
   constexpr double kDamping = 1e-12;  // of the reach squared
   const double length = kinematics().reach_m();
-  const auto look = [&](Placed& p) {
-    p.tool = kinematics().rigid_with_jacobian(p.joint_rad);
-    p.error = error_of(goal, p.tool.X_WE);
-    p.miss = std::sqrt(
-        std::max(p.error.rotation_rad.squaredNorm(), p.error.position_m.squaredNorm() / (length * length)));
+  Jacobian J_m = from.tool.J;
+  J_m.topRows<3>() *= length;
+  Vector6 e_m;
+  e_m << length * from.error.rotation_rad, from.error.position_m;
+  Placed next;
+  next.joint_rad = from.joint_rad + (damped ? damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad
+                                            : newton_step(J_m, e_m));
+  look(goal, next);
+  return next;
+}
+
+bool Inverse::improve(const Rigid& goal, Placed& placed) const {
+  look(goal, placed);
+  if (placed.miss <= 0.4 * kExact || newton(goal, placed)) return true;
+  constexpr double kMet = 1e-8;
+  constexpr int kTimes = 3;
+  for (int i = 0; i < kTimes && placed.miss <= kMet; ++i) {
+    const double before = placed.miss;
+    step_aside(goal, placed);
+    if (newton(goal, placed)) return true;
+    if (!(placed.miss < before)) break;
+  }
+  return false;
+}
+
+// Between two roots that have met no Newton step leaves the place, and where a root is flat each gains too
+// little: along the joint motion that moves the tool least, to either side, to where it is nearest.
+void Inverse::step_aside(const Rigid& goal, Placed& placed) const {
+  constexpr double kFirstRad = 1e-8, kLastRad = 0.3, kRatio = 1.6;
+  constexpr int kRefinements = 12;
+  const JointVector along = idle_motion(placed.tool.J, kinematics().reach_m());
+  const JointVector from = placed.joint_rad;
+  double best = 0.0;
+  const auto try_at = [&](double h) {
+    Placed next{from + h * along, {}, {}, 0.0};
+    look(goal, next);
+    next = moved(goal, next, true);
+    if (!(next.miss < placed.miss)) return;
+    placed = next;
+    best = h;
   };
-  const auto move = [&](Placed p, bool damped) {
-    Jacobian J_m = p.tool.J;
-    J_m.topRows<3>() *= length;
-    Vector6 e_m;
-    e_m << length * p.error.rotation_rad, p.error.position_m;
-    p.joint_rad +=
-        damped ? damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad : newton_step(J_m, e_m);
-    look(p);
-    return p;
-  };
-  look(placed);
-  if (placed.miss <= kEnough) return true;
+  for (double h = kFirstRad; h < kLastRad; h *= kRatio) try_at(h), try_at(-h);
+  double width = 0.25 * best;
+  for (int i = 0; i < kRefinements && best != 0.0; ++i, width *= 0.6) {
+    const double middle = best;
+    try_at(middle + width);
+    try_at(middle - width);
+  }
+}
+
+// Newton steps, each the better of two: one leaves out directions that are all but lost, and so keeps their
+// rounding out; the other goes along with them first, towards the one root of two that have met.
+bool Inverse::newton(const Rigid& goal, Placed& placed) const {
+  constexpr int kStepsMax = 24, kPatience = 2;  // between two roots that met, a step halves the distance
+  constexpr double kEnough = 0.4 * kExact;
   Placed next = placed;
   for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience && next.miss < 1.0; ++i) {
     const Placed start = next;
-    next = move(start, true);
+    next = moved(goal, start, true);
     if (next.miss > kEnough) {
-      const Placed along = move(move(start, false), true);
+      const Placed along = moved(goal, moved(goal, start, false), true);
       if (along.miss < next.miss) next = along;
     }
     worse = next.miss < placed.miss ? 0 : worse + 1;
@@ -101,7 +136,6 @@ bool Inverse::improve(const Rigid& goal, Placed& placed) const {
 
 // Each angle on the turn nearest to the joints before that the limits allow. False: there is none.
 bool Inverse::place(const JointVector& solution, const JointVector& near_rad, JointVector& placed) const {
-  constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
   for (int i = 0; i < kMaxJoints; ++i) {
     const double low = numeric_.min_rad()[i], high = numeric_.max_rad()[i];
     const double change = nearest_turn(solution[i] - near_rad[i]);
@@ -129,8 +163,31 @@ double Inverse::cost(const JointVector& joint_rad, const JointVector& near_rad) 
   return (joint_rad - near_rad).squaredNorm();
 }
 
+bool Inverse::within_limits(const JointVector& joint_rad) const {
+  return ((joint_rad - numeric_.min_rad()).array() >= -kSlack).all() &&
+         ((numeric_.max_rad() - joint_rad).array() >= -kSlack).all();
+}
+
+void Inverse::clamp(const Rigid& goal, Placed& placed) const {
+  const JointVector allowed = placed.joint_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
+  if (allowed == placed.joint_rad) return;
+  placed.joint_rad = allowed;
+  placed.tool = kinematics().rigid_with_jacobian(allowed);
+  placed.error = error_of(goal, placed.tool.X_WE);
+}
+
 bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
   Branches branches;
+  if (prefer_ == BranchPreference::kNearest) {
+    closed_.solve(goal, near_rad, branches, true);
+    if (branches.count == 1 && within_limits(branches.branch[0].joint_rad)) {
+      placed.joint_rad = branches.branch[0].joint_rad;
+      if (improve(goal, placed)) {
+        clamp(goal, placed);
+        return true;
+      }
+    }
+  }
   closed_.solve(goal, near_rad, branches);
   std::array<double, Branches::kMax> costs;
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -138,7 +195,7 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
     const auto n = static_cast<std::size_t>(i);
     Branch& b = branches.branch[n];
     JointVector allowed;
-    const bool possible = b.miss <= kWorthATry && place(b.joint_rad, near_rad, allowed);
+    const bool possible = b.miss <= ClosedInverse::kMissMax && place(b.joint_rad, near_rad, allowed);
     costs[n] = possible ? cost(allowed, near_rad) : kNever;
     if (possible) b.joint_rad = allowed;
   }
@@ -148,12 +205,7 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
     placed.joint_rad = branches.branch[static_cast<std::size_t>(best - costs.begin())].joint_rad;
     *best = kNever;
     if (!improve(goal, placed)) continue;
-    const JointVector allowed = placed.joint_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
-    if (allowed != placed.joint_rad) {
-      placed.joint_rad = allowed;
-      placed.tool = kinematics().rigid_with_jacobian(allowed);
-      placed.error = error_of(goal, placed.tool.X_WE);
-    }
+    clamp(goal, placed);
     return true;
   }
   return false;
@@ -258,7 +310,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
     for (int i = 0; i < branches.count; ++i) {
       const Branch& b = branches.branch[static_cast<std::size_t>(i)];
       placed.joint_rad = b.joint_rad;
-      if (b.miss <= kWorthATry && improve(goal, placed)) add(placed.joint_rad);
+      if (b.miss <= ClosedInverse::kMissMax && improve(goal, placed)) add(placed.joint_rad);
     }
     return solutions;
   }

@@ -77,8 +77,14 @@ class Inverse {
 
  private:
   struct Placed;
+  [[nodiscard]] Placed moved(const Rigid& goal, const Placed& from, bool damped) const;
+  void look(const Rigid& goal, Placed& placed) const;
   [[nodiscard]] bool improve(const Rigid& goal, Placed& placed) const;
+  [[nodiscard]] bool newton(const Rigid& goal, Placed& placed) const;
+  void step_aside(const Rigid& goal, Placed& placed) const;
   [[nodiscard]] bool choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
+  [[nodiscard]] bool within_limits(const JointVector& joint_rad) const;
+  void clamp(const Rigid& goal, Placed& placed) const;
   [[nodiscard]] bool place(const JointVector& solution, const JointVector& near_rad,
                            JointVector& placed) const;
   [[nodiscard]] double cost(const JointVector& joint_rad, const JointVector& near_rad) const;

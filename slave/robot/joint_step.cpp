@@ -68,15 +68,35 @@ JointVector newton_step(const Jacobian& J_m, const Vector6& e_m) {
 }
 
 double conditioning(const Jacobian& J, double length_m) {
-  JointVector unused = JointVector::Zero();
-  return std::sqrt(std::max(solve_symmetric(normal_matrix(in_metres(J, length_m)), unused), 0.0)) / length_m;
+  // Column by column of L, with the angular rows weighed as the products are added up.
+  const double weight = length_m * length_m;
+  double A[6][6];
+  for (int k = 0; k < 6; ++k) {
+    const double* b = J.col(k).data();
+    const double wx = weight * b[0], wy = weight * b[1], wz = weight * b[2];
+    for (int i = k; i < 6; ++i) {
+      const double* a = J.col(i).data();
+      A[k][i] = wx * a[0] + wy * a[1] + wz * a[2] + b[3] * a[3] + b[4] * a[4] + b[5] * a[5];
+    }
+  }
+  double least = A[0][0];
+  for (int k = 0; k < 5; ++k) {
+    const double inverse_pivot = 1.0 / A[k][k];
+    for (int j = k + 1; j < 6; ++j) {
+      const double factor = A[k][j] * inverse_pivot;
+      for (int i = j; i < 6; ++i) A[j][i] -= factor * A[k][i];
+    }
+    least = std::min(least, A[k + 1][k + 1]);
+  }
+  return std::sqrt(std::max(least, 0.0)) / length_m;
 }
 
-Vector6 lost_direction(const Jacobian& J, double length_m) {
+namespace {
+
+// The eigenvector of the least eigenvalue of J Jᵀ or Jᵀ J.
+Vector6 least_direction(Matrix6 A, double length_m) {
   constexpr int kIterations = 4;      // of inverse iteration; each gains the ratio of two singular values
   constexpr double kDamping = 1e-14;  // of the reach squared: above rounding, below what is not lost
-  const Jacobian J_m = in_metres(J, length_m);
-  Matrix6 A = J_m * J_m.transpose();
   A.diagonal().array() += kDamping * length_m * length_m;
   Vector6 direction = Vector6::Ones();
   for (int i = 0; i < kIterations; ++i) {
@@ -84,6 +104,17 @@ Vector6 lost_direction(const Jacobian& J, double length_m) {
     direction.normalize();
   }
   return direction;
+}
+
+}  // namespace
+
+Vector6 lost_direction(const Jacobian& J, double length_m) {
+  const Jacobian J_m = in_metres(J, length_m);
+  return least_direction(J_m * J_m.transpose(), length_m);
+}
+
+JointVector idle_motion(const Jacobian& J, double length_m) {
+  return least_direction(normal_matrix(in_metres(J, length_m)), length_m);
 }
 
 }  // namespace longreach

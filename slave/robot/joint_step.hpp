@@ -33,4 +33,7 @@ double conditioning(const Jacobian& J, double length_m);
 /// At a pose where J loses rank: the unit vector [angular times length; linear] that no joint motion makes.
 Vector6 lost_direction(const Jacobian& J, double length_m);
 
+/// The unit joint motion that moves the tool least.
+JointVector idle_motion(const Jacobian& J, double length_m);
+
 }  // namespace longreach

@@ -58,63 +58,98 @@ Kinematics::Kinematics(const RobotConfig& robot) {
   reach_m_ = std::max(reach_m_ + robot.tool.position_m.stableNorm(), 1e-3);
 }
 
-// The frame behind a joint's motion: column by column, because a product of 4x4 matrices does twice the work.
-inline void Kinematics::enter(Rigid& X, std::size_t i, double q) const {
-  const Link& link = link_[i];
-  const SinCos t = sin_cos(link.turns * q + link.theta_rad);
-  const Vector3 x = t.c * X.R.col(0) + t.s * X.R.col(1);
-  X.R.col(1) = t.c * X.R.col(1) - t.s * X.R.col(0);
-  X.R.col(0) = x;
-  X.p += (link.slides * q + link.d_m) * X.R.col(2);
-}
+// A frame as columns of four: two vector instructions each, where three numbers need three.
+struct Kinematics::Frame {
+  Eigen::Vector4d x, y, z, p;
 
-inline void Kinematics::leave(Rigid& X, const Link& link) {
-  const Vector3 y = X.R.col(1);
-  X.p += link.a_m * X.R.col(0);
-  X.R.col(1) = link.cos_alpha * y + link.sin_alpha * X.R.col(2);
-  X.R.col(2) = link.cos_alpha * X.R.col(2) - link.sin_alpha * y;
+  explicit Frame(const Rigid& X) {
+    const Matrix3& R = X.R;
+    x = {R(0, 0), R(1, 0), R(2, 0), 0.0};
+    y = {R(0, 1), R(1, 1), R(2, 1), 0.0};
+    z = {R(0, 2), R(1, 2), R(2, 2), 0.0};
+    p = {X.p.x(), X.p.y(), X.p.z(), 0.0};
+  }
+
+  void turn(const SinCos& t) {
+    const Eigen::Vector4d ahead = t.c * x + t.s * y;
+    y = t.c * y - t.s * x;
+    x = ahead;
+  }
+
+  void leave(const Link& link) {
+    const Eigen::Vector4d aside = link.cos_alpha * y + link.sin_alpha * z;
+    p += link.a_m * x;
+    z = link.cos_alpha * z - link.sin_alpha * y;
+    y = aside;
+  }
+
+  [[nodiscard]] Rigid then(const Rigid& X) const {
+    const auto along = [&](double a, double b, double c) -> Eigen::Vector4d { return a * x + b * y + c * z; };
+    const Eigen::Vector4d ex = along(X.R(0, 0), X.R(1, 0), X.R(2, 0)),
+                          ey = along(X.R(0, 1), X.R(1, 1), X.R(2, 1)),
+                          ez = along(X.R(0, 2), X.R(1, 2), X.R(2, 2)),
+                          at = p + along(X.p.x(), X.p.y(), X.p.z());
+    Rigid result{Matrix3(), at.head<3>()};
+    result.R.col(0) = ex.head<3>(), result.R.col(1) = ey.head<3>(), result.R.col(2) = ez.head<3>();
+    return result;
+  }
+};
+
+// `visit(i, frame)` sees the frame in which joint i turns or slides.
+template <typename Visit>
+inline Rigid Kinematics::walk(const JointVector& joint_rad, const Visit& visit) const {
+  std::array<double, kMaxJoints> angle;
+  for (std::size_t i = 0; i < kMaxJoints; ++i)
+    angle[i] = link_[i].turns * joint_rad[static_cast<int>(i)] + link_[i].theta_rad;
+  const std::array<SinCos, kMaxJoints> turn = sin_cos(angle);
+  Frame X(base_);
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const Link& link = link_[i];
+    visit(i, X);
+    X.turn(turn[i]);
+    X.p += (link.slides * joint_rad[static_cast<int>(i)] + link.d_m) * X.z;
+    if (i + 1 < kMaxJoints) X.leave(link);
+  }
+  return X.then(last_);
 }
 
 Rigid Kinematics::rigid_forward(const JointVector& joint_rad) const {
-  Rigid X = base_;
-  for (std::size_t i = 0; i + 1 < kMaxJoints; ++i) {
-    enter(X, i, joint_rad[static_cast<int>(i)]);
-    leave(X, link_[i]);
-  }
-  enter(X, kMaxJoints - 1, joint_rad[kMaxJoints - 1]);
-  return X * last_;
+  return walk(joint_rad, [](std::size_t, const Frame&) {});
 }
 
-RigidKinematics Kinematics::rigid_with_jacobian(const JointVector& joint_rad) const {
-  RigidKinematics result;
-  Eigen::Matrix<double, 3, kMaxJoints> origin;
-  Rigid X = base_;
-  for (int i = 0; i < kMaxJoints; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    result.J.col(i).head<3>() = X.R.col(2);
-    origin.col(i) = X.p;
-    enter(X, n, joint_rad[i]);
-    if (i + 1 < kMaxJoints) leave(X, link_[n]);
-  }
-  result.X_WE = X * last_;
-  for (int i = 0; i < kMaxJoints; ++i) {
-    const Vector3 axis = result.J.col(i).head<3>();
-    result.J.col(i).tail<3>() = axis.cross(result.X_WE.p - origin.col(i));
+Rigid Kinematics::forward_into(const JointVector& joint_rad, Jacobian& J) const {
+  std::array<Eigen::Vector4d, kMaxJoints> axis, origin;
+  const Rigid X_WE = walk(joint_rad, [&](std::size_t i, const Frame& X) { axis[i] = X.z, origin[i] = X.p; });
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const Eigen::Vector4d &z = axis[i], &o = origin[i];
+    const double x_m = X_WE.p.x() - o.x(), y_m = X_WE.p.y() - o.y(), z_m = X_WE.p.z() - o.z();
+    double* column = J.col(static_cast<int>(i)).data();
+    column[0] = z.x(), column[1] = z.y(), column[2] = z.z();
+    column[3] = z.y() * z_m - z.z() * y_m;
+    column[4] = z.z() * x_m - z.x() * z_m;
+    column[5] = z.x() * y_m - z.y() * x_m;
   }
   if (!all_revolute_) {
     for (int i = 0; i < kMaxJoints; ++i) {
       const Link& link = link_[static_cast<std::size_t>(i)];
-      const Vector3 axis = result.J.col(i).head<3>();
-      result.J.col(i).tail<3>() = link.turns * result.J.col(i).tail<3>() + link.slides * axis;
-      result.J.col(i).head<3>() *= link.turns;
+      const Vector3 direction = J.col(i).head<3>();
+      J.col(i).tail<3>() = link.turns * J.col(i).tail<3>() + link.slides * direction;
+      J.col(i).head<3>() *= link.turns;
     }
   }
+  return X_WE;
+}
+
+RigidKinematics Kinematics::rigid_with_jacobian(const JointVector& joint_rad) const {
+  RigidKinematics result;
+  result.X_WE = forward_into(joint_rad, result.J);
   return result;
 }
 
 ToolKinematics Kinematics::forward_with_jacobian(const JointVector& joint_rad) const {
-  const RigidKinematics rigid = rigid_with_jacobian(joint_rad);
-  return {to_pose(rigid.X_WE), rigid.J};
+  ToolKinematics result;
+  result.X_WE = to_pose(forward_into(joint_rad, result.J));
+  return result;
 }
 
 }  // namespace longreach

@@ -17,7 +17,7 @@ using Jacobian = Eigen::Matrix<double, 6, kMaxJoints>;  // rows: angular, linear
 
 struct ToolKinematics {
   Pose X_WE{};
-  Jacobian J = Jacobian::Zero();
+  Jacobian J;
 };
 
 /// The same with the rotation as matrix, for solvers.
@@ -52,8 +52,10 @@ class Kinematics {
   struct Link {
     double turns, slides, theta_rad, d_m, a_m, cos_alpha, sin_alpha;
   };
-  void enter(Rigid& X, std::size_t i, double q) const;
-  static void leave(Rigid& X, const Link& link);
+  struct Frame;
+  template <typename Visit>
+  Rigid walk(const JointVector& joint_rad, const Visit& visit) const;
+  Rigid forward_into(const JointVector& joint_rad, Jacobian& J) const;
 
   std::array<Link, kMaxJoints> link_{};
   std::array<DhLink, kMaxJoints> row_{};
