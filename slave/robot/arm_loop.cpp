@@ -8,6 +8,7 @@ namespace longreach {
 namespace {
 
 constexpr int kSpecialPlaces = 4;  // 1-2-3, 2-3-4, 3-4-5, 4-5-6
+constexpr double kApart = 1e-9;    // of the reach: parallel axes nearer to each other count as one
 
 // Tz(before) Tx(a) Rx(α) Tz(behind)
 struct Row {
@@ -91,7 +92,7 @@ bool applies(const Kinematics& arm, const Reading& reading) {
   const auto i = static_cast<std::size_t>(reading.first_joint);
   const DhLink &one = arm.links()[i], &two = arm.links()[i + 1];
   const bool parallel = near_zero(std::sin(one.alpha_rad), 1.0) && near_zero(std::sin(two.alpha_rad), 1.0);
-  const bool apart = !near_zero(one.a_m, arm.reach_m()) && !near_zero(two.a_m, arm.reach_m());
+  const bool apart = std::abs(one.a_m) > kApart * arm.reach_m() && std::abs(two.a_m) > kApart * arm.reach_m();
   if (reading.family == ArmFamily::kParallel) return parallel && apart;
   const bool meet = near_zero(one.a_m, arm.reach_m()) && near_zero(two.a_m, arm.reach_m()) &&
                     near_zero(two.d_m, arm.reach_m());

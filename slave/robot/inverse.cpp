@@ -15,22 +15,9 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
 constexpr double kFollowMaxRad = 0.1;
 
-struct Error {
-  Vector3 rotation_rad, position_m;
-};
-
-Error error_of(const Rigid& goal, const Rigid& X) { return {rotation_between(X.R, goal.R), goal.p - X.p}; }
-
 bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
 
 }  // namespace
-
-struct Inverse::Placed {
-  JointVector joint_rad;
-  RigidKinematics tool;
-  Error error;
-  double miss;  // the larger of both errors, rad and share of the reach
-};
 
 Inverse::Inverse(const RobotConfig& robot)
     : numeric_(robot), closed_(numeric_.kinematics()), prefer_(robot.prefer) {
@@ -51,87 +38,6 @@ Inverse::Inverse(const RobotConfig& robot)
 
 std::string_view Inverse::words() const {
   return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
-}
-
-void Inverse::look(const Rigid& goal, Placed& placed) const {
-  const double length = kinematics().reach_m();
-  placed.tool = kinematics().rigid_with_jacobian(placed.joint_rad);
-  placed.error = error_of(goal, placed.tool.X_WE);
-  placed.miss = std::sqrt(std::max(placed.error.rotation_rad.squaredNorm(),
-                                   placed.error.position_m.squaredNorm() / (length * length)));
-}
-
-Inverse::Placed Inverse::moved(const Rigid& goal, const Placed& from, bool damped) const {
-  constexpr double kDamping = 1e-12;  // of the reach squared
-  const double length = kinematics().reach_m();
-  Jacobian J_m = from.tool.J;
-  J_m.topRows<3>() *= length;
-  Vector6 e_m;
-  e_m << length * from.error.rotation_rad, from.error.position_m;
-  Placed next;
-  next.joint_rad = from.joint_rad + (damped ? damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad
-                                            : newton_step(J_m, e_m));
-  look(goal, next);
-  return next;
-}
-
-bool Inverse::improve(const Rigid& goal, Placed& placed) const {
-  look(goal, placed);
-  if (placed.miss <= 0.4 * kExact || newton(goal, placed)) return true;
-  constexpr double kMet = 1e-8;
-  constexpr int kTimes = 3;
-  for (int i = 0; i < kTimes && placed.miss <= kMet; ++i) {
-    const double before = placed.miss;
-    step_aside(goal, placed);
-    if (newton(goal, placed)) return true;
-    if (!(placed.miss < before)) break;
-  }
-  return false;
-}
-
-// Between two roots that have met no Newton step leaves the place, and where a root is flat each gains too
-// little: along the joint motion that moves the tool least, to either side, to where it is nearest.
-void Inverse::step_aside(const Rigid& goal, Placed& placed) const {
-  constexpr double kFirstRad = 1e-8, kLastRad = 0.3, kRatio = 1.6;
-  constexpr int kRefinements = 12;
-  const JointVector along = idle_motion(placed.tool.J, kinematics().reach_m());
-  const JointVector from = placed.joint_rad;
-  double best = 0.0;
-  const auto try_at = [&](double h) {
-    Placed next{from + h * along, {}, {}, 0.0};
-    look(goal, next);
-    next = moved(goal, next, true);
-    if (!(next.miss < placed.miss)) return;
-    placed = next;
-    best = h;
-  };
-  for (double h = kFirstRad; h < kLastRad; h *= kRatio) try_at(h), try_at(-h);
-  double width = 0.25 * best;
-  for (int i = 0; i < kRefinements && best != 0.0; ++i, width *= 0.6) {
-    const double middle = best;
-    try_at(middle + width);
-    try_at(middle - width);
-  }
-}
-
-// Newton steps, each the better of two: one leaves out directions that are all but lost, and so keeps their
-// rounding out; the other goes along with them first, towards the one root of two that have met.
-bool Inverse::newton(const Rigid& goal, Placed& placed) const {
-  constexpr int kStepsMax = 24, kPatience = 2;  // between two roots that met, a step halves the distance
-  constexpr double kEnough = 0.4 * kExact;
-  Placed next = placed;
-  for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience && next.miss < 1.0; ++i) {
-    const Placed start = next;
-    next = moved(goal, start, true);
-    if (next.miss > kEnough) {
-      const Placed along = moved(goal, moved(goal, start, false), true);
-      if (along.miss < next.miss) next = along;
-    }
-    worse = next.miss < placed.miss ? 0 : worse + 1;
-    if (next.miss < placed.miss) placed = next;
-    if (placed.miss <= kEnough) break;
-  }
-  return placed.miss <= kExact;
 }
 
 // Each angle on the turn nearest to the joints before that the limits allow. False: there is none.
@@ -163,30 +69,31 @@ double Inverse::cost(const JointVector& joint_rad, const JointVector& near_rad) 
   return (joint_rad - near_rad).squaredNorm();
 }
 
-bool Inverse::within_limits(const JointVector& joint_rad) const {
-  return ((joint_rad - numeric_.min_rad()).array() >= -kSlack).all() &&
-         ((numeric_.max_rad() - joint_rad).array() >= -kSlack).all();
+bool Inverse::inside(const JointVector& joint_rad, double slack_rad) const {
+  return ((joint_rad - numeric_.min_rad()).array() >= -slack_rad).all() &&
+         ((numeric_.max_rad() - joint_rad).array() >= -slack_rad).all();
 }
 
-void Inverse::clamp(const Rigid& goal, Placed& placed) const {
-  const JointVector allowed = placed.joint_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
-  if (allowed == placed.joint_rad) return;
-  placed.joint_rad = allowed;
-  placed.tool = kinematics().rigid_with_jacobian(allowed);
-  placed.error = error_of(goal, placed.tool.X_WE);
+Placed Inverse::limited(const Rigid& goal, const JointVector& joint_rad) const {
+  return Refinement(kinematics(), goal)
+      .at(joint_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad()));
+}
+
+// Within the limits but for the rounding of the last step.
+bool Inverse::reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const {
+  placed.joint_rad = joint_rad;
+  if (!Refinement(kinematics(), goal).improve(placed)) return false;
+  if (!inside(placed.joint_rad, 0.0)) placed = limited(goal, placed.joint_rad);
+  return true;
 }
 
 bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
   Branches branches;
   if (prefer_ == BranchPreference::kNearest) {
     closed_.solve(goal, near_rad, branches, true);
-    if (branches.count == 1 && within_limits(branches.branch[0].joint_rad)) {
-      placed.joint_rad = branches.branch[0].joint_rad;
-      if (improve(goal, placed)) {
-        clamp(goal, placed);
-        return true;
-      }
-    }
+    if (branches.count == 1 && inside(branches.branch[0].joint_rad, kSlack) &&
+        reach(goal, branches.branch[0].joint_rad, placed))
+      return true;
   }
   closed_.solve(goal, near_rad, branches);
   std::array<double, Branches::kMax> costs;
@@ -202,11 +109,9 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
   for (int tries = 0; tries < branches.count; ++tries) {
     const auto best = std::min_element(costs.begin(), costs.begin() + branches.count);
     if (!(*best < kNever)) return false;
-    placed.joint_rad = branches.branch[static_cast<std::size_t>(best - costs.begin())].joint_rad;
     *best = kNever;
-    if (!improve(goal, placed)) continue;
-    clamp(goal, placed);
-    return true;
+    if (reach(goal, branches.branch[static_cast<std::size_t>(best - costs.begin())].joint_rad, placed))
+      return true;
   }
   return false;
 }
@@ -216,11 +121,11 @@ InverseResult Inverse::report(const Placed& placed, double enough_m) const {
   InverseResult result;
   result.joint_rad = placed.joint_rad;
   result.X_WE = to_pose(placed.tool.X_WE);
-  result.position_error_m = placed.error.position_m.norm();
-  result.rotation_error_rad = placed.error.rotation_rad.norm();
+  result.position_error_m = placed.position_error_m.norm();
+  result.rotation_error_rad = placed.rotation_error_rad.norm();
   result.conditioning = conditioning(placed.tool.J, length);
   const double residual_m = std::hypot(length * result.rotation_error_rad, result.position_error_m);
-  if (!(residual_m <= std::max(enough_m, 2.0 * kExact * length))) return result;
+  if (!(residual_m <= std::max(enough_m, 2.0 * Refinement::kExact * length))) return result;
   result.status = InverseStatus::kFound;
   if (result.conditioning > kSingular) return result;
   result.status = InverseStatus::kSingular;
@@ -231,25 +136,21 @@ InverseResult Inverse::report(const Placed& placed, double enough_m) const {
 InverseResult Inverse::iterate(const Rigid& goal, const JointVector& near_rad,
                                const InverseTolerance& tolerance) const {
   const NumericResult found = numeric_.solve(goal, near_rad, tolerance);
-  const Placed placed{found.joint_rad, found.tool, error_of(goal, found.tool.X_WE), 0.0};
-  InverseResult result = report(placed, tolerance.residual_m);
+  InverseResult result = report(Refinement(kinematics(), goal).at(found.joint_rad), tolerance.residual_m);
   result.at_joint_limit = found.at_joint_limit;
   result.iterations = found.iterations;
   return result;
 }
 
 InverseResult Inverse::slide(const Rigid& goal, const JointVector& near_rad) const {
-  const RigidKinematics tool = kinematics().rigid_with_jacobian(near_rad);
-  const Vector3 change = from_position_ * (goal.p - tool.X_WE.p);
-  Placed placed{near_rad, tool, {}, 0.0};
-  for (std::size_t i = 0; i < 3; ++i) placed.joint_rad[slider_[i]] += change[static_cast<int>(i)];
-  const JointVector wanted = placed.joint_rad;
-  placed.joint_rad = wanted.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
-  placed.tool = kinematics().rigid_with_jacobian(placed.joint_rad);
-  placed.error = error_of(goal, placed.tool.X_WE);
+  const Vector3 change = from_position_ * (goal.p - kinematics().rigid_forward(near_rad).p);
+  JointVector wanted = near_rad;
+  for (std::size_t i = 0; i < 3; ++i) wanted[slider_[i]] += change[static_cast<int>(i)];
+  const Placed placed = limited(goal, wanted);
   InverseResult result = report(placed, 0.0);
-  result.status = result.position_error_m <= 2.0 * kExact * kinematics().reach_m() ? InverseStatus::kFound
-                                                                                   : InverseStatus::kNearest;
+  result.status = result.position_error_m <= 2.0 * Refinement::kExact * kinematics().reach_m()
+                      ? InverseStatus::kFound
+                      : InverseStatus::kNearest;
   result.lost.setZero();
   result.conditioning = 1.0;
   result.at_joint_limit = placed.joint_rad != wanted;
@@ -303,6 +204,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
     if (solutions.count < InverseSolutions::kMax)
       solutions.joint_rad[static_cast<std::size_t>(solutions.count++)] = q;
   };
+  const Refinement refinement(kinematics(), goal);
   Placed placed;
   if (closed_.applies()) {
     Branches branches;
@@ -310,7 +212,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
     for (int i = 0; i < branches.count; ++i) {
       const Branch& b = branches.branch[static_cast<std::size_t>(i)];
       placed.joint_rad = b.joint_rad;
-      if (b.miss <= ClosedInverse::kMissMax && improve(goal, placed)) add(placed.joint_rad);
+      if (b.miss <= ClosedInverse::kMissMax && refinement.improve(placed)) add(placed.joint_rad);
     }
     return solutions;
   }
@@ -322,7 +224,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
   }
   for (std::uint32_t n = 0; n <= tolerance.restarts_max; ++n) {
     placed.joint_rad = numeric_.search_once(goal, n == 0 ? near_rad : numeric_.start(n), tolerance).joint_rad;
-    if (improve(goal, placed)) add(placed.joint_rad);
+    if (refinement.improve(placed)) add(placed.joint_rad);
   }
   return solutions;
 }

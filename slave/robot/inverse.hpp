@@ -3,9 +3,10 @@
 // (closed_inverse.hpp), linear for a Cartesian robot, numeric search else.
 //
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
-// the tool is within kExact of the goal (rad, and share of the reach). Of those within the joint limits, each
-// angle taken from the turn that is nearest to the measured joints, the preferred one is chosen. Where there
-// is none, the damped iteration of numeric_inverse.hpp goes to the nearest pose within the limits.
+// the tool is within Refinement::kExact of the goal (rad, and share of the reach). Of those within the joint
+// limits, each angle taken from the turn that is nearest to the measured joints, the preferred one is chosen.
+// Where there is none, the damped iteration of numeric_inverse.hpp goes to the nearest pose within the
+// limits.
 //
 // kFound     the tool reaches the goal
 // kSingular  it does, but in `lost` it cannot move from there
@@ -17,6 +18,7 @@
 
 #include "slave/robot/closed_inverse.hpp"
 #include "slave/robot/numeric_inverse.hpp"
+#include "slave/robot/refinement.hpp"
 
 namespace longreach {
 
@@ -51,7 +53,6 @@ struct InverseSolutions {
 
 class Inverse {
  public:
-  static constexpr double kExact = 1e-14;    // of a solution in closed form, rad and share of the reach
   static constexpr double kSingular = 1e-7;  // conditioning below which a direction is lost
 
   explicit Inverse(const RobotConfig& robot);
@@ -76,15 +77,10 @@ class Inverse {
   [[nodiscard]] const ClosedInverse& closed() const { return closed_; }
 
  private:
-  struct Placed;
-  [[nodiscard]] Placed moved(const Rigid& goal, const Placed& from, bool damped) const;
-  void look(const Rigid& goal, Placed& placed) const;
-  [[nodiscard]] bool improve(const Rigid& goal, Placed& placed) const;
-  [[nodiscard]] bool newton(const Rigid& goal, Placed& placed) const;
-  void step_aside(const Rigid& goal, Placed& placed) const;
   [[nodiscard]] bool choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
-  [[nodiscard]] bool within_limits(const JointVector& joint_rad) const;
-  void clamp(const Rigid& goal, Placed& placed) const;
+  [[nodiscard]] bool inside(const JointVector& joint_rad, double slack_rad) const;
+  [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
+  [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;
   [[nodiscard]] bool place(const JointVector& solution, const JointVector& near_rad,
                            JointVector& placed) const;
   [[nodiscard]] double cost(const JointVector& joint_rad, const JointVector& near_rad) const;

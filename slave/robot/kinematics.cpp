@@ -31,6 +31,7 @@ Kinematics::Kinematics(const RobotConfig& robot) {
     const JointConfig& j = robot.joint[i];
     row_[i] = {j.a_m, j.alpha_rad, j.d_m, j.theta_rad};
     reach_m_ += std::abs(j.a_m) + std::abs(j.d_m);
+    if (j.kind == JointKind::kPrismatic) reach_m_ += std::max(std::abs(j.min_rad), std::abs(j.max_rad));
     all_revolute_ = all_revolute_ && j.kind == JointKind::kRevolute;
   }
   if (modified) {

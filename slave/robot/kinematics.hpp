@@ -40,7 +40,7 @@ class Kinematics {
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths and offsets, tool included, at least 1 mm: the characteristic length.
+  /// Sum of all link lengths, offsets and slides, tool included, at least 1 mm: the characteristic length.
   [[nodiscard]] double reach_m() const { return reach_m_; }
   [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
   [[nodiscard]] const Rigid& base() const { return base_; }  // B
