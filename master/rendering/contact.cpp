@@ -174,7 +174,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     }
     if (a.known) {
       a.surface = locate(a, handle, mapping);
-      a.spring.set_surface(a.surface);
+      a.spring.set_surface(handle.held ? a.surface : std::max(a.surface, s));
     }
     a.force = a.spring.step(s, dt_s, tank);
     if (a.force <= 0.0) continue;

@@ -7,10 +7,10 @@
 //   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
 //
 // x is the handle's position (m) or rotation vector (rad) in M; goals are displacements or rotation vectors
-// from the engagement's anchor, in W. A surface is remembered after the contact ends, so that the next touch
-// is felt without delay, and forgotten when the slave reports a goal behind it that was reached in free
-// space. An axis changes its direction only without force; a spring whose axis is not in the tensor any more
-// fades.
+// from the engagement's anchor, in W. On a handle that is let go the force eases. A surface is remembered
+// after the contact ends, so that the next touch is felt without delay, and forgotten when the slave reports
+// a goal behind it that was reached in free space. An axis changes its direction only without force; a spring
+// whose axis is not in the tensor any more fades.
 
 #include <array>
 #include <cstdint>
@@ -40,6 +40,7 @@ struct ContactHandle {
   Vector3 rate = Vector3::Zero();  // x'
   Vector3 goal = Vector3::Zero();  // commanded, in W
   bool rate_mode = false;          // no position to press against: the goal's own depth is felt
+  bool held = true;                // nobody feels what presses on a handle that was let go
 };
 
 /// What a report meant.

@@ -60,14 +60,14 @@ Matrix3 rotation_vector_rate(const Vector3& phi) {
 }
 
 ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping) {
-  return {in.handle.p_MH, in.handle.velocity_m_per_s, mapping.goal().position_m,
-          in.mode == MotionMode::kRate};
+  return {in.handle.p_MH, in.handle.velocity_m_per_s, mapping.goal().position_m, in.mode == MotionMode::kRate,
+          in.handle.held};
 }
 
 ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping) {
   const Vector3 phi = log_rotation(in.handle.q_MH);
   return {phi, rotation_vector_rate(phi) * in.handle.angular_rad_per_s, log_rotation(mapping.goal().rotation),
-          in.mode == MotionMode::kRate};
+          in.mode == MotionMode::kRate, in.handle.held};
 }
 
 }  // namespace

@@ -50,6 +50,12 @@ const std::vector<Experiment>& experiments() {
        "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
        "limits.",
        run_delay_sweep, delay_sweep_plots},
+      {"press-wall",
+       "One wall across one link: each textbook law over time, or the one that rendering.law names.",
+       run_press_wall, press_wall_plots},
+      {"delay-seeds",
+       "The worst of many seeds, over every round trip and every named link that has no outage.",
+       run_delay_seeds, delay_seeds_plots},
   };
   return kExperiments;
 }

@@ -86,5 +86,9 @@ std::vector<Plot> synthesis_plots();
 
 std::vector<Metric> run_delay_sweep(const ExperimentRun& run);
 std::vector<Plot> delay_sweep_plots();
+std::vector<Metric> run_press_wall(const ExperimentRun& run);
+std::vector<Plot> press_wall_plots();
+std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
+std::vector<Plot> delay_seeds_plots();
 
 }  // namespace longreach

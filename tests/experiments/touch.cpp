@@ -35,6 +35,7 @@ struct Watch {
   double force_peak_n = 0.0;         // at the tool
   double speed_peak_m_per_s = 0.0;   // of the hand
   double rtt_s = 0.0;
+  double estimate_sd = 1.0;  // of the slave's estimate, relative, when last in contact while probing
   std::uint64_t reports = 0;
   ScriptPhase phase = ScriptPhase::kWaiting;
 };
@@ -75,6 +76,9 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
     if (w.phase != phase) w.return_before = lab.haptic_return();
     w.return_s += lab.period_s();
     w.return_after = lab.haptic_return();
+    const ContactEstimate& e = lab.slave().estimate;
+    if (lab.slave().in_contact && e.stiffness_n_per_m > 0.0)
+      w.estimate_sd = e.stiffness_sd_n_per_m / e.stiffness_n_per_m;
   }
   w.phase = phase;
   if (w.first_touch_s < 0.0 || lab.now_s() < w.first_touch_s + w.rtt_s + 1.0) return;
@@ -100,6 +104,7 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"displayed_span_s", w.displayed_span_s, "s"},
           {"rendered_stiffness_n_per_m", m.stiffness_n_per_m, "N/m"},
           {"rendered_stiffness_error", rendered_error, ""},
+          {"estimate_sd", w.estimate_sd, ""},
           {"wall_registration_error_m", w.registration_m < 0.0 ? 1.0 : w.registration_m, "m"},
           {"port_energy_min_j", m.port_energy_min_j, "J"},
           {"energy_drawdown_j", m.energy_drawdown_j, "J"},

@@ -34,6 +34,22 @@ TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
   EXPECT_EQ(m.at("position_position_limit_cycles"), 0.0);
 }
 
+TEST(DelaySweep, EverySeedIsRightOverEveryLinkAndAReleasedHandIsCalm) {
+  ExperimentRun run;
+  run.config = configure({}, LONGREACH_DEPLOY);
+  std::map<std::string, double> m;
+  for (const Metric& metric : run_delay_seeds(run)) m[metric.name] = metric.value;
+
+  EXPECT_GE(m.at("links"), 10.0);
+  EXPECT_EQ(m.at("held_within_5_percent"), m.at("held_runs"));
+  EXPECT_LE(m.at("displayed_error_max"), 0.05);
+  EXPECT_LE(m.at("estimate_sd_max"), 0.01);
+  EXPECT_EQ(m.at("held_limit_cycles"), 0.0);
+  EXPECT_EQ(m.at("released_limit_cycles"), 0.0);
+  EXPECT_GE(m.at("port_energy_min_j"), -0.001);
+  EXPECT_LE(m.at("drawdown_max_j"), 0.001);
+}
+
 TEST(DelayMargin, HasTheLimitsThatAreKnownInClosedForm) {
   // Far beyond the resonance period the delay can turn the phase anywhere: the limit is the least |k - mω² +
   // jbω|.

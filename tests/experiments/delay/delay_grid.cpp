@@ -44,16 +44,19 @@ double DelayResults::displayable_n_per_m(RenderingLaw law, double rtt_s, Grip gr
   return most;
 }
 
+void LawSummary::add(const DelayResult& r) {
+  ++cases;
+  limit_cycles += r.found.limit_cycle;
+  right += !r.found.limit_cycle && r.error <= 0.05;
+  error_max = std::max(error_max, r.error);
+  port_energy_min_j = std::min(port_energy_min_j, r.found.port_energy_min_j);
+  drawdown_max_j = std::max(drawdown_max_j, r.found.drawdown_j);
+}
+
 LawSummary DelayResults::summary(RenderingLaw law) const {
   LawSummary s;
   for (const DelayResult& r : results_) {
-    if (r.law != law) continue;
-    ++s.cases;
-    s.limit_cycles += r.found.limit_cycle;
-    s.right += !r.found.limit_cycle && r.error <= 0.05;
-    s.error_max = std::max(s.error_max, r.error);
-    s.port_energy_min_j = std::min(s.port_energy_min_j, r.found.port_energy_min_j);
-    s.drawdown_max_j = std::max(s.drawdown_max_j, r.found.drawdown_j);
+    if (r.law == law) s.add(r);
   }
   return s;
 }
@@ -106,7 +109,7 @@ DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const
         for (const Grip grip : grid.grips) {
           if (run.progress) run.progress(static_cast<double>(results.size()) / static_cast<double>(cases));
           if (law.law == RenderingLaw::kStiffness) {
-            results.add(touch_across(run, rtt_s, wall_n_per_m, grip));
+            results.add(touch_across(run, plain_link(run.config, rtt_s), wall_n_per_m, grip));
             continue;
           }
           BilateralCase c{.law = law.law,

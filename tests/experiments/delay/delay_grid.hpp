@@ -41,7 +41,8 @@ struct DelayResult {
   double wall_n_per_m = 0.0;
   Grip grip = Grip::kLight;
   Pressed found{};
-  double error = 0.0;  // of the displayed stiffness, relative; 0 for a hand that has let go
+  double error = 0.0;        // of the displayed stiffness, relative; 0 for a hand that has let go
+  double estimate_sd = 0.0;  // relative; of the law of this system alone
 };
 
 struct LawSummary {
@@ -51,6 +52,8 @@ struct LawSummary {
   double error_max = 0.0;
   double port_energy_min_j = 0.0;
   double drawdown_max_j = 0.0;
+
+  void add(const DelayResult& r);
 };
 
 class DelayResults {
@@ -77,9 +80,13 @@ double tuned_coupling_n_per_m(const DeviceConfig& device, const ComparisonConfig
 
 DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const DeviceConfig& device);
 
+/// The link of the configuration with half of this round trip each way.
+proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
+
 /// The law of this system in the laboratory: displayed stiffness as touch measures it; a released hand lets
 /// go of the handle in the wall.
-DelayResult touch_across(const ExperimentRun& run, double rtt_s, double wall_n_per_m, Grip grip);
+DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
+                         Grip grip);
 
 /// "0.3", for names.
 std::string short_number(double x);

@@ -1,4 +1,4 @@
-// The law of this system in the delay sweep: both nodes in the laboratory, over a link with this delay.
+// The law of this system in the delay studies: both nodes in the laboratory, over one link.
 
 #include <algorithm>
 #include <limits>
@@ -13,20 +13,23 @@ namespace {
 constexpr double kCalm_m = 1e-4;
 constexpr double kPressed_s = 2.0;  // in the wall before the hand lets go
 
-ExperimentRun across(const ExperimentRun& run, double rtt_s, double wall_n_per_m, Grip grip) {
+double rtt_of(const proto::LinkProfile& link) { return link.up().delay_s() + link.down().delay_s(); }
+
+ExperimentRun across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
+                     Grip grip) {
   ExperimentRun out;
   out.config = run.config;
   out.seed = run.seed;
   proto::MasterConfig& master = *out.config.mutable_master();
   proto::SlaveConfig& slave = *out.config.mutable_slave();
-  master.mutable_link()->mutable_impairment()->set_delay_s(0.5 * rtt_s);
-  slave.mutable_link()->mutable_impairment()->set_delay_s(0.5 * rtt_s);
+  *master.mutable_link()->mutable_impairment() = link.down();
+  *slave.mutable_link()->mutable_impairment() = link.up();
   master.mutable_rendering()->set_law(proto::Rendering::STIFFNESS);
   // A hand that lets go was a light one.
   master.mutable_hand()->set_grip(grip == Grip::kFirm ? proto::Hand::FIRM : proto::Hand::LIGHT);
   for (proto::Material& material : *slave.mutable_scene()->mutable_material())
     material.set_stiffness_n_per_m(wall_n_per_m);
-  out.config.set_duration_s(std::max(out.config.duration_s(), 120.0 + 30.0 * rtt_s));
+  out.config.set_duration_s(std::max(out.config.duration_s(), 120.0 + 30.0 * rtt_of(link)));
   return out;
 }
 
@@ -57,8 +60,19 @@ Pressed let_go_in_contact(const ExperimentRun& run, double rtt_s) {
 
 }  // namespace
 
-DelayResult touch_across(const ExperimentRun& run, double rtt_s, double wall_n_per_m, Grip grip) {
-  const ExperimentRun there = across(run, rtt_s, wall_n_per_m, grip);
+proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s) {
+  proto::LinkProfile link;
+  *link.mutable_down() = config.master().link().impairment();
+  *link.mutable_up() = config.slave().link().impairment();
+  link.mutable_down()->set_delay_s(0.5 * rtt_s);
+  link.mutable_up()->set_delay_s(0.5 * rtt_s);
+  return link;
+}
+
+DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
+                         Grip grip) {
+  const ExperimentRun there = across(run, link, wall_n_per_m, grip);
+  const double rtt_s = rtt_of(link);
   DelayResult result{RenderingLaw::kStiffness, rtt_s, wall_n_per_m, grip};
   if (grip == Grip::kReleased) {
     result.found = let_go_in_contact(there, rtt_s);
@@ -69,6 +83,7 @@ DelayResult touch_across(const ExperimentRun& run, double rtt_s, double wall_n_p
   for (const Metric& m : run_touch(there)) {
     if (m.name == "displayed_stiffness_n_per_m") result.found.displayed_n_per_m = m.value;
     if (m.name == "displayed_stiffness_error") result.error = m.value;
+    if (m.name == "estimate_sd") result.estimate_sd = m.value;
     if (m.name == "port_energy_min_j") result.found.port_energy_min_j = m.value;
     if (m.name == "energy_drawdown_j") result.found.drawdown_j = m.value;
     if (m.name == "probing_cycles_done") probed = m.value > 0.0;

@@ -38,8 +38,9 @@ struct Held {
 
 class WallPress {
  public:
-  explicit WallPress(const BilateralCase& c)
+  WallPress(const BilateralCase& c, const std::function<void(const BilateralBench&)>& watch)
       : case_(c),
+        watch_(watch),
         hand_n_per_m_(hand_model(c.grip).stiffness_n_per_m),
         bench_(c),
         // Whole periods of what rings in a line that both ends shut.
@@ -76,6 +77,7 @@ class WallPress {
       wish_.push_n += (goal.push_n - wish_.push_n) * kBenchPeriod_s / kDraw_s;
       bench_.step(wish_.hand_m, wish_.push_n);
       account();
+      if (watch_) watch_(bench_);
       const double depth_m = bench_.depth_m();
       if (4 * i >= ticks && 2 * i < ticks) held.middle.add(depth_m);
       if (4 * i >= 3 * ticks) {
@@ -98,6 +100,7 @@ class WallPress {
   }
 
   BilateralCase case_;
+  const std::function<void(const BilateralBench&)>& watch_;
   double hand_n_per_m_;
   BilateralBench bench_;
   int tail_;
@@ -108,6 +111,8 @@ class WallPress {
 
 }  // namespace
 
-Pressed press_wall(const BilateralCase& c) { return WallPress(c).run(); }
+Pressed press_wall(const BilateralCase& c, const std::function<void(const BilateralBench&)>& watch) {
+  return WallPress(c, watch).run();
+}
 
 }  // namespace longreach

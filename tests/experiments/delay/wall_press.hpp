@@ -3,6 +3,8 @@
 // much, and lets go; each for as long as the link needs to settle. No probing: the kindest way to ask a
 // delayed law.
 
+#include <functional>
+
 #include "tests/experiments/delay/bilateral_bench.hpp"
 
 namespace longreach {
@@ -16,6 +18,7 @@ struct Pressed {
   double force_peak_n = 0.0;
 };
 
-Pressed press_wall(const BilateralCase& c);
+/// `watch`, where there is one, sees the bench after each sample.
+Pressed press_wall(const BilateralCase& c, const std::function<void(const BilateralBench&)>& watch = {});
 
 }  // namespace longreach

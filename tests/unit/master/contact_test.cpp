@@ -91,6 +91,24 @@ TEST(Contact, PushesAgainstDepthAndNotAlongTheSurface) {
   EXPECT_NEAR(force.dot(beside), 0.0, 1e-9);
 }
 
+TEST(Contact, EasesOnAHandleThatIsLetGoAndGrowsAgainFromNothing) {
+  const Vector3 n = Vector3::UnitX();
+  Bench b(n);
+  b.tank.fill(0.02);
+  b.report(contact(along(n, 1000.0), 101.0));
+  b.press(0.005 * n);
+  EXPECT_NEAR(b.press(0.012 * n).norm(), 2.0, 1e-6);
+  b.at.held = false;
+  for (int i = 0; i < 200; ++i) b.press(0.012 * n);
+  EXPECT_NEAR(b.press(0.012 * n).norm(), 2.0 * std::exp(-201e-3 / 0.2), 1e-6);
+  for (int i = 0; i < 2000; ++i) b.press(0.012 * n);
+  b.at.held = true;
+  const double first_n = b.press(0.012 * n).norm();
+  EXPECT_LT(first_n, 0.1);
+  for (int i = 0; i < 3000; ++i) b.press(0.012 * n);
+  EXPECT_NEAR(b.press(0.012 * n).norm(), 2.0, 1e-3);
+}
+
 TEST(Contact, FeelsEveryPlaneOfACorner) {
   // A corner met along its diagonal: three planes with stiffness of their own.
   const Vector3 diagonal = Vector3::Ones().normalized();
