@@ -20,7 +20,8 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       script_(master.operator_, master.mapping, master.hand.grip) {
   if (is_comparison(master.rendering.law)) {
     throw std::invalid_argument(
-        "the comparison laws run in the experiments press-wall and delay-sweep; this one takes rendering.law = "
+        "the comparison laws run in the experiments press-wall and delay-sweep; this one takes rendering.law "
+        "= "
         "STIFFNESS or NAIVE");
   }
 }
