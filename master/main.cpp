@@ -88,7 +88,8 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
 }
 
 bool asks(const OperatorRequests& r) {
-  return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0;
+  return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0 ||
+         r.load.has_value();
 }
 
 /// The thread beside the loop: keys in, view and log out, until the run is over.

@@ -36,6 +36,8 @@ std::optional<Key> letter(char c) {
     case '-':
     case '_':
       return Key{KeyAction::kScaleDown};
+    case 'g':
+      return Key{KeyAction::kLoad};
     case 'c':
       return Key{KeyAction::kClutch};
     case 'e':
@@ -126,6 +128,10 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
     case KeyAction::kClutch:
       requests.clutch = !requests.clutch;
       return;
+    case KeyAction::kLoad:
+      state.loaded = !state.loaded;
+      requests.load = state.loaded;
+      return;
     // Whatever was typed since the last poll, a stop among it wins.
     case KeyAction::kEngage:
       requests.engage = !requests.stop;
@@ -146,7 +152,7 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 std::string_view key_line() {
   return "w s / up down: x   a d / left right: y   r f / page up down: z   shift: large step   space: let go "
          "  "
-         "m: mode   + -: scale   c: clutch   e: engage   x: stop   q: quit   ?: keys";
+         "m: mode   + -: scale   c: clutch   g: gripper loaded   e: engage   x: stop   q: quit   ?: keys";
 }
 
 }  // namespace longreach

@@ -3,7 +3,8 @@
 // bytes and sequences do nothing.
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
-// the large step; space: let go, home; m mode; + - scale; c clutch; e engage; x stop; q quit; ? keys.
+// the large step; space: let go, home; m mode; + - scale; c clutch; g gripper with or without load; e engage;
+// x stop; q quit; ? keys.
 
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@ enum class KeyAction {
   kScaleUp,
   kScaleDown,
   kClutch,
+  kLoad,
   kEngage,
   kStop,
   kQuit,
@@ -55,6 +57,7 @@ struct KeyboardConfig {
 struct KeyboardState {
   Vector3 target_m = Vector3::Zero();  // where the hand wants to be, from handle home, M
   OperatorRequests requests{};         // since the last poll; clutch is a level
+  bool loaded = false;                 // as last asked for
   bool show_keys = false;
   bool quit = false;  // latched
 };

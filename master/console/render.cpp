@@ -188,11 +188,12 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.whole("");
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.cause == HoldCause::kLinkSilent ? Tone::kWarn : Tone::kPlain);
-  page.line("mode", text("%s, scale %.2f%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
-                         s.view.clutched ? ", clutched" : ""));
+  page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
+                         s.view.clutched ? ", clutched" : "", s.view.load ? ", gripper loaded" : ""));
   page.whole("");
   page.line("hand at", millimetres(s.view.p_MH));
   page.line("goal", millimetres(s.view.goal_m) + " from anchor");
+  page.line("forecast", millimetres(s.view.forecast.p) + " when the robot hears it");
   page.line("tool at", tool_line(s));
   page.whole("");
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);

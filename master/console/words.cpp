@@ -87,6 +87,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (view.force_clamped) words.emplace_back("hand force: at its limit");
   if (view.stiffness_clamped) words.emplace_back("stiffness: cut to what the device can render");
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
+  if (view.at_boundary) words.emplace_back("hand: at the edge of its space, move it back with the clutch");
   if (!view.far_known) return words;
   const Clamps& robot = view.far.clamps;
   if (robot.tool_speed) words.emplace_back("robot: at its tool speed limit, it will catch up");

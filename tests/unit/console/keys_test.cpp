@@ -157,5 +157,15 @@ TEST(Keys, CountScaleStepsAndToggleTheClutch) {
   EXPECT_FALSE(state.requests.clutch);
 }
 
+TEST(Keys, TellOfALoadAndThatItIsGone) {
+  KeyboardState state;
+  EXPECT_FALSE(state.requests.load.has_value());
+  apply({KeyAction::kLoad}, {}, MotionMode::kRate, state);
+  EXPECT_EQ(state.requests.load, true);
+  state.requests = {};
+  apply({KeyAction::kLoad}, {}, MotionMode::kRate, state);
+  EXPECT_EQ(state.requests.load, false);
+}
+
 }  // namespace
 }  // namespace longreach

@@ -66,6 +66,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "\n"
       "hand at   x   +12.30  y    -0.50  z    +0.00 mm\n"
       "goal      x    +9.84  y    -0.40  z    +0.00 mm from anchor\n"
+      "forecast  x    +0.00  y    +0.00  z    +0.00 mm when the robot hears it\n"
       "tool at   x  +9.8123  y  +0.0000  z  +4.2500 m  (1.3 s ago)\n"
       "\n"
       "stiffness 0.981 N/mm at the hand, slave measures 1.002\n"
