@@ -57,6 +57,22 @@ TEST(Usage, AConfigurationFileWithAMistakeIsNamedWithItsLine) {
   std::filesystem::remove(file);
 }
 
+TEST(Usage, ARobotFileWithABadRowIsNamedWithLineFieldAndReason) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("longreach-robot-" + std::to_string(getpid()) + ".txtpb");
+  const auto expect = [&](const std::string& third_row, const std::string& about) {
+    std::ofstream(file) << "joint { a_m: 1 }\njoint { a_m: 1 }\n"
+                        << third_row << "\njoint { a_m: 1 }\njoint { a_m: 1 }\njoint { a_m: 1 }\n";
+    expect_one_sentence(run("longreach-slave", {"--set", "robot_file=" + file.string()}), 2,
+                        file.string() + ":" + about, third_row);
+  };
+  expect("joint { a_m: nan }", "3:9: joint.2.a_m = nan is not a finite number");
+  expect("joint { alpha_rad: 0 }", "3:9: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 turn");
+  expect("joint { a_m: 1 min_rad: 2 max_rad: 1 }", "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
+  expect("joint { a_m: 1 } joint { a_m: 1 }", "1:1: joint has 7 elements; 6 are needed");
+  std::filesystem::remove(file);
+}
+
 TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
   const Ended slave = run("longreach-slave", {"--check", "--set", "safety.gap_s=0.25", "--profile", "moon"});
   EXPECT_EQ(slave.status, 0) << slave.output;

@@ -1,0 +1,162 @@
+// The robots that ship and one that a user writes: what their files say, what is printed of them, and what
+// `longreach-lab solve` answers about them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/config/config.hpp"
+#include "tests/experiments/solve.hpp"
+#include "tests/property/random_arm.hpp"
+#include "tests/unit/config/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const fs::path kDeploy = LONGREACH_DEPLOY;
+
+RobotConfig robot_of(const fs::path& file) {
+  proto::SlaveConfig config;
+  config.set_robot_file(file.string());
+  resolve_files(config, kDeploy);
+  return to_struct(config).robot;
+}
+
+std::vector<test::NamedArm> known_robots() {
+  std::vector<test::NamedArm> known = test::ready_arms();
+  known.push_back({"cartesian", test::cartesian(), test::cartesian()});
+  return known;
+}
+
+void expect_same_rows(const RobotConfig& file, const RobotConfig& known, const std::string& name) {
+  EXPECT_EQ(file.convention, known.convention) << name;
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const JointConfig &a = file.joint[i], &b = known.joint[i];
+    EXPECT_EQ(a.kind, b.kind) << name << " " << i;
+    const std::array<double, 6> of_file{a.a_m, a.alpha_rad, a.d_m, a.theta_rad, a.min_rad, a.max_rad},
+        of_known{b.a_m, b.alpha_rad, b.d_m, b.theta_rad, b.min_rad, b.max_rad};
+    EXPECT_EQ(of_file, of_known) << name << " " << i;
+  }
+}
+
+TEST(RobotFiles, AreThoseThatTheLawsOfTheRobotAreTestedWith) {
+  std::map<std::string, RobotConfig> files;
+  for (const auto& entry : fs::directory_iterator(kDeploy / "robots"))
+    files[entry.path().stem().string()] = robot_of(entry.path());
+  EXPECT_EQ(files.size(), known_robots().size());
+  for (const test::NamedArm& known : known_robots()) {
+    ASSERT_TRUE(files.contains(known.name)) << known.name;
+    EXPECT_EQ(files[known.name].name, known.name);
+    expect_same_rows(files[known.name], known.limited, known.name);
+  }
+}
+
+TEST(RobotFiles, SayWhichClosedFormAppliesAndStartAwayFromSingularPoses) {
+  const std::map<std::string, std::string> kWords{
+      {"space_arm", "closed form, quadratic: axes 2-3-4 parallel"},
+      {"puma560", "closed form, quadratic: axes 4-5-6 meet"},
+      {"ur10", "closed form, quadratic: axes 2-3-4 parallel"},
+      {"cartesian", "linear: three prismatic joints, rotation ignored"}};
+  for (const auto& [name, words] : kWords) {
+    const RobotConfig robot = robot_of(kDeploy / "robots" / (name + ".txtpb"));
+    const Inverse inverse(robot);
+    EXPECT_EQ(inverse.words(), words);
+    JointVector start;
+    for (std::size_t i = 0; i < kMaxJoints; ++i) start[static_cast<int>(i)] = robot.joint[i].start_rad;
+    const InverseResult result = inverse.solve(inverse.kinematics().forward(start), start, {});
+    EXPECT_EQ(result.status, InverseStatus::kFound) << name;
+    EXPECT_GT(result.conditioning, 0.01) << name;
+  }
+}
+
+// The PUMA 560 in Craig's convention, with a tool: the rows move one joint on, the solutions stay.
+TEST(RobotFiles, OneThatAUserWritesIsSolvedInClosedForm) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("mine.txtpb",
+                                     "name: \"mine\" convention: MODIFIED\n"
+                                     "joint { d_m: 0.6718 }\n"
+                                     "joint { alpha_rad: 1.5707963267948966 }\n"
+                                     "joint { a_m: 0.4318 d_m: 0.15005 }\n"
+                                     "joint { a_m: 0.0203 alpha_rad: -1.5707963267948966 d_m: 0.4318 }\n"
+                                     "joint { alpha_rad: 1.5707963267948966 }\n"
+                                     "joint { alpha_rad: -1.5707963267948966 d_m: 0.05625 }\n"
+                                     "tool { position_m: [0, 0, 0.2] }\n");
+  const Inverse mine(robot_of(file));
+  EXPECT_EQ(mine.words(), "closed form, quadratic: axes 4-5-6 meet");
+  RobotConfig known = test::ready_arms()[1].robot;
+  known.joint[5].d_m += 0.2;
+  Random random(3);
+  for (int n = 0; n < 100; ++n) {
+    const JointVector q = test::random_joints(random);
+    const Pose goal = Inverse(known).kinematics().forward(q);
+    const Pose X = mine.kinematics().forward(q);
+    EXPECT_LT((X.p - goal.p).norm() + X.q.angularDistance(goal.q), 1e-14);
+    EXPECT_EQ(mine.all(goal, q, {}).count, 8);
+  }
+}
+
+class SolveRobot : public testing::Test {
+ protected:
+  void SetUp() override { setenv("LONGREACH_HOME", LONGREACH_DEPLOY, 1); }
+  void TearDown() override { unsetenv("LONGREACH_HOME"); }
+};
+
+Json answer(const std::string& kind, const Json& request) {
+  std::istringstream in(request.dump());
+  std::ostringstream out;
+  EXPECT_EQ(solve(kind, in, out), 0) << out.str();
+  return Json::parse(out.str());
+}
+
+TEST_F(SolveRobot, AnswersAboutEveryRobotThatShips) {
+  for (const test::NamedArm& known : test::ready_arms()) {
+    const std::vector<double> q{0.2, 0.7, -1.1, 0.4, 0.6, -0.3};
+    const Json forward = answer("robot-fk", {{"robot", known.name}, {"q", q}});
+    const RigidKinematics tool =
+        Kinematics(known.robot).rigid_with_jacobian(Eigen::Map<const JointVector>(q.data()));
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(forward["X"][i][3].get<double>(), tool.X_WE.p[static_cast<int>(i)]) << known.name;
+    EXPECT_EQ(forward["J"][5][0].get<double>(), tool.J(5, 0));
+    const Json inverse = answer("robot-ik", {{"robot", known.name}, {"X", forward["X"]}, {"near", q}});
+    EXPECT_EQ(inverse["status"], "FOUND");
+    EXPECT_GE(inverse["solutions"].size(), 4u);
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(inverse["nearest"][i].get<double>(), q[i], 1e-12) << known.name;
+    EXPECT_LE(inverse["position_error"].get<double>(), 1e-13);
+    EXPECT_LE(inverse["rotation_error"].get<double>(), 1e-14);
+  }
+}
+
+// Rows in place; the same as the file says.
+TEST_F(SolveRobot, TakesRowsInPlace) {
+  Json rows = Json::array();
+  for (const JointConfig& j : test::ready_arms()[2].robot.joint)
+    rows.push_back({{"a", j.a_m}, {"alpha", j.alpha_rad}, {"d", j.d_m}, {"theta", j.theta_rad}});
+  const Json q = {0.1, -1.0, 1.2, 0.3, 0.8, -2.0};
+  EXPECT_EQ(answer("robot-fk", {{"dh", rows}, {"q", q}}), answer("robot-fk", {{"robot", "ur10"}, {"q", q}}));
+  EXPECT_NE(answer("robot-fk", {{"dh", rows}, {"convention", "modified"}, {"q", q}}),
+            answer("robot-fk", {{"robot", "ur10"}, {"q", q}}));
+}
+
+TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
+  const auto error = [](const std::string& kind, const std::string& line) {
+    std::istringstream in(line);
+    std::ostringstream out;
+    EXPECT_EQ(solve(kind, in, out), 1) << line;
+    return Json::parse(out.str())["error"].get<std::string>();
+  };
+  EXPECT_NE(error("robot-fk", R"({"robot": "none", "q": [0,0,0,0,0,0]})").find("there is no such file"),
+            std::string::npos);
+  EXPECT_EQ(error("robot-fk", R"({"robot": "ur10", "q": [0,0,0]})"), "\"q\" must be a list of six numbers");
+  EXPECT_EQ(error("robot-fk", R"({"dh": [], "q": [0,0,0,0,0,0]})"),
+            "\"dh\" must be a list of six rows; this has 0");
+  EXPECT_EQ(error("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0]]})"), "\"X\" must be a list of four rows");
+}
+
+}  // namespace
+}  // namespace longreach
