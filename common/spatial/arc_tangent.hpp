@@ -49,12 +49,11 @@ inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&an
   for (std::size_t i = 0; i < n; ++i) {
     const double ax = std::abs(x[i]), ay = std::abs(y[i]);
     const double large = (ax > ay ? ax : ay) + kTiny, small = ax > ay ? ay : ax;
-    const double far = small > kEighth * large ? 1.0 : 0.0;
-    const double t = (small - far * large) / (large + far * small);
-    const double steep = ay > ax ? 1.0 : 0.0, back = x[i] < 0.0 ? 1.0 : 0.0;
-    const double eighth = far * kQuarterPi + arc_tangent_of_small(t);
-    const double quarter = steep * (2.0 * kQuarterPi) + (1.0 - 2.0 * steep) * eighth;
-    angle[i] = std::copysign(back * kPi + (1.0 - 2.0 * back) * quarter, y[i]);
+    const bool far = small > kEighth * large, steep = ay > ax, back = x[i] < 0.0;
+    const double t = (small - (far ? large : 0.0)) / (large + (far ? small : 0.0));
+    const double eighth = (far ? kQuarterPi : 0.0) + arc_tangent_of_small(t);
+    const double quarter = (steep ? 2.0 * kQuarterPi : 0.0) + (steep ? -eighth : eighth);
+    angle[i] = std::copysign((back ? kPi : 0.0) + (back ? -quarter : quarter), y[i]);
   }
 }
 

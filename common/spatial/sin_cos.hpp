@@ -50,10 +50,12 @@ inline ReducedSinCos reduced_sin_cos(double x) {
 }
 
 inline SinCos in_quadrant(const ReducedSinCos& r) {
+  // In bits instead of by branch: the quadrant changes without warning.
   const auto quadrant = std::bit_cast<std::uint64_t>(r.quadrant);
-  // By table instead of by branch: the quadrant changes without warning.
-  const double values[4] = {r.s, r.c, -r.s, -r.c};
-  return {values[quadrant & 3], values[(quadrant + 1) & 3]};
+  const auto s = std::bit_cast<std::uint64_t>(r.s), c = std::bit_cast<std::uint64_t>(r.c);
+  const std::uint64_t swapped = (s ^ c) & (0 - (quadrant & 1));
+  return {std::bit_cast<double>(s ^ swapped ^ ((quadrant & 2) << 62)),
+          std::bit_cast<double>(c ^ swapped ^ (((quadrant + 1) & 2) << 62))};
 }
 
 inline SinCos sin_cos(double x) {
@@ -64,16 +66,16 @@ inline SinCos sin_cos(double x) {
 /// The same of several angles at once: two for the price of one.
 template <std::size_t n>
 inline std::array<SinCos, n> sin_cos(const std::array<double, n>& x) {
-  std::array<SinCos, n> result;
-  double s[n], c[n], quadrant[n];
-  for (std::size_t i = 0; i < n; ++i) {
-    const ReducedSinCos r = reduced_sin_cos(x[i]);
-    s[i] = r.s, c[i] = r.c, quadrant[i] = r.quadrant;
-  }
+  double s[n], c[n];
   bool reducible = true;
   for (std::size_t i = 0; i < n; ++i) {
+    const SinCos t = in_quadrant(reduced_sin_cos(x[i]));
+    s[i] = t.s, c[i] = t.c;
+  }
+  std::array<SinCos, n> result;
+  for (std::size_t i = 0; i < n; ++i) {
     reducible = reducible && std::abs(x[i]) < ReducedSinCos::kReducible;
-    result[i] = in_quadrant({s[i], c[i], quadrant[i]});
+    result[i] = {s[i], c[i]};
   }
   if (reducible) return result;
   for (std::size_t i = 0; i < n; ++i) result[i] = sin_cos(x[i]);

@@ -3,7 +3,9 @@
 // each way. If only the nearest branch is wanted, the nearer way is taken first, and another one is left out
 // when its angle alone is farther off than what was found.
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/spatial/arc_tangent.hpp"
 #include "common/spatial/sin_cos.hpp"
@@ -24,7 +26,7 @@ class BranchTree {
   /// Both of two solutions for one angle.
   template <typename Then>
   void fork(Role role, const Turn& one, const Turn& other, const Then& then) {
-    if (!nearest_) {
+    if (!nearest_ || probing_) {
       then(one);
       then(other);
       return;
@@ -53,9 +55,21 @@ class BranchTree {
     return {t.c, t.s};
   }
 
+  /// Least miss of the branches that `then` finds, which are not kept.
+  template <typename Then>
+  [[nodiscard]] double probe(const Then& then) {
+    const double before = std::exchange(least_miss_, std::numeric_limits<double>::infinity());
+    probing_ = true;
+    then();
+    probing_ = false;
+    return std::exchange(least_miss_, before);
+  }
+
   void set(Role role, const Turn& t) { cos_[role] = t.c, sin_[role] = t.s; }
 
   void add(double miss) {
+    least_miss_ = std::min(least_miss_, miss);
+    if (probing_) return;
     if (out_.count == Branches::kMax || (nearest_ && miss > ClosedInverse::kMissMax)) return;
     double angle[6];
     arc_tangents(sin_, cos_, angle);
@@ -88,7 +102,8 @@ class BranchTree {
   const std::array<LoopJoint, 6>& joint_;
   const JointVector& before_rad_;
   Branches& out_;
-  bool nearest_;
+  bool nearest_, probing_ = false;
+  double least_miss_ = std::numeric_limits<double>::infinity();
   double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest so far, rad²
   double sin_[6], cos_[6];                                  // by role
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slave/robot/branch_tree.hpp"
+#include "slave/robot/least_aside.hpp"
 
 namespace longreach {
 namespace {
@@ -71,16 +72,32 @@ class Solving : BranchTree {
     const Trig& f = x_vanishes ? x_ : y_;
     const double R = sqrt(f.c * f.c + f.s * f.s);
     if (R <= ClosedInverse::kFree) {
-      const Turn c = before(Role::kC);
-      both_of_plane(c, std::abs(f.k));
+      const double miss = std::abs(f.k);
+      open(before(Role::kC), std::numbers::pi, miss);
       return;
     }
     const double cos = std::clamp(-f.k / R, -1.0, 1.0);
     const double sin = sqrt(std::max((R - f.k) * (R + f.k), 0.0)) / R;
     const double miss = std::max(std::abs(f.k) - R, 0.0);
     const Turn middle{f.c / R, f.s / R};
-    fork(Role::kC, middle * Turn{cos, sin}, middle * Turn{cos, -sin},
-         [&](const Turn& c) { both_of_plane(c, miss); });
+    fork(Role::kC, middle * Turn{cos, sin}, middle * Turn{cos, -sin}, [&](const Turn& c) {
+      if (R < kVague) {
+        open(c, ClosedInverse::kFree / R, miss);
+      } else {
+        both_of_plane(c, miss);
+      }
+    });
+  }
+
+  // Rounding leaves φ_c open by ±width: as little aside as what follows needs to reach the pose.
+  void open(const Turn& c, double width, double miss) {
+    const auto turned_by = [&](double h) {
+      const SinCos t = sin_cos(h);
+      return c * Turn{t.c, t.s};
+    };
+    const auto miss_at = [&](double h) { return probe([&] { both_of_plane(turned_by(h), 0.0); }); };
+    const bool possible = miss <= ClosedInverse::kMissMax;
+    both_of_plane(possible ? turned_by(least_aside(width, miss_at)) : c, miss);
   }
 
   void both_of_plane(const Turn& c, double miss) {
@@ -248,7 +265,9 @@ class Solving : BranchTree {
     });
   }
 
-  // A vector so short gives its direction to a tenth of a millionth only.
+  // A share so short gives its direction to a billionth only,
+  static constexpr double kVague = 1e-6;
+  // and to a tenth of a millionth.
   static constexpr double kVagueSquare = 1e-18;
 
   const ArmLoop& loop_;

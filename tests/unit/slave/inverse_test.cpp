@@ -132,6 +132,23 @@ TEST(Inverse, NamesTheDirectionThatASingularPoseLoses) {
   EXPECT_LT((J.transpose() * result.lost).norm(), 1e-6 * inverse.kinematics().reach_m());
 }
 
+// The wrist stands above the base, which may turn, but not so far that the almost straight arm falls short.
+TEST(Inverse, TurnsAnOpenJointAsFarAsTheArmNeeds) {
+  RobotConfig robot = test::space_arm();
+  for (JointConfig& j : robot.joint) j.min_rad = -7, j.max_rad = 7;
+  const Inverse inverse(robot);
+  JointVector q;
+  q << 1.9274818256738837, 1.6074215481170673, -0.066365460489758582, -0.021764130200958576,
+      -0.66796994300958534, -0.8409758685465883;
+  JointVector near = q;
+  near[0] = 1.69;
+  const InverseResult result = inverse.solve(inverse.kinematics().forward(q), near, {});
+  EXPECT_EQ(result.status, InverseStatus::kSingular);
+  EXPECT_LE(result.position_error_m, 1e-13);
+  EXPECT_GT(result.joint_rad[0], 1.70);
+  EXPECT_LT(result.joint_rad[0], q[0] + 1e-9);
+}
+
 TEST(Inverse, MovesTheCartesianRobotExactlyAndSaysThatItDoesNotTurn) {
   const Inverse inverse(cartesian());
   Pose goal;
