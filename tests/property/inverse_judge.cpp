@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace longreach::test {
 namespace {
@@ -17,19 +18,21 @@ std::string complaint(const RobotConfig& robot, const Inverse& inverse, const Jo
   const InverseSolutions all = inverse.all(goal, near, {});
   if (all.count == 0) return "no solution";
   if (all.count > (regular ? 8 : InverseSolutions::kMax)) return "too many solutions";
-  double nearest = 10.0;
+  double nearest = 10.0, least_way = std::numeric_limits<double>::infinity();
   for (int i = 0; i < all.count; ++i) {
     const JointVector& solution = all.joint_rad[static_cast<std::size_t>(i)];
     const double error = exact_error(robot, solution, goal, reach);
     if (!(error <= kError)) return "error of " + std::to_string(1e15 * error) + "e-15";
     score.worst = std::max(score.worst, error);
     nearest = std::min(nearest, apart(solution, q));
+    least_way = std::min(least_way, (solution - near).norm());
   }
   if (regular && nearest > 1e-4) return "misses the joints that it comes from";
   score.solutions += all.count;
   const InverseResult one = inverse.solve(goal, near, {});
   if (one.status == InverseStatus::kNearest) return "not the one that it is asked for";
   if (!(exact_error(robot, one.joint_rad, goal, reach) <= kError)) return "the one is not exact";
+  if (regular && (one.joint_rad - near).norm() > least_way + 1e-6) return "the one is not the nearest";
   return "";
 }
 

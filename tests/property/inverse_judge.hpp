@@ -16,7 +16,7 @@ struct Score {
 };
 
 /// The pose of `q`: each solution is one, one of them is `q` (regular) unless the pose leaves an angle free,
-/// and the one from `near` is found. The first failures are shown.
+/// and the one that is asked for from `near` is the nearest of them (regular). The first failures are shown.
 void judge(const NamedArm& arm, const Inverse& inverse, const JointVector& q, const JointVector& near,
            bool regular, Score& score);
 

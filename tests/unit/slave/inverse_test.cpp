@@ -204,8 +204,12 @@ TEST(Inverse, DoesNotAllocate) {
   test::count_allocations(true);
   const InverseResult a = inverse.solve(near, ordinary(), {}),
                       b = inverse.solve(far, ordinary(), {1e-10, 20, 5});
+  const int solutions = inverse.all(near, ordinary(), {}).count;
+  const InverseResult c = inverse.follow(near, singular, {});
   test::count_allocations(false);
   EXPECT_EQ(test::allocations(), 0);
+  EXPECT_GT(solutions, 0);
+  EXPECT_NE(c.status, InverseStatus::kNearest);
   EXPECT_NE(a.status, InverseStatus::kNearest);
   EXPECT_EQ(b.status, InverseStatus::kNearest);
 }
