@@ -1,15 +1,18 @@
 #pragma once
-// From goal to joint setpoint: goal limiter, inverse kinematics, joint limits, and the watch over all of
-// them.
-//   Δq = clamp(IK(limited goal) - q);  slow-down of the next tick's tool speed before a joint limit has to
-//   clamp
-// The setpoint pose is always the one that the joints have, so nothing winds up when the robot cannot follow.
-// Near a singular pose the tool slows down in proportion to its conditioning.
+// From goal to joint setpoint:
+//   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
+// What the joints cannot do is taken back from the tool limiter at once: its pose and velocity are those of
+// the joints' path, so nothing winds up. Before that happens the tool slows down: when a joint nears its
+// speed, and near a singular pose in proportion to its conditioning, unless it is on the way out. Every
+// setpoint is watched from outside, by differences.
+// Tool limits hold as far as the joints let the tool keep them: a joint that must brake comes first.
 
 #include <cstdint>
 #include <optional>
 
 #include "slave/command/goal_limiter.hpp"
+#include "slave/command/joint_limiter.hpp"
+#include "slave/limit_watch.hpp"
 #include "slave/robot/inverse.hpp"
 
 namespace longreach {
@@ -17,7 +20,7 @@ namespace longreach {
 struct MotionInput {
   std::optional<Pose> X_WE_goal{};  // none: brake and stay
   ContactForce contact{};
-  double dt = 0.0;  // > 0, s
+  double dt = 0.0;  // > 0, s, the same in every step
 };
 
 class SlaveMotion {
@@ -31,27 +34,25 @@ class SlaveMotion {
   /// Returns what had to be clamped.
   Clamps step(const MotionInput& input);
 
-  [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joint_rad_; }
+  [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joints_.setpoint_rad(); }
   [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
-  [[nodiscard]] std::uint64_t limit_violations() const { return limit_violations_; }
+  [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 
  private:
-  void slow_down(const JointVector& joint_change_rad, double conditioning, double dt, Clamps& clamps);
-  void watch(const JointVector& joint_before_rad, const Pose& X_WE_before, double dt);
+  [[nodiscard]] double tool_share(const JointVector& rad_per_s) const;
+  void slow_down(const JointVector& rad_per_s, double conditioning, double dt, Clamps& clamps);
 
   CommandConfig command_;
   RobotConfig robot_;
   Inverse inverse_;
   GoalLimiter limiter_;
-  JointVector joint_rad_ = JointVector::Zero();
+  JointLimiter joints_;
+  LimitWatch watch_;
   Pose X_WE_{};
   double speed_share_ = 1.0;
-  // For the watch: what was really asked for in the tick before.
-  Twist V_WE_{};
-  JointVector joint_rad_per_s_ = JointVector::Zero();
-  std::uint64_t limit_violations_ = 0;
+  double conditioning_ = 0.0;  // of the tick before
   std::uint64_t failures_ = 0;
 };
 

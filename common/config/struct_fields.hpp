@@ -255,6 +255,11 @@ void visit_fields(Visitor& visit, S& s) {
   visit("start_rad", s.start_rad);
   visit("kind", s.kind);
   visit("draw_radius_m", s.draw_radius_m);
+  visit("jerk_max_rad_per_s3", s.jerk_max_rad_per_s3);
+  visit("stiffness_nm_per_rad", s.stiffness_nm_per_rad);
+  visit("damping_nm_s_per_rad", s.damping_nm_s_per_rad);
+  visit("friction_nm", s.friction_nm);
+  visit("inertia_kg_m2", s.inertia_kg_m2);
 }
 
 template <class Visitor, Is<ToolConfig> S>

@@ -39,6 +39,12 @@ struct JointConfig {
   double start_rad = 0.0;
   JointKind kind = JointKind::kRevolute;
   double draw_radius_m = 0.0;  // of the drawn link behind the joint; 0: in proportion to the robot
+  double jerk_max_rad_per_s3 = 2500.0;
+  // Simulation only: a link on a spring behind its servo; 0: rigid.
+  double stiffness_nm_per_rad = 0.0;
+  double damping_nm_s_per_rad = 0.0;
+  double friction_nm = 0.0;
+  double inertia_kg_m2 = 1.0;
 };
 
 /// Pose of the tool E in the frame of the last row.

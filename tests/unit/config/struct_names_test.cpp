@@ -204,6 +204,11 @@ void expect_same(const JointConfig& s, const proto::Joint& m) {
   EXPECT_EQ(s.start_rad, m.start_rad());
   EXPECT_EQ(static_cast<int>(s.kind), m.kind());
   EXPECT_EQ(s.draw_radius_m, m.draw_radius_m());
+  EXPECT_EQ(s.jerk_max_rad_per_s3, m.jerk_max_rad_per_s3());
+  EXPECT_EQ(s.stiffness_nm_per_rad, m.stiffness_nm_per_rad());
+  EXPECT_EQ(s.damping_nm_s_per_rad, m.damping_nm_s_per_rad());
+  EXPECT_EQ(s.friction_nm, m.friction_nm());
+  EXPECT_EQ(s.inertia_kg_m2, m.inertia_kg_m2());
 }
 
 void expect_same(const MaterialConfig& s, const proto::Material& m) {
