@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slave/robot/flexible_joint.hpp"
+
 namespace longreach {
 namespace {
 
@@ -51,6 +53,7 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       scene_(config.scene, X_WE_start_.p),
       random_(random),
       joint_rad_(start_joints(config.robot)),
+      servo_rad_(joint_rad_),
       setpoint_rad_(joint_rad_),
       X_WE_(X_WE_start_) {}
 
@@ -59,7 +62,7 @@ RobotState SimulatedArm::read(Time now) {
   now_ = now;
   if (written_ && now - *written_ > kWatchdog && !stopped_) {
     stopped_ = true;
-    setpoint_rad_ = joint_rad_;
+    setpoint_rad_ = servo_rad_;
   }
   move(dt);
   feel();
@@ -87,10 +90,17 @@ void SimulatedArm::write(const JointVector& joint_setpoint_rad) {
 void SimulatedArm::move(double dt) {
   const double rate = 2.0 * std::numbers::pi * robot_.servo_hz;
   for (int i = 0; i < kMaxJoints; ++i) {
-    const Servo servo{rate, robot_.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s};
-    const JointMotion motion = approach(servo, joint_rad_[i], setpoint_rad_[i], dt);
-    joint_rad_[i] = motion.angle_rad;
-    joint_rad_per_s_[i] = motion.rad_per_s;
+    const JointConfig& joint = robot_.joint[static_cast<std::size_t>(i)];
+    const double before_rad = servo_rad_[i];
+    const JointMotion motion = approach({rate, joint.speed_max_rad_per_s}, before_rad, setpoint_rad_[i], dt);
+    servo_rad_[i] = motion.angle_rad;
+    LinkState link{motion.angle_rad, motion.rad_per_s};
+    if (joint.stiffness_nm_per_rad > 0.0) {
+      const double even = dt > 0.0 ? (motion.angle_rad - before_rad) / dt : 0.0;
+      link = swing(joint, {joint_rad_[i], joint_rad_per_s_[i]}, {before_rad, even}, torque_nm_[i], dt);
+    }
+    joint_rad_[i] = link.rad;
+    joint_rad_per_s_[i] = link.rad_per_s;
   }
 }
 
@@ -101,6 +111,7 @@ void SimulatedArm::feel() {
   contact_ = scene_.contact({X_WE_.p, v_WE_});
   if (contact_.surface >= 0) surface_ = contact_.surface;
   F_E_W_ = {Vector3::Zero(), contact_.force_n};
+  torque_nm_ = tool.J.bottomRows<3>().transpose() * contact_.force_n;
 }
 
 double SimulatedArm::material_secant(double depth_m) const {
