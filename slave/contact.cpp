@@ -62,7 +62,7 @@ void SlaveContact::identify(const ContactInput& input) {
   sample.force_n = normal.dot(input.force_n);
   sample.force_filtered_n = normal.dot(reading_.filtered_n);
   sample.guarded = input.guarded;
-  if (reported_.step(estimator_.step(sample, input.dt))) {
+  if (reported_.step(estimator_.step(sample, input.dt), normal)) {
     stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
   }
   const SecantEstimate& e = estimator_.estimate();

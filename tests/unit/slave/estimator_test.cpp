@@ -206,15 +206,22 @@ TEST(ReportedStiffness, AppearsWhenKnownHoldsAndIsCorrectedOnce) {
     e.stiffness_sd_n_per_m = fraction * s;
     return e;
   };
-  EXPECT_FALSE(reported.step(estimate(1000, 0.06)));
-  EXPECT_TRUE(reported.step(estimate(1000, 0.04)));
-  EXPECT_FALSE(reported.step(estimate(1070, 0.02)));   // within the dead band
-  EXPECT_FALSE(reported.step(estimate(1100, 0.04)));   // within 3 sd
-  EXPECT_FALSE(reported.step(estimate(1015, 0.004)));  // well known, but less than 2 % off
-  EXPECT_TRUE(reported.step(estimate(1030, 0.004)));   // the one correction
-  EXPECT_FALSE(reported.step(estimate(1060, 0.004)));
-  EXPECT_TRUE(reported.step(estimate(1150, 0.004)));  // more than the dead band
+  Vector3 normal = Vector3::UnitX();
+  const auto step = [&](const SecantEstimate& e) { return reported.step(e, normal); };
+  EXPECT_FALSE(step(estimate(1000, 0.06)));
+  EXPECT_TRUE(step(estimate(1000, 0.04)));
+  EXPECT_FALSE(step(estimate(1070, 0.02)));   // within the dead band
+  EXPECT_FALSE(step(estimate(1100, 0.04)));   // within 3 sd
+  EXPECT_FALSE(step(estimate(1015, 0.004)));  // well known, but less than 2 % off
+  EXPECT_TRUE(step(estimate(1030, 0.004)));   // the one correction
+  EXPECT_FALSE(step(estimate(1060, 0.004)));
+  EXPECT_TRUE(step(estimate(1150, 0.004)));  // more than the dead band
   EXPECT_EQ(reported.stiffness_n_per_m(), 1150.0);
+  reported.begin(true);
+  normal = exp_rotation(0.01 * Vector3::UnitZ()) * normal;
+  EXPECT_FALSE(step(estimate(1150, 0.004)));  // a direction that is 1.4 % off in the norm
+  normal = exp_rotation(0.01 * Vector3::UnitZ()) * normal;
+  EXPECT_TRUE(step(estimate(1150, 0.004)));  // 2.8 %
   reported.begin(false);
   EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
 }
