@@ -3,13 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slave/robot/self_motion.hpp"
+
 namespace longreach {
 namespace {
 
-constexpr double kJointShare = 0.8;         // of a joint's speed, from which the tool slows down
+// The tool slows down from this share of a joint's speed on, and from less of it next to a singular pose,
+// where the arm changes its shape so quickly that joints at full speed could not be slowed in time.
+constexpr double kJointShare = 0.8;
+constexpr double kJointShareLeast = 0.4;
+constexpr double kQuickConditioning = 0.1;
 constexpr double kSlowConditioning = 0.05;  // below it the tool slows down
-constexpr double kSlowest = 0.1;            // share of speed that always remains, to get out again
-constexpr double kLeavingS = 10.0;          // so far ahead is looked when the conditioning rises
+constexpr double kSlowest = 0.3;            // share of speed that always remains, to get out again
+constexpr double kFarRad = 0.1;             // a solution farther off than this is not one tick away
+// Self motion (self_motion.hpp), measured on the paths of motion_limits_test: a narrower band sends the arm
+// around singular poses at which the tool hardly leaves its way, a wider one lets it leave its way by more.
+constexpr double kSingularBand = 2e-2;  // conditioning below which it is used
+constexpr double kLost = 5e-3;          // at the singular pose itself
+constexpr double kTurningShare = 0.5;   // of a joint's speed
+constexpr double kPullMaxRad = 1.7;     // straight through a singular pose no joint turns by more than 90°
+constexpr double kLeavingS = 10.0;      // so far ahead is looked when the conditioning rises
 
 JointVector start_joints(const RobotConfig& robot) {
   JointVector q;
@@ -40,7 +53,7 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   limiter_.reset(X_WE_);
   watch_.reset(joints_.setpoint_rad(), X_WE_);
   speed_share_ = 1.0;
-  conditioning_ = 0.0;
+  conditioning_ = 1.0;
 }
 
 Clamps SlaveMotion::step(const MotionInput& input) {
@@ -52,24 +65,22 @@ Clamps SlaveMotion::step(const MotionInput& input) {
 
   if (!limiter_.at_rest()) {
     const JointVector joint_before_rad = joints_.path_rad();
-    const InverseResult found =
-        inverse_.follow(wanted.X_WE, joint_before_rad, {command_.tolerance_m, command_.iterations_max});
+    const InverseResult found = invert(wanted.X_WE, input.X_WE_goal.value_or(wanted.X_WE), input.dt);
     clamps.unreachable = found.status == InverseStatus::kNearest;
     const bool plain = !clamps.unreachable && joints_.reaches(found.joint_rad, input.dt);
-    const double share = plain ? 1.0 : tool_share((found.joint_rad - joint_before_rad) / input.dt);
-    const JointsLimited limited = joints_.step(found.joint_rad, share, input.dt);
+    const JointsLimited limited = joints_.step(found.joint_rad, plain ? ToolBound{} : tool_bound(), input.dt);
     clamps.joint_speed = limited.speed;
     clamps.joint_position = limited.position || found.at_joint_limit;
     if (clamps.unreachable) ++failures_;
     if (limited.any()) {
       limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
-    } else if (clamps.unreachable || found.rotation_ignored) {
+    } else if (found.status != InverseStatus::kFound || found.rotation_ignored) {
       limiter_.correct(found.X_WE, input.dt);
     }
     slow_down((joints_.path_rad() - joint_before_rad) / input.dt, found.conditioning, input.dt, clamps);
   } else {
     const bool moves = !joints_.at_rest();  // the joints brake for a tool that has stopped
-    joints_.step(joints_.path_rad(), 1.0, input.dt);
+    joints_.step(joints_.path_rad(), moves ? tool_bound() : ToolBound{}, input.dt);
     if (moves) limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
     speed_share_ = std::max(speed_share_, 0.1);
   }
@@ -78,21 +89,59 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   return clamps;
 }
 
-// The share of these joint speeds at which the tool keeps its own limits: from branch to branch the way of
-// the joints is not the one that the tool was to go.
-double SlaveMotion::tool_share(const JointVector& rad_per_s) const {
-  const Vector6 V = kinematics().rigid_with_jacobian(joints_.path_rad()).J * rad_per_s;
-  const double used = std::max(V.tail<3>().norm() / command_.speed_max_m_per_s,
-                               V.head<3>().norm() / command_.speed_max_rad_per_s);
-  return used > 1.0 ? 1.0 / used : 1.0;
+// How many ticks the joints may take for this way next to a singular pose.
+double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
+  double ticks = 0.0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const double speed = robot_.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
+    ticks = std::max(ticks, std::abs(way_rad[i]) / (kTurningShare * speed * dt));
+  }
+  return ticks;
+}
+
+// The joints for a pose one tick away. Close to a singular pose the direction that is all but lost goes to
+// where it has to be at the goal, instead of leading the arm around the singular pose.
+InverseResult SlaveMotion::invert(const Pose& X_WE, const Pose& X_WE_goal, double dt) const {
+  const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
+  const JointVector& q = joints_.path_rad();
+  InverseResult found = inverse_.follow(X_WE, q, tolerance);
+  const bool far = (found.joint_rad - q).cwiseAbs().maxCoeff() > kFarRad;
+  if (!far && !(conditioning_ < kSingularBand)) return found;
+  const InverseResult there = inverse_.solve(X_WE_goal, q, tolerance);
+  if (there.status == InverseStatus::kNearest || (there.joint_rad - q).cwiseAbs().maxCoeff() > kPullMaxRad)
+    return found;
+  SelfMotion from;
+  from.joint_rad = q;
+  from.pull_rad = there.joint_rad - q;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    from.min_rad[i] = robot_.joint[static_cast<std::size_t>(i)].min_rad;
+    from.max_rad[i] = robot_.joint[static_cast<std::size_t>(i)].max_rad;
+  }
+  from.pull_rad /= std::max(1.0, ticks_for(from.pull_rad, dt));
+  from.lost = far ? kLost : kLost * (1.0 - conditioning_ / kSingularBand);
+  const Kinematics& arm = kinematics();
+  const JointVector step = self_motion_step(arm, from, to_rigid(X_WE)) - q;
+  found.joint_rad = q + step / std::max(1.0, ticks_for(step, dt));
+  found.X_WE = arm.forward(found.joint_rad);
+  found.status = InverseStatus::kSingular;
+  return found;
+}
+
+ToolBound SlaveMotion::tool_bound() const {
+  ToolBound bound;
+  bound.J_share = kinematics().rigid_with_jacobian(joints_.path_rad()).J;
+  bound.J_share.topRows<3>() /= command_.speed_max_rad_per_s;
+  bound.J_share.bottomRows<3>() /= command_.speed_max_m_per_s;
+  return bound;
 }
 
 // The share of the tool's speed limits for the next tick, so that the tool brakes before a joint has to.
 void SlaveMotion::slow_down(const JointVector& rad_per_s, double conditioning, double dt, Clamps& clamps) {
+  const double joint_share = std::clamp(conditioning / kQuickConditioning, kJointShareLeast, kJointShare);
   double used = 0.0;  // of the joints' speeds
   for (int i = 0; i < kMaxJoints; ++i) {
     const double speed_max = robot_.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
-    used = std::max(used, std::abs(rad_per_s[i]) / (kJointShare * speed_max));
+    used = std::max(used, std::abs(rad_per_s[i]) / (joint_share * speed_max));
   }
   const Twist& v = limiter_.velocity();
   const double speed = std::max(v.linear.norm() / command_.speed_max_m_per_s,

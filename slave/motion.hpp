@@ -3,9 +3,11 @@
 //   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
 // What the joints cannot do is taken back from the tool limiter at once: its pose and velocity are those of
 // the joints' path, so nothing winds up. Before that happens the tool slows down: when a joint nears its
-// speed, and near a singular pose in proportion to its conditioning, unless it is on the way out. Every
-// setpoint is watched from outside, by differences.
-// Tool limits hold as far as the joints let the tool keep them: a joint that must brake comes first.
+// speed, and near a singular pose in proportion to its conditioning, unless it is on the way out. Right
+// beside a singular pose the joints go through it by self motion, and the tool may leave its way by about
+// half a per cent of the reach, instead of the arm being led around. Every setpoint is watched from outside,
+// by differences. Tool limits hold as far as the joints let the tool keep them: a joint that must brake comes
+// first.
 
 #include <cstdint>
 #include <optional>
@@ -41,7 +43,9 @@ class SlaveMotion {
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 
  private:
-  [[nodiscard]] double tool_share(const JointVector& rad_per_s) const;
+  [[nodiscard]] InverseResult invert(const Pose& X_WE, const Pose& X_WE_goal, double dt) const;
+  [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
+  [[nodiscard]] ToolBound tool_bound() const;
   void slow_down(const JointVector& rad_per_s, double conditioning, double dt, Clamps& clamps);
 
   CommandConfig command_;

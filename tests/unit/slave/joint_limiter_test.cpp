@@ -57,7 +57,7 @@ TEST(JointLimiter, KeepsAllLimitsWhateverIsAskedFor) {
         for (double& x : wanted)
           x = random.chance(0.1) ? random.uniform(-1e9, 1e9) : random.uniform(-1.0, 1.0);
       }
-      limiter.step(wanted, random.chance(0.1) ? random.uniform() : 1.0, kDt);
+      limiter.step(wanted, {}, kDt);
       seen.see(limiter.setpoint_rad());
     }
     seen.expect_within();
@@ -73,7 +73,7 @@ TEST(JointLimiter, WhatKeepsTheLimitsPassesUnchangedHalfAWindowLater) {
     const auto at = [](double t) {
       return JointVector(JointVector::Constant(0.1 * (1.0 - std::cos(2.0 * t))));
     };
-    const JointsLimited limited = limiter.step(at(i * kDt), 1.0, kDt);
+    const JointsLimited limited = limiter.step(at(i * kDt), {}, kDt);
     ASSERT_FALSE(limited.any()) << i;
     EXPECT_EQ(limiter.path_rad(), at(i * kDt));
     if (i < 16) continue;
@@ -88,17 +88,17 @@ TEST(JointLimiter, StopsAtAPositionLimitInTimeAndNotMuchTooEarly) {
   Differences seen;
   int ticks = 0;
   for (; ticks < 3000 && !(limiter.setpoint_rad()[0] > 1.0 - 1e-9); ++ticks) {
-    limiter.step(JointVector::Constant(5.0), 1.0, kDt);
+    limiter.step(JointVector::Constant(5.0), {}, kDt);
     seen.see(limiter.setpoint_rad());
   }
   seen.expect_within();
   // Up at 4 rad/s² to 1 rad/s, down at half of it, and the window of 16 ms.
   const double swiftest_s = 1.0 / 1.0 + 0.5 * (1.0 / 4.0 + 1.0 / 2.0);
   EXPECT_NEAR(ticks * kDt, swiftest_s + 0.016, 0.01);
-  for (int i = 0; i < 100; ++i) limiter.step(JointVector::Constant(5.0), 1.0, kDt);
+  for (int i = 0; i < 100; ++i) limiter.step(JointVector::Constant(5.0), {}, kDt);
   EXPECT_EQ(limiter.setpoint_rad(), JointVector::Constant(1.0));
   // And comes back at once.
-  for (int i = 0; i < 200; ++i) limiter.step(JointVector::Constant(0.5), 1.0, kDt);
+  for (int i = 0; i < 200; ++i) limiter.step(JointVector::Constant(0.5), {}, kDt);
   EXPECT_LT(limiter.setpoint_rad()[0], 0.95);
 }
 
@@ -110,7 +110,7 @@ TEST(JointLimiter, SlowsAllJointsAlikeForTheSlowest) {
   bool limited = false;
   for (int i = 0; i < 500; ++i) {
     const JointVector before = limiter.path_rad();
-    limited = limiter.step(before + step, 1.0, kDt).speed || limited;
+    limited = limiter.step(before + step, {}, kDt).speed || limited;
     const JointVector moved = limiter.path_rad() - before;
     EXPECT_LT((moved - step * (moved[0] / step[0])).norm(), 1e-12);
   }
@@ -118,14 +118,48 @@ TEST(JointLimiter, SlowsAllJointsAlikeForTheSlowest) {
   EXPECT_NEAR(limiter.path_rad()[0], 0.5 - 0.5 / 8.0, 0.13);
 }
 
+TEST(JointLimiter, KeepsTheToolWithinItsSpeedsOnEveryWay) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    ToolBound tool;
+    for (int i = 0; i < 36; ++i) tool.J_share(i / 6, i % 6) = random.uniform(-3.0, 3.0);
+    JointLimiter limiter(six_alike());
+    limiter.reset(JointVector::Zero());
+    JointVector wanted = JointVector::Zero();
+    double most = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+      if (random.chance(0.02)) {
+        for (double& x : wanted) x = random.uniform(-0.5, 0.5);
+      }
+      const JointVector before = limiter.setpoint_rad();
+      limiter.step(wanted, tool, kDt);
+      most = std::max(most, tool.used((limiter.setpoint_rad() - before) / kDt));
+    }
+    EXPECT_LE(most, 1.0 + 1e-9) << "seed " << seed;
+    EXPECT_GT(most, 0.9) << "seed " << seed;  // it is used, too
+  }
+}
+
+TEST(ToolBound, FindsTheNearestJointSpeedsAtWhichTheToolIsSlowEnough) {
+  ToolBound tool;
+  tool.J_share.diagonal() << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
+  JointVector rad_per_s;
+  rad_per_s << 3.0, 0.0, 4.0, 0.1, 0.2, 0.3;
+  const JointVector slow = tool.within(rad_per_s);
+  EXPECT_LE(tool.used(slow), 1.0);
+  EXPECT_GT(tool.used(slow), 0.9);
+  EXPECT_NEAR(slow[0] / slow[2], 0.75, 1e-3);                            // along the same way
+  EXPECT_LT((slow - rad_per_s).tail<3>().cwiseAbs().maxCoeff(), 1e-12);  // what is slow enough stays
+}
+
 TEST(JointLimiter, RestIsExactAndSettled) {
   JointLimiter limiter(six_alike());
   limiter.reset(JointVector::Constant(0.1));
   const JointVector goal = JointVector::Constant(0.1 + 1e-3 / 3.0);
-  for (int i = 0; i < 2; ++i) limiter.step(limiter.path_rad() + JointVector::Constant(1e-6), 1.0, kDt);
+  for (int i = 0; i < 2; ++i) limiter.step(limiter.path_rad() + JointVector::Constant(1e-6), {}, kDt);
   EXPECT_FALSE(limiter.settled());
   const JointVector stays = limiter.path_rad();
-  for (int i = 0; i < 20; ++i) limiter.step(stays, 1.0, kDt);
+  for (int i = 0; i < 20; ++i) limiter.step(stays, {}, kDt);
   EXPECT_TRUE(limiter.at_rest());
   EXPECT_TRUE(limiter.settled());
   EXPECT_EQ(limiter.setpoint_rad(), stays);
@@ -139,7 +173,7 @@ TEST(JointLimiter, ASmallJerkLimitLowersTheAccelerationInsteadOfWaitingLonger) {
   limiter.reset(JointVector::Zero());
   Differences seen;
   for (int i = 0; i < 20000; ++i) {
-    limiter.step(JointVector::Constant(i < 5000 ? 0.4 : -0.4), 1.0, kDt);
+    limiter.step(JointVector::Constant(i < 5000 ? 0.4 : -0.4), {}, kDt);
     seen.see(limiter.setpoint_rad());
   }
   seen.expect_within(0.5 * 1.0 * JointLimiter::kTicksMax * kDt, 1.0);
@@ -155,7 +189,7 @@ TEST(JointLimiter, StepAllocatesNothing) {
   JointLimiter limiter(six_alike());
   limiter.reset(JointVector::Zero());
   test::count_allocations(true);
-  for (int i = 0; i < 100; ++i) limiter.step(JointVector::Constant(0.5), 1.0, kDt);
+  for (int i = 0; i < 100; ++i) limiter.step(JointVector::Constant(0.5), {}, kDt);
   test::count_allocations(false);
   EXPECT_EQ(test::allocations(), 0);
 }
