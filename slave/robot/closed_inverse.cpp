@@ -72,8 +72,7 @@ class Solving : BranchTree {
     const Trig& f = x_vanishes ? x_ : y_;
     const double R = sqrt(f.c * f.c + f.s * f.s);
     if (R <= ClosedInverse::kFree) {
-      const double miss = std::abs(f.k);
-      open(before(Role::kC), std::numbers::pi, miss);
+      open(before(Role::kC), std::numbers::pi, std::abs(f.k));
       return;
     }
     const double cos = std::clamp(-f.k / R, -1.0, 1.0);
