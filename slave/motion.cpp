@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "slave/robot/self_motion.hpp"
 
@@ -54,6 +55,7 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   watch_.reset(joints_.setpoint_rad(), X_WE_);
   speed_share_ = 1.0;
   conditioning_ = 1.0;
+  turning_ = false;
 }
 
 Clamps SlaveMotion::step(const MotionInput& input) {
@@ -65,9 +67,9 @@ Clamps SlaveMotion::step(const MotionInput& input) {
 
   if (!limiter_.at_rest()) {
     const JointVector joint_before_rad = joints_.path_rad();
-    const InverseResult found = invert(wanted.X_WE, input.X_WE_goal.value_or(wanted.X_WE), input.dt);
+    const InverseResult found = invert(wanted.X_WE, input);
     clamps.unreachable = found.status == InverseStatus::kNearest;
-    const bool plain = !clamps.unreachable && joints_.reaches(found.joint_rad, input.dt);
+    const bool plain = found.status == InverseStatus::kFound && joints_.reaches(found.joint_rad, input.dt);
     const JointsLimited limited = joints_.step(found.joint_rad, plain ? ToolBound{} : tool_bound(), input.dt);
     clamps.joint_speed = limited.speed;
     clamps.joint_position = limited.position || found.at_joint_limit;
@@ -99,29 +101,55 @@ double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
   return ticks;
 }
 
-// The joints for a pose one tick away. Close to a singular pose the direction that is all but lost goes to
-// where it has to be at the goal, instead of leading the arm around the singular pose.
-InverseResult SlaveMotion::invert(const Pose& X_WE, const Pose& X_WE_goal, double dt) const {
+// True if the tool is nowhere on this way of the joints farther from the goal than it is now.
+bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal) const {
+  const Kinematics& arm = kinematics();
+  const auto off = [&](double share) {
+    const Rigid X = arm.rigid_forward(joints_.path_rad() + share * way_rad);
+    if (!limiter_.within(X.p)) return std::numeric_limits<double>::infinity();
+    return std::hypot(arm.reach_m() * rotation_between(X.R, X_WE_goal.R).norm(), (X_WE_goal.p - X.p).norm());
+  };
+  const double now = off(0.0);
+  for (const double share : {0.125, 0.25, 0.5, 0.75}) {
+    if (off(share) > now) return false;
+  }
+  return true;
+}
+
+// The joints for a pose one tick away. Where the arm is at a singular pose or in its own way, the solution at
+// the goal decides: the joints go there directly if the tool only comes nearer on that way and touches
+// nothing, or the direction that is all but lost does, instead of the arm being led around the singular pose.
+InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
+  const double dt = input.dt;
+  const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
   const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
   const JointVector& q = joints_.path_rad();
+  const Kinematics& arm = kinematics();
   InverseResult found = inverse_.follow(X_WE, q, tolerance);
   const bool far = (found.joint_rad - q).cwiseAbs().maxCoeff() > kFarRad;
-  if (!far && !(conditioning_ < kSingularBand)) return found;
+  const bool lost = far || conditioning_ < kSingularBand;
+  if (!lost && !turning_ && found.status != InverseStatus::kNearest) return found;
   const InverseResult there = inverse_.solve(X_WE_goal, q, tolerance);
-  if (there.status == InverseStatus::kNearest || (there.joint_rad - q).cwiseAbs().maxCoeff() > kPullMaxRad)
+  const JointVector way = there.joint_rad - q;
+  const double most = way.cwiseAbs().maxCoeff();
+  const bool exact = there.status != InverseStatus::kNearest;
+  turning_ = exact && most > kFarRad && !input.contact.in_contact && leads_nearer(way, to_rigid(X_WE_goal));
+  if (turning_) {
+    found.joint_rad = q + way / std::max(1.0, ticks_for(way, dt));
+  } else if (lost && exact && most <= kPullMaxRad) {
+    SelfMotion from;
+    from.joint_rad = q;
+    from.pull_rad = way / std::max(1.0, ticks_for(way, dt));
+    for (int i = 0; i < kMaxJoints; ++i) {
+      from.min_rad[i] = robot_.joint[static_cast<std::size_t>(i)].min_rad;
+      from.max_rad[i] = robot_.joint[static_cast<std::size_t>(i)].max_rad;
+    }
+    from.lost = far ? kLost : kLost * (1.0 - conditioning_ / kSingularBand);
+    const JointVector step = self_motion_step(arm, from, to_rigid(X_WE)) - q;
+    found.joint_rad = q + step / std::max(1.0, ticks_for(step, dt));
+  } else {
     return found;
-  SelfMotion from;
-  from.joint_rad = q;
-  from.pull_rad = there.joint_rad - q;
-  for (int i = 0; i < kMaxJoints; ++i) {
-    from.min_rad[i] = robot_.joint[static_cast<std::size_t>(i)].min_rad;
-    from.max_rad[i] = robot_.joint[static_cast<std::size_t>(i)].max_rad;
   }
-  from.pull_rad /= std::max(1.0, ticks_for(from.pull_rad, dt));
-  from.lost = far ? kLost : kLost * (1.0 - conditioning_ / kSingularBand);
-  const Kinematics& arm = kinematics();
-  const JointVector step = self_motion_step(arm, from, to_rigid(X_WE)) - q;
-  found.joint_rad = q + step / std::max(1.0, ticks_for(step, dt));
   found.X_WE = arm.forward(found.joint_rad);
   found.status = InverseStatus::kSingular;
   return found;

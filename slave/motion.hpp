@@ -43,8 +43,9 @@ class SlaveMotion {
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 
  private:
-  [[nodiscard]] InverseResult invert(const Pose& X_WE, const Pose& X_WE_goal, double dt) const;
+  [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input);
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
+  [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal) const;
   [[nodiscard]] ToolBound tool_bound() const;
   void slow_down(const JointVector& rad_per_s, double conditioning, double dt, Clamps& clamps);
 
@@ -56,6 +57,7 @@ class SlaveMotion {
   LimitWatch watch_;
   Pose X_WE_{};
   double speed_share_ = 1.0;
+  bool turning_ = false;       // on a way of the joints to another solution
   double conditioning_ = 0.0;  // of the tick before
   std::uint64_t failures_ = 0;
 };

@@ -49,6 +49,12 @@ class GoalLimiter {
 
   LimiterOutput step(const LimiterInput& input);
 
+  [[nodiscard]] const std::optional<Pose>& goal() const {
+    return X_WE_goal_;
+  }  // of the last step, in the workspace
+  [[nodiscard]] bool within(const Vector3& p_WE) const {
+    return (p_WE - centre_m_).norm() <= config_.workspace_m;
+  }
   [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
   [[nodiscard]] const Twist& velocity() const { return V_WE_; }
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }

@@ -16,7 +16,7 @@ namespace longreach {
 namespace {
 
 constexpr double kDt = 1e-3;
-constexpr double kSettleS = 20.0;  // after the goal has come to rest
+constexpr double kSettleS = 60.0;  // at most, after the goal has come to rest
 
 struct Worst {
   double position = 0.0;                               // rad beyond a limit
@@ -152,8 +152,9 @@ Tour make_tour(Kind kind, const RobotConfig& robot, const Kinematics& kinematics
 struct Outcome {
   double off_m = 0.0;  // of the tool from the goal's way
   bool arrived = false;
-  double arrived_s = 0.0;  // after the goal came to rest
-  Clamps clamps{};         // in the last tick
+  double arrived_s = 0.0;   // after the goal came to rest
+  double blocked_s = -1.0;  // after the goal came to rest, when last told that the arm is in its own way
+  double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was told
 };
 
 double off_the_way(const Tour& tour, const Vector3& p) {
@@ -175,10 +176,15 @@ struct Drive {
   }
 
   void tick(const std::optional<Pose>& goal) {
-    outcome.clamps = motion.step({goal, {}, kDt});
+    const Clamps c = motion.step({goal, {}, kDt});
+    blocked = c.unreachable || c.joint_position || c.singularity;
     judge.see(motion.joint_setpoint_rad(), worst);
     const Pose& X = motion.X_WE();
     outcome.off_m = std::max(outcome.off_m, off_the_way(tour, X.p));
+    if (goal && !(blocked || c.tool_speed || c.joint_speed || c.workspace)) {
+      outcome.silent_m = std::max(outcome.silent_m, (X.p - goal->p).norm());
+      outcome.silent_rad = std::max(outcome.silent_rad, log_rotation(X.q * goal->q.conjugate()).norm());
+    }
     worst.tool_m_per_s = std::max(worst.tool_m_per_s, (X.p - before.p).norm() / kDt);
     worst.tool_rad_per_s = std::max(worst.tool_rad_per_s, X.q.angularDistance(before.q) / kDt);
     before = X;
@@ -202,6 +208,7 @@ struct Drive {
     for (double t = 0.0; t < kSettleS && !outcome.arrived; t += kDt) {
       tick(last);
       outcome.arrived_s = t;
+      if (blocked) outcome.blocked_s = t;
       outcome.arrived = (before.p - last.p).norm() <= kThere &&
                         log_rotation(before.q * last.q.conjugate()).norm() <= kThere;
     }
@@ -213,6 +220,7 @@ struct Drive {
   Pose before{};
   Worst worst{};
   Outcome outcome{};
+  bool blocked = false;  // in the last tick
 };
 
 struct Summary {
@@ -267,11 +275,23 @@ TEST_P(Motion, KeepsEveryJointLimitOnEveryPath) {
       ASSERT_LE(worst.speed, 1.0 + 1e-9) << name << ' ' << n;
       ASSERT_LE(worst.acceleration, 1.0 + 1e-7) << name << ' ' << n;
       ASSERT_LE(worst.jerk, 1.0 + 1e-6) << name << ' ' << n;
-      const Clamps& c = drive.outcome.clamps;
-      ASSERT_TRUE(drive.outcome.arrived || c.unreachable || c.joint_position || c.singularity) << name << n;
+      // It arrives, or it says that it is in its own way.
+      const Outcome& outcome = drive.outcome;
+      ASSERT_TRUE(outcome.arrived || outcome.blocked_s > kSettleS - 1.0) << name << ' ' << n;
+      // Braking for the goal and the few ms of the jerk limit go without saying; whatever is more is told.
+      constexpr double kBraking = 0.8, kLateS = 0.008;  // share of the acceleration (vector_limit.hpp)
+      const double v = command.speed_max_m_per_s, w = command.speed_max_rad_per_s;
+      ASSERT_LE(outcome.silent_m, 0.5 * v * v / (kBraking * command.acceleration_max_m_per_s2) + kLateS * v)
+          << name << ' ' << n;
+      ASSERT_LE(outcome.silent_rad,
+                0.5 * w * w / (kBraking * command.acceleration_max_rad_per_s2) + kLateS * w)
+          << name << ' ' << n;
       summary.add(drive, kinematics.reach_m());
     }
     summary.print(name);
+    // Goals on the way between two poses of one branch may still lie behind a joint limit of it.
+    const double least = kind == kLimits ? 0.5 : 0.97;
+    EXPECT_GE(summary.arrived, static_cast<int>(least * static_cast<double>(summary.off.size()))) << name;
   }
 }
 
