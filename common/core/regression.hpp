@@ -3,6 +3,7 @@
 //   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
 // with the centred moments updated as in Welford (1962), so that a large mean costs no digits.
 // A sample that is not finite is left out and counted. Does not forget, weigh or reject outliers.
+// Samples may come in groups that share the slope but not the intercept (analysis of covariance).
 
 #include <cmath>
 #include <cstdint>
@@ -17,7 +18,8 @@ class LineFit {
       return;
     }
     ++count_;
-    const double n = static_cast<double>(count_);
+    ++group_count_;
+    const double n = static_cast<double>(group_count_);
     const double dx = x - mean_x_;
     const double dy = y - mean_y_;
     mean_x_ += dx / n;
@@ -27,6 +29,13 @@ class LineFit {
     syy_ += dy * (y - mean_y_);
   }
   void clear() { *this = LineFit{}; }
+  /// What comes from now on may have another intercept; means and intercept are those of the last group.
+  void begin_group() {
+    if (group_count_ == 0) return;
+    ++groups_;
+    group_count_ = 0;
+    mean_x_ = mean_y_ = 0.0;
+  }
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
@@ -40,15 +49,18 @@ class LineFit {
   }
   [[nodiscard]] double slope() const { return valid() ? sxy_ / sxx_ : 0.0; }
   [[nodiscard]] double intercept() const { return valid() ? mean_y_ - slope() * mean_x_ : 0.0; }
-  /// Standard deviation of the slope under independent errors of y; zero with fewer than three samples.
+  /// Standard deviation of the slope under independent errors of y; zero while nothing is left over to tell.
   [[nodiscard]] double slope_sd() const {
-    if (!valid() || count_ < 3) return 0.0;
+    const std::uint64_t used = groups_ + (group_count_ > 0 ? 1 : 0) + 1;
+    if (!valid() || count_ <= used) return 0.0;
     const double rest = std::fmax(syy_ - slope() * sxy_, 0.0);
-    return std::sqrt(rest / (static_cast<double>(count_ - 2) * sxx_));
+    return std::sqrt(rest / (static_cast<double>(count_ - used) * sxx_));
   }
 
  private:
   std::uint64_t count_ = 0;
+  std::uint64_t group_count_ = 0;
+  std::uint64_t groups_ = 0;  // that have ended
   std::uint64_t ignored_ = 0;
   double mean_x_ = 0.0;
   double mean_y_ = 0.0;

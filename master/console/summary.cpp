@@ -83,6 +83,11 @@ void RunSummary::add_force_step(const MasterView& view) {
 
 void RunSummary::add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s) {
   if (view.in_contact && !touched_at_s_) touched_at_s_ = seconds;
+  if (touched_at_s_ && (view.state != SafetyState::kEngaged || view.clutched)) {
+    // The handle goes on from another place: the wall lies elsewhere for it, and settles anew.
+    touched_at_s_ = seconds;
+    fit_.begin_group();
+  }
   const bool settled = touched_at_s_ && rtt_s && seconds >= *touched_at_s_ + *rtt_s + kSettleS;
   const bool clamped = view.force_clamped || view.stiffness_clamped;
   if (!settled || clamped || view.mode != MotionMode::kPosition) return;

@@ -2,7 +2,8 @@
 // probes.
 //
 // Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
-// the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on. Its
+// the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on, and again
+// after each hold, which leaves the wall at another place of the handle (own intercept). Its
 // reference is ke times the material's true secant stiffness at the depth that the slave reported it for.
 
 #include <algorithm>
@@ -29,6 +30,7 @@ struct Watch {
   double reference_sum = 0.0;  // of ke times the true secant, over the samples of `displayed`
   double displayed_span_s = 0.0;
   double first_touch_s = -1.0;
+  double unsettled_s = -1.0;  // when the hand was last in a hold
   double force_step_max_n = 0.0;
   double force_step_excess_n = 0.0;  // over max(0.1 N, 5 % of the force)
   double registration_m = -1.0;      // at the second touch
@@ -81,7 +83,12 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
       w.estimate_sd = e.stiffness_sd_n_per_m / e.stiffness_n_per_m;
   }
   w.phase = phase;
-  if (w.first_touch_s < 0.0 || lab.now_s() < w.first_touch_s + w.rtt_s + 1.0) return;
+  if (w.first_touch_s < 0.0) return;
+  if (m.state != SafetyState::kEngaged) {
+    w.unsettled_s = lab.now_s();
+    w.displayed.begin_group();
+  }
+  if (lab.now_s() < std::max(w.first_touch_s, w.unsettled_s) + w.rtt_s + 1.0) return;
   if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
     w.displayed.add(m.inward.dot(m.p_MH), spring_n);
     w.reference_sum += ke * lab.arm().material_secant(lab.rendered_depth_m());

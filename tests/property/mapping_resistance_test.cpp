@@ -54,28 +54,39 @@ double stiffest(double spring, double friction, const RenderingConfig& config) {
   return spring * std::max(1.0, config.load_factor) + friction;
 }
 
-TEST(ResistanceProperty, GivesBackNoMoreEnergyThanItWasGiven) {
+/// What a damper that is held for a sample gives back when the motion has turned round.
+double turned_round_j(double damping, const Vector3& rate_before, const Vector3& moved) {
+  return damping * std::max(0.0, -rate_before.dot(moved));
+}
+
+TEST(ResistanceProperty, GivesBackNoMoreEnergyThanItWasGivenInAnyTick) {
   const int seeds = campaign(2000, 100);
   for (int seed = 1; seed <= seeds; ++seed) {
     Fumbler f(static_cast<std::uint64_t>(seed));
     const double k = stiffest(f.config.rate_stiffness_n_per_m, f.config.friction_stiffness_n_per_m, f.config);
     const double k_rad =
         stiffest(f.config.rotational_stiffness_nm_per_rad, f.config.friction_stiffness_nm_per_rad, f.config);
-    // Into the port, f[k-1] (x[k] - x[k-1]), and what springs that are held for a sample may give back.
-    double port_j = 0.0, port_rad_j = 0.0, held_j = 0.0, held_rad_j = 0.0;
+    const double b = f.config.rate_damping_n_s_per_m, b_rad = f.config.rotational_damping_nm_s_per_rad;
+    double port_j = 0.0;
+    double stored_j = 0.0, stored_rad_j = 0.0;
     Wrench last;
     HandleState before = f.in.handle;
     for (int i = 0; i < 3000; ++i) {
       const Wrench F = f.tick();
       const Vector3 moved = f.in.handle.p_MH - before.p_MH;
       const Vector3 turned = log_rotation(f.in.handle.q_MH * before.q_MH.conjugate());
-      port_j -= last.force.dot(moved);
-      port_rad_j -= last.moment.dot(turned);
-      held_j += 0.5 * k * moved.squaredNorm();
-      held_rad_j += 0.5 * k_rad * turned.squaredNorm();
-      ASSERT_GE(port_j + held_j - f.resistance.energy_j(), -1e-12) << "seed " << seed << " tick " << i;
-      ASSERT_GE(port_rad_j + held_rad_j - f.resistance.rotation_energy_j(), -1e-12)
+      // Into the port, f[k-1] (x[k] - x[k-1]), and what springs and dampers that are held for a sample give
+      // back.
+      const double entered_j = -last.force.dot(moved) + 0.5 * k * moved.squaredNorm() +
+                               turned_round_j(b, before.velocity_m_per_s, moved);
+      const double entered_rad_j = -last.moment.dot(turned) + 0.5 * k_rad * turned.squaredNorm() +
+                                   turned_round_j(b_rad, before.angular_rad_per_s, turned);
+      ASSERT_GE(entered_j, f.resistance.energy_j() - stored_j - 1e-12) << "seed " << seed << " tick " << i;
+      ASSERT_GE(entered_rad_j, f.resistance.rotation_energy_j() - stored_rad_j - 1e-12)
           << "seed " << seed << " tick " << i;
+      port_j -= last.force.dot(moved);
+      stored_j = f.resistance.energy_j();
+      stored_rad_j = f.resistance.rotation_energy_j();
       last = F;
       before = f.in.handle;
     }

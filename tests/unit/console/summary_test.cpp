@@ -72,6 +72,17 @@ TEST(Summary, LeavesOutClampedAndRateModeSamples) {
   EXPECT_NEAR(summary.displayed_stiffness_n_per_m.value_or(0.0), 800.0, 1e-6);
 }
 
+TEST(Summary, MeasuresOnAfterAHoldThatLeavesTheWallElsewhere) {
+  const auto hold = [](double t, MasterView& view) {
+    if (t < 15.0) return;
+    if (t < 15.5) view.state = SafetyState::kHolding;
+    view.p_MH += 0.01 * view.inward;                         // the same wall, farther in for this hand
+    if (t < 15.48 + kRttS + 1.0) view.spring_force_n *= 0.5;  // not settled
+  };
+  const Summary summary = probing(script(), hold).finish({});
+  EXPECT_NEAR(summary.displayed_stiffness_n_per_m.value_or(0.0), 800.0, 1e-6);
+}
+
 TEST(Summary, ExpectsKeTimesTheEstimate) {
   SummaryConfig config = script();
   config.ke = 2.0;

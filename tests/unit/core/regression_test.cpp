@@ -40,6 +40,20 @@ TEST(LineFit, AgreesWithAFactorisationOfAllSamples) {
   EXPECT_NEAR(fit.slope(), exact[1], 1e-6);
 }
 
+TEST(LineFit, SharesTheSlopeBetweenGroupsThatLieApart) {
+  // Two groups with slopes 1 and 4 over equal spreads: the pooled within-group slope is their mean.
+  LineFit fit;
+  fit.begin_group();  // of nothing: none
+  for (const double x : {0.0, 1.0, 2.0}) fit.add(x, x);
+  fit.begin_group();
+  for (const double x : {10.0, 11.0, 12.0}) fit.add(x, 4.0 * x - 100.0);
+  EXPECT_NEAR(fit.slope(), 2.5, 1e-12);
+  EXPECT_EQ(fit.count(), 6U);
+  EXPECT_EQ(fit.mean_x(), 11.0);
+  // Residuals ±1.5 at both ends of each group: 4 * 2.25 over 6 - 3 and Sxx = 4.
+  EXPECT_NEAR(fit.slope_sd(), std::sqrt(9.0 / (3.0 * 4.0)), 1e-12);
+}
+
 TEST(LineFit, KeepsTheSlopeFarFromTheOrigin) {
   LineFit fit;
   for (int i = 0; i < 1000; ++i) fit.add(1e9 + i, 5.0 * i - 1e9);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace longreach {
@@ -193,6 +194,31 @@ TEST(Mapping, KeepsTheGoalWhenTheHandleIsNotFinite) {
   const Vector3 before = mapping.goal().position_m;
   mapping.step(at({std::nan(""), 0.0, 0.0}, MotionMode::kPosition, 1.0), kTick_s);
   EXPECT_EQ(mapping.goal().position_m, before);
+}
+
+TEST(Mapping, FollowsAgainAfterNonsenseInTheVeryTickOfAChange) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Mapping mapping{MappingConfig{}};
+    MappingInput in{.mode = MotionMode::kPosition, .scale = 1.0, .frozen = false};
+    mapping.reset(in.handle);
+    mapping.step(in, 1e-3);
+    MappingInput broken = in;
+    broken.mode = MotionMode::kRate;
+    broken.handle.p_MH.x() = bad;
+    mapping.step(broken, 1e-3);
+    broken.handle = {};
+    broken.handle.q_MH.w() = bad;
+    mapping.step(broken, 1e-3);
+    in.mode = MotionMode::kRate;
+    in.handle.p_MH = Vector3(0.05, 0.0, 0.0);
+    for (int i = 0; i < 10; ++i) mapping.step(in, 1e-3);
+    EXPECT_TRUE(mapping.goal().position_m.allFinite());
+    // The change counts from the first tick that makes sense: there is the centre, and from there the hand
+    // moves.
+    in.handle.p_MH.x() += 0.02;
+    for (int i = 0; i < 10; ++i) mapping.step(in, 1e-3);
+    EXPECT_GT(mapping.goal().position_m.x(), 0.0);
+  }
 }
 
 }  // namespace

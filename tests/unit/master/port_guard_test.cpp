@@ -1,0 +1,89 @@
+// The last stage before the motors, rule by rule.
+
+#include "master/rendering/port_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace longreach {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+
+PortGuard opened(const PortGuardConfig& config = {}) {
+  PortGuard guard(config);
+  guard.reset();
+  guard.open();
+  return guard;
+}
+
+TEST(PortGuard, LetsThroughWhatIsWithinItsLimits) {
+  PortGuard guard = opened();
+  const Vector3 F(1.0, -2.0, 3.0);
+  EXPECT_EQ(guard.apply({F, Vector3::Zero(), Vector3(0.1, 0.0, 0.0), true}, kTick_s), F);
+  EXPECT_FALSE(guard.clamped());
+  EXPECT_FALSE(guard.injecting());
+}
+
+TEST(PortGuard, NothingThatIsNotFiniteReachesAMotor) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
+    for (int i = 0; i < 3; ++i) {
+      PortForce force{Vector3::Ones(), Vector3::Ones(), Vector3::Zero(), true};
+      (i == 0 ? force.rendered : i == 1 ? force.always : force.rate)[i] = bad;
+      PortGuard guard = opened();
+      EXPECT_TRUE(guard.apply(force, kTick_s).allFinite());
+      EXPECT_EQ(guard.apply({Vector3::Ones(), Vector3::Zero(), Vector3::Zero(), true}, kTick_s),
+                Vector3::Ones());
+    }
+  }
+}
+
+TEST(PortGuard, LimitsTheForceInItsDirection) {
+  PortGuard guard = opened({.force_max = 10.0, .slew_per_s = 1e9});
+  const Vector3 F = guard.apply({Vector3(30.0, 40.0, 0.0), Vector3::Zero(), Vector3::Zero(), true}, kTick_s);
+  EXPECT_NEAR((F - Vector3(6.0, 8.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_TRUE(guard.clamped());
+}
+
+TEST(PortGuard, LimitsTheRiseOfTheForceAndNotItsFall) {
+  PortGuard guard = opened({.slew_per_s = 500.0});
+  const PortForce pushed{Vector3(4.0, 0.0, 0.0), Vector3::Zero(), Vector3::Zero(), true};
+  EXPECT_NEAR(guard.apply(pushed, kTick_s).x(), 0.5, 1e-12);
+  EXPECT_NEAR(guard.apply(pushed, kTick_s).x(), 1.0, 1e-12);
+  EXPECT_EQ(guard.apply({Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true}, kTick_s), Vector3::Zero());
+}
+
+TEST(PortGuard, RampsToZeroWhenNothingIsEngagedButForWhatIsAlwaysThere) {
+  PortGuard guard = opened({.ramp_s = 0.05});
+  const Vector3 gravity(0.0, 0.0, 1.0);
+  PortForce force{Vector3(10.0, 0.0, 0.0), gravity, Vector3::Zero(), true};
+  guard.apply(force, kTick_s);
+  guard.apply(force, kTick_s);
+  force.live = false;
+  for (int i = 1; i <= 50; ++i) {
+    const Vector3 F = guard.apply(force, kTick_s);
+    EXPECT_NEAR(F.x(), 10.0 * (1.0 - i / 50.0), 1e-9) << i;
+    EXPECT_NEAR(F.z(), 1.0, 1e-12);
+  }
+}
+
+TEST(PortGuard, TakesBackByDampingWhatLeakedAndNoMoreThanASampleBears) {
+  const PortGuardConfig config{.handle_mass = 0.2};
+  const Vector3 rate(0.1, 0.0, 0.0);
+  PortGuard guard = opened(config);
+  guard.owe(1e-4);
+  // Owed beyond what is not worth a kick, over v² dt: 8e-5 / 1e-5 = 8 N s/m.
+  EXPECT_NEAR(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s).x(), -0.8, 1e-9);
+  EXPECT_TRUE(guard.injecting());
+  guard.owe(1.0);
+  EXPECT_NEAR(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s).x(),
+              -0.4 * 0.2 / kTick_s * 0.1, 1e-9);
+  EXPECT_EQ(guard.repay(2.0), 2.0 - 1.0001);
+  EXPECT_EQ(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s), Vector3::Zero());
+}
+
+}  // namespace
+}  // namespace longreach
