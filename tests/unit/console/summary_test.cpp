@@ -76,7 +76,7 @@ TEST(Summary, MeasuresOnAfterAHoldThatLeavesTheWallElsewhere) {
   const auto hold = [](double t, MasterView& view) {
     if (t < 15.0) return;
     if (t < 15.5) view.state = SafetyState::kHolding;
-    view.p_MH += 0.01 * view.inward;                         // the same wall, farther in for this hand
+    view.p_MH += 0.01 * view.inward;                          // the same wall, farther in for this hand
     if (t < 15.48 + kRttS + 1.0) view.spring_force_n *= 0.5;  // not settled
   };
   const Summary summary = probing(script(), hold).finish({});
