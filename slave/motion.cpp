@@ -74,6 +74,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     clamps.joint_speed = limited.speed;
     clamps.joint_position = limited.position || found.at_joint_limit;
     if (clamps.unreachable) ++failures_;
+    clamps.singularity = found.status == InverseStatus::kSingular;
     if (limited.any()) {
       limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
     } else if (found.status != InverseStatus::kFound || found.rotation_ignored) {

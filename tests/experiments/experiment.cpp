@@ -56,6 +56,11 @@ const std::vector<Experiment>& experiments() {
       {"delay-seeds",
        "The worst of many seeds, over every round trip and every named link that has no outage.",
        run_delay_seeds, delay_seeds_plots},
+      {"singular-paths",
+       "The tool straight through the wrist, elbow and shoulder singularities of a PUMA 560: its error, the "
+       "joints' "
+       "speeds.",
+       run_singular_paths, singular_paths_plots},
   };
   return kExperiments;
 }

@@ -90,5 +90,7 @@ std::vector<Metric> run_press_wall(const ExperimentRun& run);
 std::vector<Plot> press_wall_plots();
 std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
 std::vector<Plot> delay_seeds_plots();
+std::vector<Metric> run_singular_paths(const ExperimentRun& run);
+std::vector<Plot> singular_paths_plots();
 
 }  // namespace longreach

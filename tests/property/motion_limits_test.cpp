@@ -16,7 +16,7 @@ namespace longreach {
 namespace {
 
 constexpr double kDt = 1e-3;
-constexpr double kSettleS = 60.0;  // at most, after the goal has come to rest
+constexpr double kSettleS = 120.0;  // at most, after the goal has come to rest
 
 struct Worst {
   double position = 0.0;                               // rad beyond a limit
