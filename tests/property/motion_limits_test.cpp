@@ -278,13 +278,14 @@ TEST_P(Motion, KeepsEveryJointLimitOnEveryPath) {
       // It arrives, or it says that it is in its own way.
       const Outcome& outcome = drive.outcome;
       ASSERT_TRUE(outcome.arrived || outcome.blocked_s > kSettleS - 1.0) << name << ' ' << n;
-      // Braking for the goal and the few ms of the jerk limit go without saying; whatever is more is told.
+      // Braking for a goal that comes towards the tool and the few ms of the jerk limit go without saying;
+      // whatever is more is told.
       constexpr double kBraking = 0.8, kLateS = 0.008;  // share of the acceleration (vector_limit.hpp)
       const double v = command.speed_max_m_per_s, w = command.speed_max_rad_per_s;
-      ASSERT_LE(outcome.silent_m, 0.5 * v * v / (kBraking * command.acceleration_max_m_per_s2) + kLateS * v)
+      ASSERT_LE(outcome.silent_m, 2.0 * v * v / (kBraking * command.acceleration_max_m_per_s2) + kLateS * v)
           << name << ' ' << n;
       ASSERT_LE(outcome.silent_rad,
-                0.5 * w * w / (kBraking * command.acceleration_max_rad_per_s2) + kLateS * w)
+                2.0 * w * w / (kBraking * command.acceleration_max_rad_per_s2) + kLateS * w)
           << name << ' ' << n;
       summary.add(drive, kinematics.reach_m());
     }
