@@ -41,7 +41,17 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-/// The same of several directions at once, without branches: two for the price of one.
+/// Of the sine s, |s| <= kSmallSine, of an angle in (-π/2, π/2): Taylor's series, to a rounding of s.
+constexpr double kSmallSine = 0.1;
+inline double arc_of_small_sine(double s) {
+  const double z = s * s;
+  return s + s * z *
+                 (1.0 / 6.0 +
+                  z * (3.0 / 40.0 + z * (5.0 / 112.0 +
+                                         z * (35.0 / 1152.0 + z * (63.0 / 2816.0 + z * (231.0 / 13312.0))))));
+}
+
+/// The angles of several directions at once, without branches: two for the price of one.
 template <std::size_t n>
 inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&angle)[n]) {
   constexpr double kEighth = 0.41421356237309503, kTiny = 1e-300;

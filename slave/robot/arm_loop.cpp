@@ -151,6 +151,7 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
       loop.link[ArmLoop::kF] = half * loop.link[ArmLoop::kF];
     }
   }
+  loop.straight = loop.before.R == Matrix3::Identity() && loop.behind.R == Matrix3::Identity();
   loop.family = reading.family;
   loop.first_joint = reading.first_joint;
   loop.joint = open.joint;

@@ -42,12 +42,29 @@ struct ArmLoop {
   std::size_t pose_role = kF;                          // which of them holds the pose, as
   Rigid before{}, behind{};  // `before` X_WE^-1 `behind`, or with X_WE in a loop that runs backwards
   bool backwards = false;
+  bool straight = false;  // neither of them turns
   // Spherical: sin and cos of α_d, α_e. Parallel: a_d, a_e in m (cos unused).
   double first = 0.0, first_cos = 0.0, second = 0.0, second_cos = 0.0;
 };
 
 /// kNone where no closed form applies, or a joint is not revolute.
 ArmLoop recognise(const Kinematics& arm);
+
+/// The link that holds the pose; `loop` in shares of the reach, 1 / `per_m`.
+inline Rigid pose_link(const ArmLoop& loop, const Rigid& X_WE, double per_m) {
+  const Vector3 p = per_m * X_WE.p;
+  Rigid X;
+  if (loop.backwards) {
+    X.R = X_WE.R;
+    X.p.noalias() = p + X.R * loop.behind.p;
+  } else {
+    X.R = X_WE.R.transpose();
+    X.p.noalias() = X.R * (loop.behind.p - p);
+  }
+  if (!loop.straight) X = {loop.before.R * X.R * loop.behind.R, loop.before.R * X.p};
+  X.p += loop.before.p;
+  return X;
+}
 
 /// "spherical wrist (axes 4-5-6 meet), quadratic", "three parallel axes (2-3-4), fourth degree", ... The text
 /// is constant.

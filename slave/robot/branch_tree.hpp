@@ -4,11 +4,11 @@
 // when its angle alone is farther off than what was found.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "common/spatial/arc_tangent.hpp"
-#include "common/spatial/sin_cos.hpp"
 #include "slave/robot/closed_inverse.hpp"
 #include "slave/robot/turn.hpp"
 
@@ -17,24 +17,20 @@ namespace longreach {
 class BranchTree {
  public:
   using Role = ArmLoop::Role;
+  static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
 
-  BranchTree(const ArmLoop& loop, const JointVector& before_rad, Branches& out, bool nearest)
-      : joint_(loop.joint), before_rad_(before_rad), out_(out), nearest_(nearest) {
+  BranchTree(const ArmLoop& loop, const KnownJoints& before, Branches& out, bool nearest)
+      : joint_(loop.joint), before_(before), out_(out), nearest_(nearest) {
     out.count = 0;
   }
 
-  /// Both of two solutions for one angle.
+  /// Both signs of the sine of `aside` (>= 0), that on the side of `here` first: the angle before, from the
+  /// middle of both.
   template <typename Then>
-  void fork(Role role, const Turn& one, const Turn& other, const Then& then) {
-    if (!nearest_ || probing_) {
-      then(one);
-      then(other);
-      return;
-    }
-    const Turn here = before(role);
-    const double like_one = likeness(one, here), like_other = likeness(other, here);
-    then(like_one >= like_other ? one : other);
-    if (!too_far(std::min(like_one, like_other))) then(like_one >= like_other ? other : one);
+  void fork(const Turn& here, const Turn& aside, const Then& then) {
+    const Turn nearer{aside.c, std::copysign(aside.s, here.s)};
+    then(nearer);
+    if (!nearest_ || probing_ || !too_far(likeness(reversed(nearer), here))) then(reversed(nearer));
   }
 
   [[nodiscard]] bool too_far(Role role, const Turn& t) const {
@@ -49,11 +45,7 @@ class BranchTree {
     return {(from.x * to.x + from.y * to.y) * scale, (from.x * to.y - from.y * to.x) * scale};
   }
 
-  [[nodiscard]] Turn before(Role role) const {
-    const LoopJoint& j = joint_[role];
-    const SinCos t = sin_cos(j.sign * (before_rad_[j.joint] + j.theta_rad));
-    return {t.c, t.s};
-  }
+  [[nodiscard]] Turn before(Role role) const { return {before_.cos[role], before_.sin[role]}; }
 
   /// Least miss of the branches that `then` finds, which are not kept.
   template <typename Then>
@@ -72,35 +64,40 @@ class BranchTree {
     if (probing_) return;
     if (out_.count == Branches::kMax || (nearest_ && miss > ClosedInverse::kMissMax)) return;
     double angle[6];
-    arc_tangents(sin_, cos_, angle);
-    Branch& branch = out_.branch[nearest_ ? 0 : static_cast<std::size_t>(out_.count)];
-    JointVector joint_rad;
-    for (std::size_t role = 0; role < 6; ++role) {
-      const LoopJoint& j = joint_[role];
-      joint_rad[j.joint] = j.sign * angle[role] - j.theta_rad;
-    }
+    angles(angle);
     if (nearest_) {
       double square = 0.0;
-      for (int i = 0; i < kMaxJoints; ++i) {
-        const double change = nearest_turn(joint_rad[i] - before_rad_[i]);
-        joint_rad[i] = before_rad_[i] + change;
-        square += change * change;
-      }
+      for (const double a : angle) square += a * a;
       if (!(square < found_)) return;
       found_ = square;
       out_.count = 0;
     }
-    branch.joint_rad = joint_rad;
+    Branch& branch = out_.branch[static_cast<std::size_t>(out_.count)];
+    for (std::size_t role = 0; role < 6; ++role) {
+      const LoopJoint& j = joint_[role];
+      branch.joint_rad[j.joint] = before_.joint_rad[j.joint] + j.sign * angle[role];
+    }
     branch.miss = miss;
     ++out_.count;
   }
 
  private:
-  [[nodiscard]] bool too_far(double likeness) const { return 2.0 * (1.0 - likeness) >= found_; }  // <= x²
-  static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
+  // From those before: next to them a sine is enough.
+  void angles(double (&angle)[6]) const {
+    double s[6], c[6];
+    for (std::size_t role = 0; role < 6; ++role) {
+      s[role] = sin_[role] * before_.cos[role] - cos_[role] * before_.sin[role];
+      c[role] = cos_[role] * before_.cos[role] + sin_[role] * before_.sin[role];
+    }
+    const double least = std::min(std::min(std::min(c[0], c[2]), c[4]), std::min(std::min(c[1], c[3]), c[5]));
+    if (!(least >= kLike)) return arc_tangents(s, c, angle);
+    for (std::size_t role = 0; role < 6; ++role) angle[role] = arc_of_small_sine(s[role]);
+  }
 
+  static constexpr double kLike = 0.996;  // the sine is within kSmallSine
+  [[nodiscard]] bool too_far(double likeness) const { return 2.0 * (1.0 - likeness) >= found_; }  // <= x²
   const std::array<LoopJoint, 6>& joint_;
-  const JointVector& before_rad_;
+  const KnownJoints& before_;
   Branches& out_;
   bool nearest_, probing_ = false;
   double least_miss_ = std::numeric_limits<double>::infinity();

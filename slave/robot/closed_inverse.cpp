@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/spatial/sin_cos.hpp"
 #include "slave/robot/branch_tree.hpp"
 #include "slave/robot/least_aside.hpp"
 
@@ -15,52 +16,37 @@ using std::sqrt;
 /// One solve: the equations of the loop at one pose, and where solutions go. Lengths in shares of the reach.
 class Solving : BranchTree {
  public:
-  Solving(const ArmLoop& loop, const Rigid& X_WE, const JointVector& before_rad, Branches& out, bool nearest)
-      : BranchTree(loop, before_rad, out, nearest),
+  Solving(const ArmLoop& loop, const Rigid& X_WE, double per_m, const KnownJoints& before, Branches& out,
+          bool nearest)
+      : BranchTree(loop, before, out, nearest),
         loop_(loop),
-        pose_(loop.before * (loop.backwards ? X_WE : inverse(X_WE)) * loop.behind),
+        pose_(pose_link(loop, X_WE, per_m)),
         b_(loop.pose_role == Role::kB ? pose_ : loop.link[Role::kB]),
         c_(loop.pose_role == Role::kC ? pose_ : loop.link[Role::kC]),
         f_(loop.pose_role == Role::kF ? pose_ : loop.link[Role::kF]) {}
 
   void run() {
     spherical_ = loop_.family == ArmFamily::kSpherical;
-    if (spherical_) {
-      pose_point();
-    } else {
-      pose_direction();
-    }
-    if (loop_.triangular) {
-      solve_triangular();
-    } else {
-      solve_quartic();
-    }
+    spherical_ ? pose_point() : pose_direction();
+    loop_.triangular ? solve_triangular() : solve_quartic();
   }
 
  private:
   // Spherical: T_a L_a x = t with x = Rz(φ_b) y, y = l_b + A_b Rz(φ_c) l_c. Length and z of both sides.
   void pose_point() {
-    const Vector3 t = -(f_.R.transpose() * f_.p);
-    target_ = t;
-    const Vector3 ahead(c_.p.x(), c_.p.y(), 0.0), aside(-c_.p.y(), c_.p.x(), 0.0);
-    y0_ = b_.p + c_.p.z() * b_.R.col(2);
-    yc_ = b_.R * ahead;
-    ys_ = b_.R * aside;
-    const Vector3 twice = 2.0 * b_.p;
-    const double squares = c_.p.squaredNorm() + b_.p.squaredNorm() + twice.dot(b_.R.col(2)) * c_.p.z();
-    const double half = 0.5 * (t.squaredNorm() - loop_.a_m * loop_.a_m - squares);
-    x_ = {half, -b_.p.dot(yc_), -b_.p.dot(ys_)};
+    target_ = -(f_.R.transpose() * f_.p);
+    const Trig along = turned_part(b_.R.transpose() * b_.p, c_.p), up = component(2);
+    const double squares =
+        target_.squaredNorm() - loop_.a_m * loop_.a_m - b_.p.squaredNorm() - c_.p.squaredNorm();
+    x_ = {0.5 * squares - along.k, -along.c, -along.s};
     const double ca = loop_.cos_alpha;
-    y_ = {t.z() - ca * y0_.z(), -ca * yc_.z(), -ca * ys_.z()};
+    y_ = {target_.z() - ca * up.k, -ca * up.c, -ca * up.s};
   }
 
   // Parallel: Rz(φ_a)... n_c = n, and the distance along n, both seen from a: u = Rz(-φ_a) n.
   void pose_direction() {
     const Vector3 n_c = c_.R.col(2);
     target_ = f_.R.row(2).transpose();
-    y0_ = target_;
-    yc_.setZero();
-    ys_.setZero();
     const Trig along = turned_part(b_.R.transpose() * b_.p, n_c);
     const Trig across = turned_part(b_.R.row(2).transpose(), n_c);
     x_ = {-f_.p.z() - n_c.dot(c_.p) - along.k, -along.c, -along.s};
@@ -79,7 +65,8 @@ class Solving : BranchTree {
     const double sin = sqrt(std::max((R - f.k) * (R + f.k), 0.0)) / R;
     const double miss = std::max(std::abs(f.k) - R, 0.0);
     const Turn middle{f.c / R, f.s / R};
-    fork(Role::kC, middle * Turn{cos, sin}, middle * Turn{cos, -sin}, [&](const Turn& c) {
+    fork(reversed(middle) * before(Role::kC), {cos, sin}, [&](const Turn& aside) {
+      const Turn c = middle * aside;
       if (R < kVague) {
         open(c, ClosedInverse::kFree / R, miss);
       } else {
@@ -103,7 +90,8 @@ class Solving : BranchTree {
     begin(c);
     const bool x_vanishes = loop_.a_m == 0.0;
     const double known = x_vanishes ? at(y_, c) / loop_.sin_alpha : at(x_, c) / loop_.a_m;
-    double r = sqrt(y_at_.x() * y_at_.x() + y_at_.y() * y_at_.y()), side = known;
+    const double square = y_at_.x() * y_at_.x() + y_at_.y() * y_at_.y();
+    double r = sqrt(square), side = known;
     if (x_vanishes && !spherical_) {
       // The same direction seen from b: exact where it lies along the axis of b.
       r = sqrt(n_at_.x() * n_at_.x() + n_at_.y() * n_at_.y());
@@ -111,19 +99,20 @@ class Solving : BranchTree {
     }
     const double other = sqrt(std::max((r - side) * (r + side), 0.0));
     miss = std::max(miss, std::abs(side) - r);
-    const auto beta = [&](double root) {
-      return in_plane(x_vanishes ? Plane{root, known} : Plane{known, root});
-    };
-    fork(spherical_ ? Role::kB : Role::kA, beta(other), beta(-other),
-         [&](const Turn& t) { finish(t, miss); });
+    const Role role = spherical_ ? Role::kB : Role::kA;
+    if (!(std::min(square, known * known + other * other) > kFreeSquare)) return finish(before(role), miss);
+    Turn middle = unit(x_vanishes ? Turn{y_at_.y(), y_at_.x()} : Turn{y_at_.x(), -y_at_.y()});
+    if (!spherical_) middle = reversed(middle);
+    fork(reversed(middle) * before(role), unit({known, other}),
+         [&](const Turn& aside) { finish(middle * aside, miss); });
   }
 
   void solve_quartic() {
     const double a = loop_.a_m, s = loop_.sin_alpha;
     Trig2 F = squared(x_, s * s);
     double size = F.A;
-    for (const Trig2& term : {squared(y_, a * a), squared({y0_.x(), yc_.x(), ys_.x()}, -a * a * s * s),
-                              squared({y0_.y(), yc_.y(), ys_.y()}, -a * a * s * s)}) {
+    for (const Trig2& term :
+         {squared(y_, a * a), squared(component(0), -a * a * s * s), squared(component(1), -a * a * s * s)}) {
       size += std::abs(term.A);
       F.A += term.A, F.B += term.B, F.C += term.C, F.D += term.D, F.E += term.E;
     }
@@ -136,21 +125,23 @@ class Solving : BranchTree {
     }
   }
 
+  // Of r(c).
+  [[nodiscard]] Trig component(int i) const {
+    if (!spherical_) return {target_[i], 0.0, 0.0};
+    Trig f = turned_part(b_.R.row(i).transpose(), c_.p);
+    f.k += b_.p[i];
+    return f;
+  }
+
   // All that depends on φ_c alone.
   void begin(const Turn& c) {
-    y_at_ = y0_ + c.c * yc_ + c.s * ys_;
     set(Role::kC, c);
-    if (spherical_) {
-      Matrix3 R;
-      R.row(0) = c.c * c_.R.row(0) - c.s * c_.R.row(1);
-      R.row(1) = c.s * c_.R.row(0) + c.c * c_.R.row(1);
-      R.row(2) = c_.R.row(2);
-      chain_ = b_.R * R;
-    } else {
-      x_axis_ = b_.R * turned(c, c_.R.col(0));
-      origin_ = b_.p + b_.R * turned(c, c_.p);
-      n_at_ = b_.R * turned(c, c_.R.col(2));
-    }
+    c_turn_ = c;
+    origin_ = b_.p + b_.R * turned(c, c_.p);
+    y_at_ = spherical_ ? origin_ : target_;
+    if (spherical_) return;
+    x_axis_ = b_.R * turned(c, c_.R.col(0));
+    n_at_ = b_.R * turned(c, c_.R.col(2));
   }
 
   // (X, Y) = Rot(β) r, as φ_b or φ_a.
@@ -158,13 +149,7 @@ class Solving : BranchTree {
     return spherical_ ? direction(flat(y_at_), XY, Role::kB) : direction(XY, flat(y_at_), Role::kA);
   }
 
-  void finish(const Turn& turn, double miss) {
-    if (spherical_) {
-      wrist(turn, miss);
-    } else {
-      planar_arm(turn, miss);
-    }
-  }
+  void finish(const Turn& turn, double miss) { spherical_ ? wrist(turn, miss) : planar_arm(turn, miss); }
 
   void wrist(const Turn& b, double miss) {
     const double sin = loop_.sin_alpha, cos = loop_.cos_alpha;
@@ -173,23 +158,25 @@ class Solving : BranchTree {
     const Turn a = direction({x, y}, flat(target_), Role::kA);
     set(Role::kA, a);
     set(Role::kB, b);
-    // Rows of A_f Rz(φ_a) A_a Rz(φ_b) A_b Rz(φ_c) A_c: columns of what d, e, f have to turn.
-    const auto column = [&](int i) -> Vector3 {
-      const Vector3 row = turned_back(a, f_.R.row(i).transpose());
-      return chain_.transpose() *
-             turned_back(b, {row.x(), cos * row.y() + sin * row.z(), cos * row.z() - sin * row.y()});
-    };
-    const Vector3 m = column(2), x_column = column(0);
+    // Two rows of A_f Rz(φ_a) A_a Rz(φ_b) A_b Rz(φ_c) A_c: columns of what d, e, f have to turn.
+    Rows rows;
+    rows << f_.R.row(2), f_.R.row(0);
+    turn_back(rows, a);
+    const Eigen::Vector2d y_column = rows.col(1);
+    rows.col(1) = cos * y_column + sin * rows.col(2);
+    rows.col(2) = cos * rows.col(2) - sin * y_column;
+    turn_back(rows, b);
+    rows = Rows(rows * b_.R);
+    turn_back(rows, c_turn_);
+    rows = Rows(rows * c_.R);
+    const Vector3 m = rows.row(0), x_column = rows.row(1);
     const double sd = loop_.first, cd = loop_.first_cos, se = loop_.second, ce = loop_.second_cos;
     const double product = sd * se;
     const double level = m.x() * m.x() + m.y() * m.y();
     const double square = level - cd * cd - ce * ce + 2.0 * cd * ce * m.z();
     miss = std::max(miss, -square);
-    double cos_e = (cd * ce - m.z()) / product;
-    double sin_e = sqrt(std::max(square, 0.0)) / std::abs(product);
-    const double norm = 1.0 / sqrt(cos_e * cos_e + sin_e * sin_e);
-    cos_e *= norm, sin_e *= norm;
-    fork(Role::kE, {cos_e, sin_e}, {cos_e, -sin_e}, [&](const Turn& e) {
+    const double cos_e = (cd * ce - m.z()) / product, sin_e = sqrt(std::max(square, 0.0)) / std::abs(product);
+    fork(before(Role::kE), unit({cos_e, sin_e}), [&](const Turn& e) {
       const double kx = se * e.s, ky = -cd * se * e.c - sd * ce;
       const Turn d = direction({kx, ky}, flat(m), Role::kD);
       const Vector3 first = turned(d, {e.c, cd * e.s, sd * e.s});
@@ -254,7 +241,7 @@ class Solving : BranchTree {
     const double plus = (distance - difference) * (distance + difference) * scale;  // 1 + cos φ_e
     miss = std::max(miss, -minus * plus);
     const Turn e = unit({0.5 * (plus - minus), sqrt(std::max(minus * plus, 0.0))});
-    fork(Role::kE, e, reversed(e), [&](const Turn& elbow) {
+    fork(before(Role::kE), e, [&](const Turn& elbow) {
       const Turn w{one + two * elbow.c, -two * elbow.s};
       const Turn d = direction({w.c, -w.s}, {Q.c, Q.s}, Role::kD);
       set(Role::kD, d);
@@ -273,11 +260,10 @@ class Solving : BranchTree {
   const Rigid pose_;
   const Rigid &b_, &c_, &f_;
   bool spherical_ = false;
-  Vector3 target_;        // spherical: t; parallel: n
-  Vector3 y0_, yc_, ys_;  // r(c) = y0 + yc cos c + ys sin c
+  Vector3 target_;  // spherical: t; parallel: n
   Trig x_, y_;
-  Vector3 y_at_, x_axis_, origin_, n_at_;
-  Matrix3 chain_;
+  Turn c_turn_;
+  Vector3 y_at_, x_axis_, origin_, n_at_;  // y_at_: r(c)
 };
 
 }  // namespace
@@ -290,10 +276,21 @@ ClosedInverse::ClosedInverse(const Kinematics& arm) : loop_(recognise(arm)), per
   if (loop_.family == ArmFamily::kParallel) loop_.first *= per_m_, loop_.second *= per_m_;
 }
 
-void ClosedInverse::solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out,
-                          bool nearest) const {
-  const Rigid scaled{X_WE.R, per_m_ * X_WE.p};
-  Solving(loop_, scaled, before_rad, out, nearest).run();
+KnownJoints ClosedInverse::known(const JointVector& joint_rad) const {
+  std::array<double, 6> angle;
+  for (std::size_t role = 0; role < 6; ++role) {
+    const LoopJoint& j = loop_.joint[role];
+    angle[role] = j.sign * (joint_rad[j.joint] + j.theta_rad);
+  }
+  KnownJoints known;
+  known.joint_rad = joint_rad;
+  const std::array<SinCos, 6> turn = sin_cos(angle);
+  for (std::size_t role = 0; role < 6; ++role) known.cos[role] = turn[role].c, known.sin[role] = turn[role].s;
+  return known;
+}
+
+void ClosedInverse::solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest) const {
+  Solving(loop_, X_WE, per_m_, before, out, nearest).run();
 }
 
 }  // namespace longreach

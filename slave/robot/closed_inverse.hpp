@@ -22,8 +22,15 @@
 
 namespace longreach {
 
+/// Where the joints are, and so in which branch. Formed once, of use for every pose near them: next to them a
+/// solution's angles need no arc tangent.
+struct KnownJoints {
+  JointVector joint_rad;
+  double cos[6], sin[6];  // of the angles of the loop, a to f
+};
+
 struct Branch {
-  JointVector joint_rad;  // each angle from any turn
+  JointVector joint_rad;  // each angle on the turn nearest to the joints before
   double miss;  // 0: reached; else by how much an equation was missed, in sines and shares of the reach
 };
 
@@ -50,9 +57,12 @@ class ClosedInverse {
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
   /// `X_WE` finite. `nearest`: of all branches that miss by at most kMissMax only the one that is nearest to
-  /// `before_rad` (least Σ Δq², each angle on the nearest turn). Others are left out as soon as one angle
-  /// alone is farther off.
-  void solve(const Rigid& X_WE, const JointVector& before_rad, Branches& out, bool nearest = false) const;
+  /// `before` (least Σ Δq², each angle on the nearest turn). Others are left out as soon as one angle alone
+  /// is farther off: next to known joints all but the branch that they are in.
+  void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
+
+  /// `joint_rad` finite.
+  [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:
   ArmLoop loop_;  // its lengths in shares of the reach

@@ -40,12 +40,11 @@ std::string_view Inverse::words() const {
   return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
 }
 
-// Each angle on the turn nearest to the joints before that the limits allow. False: there is none.
-bool Inverse::place(const JointVector& solution, const JointVector& near_rad, JointVector& placed) const {
+// Each angle on the turn nearest to where it is that the limits allow. False: there is none.
+bool Inverse::place(const JointVector& solution, JointVector& placed) const {
   for (int i = 0; i < kMaxJoints; ++i) {
     const double low = numeric_.min_rad()[i], high = numeric_.max_rad()[i];
-    const double change = nearest_turn(solution[i] - near_rad[i]);
-    double q = near_rad[i] + change;
+    double q = solution[i];
     if (q > high + kSlack) q -= kTwoPi;
     if (q < low - kSlack) q += kTwoPi;
     if (!(q >= low - kSlack && q <= high + kSlack)) return false;
@@ -88,21 +87,22 @@ bool Inverse::reach(const Rigid& goal, const JointVector& joint_rad, Placed& pla
 }
 
 bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
+  const KnownJoints near = closed_.known(near_rad);
   Branches branches;
   if (prefer_ == BranchPreference::kNearest) {
-    closed_.solve(goal, near_rad, branches, true);
+    closed_.solve(goal, near, branches, true);
     if (branches.count == 1 && inside(branches.branch[0].joint_rad, kSlack) &&
         reach(goal, branches.branch[0].joint_rad, placed))
       return true;
   }
-  closed_.solve(goal, near_rad, branches);
+  closed_.solve(goal, near, branches);
   std::array<double, Branches::kMax> costs;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   for (int i = 0; i < branches.count; ++i) {
     const auto n = static_cast<std::size_t>(i);
     Branch& b = branches.branch[n];
     JointVector allowed;
-    const bool possible = b.miss <= ClosedInverse::kMissMax && place(b.joint_rad, near_rad, allowed);
+    const bool possible = b.miss <= ClosedInverse::kMissMax && place(b.joint_rad, allowed);
     costs[n] = possible ? cost(allowed, near_rad) : kNever;
     if (possible) b.joint_rad = allowed;
   }
@@ -208,7 +208,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
   Placed placed;
   if (closed_.applies()) {
     Branches branches;
-    closed_.solve(goal, near_rad, branches);
+    closed_.solve(goal, closed_.known(near_rad), branches);
     for (int i = 0; i < branches.count; ++i) {
       const Branch& b = branches.branch[static_cast<std::size_t>(i)];
       placed.joint_rad = b.joint_rad;

@@ -81,8 +81,7 @@ class Inverse {
   [[nodiscard]] bool inside(const JointVector& joint_rad, double slack_rad) const;
   [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
   [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;
-  [[nodiscard]] bool place(const JointVector& solution, const JointVector& near_rad,
-                           JointVector& placed) const;
+  [[nodiscard]] bool place(const JointVector& solution, JointVector& placed) const;
   [[nodiscard]] double cost(const JointVector& joint_rad, const JointVector& near_rad) const;
   [[nodiscard]] InverseResult report(const Placed& placed, double enough_m) const;
   [[nodiscard]] InverseResult iterate(const Rigid& goal, const JointVector& near_rad,

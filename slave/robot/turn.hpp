@@ -26,6 +26,16 @@ inline Vector3 turned_back(const Turn& t, const Vector3& v) {
   return {t.c * v.x() + t.s * v.y(), t.c * v.y() - t.s * v.x(), v.z()};
 }
 
+/// Two rows of a rotation.
+using Rows = Eigen::Matrix<double, 2, 3>;
+
+/// Times Rz(t).
+inline void turn_back(Rows& rows, const Turn& t) {
+  const Eigen::Vector2d x = rows.col(0);
+  rows.col(0) = t.c * x + t.s * rows.col(1);
+  rows.col(1) = t.c * rows.col(1) - t.s * x;
+}
+
 /// g·Rz(φ) v as a function of φ.
 inline Trig turned_part(const Vector3& g, const Vector3& v) {
   return {g.z() * v.z(), g.x() * v.x() + g.y() * v.y(), g.y() * v.x() - g.x() * v.y()};

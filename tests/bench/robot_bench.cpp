@@ -26,12 +26,14 @@ struct Motion {
       before[n] = q[n] + test::random_joints(random, 1e-3);
       goal[n] = inverse.kinematics().forward(q[n]);
       rigid[n] = to_rigid(goal[n]);
+      known[n] = inverse.closed().known(before[n]);
     }
   }
   Inverse inverse;
   std::array<JointVector, kPoses> q, before;
   std::array<Pose, kPoses> goal;
   std::array<Rigid, kPoses> rigid;
+  std::array<KnownJoints, kPoses> known;
 };
 
 RobotConfig arm(benchmark::State& state) {
@@ -59,24 +61,33 @@ void AllBranches(benchmark::State& state) {
   Branches branches;
   std::size_t n = 0;
   for (auto _ : state) {
-    m.inverse.closed().solve(m.rigid[n % kPoses], m.before[n % kPoses], branches);
+    m.inverse.closed().solve(m.rigid[n % kPoses], m.known[n % kPoses], branches);
     benchmark::DoNotOptimize(branches);
     ++n;
   }
 }
 BENCHMARK(AllBranches)->DenseRange(0, 3);
 
+/// That of the known joints, which is proven to be the nearest.
 void OneBranch(benchmark::State& state) {
   const Motion m(arm(state));
   Branches branches;
   std::size_t n = 0;
   for (auto _ : state) {
-    m.inverse.closed().solve(m.rigid[n % kPoses], m.before[n % kPoses], branches, true);
+    m.inverse.closed().solve(m.rigid[n % kPoses], m.known[n % kPoses], branches, true);
     benchmark::DoNotOptimize(branches);
     ++n;
   }
 }
 BENCHMARK(OneBranch)->DenseRange(0, 3);
+
+/// Once for all poses next to some joints.
+void KnowBranch(benchmark::State& state) {
+  const Motion m(arm(state));
+  std::size_t n = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(m.inverse.closed().known(m.before[n++ % kPoses]));
+}
+BENCHMARK(KnowBranch)->DenseRange(0, 3);
 
 /// The whole: nearest of all branches, checked and reported.
 void NearestBranch(benchmark::State& state) {

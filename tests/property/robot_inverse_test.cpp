@@ -110,5 +110,52 @@ TEST(RobotInverse, SolvesPosesThatAreSingularTwice) {
   }
 }
 
+// Formed once, known joints lead to the nearest of all solutions of a pose, however far away: no farther than
+// the joints that the pose was made from.
+TEST(RobotInverse, FindsTheBranchOfKnownJoints) {
+  std::vector<test::NamedArm> arms = test::ready_arms();
+  Random random(28);
+  for (const ArmFamily family : {ArmFamily::kSpherical, ArmFamily::kParallel}) {
+    for (std::size_t first = 0; first < 4; ++first)
+      arms.push_back({"random", test::random_arm(random, family, first)});
+  }
+  constexpr double kAside[] = {1e-12, 1e-6, 1e-3, 0.05, 0.09, 0.1, 0.2, 1.0, 3.0};
+  const auto square = [](const JointVector& q, const JointVector& from) {
+    return (q - from)
+        .unaryExpr([](double x) { return std::remainder(x, 4.0 * test::kHalfPi); })
+        .squaredNorm();
+  };
+  long poses = 0, beside_known = 0;
+  for (const test::NamedArm& arm : arms) {
+    const Inverse inverse(arm.robot);
+    const ClosedInverse& closed = inverse.closed();
+    Branches one, all;
+    for (int n = campaign(30'000, 300); n > 0; --n) {
+      const JointVector from = random_joints(random);
+      const KnownJoints known = closed.known(from);
+      for (const double aside : kAside) {
+        const JointVector q = from + random_joints(random, aside);
+        const Rigid goal = inverse.kinematics().rigid_forward(q);
+        closed.solve(goal, known, one, true);
+        closed.solve(goal, closed.known(random_joints(random)), all);
+        ASSERT_EQ(one.count, 1) << arm.name << " at " << q.transpose();
+        const JointVector& found = one.branch[0].joint_rad;
+        double least = square(q, from) + 1e-6, apart = 1.0;
+        for (int i = 0; i < all.count; ++i) {
+          const Branch& b = all.branch[static_cast<std::size_t>(i)];
+          if (b.miss > ClosedInverse::kMissMax) continue;
+          least = std::min(least, square(b.joint_rad, from));
+          apart = std::min(apart, test::apart(b.joint_rad, found));
+        }
+        ASSERT_LE(apart, 1e-14) << arm.name << " at " << q.transpose() << ", known at " << from.transpose();
+        ASSERT_LE((found - from).squaredNorm(), least + 1e-13) << arm.name << " at " << q.transpose();
+        ++poses;
+        beside_known += test::apart(found, q) < 1e-6 ? 1 : 0;
+      }
+    }
+  }
+  std::printf("known joints: %ld poses, %ld in their branch\n", poses, beside_known);
+}
+
 }  // namespace
 }  // namespace longreach

@@ -47,5 +47,13 @@ TEST(ArcTangent, CarriesWhatIsNotANumber) {
   EXPECT_TRUE(std::isnan(arc_tangent(nan, nan)));
 }
 
+TEST(ArcOfSmallSine, IsExactToARoundingOfTheSine) {
+  for (int n = -1000; n <= 1000; ++n) {
+    const double s = kSmallSine * n / 1000.0;
+    const long double exact = std::asin(static_cast<long double>(s));
+    EXPECT_LE(std::abs(static_cast<double>(arc_of_small_sine(s) - exact)), 2.3e-16 * std::abs(s)) << s;
+  }
+}
+
 }  // namespace
 }  // namespace longreach
