@@ -135,7 +135,8 @@ TEST_F(SolveRobot, AnswersAboutEveryRobotThatShips) {
 // Rows in place; the same as the file says.
 TEST_F(SolveRobot, TakesRowsInPlace) {
   Json rows = Json::array();
-  for (const JointConfig& j : test::ready_arms()[2].robot.joint)
+  const RobotConfig ur10 = test::ready_arms()[2].robot;
+  for (const JointConfig& j : ur10.joint)
     rows.push_back({{"a", j.a_m}, {"alpha", j.alpha_rad}, {"d", j.d_m}, {"theta", j.theta_rad}});
   const Json q = {0.1, -1.0, 1.2, 0.3, 0.8, -2.0};
   EXPECT_EQ(answer("robot-fk", {{"dh", rows}, {"q", q}}), answer("robot-fk", {{"robot", "ur10"}, {"q", q}}));
