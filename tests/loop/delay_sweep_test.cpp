@@ -12,11 +12,16 @@
 namespace longreach {
 namespace {
 
-TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
+std::map<std::string, double> metrics_of(std::vector<Metric> (*experiment)(const ExperimentRun&)) {
   ExperimentRun run;
   run.config = configure({}, LONGREACH_DEPLOY);
-  std::map<std::string, double> m;
-  for (const Metric& metric : run_delay_sweep(run)) m[metric.name] = metric.value;
+  std::map<std::string, double> values;
+  for (const Metric& metric : experiment(run)) values[metric.name] = metric.value;
+  return values;
+}
+
+TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
+  const std::map<std::string, double> m = metrics_of(run_delay_sweep);
 
   EXPECT_LE(m.at("direct_limit_error_max"), 0.05);
   EXPECT_LE(m.at("direct_table_error_max"), 0.15);
@@ -35,10 +40,7 @@ TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
 }
 
 TEST(DelaySweep, EverySeedIsRightOverEveryLinkAndAReleasedHandIsCalm) {
-  ExperimentRun run;
-  run.config = configure({}, LONGREACH_DEPLOY);
-  std::map<std::string, double> m;
-  for (const Metric& metric : run_delay_seeds(run)) m[metric.name] = metric.value;
+  const std::map<std::string, double> m = metrics_of(run_delay_seeds);
 
   EXPECT_GE(m.at("links"), 10.0);
   EXPECT_EQ(m.at("held_within_5_percent"), m.at("held_runs"));
