@@ -44,56 +44,68 @@ Intersection intersect(const Points& centre, double rod, double side) {
   return result;
 }
 
+using Legs = DeltaLegs;
+
+Legs next(const Legs& a) { return {a[1], a[2], a[0], a[1]}; }
+Legs after_next(const Legs& a) { return {a[2], a[0], a[1], a[2]}; }
+double sum(const Legs& a) { return a[0] + a[1] + a[2]; }
+
+/// A vector for each leg.
+struct LegVectors {
+  Legs x, y, z;
+};
+
 class OffsetSolver {
  public:
   OffsetSolver(const DeltaGeometry& g, const Vector3& theta) : g_(g) {
-    for (int i = 0; i < 3; ++i) {
-      const SinCos turn = sin_cos(theta[i]);
-      elbow_[i] = g.elbow(i, turn.c, turn.s);
-      outwards_[i] = g.to_world(i, Vector3::UnitX());
-    }
+    const auto turn = sin_cos(std::array{theta[0], theta[1], theta[2], theta[0]});
+    const Legs out = g.radius_m() + g.arm_m() * Legs(turn[0].c, turn[1].c, turn[2].c, turn[3].c);
+    elbow_.x = g.cos_azimuth() * out - g.sin_azimuth() * g.side_m();
+    elbow_.y = g.sin_azimuth() * out + g.cos_azimuth() * g.side_m();
+    elbow_.z = (g.up() * g.arm_m()) * Legs(turn[0].s, turn[1].s, turn[2].s, turn[3].s);
   }
 
   /// From `start` to a position that closes all loops, in `assembly`.
   [[nodiscard]] DeltaPosition solve(const Vector3& start, DeltaAssembly assembly, double trusted) const;
-  [[nodiscard]] const Points& elbows() const { return elbow_; }
-
- private:
-  /// What is left of the way from elbow i to p without the offset, which lies in the plane of the leg; the
-  /// parallelogram is folded through itself where `share` (offset over way in the plane) is over 1.
-  [[nodiscard]] Vector3 rod(int i, const Vector3& p, double& share) const {
-    const Vector3 d = p - elbow_[i];
-    const double cos = outwards_[i].x(), sin = outwards_[i].y();
-    const double out = cos * d.x() + sin * d.y();
-    share = g_.offset_m() / std::sqrt(out * out + d.z() * d.z());
-    const double less = share * out;
-    return {d.x() - less * cos, d.y() - less * sin, d.z() - share * d.z()};
+  [[nodiscard]] Points elbows() const {
+    Points all;
+    for (int i = 0; i < 3; ++i) all[i] = {elbow_.x[i], elbow_.y[i], elbow_.z[i]};
+    return all;
   }
 
+ private:
   const DeltaGeometry& g_;
-  Points elbow_, outwards_;
+  LegVectors elbow_;
 };
 
 DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, double trusted) const {
   const double length = g_.rod_m(), length2 = length * length, side = sign(assembly);
+  const Legs &cos = g_.cos_azimuth(), &sin = g_.sin_azimuth();
   DeltaPosition result{SolutionStatus::kNotConverged, start, 0};
   double trust = 0.0;
   while (result.iterations < DeltaKinematics::kMaxIterations) {
-    Points n;
-    Vector3 excess, share;
-    for (int i = 0; i < 3; ++i) {
-      n[i] = rod(i, result.p_m, share[i]);
-      excess[i] = 0.5 * (n[i].squaredNorm() - length2);
-    }
-    const Vector3 n23 = n[1].cross(n[2]);
-    const double volume = n[0].dot(n23), regularity = volume * side / (length2 * length);
+    // The way from the elbow to p, its part outwards, and what the offset, in the plane of the leg, leaves of
+    // it. The parallelogram is folded through itself where `share` (offset over way in the plane) is over 1.
+    const Legs x = result.p_m.x() - elbow_.x, y = result.p_m.y() - elbow_.y, z = result.p_m.z() - elbow_.z;
+    const Legs out = cos * x + sin * y;
+    const Legs share = g_.offset_m() / (out * out + z * z).sqrt();
+    const Legs less = share * out;
+    const LegVectors n{x - less * cos, y - less * sin, z - share * z};
+    const Legs excess = 0.5 * (n.x * n.x + n.y * n.y + n.z * n.z - length2);
+    // n2 x n3, n3 x n1, n1 x n2
+    const LegVectors one{next(n.x), next(n.y), next(n.z)},
+        two{after_next(n.x), after_next(n.y), after_next(n.z)};
+    const LegVectors across{one.y * two.z - one.z * two.y, one.z * two.x - one.x * two.z,
+                            one.x * two.y - one.y * two.x};
+    const double volume = n.x[0] * across.x[0] + n.y[0] * across.y[0] + n.z[0] * across.z[0];
+    const double regularity = volume * side / (length2 * length);
     if (!(regularity > kFlat)) {
       result.status = SolutionStatus::kSingular;
       return result;
     }
     if (result.iterations++ == 0) trust = trusted * length * regularity;
     Vector3 step =
-        (excess[0] * n23 + excess[1] * n[2].cross(n[0]) + excess[2] * n[0].cross(n[1])) * (1.0 / volume);
+        Vector3(sum(excess * across.x), sum(excess * across.y), sum(excess * across.z)) * (1.0 / volume);
     const double step2 = step.squaredNorm();
     if (step2 > length2 / 16.0) step *= 0.25 * length / std::sqrt(step2);
     result.p_m -= step;

@@ -65,14 +65,15 @@ DeltaGeometry::DeltaGeometry(const DeltaDimensions& d)
 }
 
 void DeltaGeometry::place_legs(const std::array<double, 3>& azimuth_rad) {
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     finite("azimuth", azimuth_rad[i]);
     cos_[i] = std::cos(azimuth_rad[i]);
     sin_[i] = std::sin(azimuth_rad[i]);
   }
+  cos_[3] = cos_[0], sin_[3] = sin_[0];
   double turn = 0.0;  // twice the area of the triangle of the three directions: positive counterclockwise
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
     const double sine = cos_[i] * sin_[j] - sin_[i] * cos_[j];
     const double cosine = cos_[i] * cos_[j] + sin_[i] * sin_[j];
     if (std::abs(sine) < kSameAzimuth && cosine > 0.0)

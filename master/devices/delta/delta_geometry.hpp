@@ -52,6 +52,9 @@ struct DeltaDimensions {
 /// rods.
 enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
 
+/// A number for each leg, the first leg's once more at the end: two legs at a time.
+using DeltaLegs = Eigen::Array4d;
+
 class DeltaGeometry {
  public:
   explicit DeltaGeometry(const DeltaSimple& simple);
@@ -65,6 +68,9 @@ class DeltaGeometry {
   [[nodiscard]] double side_m() const { return side_; }      // s - f
   [[nodiscard]] double up() const { return up_; }            // +1 or -1: positive θ turns the arms to up * z
   [[nodiscard]] double size_m() const { return arm_ + rod_ + offset_; }
+
+  [[nodiscard]] const DeltaLegs& cos_azimuth() const { return cos_; }
+  [[nodiscard]] const DeltaLegs& sin_azimuth() const { return sin_; }
 
   /// World coordinates of a vector in the frame of leg i.
   [[nodiscard]] Vector3 to_world(int i, const Vector3& leg) const {
@@ -92,7 +98,7 @@ class DeltaGeometry {
   [[nodiscard]] double gap(const Vector3& p) const;
 
   double arm_, rod_, offset_, radius_, side_, up_;
-  std::array<double, 3> cos_{}, sin_{};
+  DeltaLegs cos_ = DeltaLegs::Zero(), sin_ = DeltaLegs::Zero();  // of the azimuths
   DeltaAssembly working_ = DeltaAssembly::kPositive;
 };
 

@@ -15,9 +15,13 @@ bool DeltaHandle::read(const Vector3& theta_rad, double dt_s) {
     const DeltaPositions all = kinematics_.forward_all(theta_rad);
     if (all.status == SolutionStatus::kFound) p_ = all.p_m[0];
   }
-  const DeltaPosition found = kinematics_.forward(theta_rad, kinematics_.geometry().working_assembly(), p_);
+  const DeltaAssembly assembly = kinematics_.geometry().working_assembly();
+  DeltaPosition found = kinematics_.forward(theta_rad, assembly, p_ + stride_);
+  if (found.status != SolutionStatus::kFound) found = kinematics_.forward(theta_rad, assembly, p_);
+  stride_.setZero();
   if (found.status != SolutionStatus::kFound) return false;
-  if (started_ && dt_s > 0.0) v_ += dt_s / (dt_s + filter_s_) * ((found.p_m - p_) / dt_s - v_);
+  if (started_) stride_ = found.p_m - p_;
+  if (started_ && dt_s > 0.0) v_ += dt_s / (dt_s + filter_s_) * (stride_ / dt_s - v_);
   p_ = found.p_m;
   theta_ = theta_rad;
   started_ = true;

@@ -29,6 +29,7 @@ class DeltaHandle {
   Vector3 gravity_;  // to compensate, m/s²
   double filter_s_;
   Vector3 p_;
+  Vector3 stride_ = Vector3::Zero();  // of the last sample: the next one is sought where it leads on
   Vector3 v_ = Vector3::Zero();
   Vector3 theta_ = Vector3::Zero();
   bool started_ = false;

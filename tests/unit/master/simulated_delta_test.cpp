@@ -1,4 +1,5 @@
 #include "master/devices/delta/simulated_delta.hpp"
+#include "master/devices/delta/delta_handle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,25 @@ TEST(DeltaDynamics, WeighsWhatThePotentialEnergyLoses) {
       EXPECT_LT((d.weight(d.pose(p), gravity) - force).norm(), 1e-7);
     }
   }
+}
+
+TEST(DeltaHandle, ReadsOnWhereAStrideLeadsAstray) {
+  const DeltaDynamics d(with_offset().delta);
+  DeltaHandle handle(with_offset());
+  const Vector3 stride = 0.015 * Vector3(0.76, 0.65, 0.08).normalized();  // until one more would lead too far
+  const auto found_from_next = [&](const Vector3& p) {
+    const DeltaAssembly assembly = d.geometry().working_assembly();
+    return d.kinematics().forward(theta(d, p), assembly, p + stride).status == SolutionStatus::kFound;
+  };
+  Vector3 p = d.home_m();
+  ASSERT_TRUE(handle.read(theta(d, p), 0.0));
+  for (int n = 0; n < 10 && found_from_next(p); ++n) {
+    p += stride;
+    ASSERT_TRUE(handle.read(theta(d, p), 1e-3)) << p.z();
+  }
+  ASSERT_FALSE(found_from_next(p));
+  ASSERT_TRUE(handle.read(theta(d, p), 1e-3)) << "the hand stands still";
+  EXPECT_LT((handle.position_m() + d.home_m() - p).norm(), 1e-14);
 }
 
 TEST(SimulatedDelta, KeepsItsEnergyInFreeMotion) {
