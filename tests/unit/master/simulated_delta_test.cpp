@@ -103,7 +103,7 @@ TEST(DeltaDynamics, WeighsWhatThePotentialEnergyLoses) {
 TEST(DeltaHandle, ReadsOnWhereAStrideLeadsAstray) {
   const DeltaDynamics d(with_offset().delta);
   DeltaHandle handle(with_offset());
-  const Vector3 stride = 0.015 * Vector3(0.76, 0.65, 0.08).normalized();  // until one more would lead too far
+  const Vector3 stride = 0.015 * Vector3(1.0, -0.2, 0.2).normalized();  // until one more would lead too far
   const auto found_from_next = [&](const Vector3& p) {
     const DeltaAssembly assembly = d.geometry().working_assembly();
     return d.kinematics().forward(theta(d, p), assembly, p + stride).status == SolutionStatus::kFound;
