@@ -53,8 +53,12 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
                config.scene().surface_size());
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
-  if (config.scene().surface().empty())
-    spdlog::info("left out=\"contact, estimation\" because=\"free space\"");
+  const NeedsConfig needed = needs(to_struct(config).scene);
+  std::string left_out;
+  if (!needed.contact) left_out = "contact, estimation";
+  if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
+  if (!left_out.empty())
+    spdlog::info("left out=\"{}\" because=\"the scene {} needs none\"", left_out, config.scene().name());
 }
 
 int serve(const ProgramOptions& options) {

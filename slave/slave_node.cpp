@@ -51,7 +51,7 @@ struct SlaveNode::State {
   explicit State(const SlaveConfig& config)
       : link(config.link),
         loop_hz(config.loop.rate_hz),
-        touchable(!config.scene.surface.empty()),
+        touchable(needs(config.scene).contact),
         safety(config.safety),
         motion(config.command, config.robot),
         contact(config.sensing, config.estimator),
@@ -71,7 +71,7 @@ struct SlaveNode::State {
 
   SlaveLinkConfig link;
   double loop_hz;
-  bool touchable;  // the scene has surfaces: else there is no contact, sensor or estimator
+  bool touchable;  // else there is no contact, sensor or estimator
   SlaveSafety safety;
   SlaveMotion motion;
   SlaveContact contact;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -148,19 +149,70 @@ Finding check_names(const Message& parent, const char* list, const List& element
   return std::nullopt;
 }
 
+// Exactly one shape, or a violation at the surface or at the second one.
+Finding check_shape(const proto::Surface& surface) {
+  const FieldDescriptor* first = nullptr;
+  std::vector<const FieldDescriptor*> fields;
+  surface.GetReflection()->ListFields(surface, &fields);
+  for (const FieldDescriptor* field : fields) {
+    if (!holds_messages(*field) || field->message_type() == proto::Movement::descriptor()) continue;
+    if (first) {
+      return Violation{{{field, -1}},
+                       " is a second shape beside " + std::string(first->name()) + "; a surface has one"};
+    }
+    first = field;
+  }
+  if (first) return std::nullopt;
+  return Violation{{}, " has no shape; give it a plane, sphere, box, cylinder or hinge"};
+}
+
+Finding check_surfaces(const proto::Scene& scene) {
+  Names known;
+  std::map<std::string, std::string> material_of_body;
+  for (const proto::Material& material : scene.material()) known.push_back(material.name());
+  for (int i = 0; i < scene.surface_size(); ++i) {
+    const proto::Surface& surface = scene.surface(i);
+    const std::string& wanted = surface.material();
+    if (std::ranges::find(known, wanted) == known.end()) {
+      return at_element(
+          scene, "surface", i, "material",
+          " = \"" + wanted + "\" is not a material of the scene" + instead_of(wanted, known, "it has"));
+    }
+    if (surface.body().empty()) continue;
+    const auto [body, first] = material_of_body.try_emplace(surface.body(), wanted);
+    if (!first && body->second != wanted) {
+      return at_element(scene, "surface", i, "material",
+                        " = \"" + wanted + "\" is another one than \"" + body->second + "\" of the body \"" +
+                            surface.body() + "\"; a body has one material");
+    }
+  }
+  return std::nullopt;
+}
+
+// What it says that it needs covers what its surfaces need.
+Finding check_needs(const proto::Scene& scene) {
+  if (!scene.has_needs()) return std::nullopt;
+  for (int i = 0; i < scene.surface_size(); ++i) {
+    const bool turns = scene.surface(i).has_hinge();
+    if (turns ? scene.needs().rotation() : scene.needs().contact()) continue;
+    return at(scene, "needs",
+              " leaves out " + std::string(turns ? "rotation" : "contact") + ", which the surface \"" +
+                  scene.surface(i).name() + "\" needs");
+  }
+  return std::nullopt;
+}
+
+Finding check_path(const proto::Path& path) {
+  if (path.waypoint_size() >= 2) return std::nullopt;
+  return at(path, "waypoint",
+            " has " + std::to_string(path.waypoint_size()) + " elements; a way has two ends");
+}
+
 Finding check_scene(const proto::Scene& scene) {
   if (auto finding = check_names(scene, "material", scene.material())) return finding;
   if (auto finding = check_names(scene, "surface", scene.surface())) return finding;
-  Names known;
-  for (const proto::Material& material : scene.material()) known.push_back(material.name());
-  for (int i = 0; i < scene.surface_size(); ++i) {
-    const std::string& wanted = scene.surface(i).material();
-    if (std::ranges::find(known, wanted) != known.end()) continue;
-    return at_element(
-        scene, "surface", i, "material",
-        " = \"" + wanted + "\" is not a material of the scene" + instead_of(wanted, known, "it has"));
-  }
-  return std::nullopt;
+  if (auto finding = check_surfaces(scene)) return finding;
+  return check_needs(scene);
 }
 
 Finding check_mapping(const proto::Mapping& mapping) {
@@ -178,8 +230,16 @@ Finding check_message(const Message& message) {
   if (const auto* robot = dynamic_cast<const proto::Robot*>(&message)) return check_robot(*robot);
   if (const auto* scene = dynamic_cast<const proto::Scene*>(&message)) return check_scene(*scene);
   if (const auto* mapping = dynamic_cast<const proto::Mapping*>(&message)) return check_mapping(*mapping);
+  if (const auto* surface = dynamic_cast<const proto::Surface*>(&message)) return check_shape(*surface);
+  if (const auto* path = dynamic_cast<const proto::Path*>(&message)) return check_path(*path);
   if (const auto* plane = dynamic_cast<const proto::Plane*>(&message)) {
     return is_direction(*plane, "normal", plane->normal());
+  }
+  if (const auto* cylinder = dynamic_cast<const proto::Cylinder*>(&message)) {
+    return is_direction(*cylinder, "axis", cylinder->axis());
+  }
+  if (const auto* hinge = dynamic_cast<const proto::Hinge*>(&message)) {
+    return is_direction(*hinge, "axis", hinge->axis());
   }
   if (const auto* script = dynamic_cast<const proto::Operator*>(&message)) {
     return is_direction(*script, "direction", script->direction());

@@ -55,11 +55,13 @@ void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
 
 void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
   proto::SlaveConfig resolved = config;
-  resolve_robot(resolved, deploy_folder);
   // A scene in place is complete, also when it is empty: free space.
   if (!resolved.has_scene()) {
     *resolved.mutable_scene() = load_part<proto::Scene>(deploy_folder, resolved.scene_file(), "scene");
   }
+  const std::string& made_for = resolved.scene().robot_file();
+  if (!resolved.has_robot_file() && !made_for.empty()) resolved.set_robot_file(made_for);
+  resolve_robot(resolved, deploy_folder);
   validate(resolved);
   config.Swap(&resolved);
 }

@@ -3,17 +3,11 @@
 // called with the field's name and the member; members are numbers, flags, texts, enums, vectors, structs or
 // lists of structs.
 
-#include <concepts>
-#include <type_traits>
-
+#include "common/config/scene_fields.hpp"
 #include "master/master_config.hpp"
 #include "slave/slave_config.hpp"
 
 namespace longreach {
-
-/// T, const or not.
-template <class S, class T>
-concept Is = std::same_as<std::remove_const_t<S>, T>;
 
 template <class Visitor, Is<ImpairmentConfig> S>
 void visit_fields(Visitor& visit, S& s) {
@@ -277,36 +271,6 @@ void visit_fields(Visitor& visit, S& s) {
   visit("convention", s.convention);
   visit("tool", s.tool);
   visit("prefer", s.prefer);
-}
-
-template <class Visitor, Is<MaterialConfig> S>
-void visit_fields(Visitor& visit, S& s) {
-  visit("name", s.name);
-  visit("stiffness_n_per_m", s.stiffness_n_per_m);
-  visit("reference_depth_m", s.reference_depth_m);
-  visit("exponent", s.exponent);
-  visit("damping_s_per_m", s.damping_s_per_m);
-}
-
-template <class Visitor, Is<PlaneConfig> S>
-void visit_fields(Visitor& visit, S& s) {
-  visit("point_m", s.point_m);
-  visit("normal", s.normal);
-  visit("from_tool_start", s.from_tool_start);
-}
-
-template <class Visitor, Is<SurfaceConfig> S>
-void visit_fields(Visitor& visit, S& s) {
-  visit("name", s.name);
-  visit("material", s.material);
-  visit("plane", s.plane);
-}
-
-template <class Visitor, Is<SceneConfig> S>
-void visit_fields(Visitor& visit, S& s) {
-  visit("name", s.name);
-  visit("material", s.material);
-  visit("surface", s.surface);
 }
 
 template <class Visitor, Is<SensingConfig> S>

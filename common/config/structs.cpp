@@ -3,6 +3,7 @@
 #include <google/protobuf/message.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "common/config/config.hpp"
@@ -92,6 +93,10 @@ class Reader {
     Reader reader(reflection_.GetMessage(message_, field_of(message_, name)));
     visit_fields(reader, v);
   }
+  template <Section S>
+  void operator()(const char* name, std::optional<S>& v) {
+    if (reflection_.HasField(message_, field_of(message_, name))) (*this)(name, v.emplace());
+  }
   // Absent: the struct keeps its default.
   void operator()(const char* name, Vector3& v) {
     const FieldDescriptor* field = field_of(message_, name);
@@ -142,6 +147,10 @@ class Writer {
   void operator()(const char* name, const Section auto& v) {
     Writer writer(*reflection_.MutableMessage(&message_, field_of(message_, name)));
     visit_fields(writer, v);
+  }
+  template <Section S>
+  void operator()(const char* name, const std::optional<S>& v) {
+    if (v) (*this)(name, *v);
   }
   void operator()(const char* name, const Vector3& v) {
     for (int i = 0; i < 3; ++i) reflection_.AddDouble(&message_, field_of(message_, name), v[i]);

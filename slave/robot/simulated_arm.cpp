@@ -50,7 +50,7 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       sensing_(config.sensing),
       kinematics_(config.robot),
       X_WE_start_(kinematics_.forward(start_joints(config.robot))),
-      scene_(config.scene, X_WE_start_.p),
+      scene_(config.scene, X_WE_start_),
       random_(random),
       joint_rad_(start_joints(config.robot)),
       servo_rad_(joint_rad_),
@@ -64,6 +64,7 @@ RobotState SimulatedArm::read(Time now) {
     stopped_ = true;
     setpoint_rad_ = servo_rad_;
   }
+  t_s_ += dt;
   move(dt);
   feel();
   RobotState state;
@@ -108,10 +109,11 @@ void SimulatedArm::feel() {
   const ToolKinematics tool = kinematics_.forward_with_jacobian(joint_rad_);
   X_WE_ = tool.X_WE;
   v_WE_ = tool.J.bottomRows<3>() * joint_rad_per_s_;
-  contact_ = scene_.contact({X_WE_.p, v_WE_});
+  const Vector3 w_WE = tool.J.topRows<3>() * joint_rad_per_s_;
+  contact_ = scene_.contact({X_WE_.p, v_WE_, X_WE_.q, w_WE, t_s_});
   if (contact_.surface >= 0) surface_ = contact_.surface;
-  F_E_W_ = {Vector3::Zero(), contact_.force_n};
-  torque_nm_ = tool.J.bottomRows<3>().transpose() * contact_.force_n;
+  F_E_W_ = {contact_.moment_nm, contact_.force_n};
+  torque_nm_ = tool.J.transpose() * (Vector6() << F_E_W_.moment, F_E_W_.force).finished();
 }
 
 double SimulatedArm::material_secant(double depth_m) const {

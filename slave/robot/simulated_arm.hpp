@@ -50,6 +50,7 @@ class SimulatedArm : public Robot {
   Scene scene_;
   Random random_;
   std::optional<Time> now_{};
+  double t_s_ = 0.0;  // since the first read
   std::optional<Time> written_{};
   JointVector joint_rad_;
   JointVector joint_rad_per_s_ = JointVector::Zero();

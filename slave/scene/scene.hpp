@@ -1,44 +1,83 @@
 #pragma once
-// What the tool meets: infinite planes of Hunt-Crossley material (Hunt, Crossley 1975), forces summed,
-//   F = max(0, k pⁿ (1 + a v)),   p = n·(point - p_E) > 0,   v = -n·v_E,   k = stiffness /
-//   reference_depth^(n-1)
-// and 0 without penetration: it never pulls. No friction, no moment; the tool is a point whose motion is
-// imposed.
+// What the tool meets: solids of Hunt-Crossley material (hunt_crossley.hpp). Tool: a sphere about E, or the
+// point E.
+//   depth p = radius - distance of E from the solid,   v = ṗ,   F = max(0, k pⁿ (1 + a v)) along the way out,
+//   k = stiffness / reference_depth^(n-1)
+// Bodies push each on its own, the forces are summed; of the surfaces of one body only the deepest pushes, so
+// that a union has no force inside. A hinge resists rotation: with the turn θ of the tool about its axis
+// since the start,
+//   p = arm (θ - angle),   M = -F arm ∂θ
+// No friction. The tool's motion is given. Bodies at rest and of finite size are found through a tree of
+// bounds.
 
 #include <vector>
 
+#include "slave/scene/bounds_tree.hpp"
+#include "slave/scene/hunt_crossley.hpp"
 #include "slave/scene/scene_config.hpp"
+#include "slave/scene/shape.hpp"
 
 namespace longreach {
 
 struct ToolMotion {
-  Vector3 p_WE = Vector3::Zero();  // m
-  Vector3 v_WE = Vector3::Zero();  // m/s
+  Vector3 p_WE = Vector3::Zero();            // m
+  Vector3 v_WE = Vector3::Zero();            // m/s
+  Quaternion q_WE = Quaternion::Identity();  // of E in W
+  Vector3 w_WE = Vector3::Zero();            // rad/s, in W
+  double t_s = 0.0;                          // since the start: moving surfaces
 };
 
 struct SceneContact {
-  Vector3 force_n = Vector3::Zero();  // by the scene on the tool, in W
-  double depth_m = 0.0;               // of the deepest penetration; 0 without contact
-  int surface = -1;                   // index of the deepest surface; -1 without contact
+  Vector3 force_n = Vector3::Zero();    // by the scene on the tool at E, in W
+  Vector3 moment_nm = Vector3::Zero();  // likewise
+  Vector3 normal = Vector3::Zero();  // out of the deepest surface, unit; zero without contact and for a hinge
+  double depth_m = 0.0;              // of the deepest penetration; 0 without contact
+  int surface = -1;                  // index of the deepest surface; -1 without contact
+  int contacts = 0;                  // bodies and hinges that are touched
+  int asked = 0;                     // surfaces whose distance was computed
 };
 
 class Scene {
  public:
-  /// Throws std::invalid_argument if a surface names an unknown material or its normal is not a direction.
-  Scene(const SceneConfig& config, const Vector3& tool_start_m);
+  /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or a direction is
+  /// none.
+  Scene(const SceneConfig& config, const Pose& X_WE_start);
 
-  [[nodiscard]] bool empty() const { return surfaces_.empty(); }
+  [[nodiscard]] bool empty() const { return bodies_.empty() && hinges_.empty(); }
   [[nodiscard]] SceneContact contact(const ToolMotion& tool) const;
 
   /// Static F/p of surface `surface` at `depth_m` > 0, N/m; 0 for an index that is none.
   [[nodiscard]] double secant_n_per_m(int surface, double depth_m) const;
 
  private:
-  struct Surface {
-    Vector3 point_m, normal;
-    double k, n, a;
+  struct Part {
+    Shape shape;
+    MovementConfig movement;
+    bool moves;
+    int surface;
   };
-  std::vector<Surface> surfaces_;
+  struct Body {
+    HuntCrossley law;
+    std::vector<Part> parts;
+  };
+  struct Hinge {
+    HuntCrossley law;
+    Vector3 axis;
+    double angle_rad, arm_m;
+    int surface;
+  };
+  void plant_tree();
+  void touch(const Body& body, const ToolMotion& tool, SceneContact& result) const;
+  void turn(const Hinge& hinge, const ToolMotion& tool, SceneContact& result) const;
+
+  double tool_radius_m_;
+  Quaternion q_start_;
+  std::vector<Body> bodies_;
+  std::vector<Hinge> hinges_;
+  std::vector<HuntCrossley> laws_;      // of each surface
+  std::vector<std::uint32_t> always_;   // bodies without end, or that move
+  std::vector<std::uint32_t> in_tree_;  // the others, as the tree counts them
+  BoundsTree tree_;
 };
 
 }  // namespace longreach

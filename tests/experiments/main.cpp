@@ -108,8 +108,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.add_subcommand("list", "Show the experiments");
   std::string kind;
-  app.add_subcommand("solve",
-                     "Answer JSON objects, one a line, about the kinematics of a haptic device or of a robot")
+  app.add_subcommand(
+         "solve",
+         "Answer JSON objects, one a line, about the kinematics of a haptic device or of a robot, or "
+         "about an impact")
       ->add_option("kind", kind, "Kind of question")
       ->required()
       ->check(CLI::IsMember(longreach::solve_kinds()));

@@ -6,6 +6,7 @@
 #include "common/config/config.hpp"
 #include "common/core/geometry_error.hpp"
 #include "tests/experiments/solve_delta.hpp"
+#include "tests/experiments/solve_impact.hpp"
 #include "tests/experiments/solve_robot.hpp"
 #include "tests/experiments/solve_spherical.hpp"
 
@@ -19,13 +20,10 @@ struct Kind {
   Json (*answer)(const Json& request);
 };
 
-constexpr Kind kKinds[] = {{"delta-ik", solve_delta_ik},
-                           {"delta-fk", solve_delta_fk},
-                           {"delta-statics", solve_delta_statics},
-                           {"spherical-ik", solve_spherical_ik},
-                           {"spherical-fk", solve_spherical_fk},
-                           {"robot-fk", solve_robot_fk},
-                           {"robot-ik", solve_robot_ik}};
+constexpr Kind kKinds[] = {{"delta-ik", solve_delta_ik},           {"delta-fk", solve_delta_fk},
+                           {"delta-statics", solve_delta_statics}, {"spherical-ik", solve_spherical_ik},
+                           {"spherical-fk", solve_spherical_fk},   {"robot-fk", solve_robot_fk},
+                           {"robot-ik", solve_robot_ik},           {"impact", solve_impact}};
 
 }  // namespace
 

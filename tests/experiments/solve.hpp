@@ -1,7 +1,7 @@
 #pragma once
-// `longreach-lab solve KIND`: kinematics and statics of the devices and the robot, for anybody's geometry.
-// One JSON object a line in, one a line out; {"error": "..."} for a line that cannot be answered. Radians
-// unless a key says _deg.
+// `longreach-lab solve KIND`: kinematics and statics of the devices and the robot, for anybody's geometry,
+// and impacts. One JSON object a line in, one a line out; {"error": "..."} for a line that cannot be
+// answered. Radians unless a key says _deg.
 //
 //   delta-ik        geometry, p                 -> {"theta": [[two roots] a leg]}
 //   delta-fk        geometry, theta             -> {"solutions": [[x, y, z], ...]}
@@ -14,8 +14,12 @@
 //   robot-ik        robot or dh, convention, X, near -> {"status", "solutions": [[6], ...], "nearest": [6],
 //                   "position_error", "rotation_error", "kind"}              m, rad; slave/robot/inverse.hpp
 //
-// robot: name of a file of deploy/robots; dh: six of {"a", "alpha", "d", "theta"}; convention "standard" (the
-// default) or "modified". Joint limits do not count.
+//   impact          m, k, lambda, n, v, dt, integrator -> {"restitution", "penetration_max", "contact_time",
+//                   "energy_error", "evaluations"}           SI; a free impact at speed v, free_impact.hpp
+//
+// integrator: "discrete_gradient" (the default), "explicit_euler", "semi_implicit_euler" or "rk4". Without dt
+// it is a 64th of the time of contact or less. robot: name of a file of deploy/robots; dh: six of {"a",
+// "alpha", "d", "theta"}; convention "standard" (the default) or "modified". Joint limits do not count.
 //
 // Unreachable: an empty list. In delta-statics a position takes the first working mode, angles the working
 // assembly (delta_kinematics.hpp).

@@ -66,8 +66,8 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   }
   const ScriptPhase phase = lab.script().phase();
   if (phase == ScriptPhase::kPress && w.phase == ScriptPhase::kReturn && w.registration_m < 0.0 &&
-      !slave.scene.surface.empty()) {
-    const PlaneConfig& plane = slave.scene.surface.front().plane;
+      !slave.scene.surface.empty() && slave.scene.surface.front().plane) {
+    const PlaneConfig& plane = *slave.scene.surface.front().plane;
     const Vector3 inward = -plane.normal.normalized();
     const Vector3 point =
         plane.point_m + (plane.from_tool_start ? lab.arm().start_pose().p : Vector3::Zero().eval());

@@ -71,6 +71,47 @@ TEST_F(ResolveFiles, TakesWhatIsGivenInPlace) {
   EXPECT_EQ(config.scene().surface_size(), 0);
 }
 
+TEST_F(ResolveFiles, TakesTheRobotThatTheSceneIsMadeForUnlessAnotherOneIsNamed) {
+  folder.write("robots/mine.txtpb", kRobot + " basis: \"mine\"");
+  folder.write("scenes/wall.txtpb", kScene + " robot_file: \"robots/mine.txtpb\"");
+  const proto::SlaveConfig empty = config;
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().basis(), "mine");
+  config = empty;
+  config.set_robot_file("robots/space_arm.txtpb");
+  EXPECT_EQ(resolve_error(), "no error");
+  EXPECT_EQ(config.robot().basis(), "");
+}
+
+// Each bad scene is refused with file, line, field and reason.
+TEST_F(ResolveFiles, RefusesBadScenes) {
+  const auto refused = [&](const std::string& material, const std::string& surface) {
+    folder.write("scenes/wall.txtpb", "material { name: \"m\"\n" + material +
+                                          " }\nsurface { name: \"s\" material: \"m\"\n" + surface + " }");
+    const std::string error = resolve_error(), file = path("scenes/wall.txtpb") + ":";
+    EXPECT_TRUE(error.starts_with(file)) << error;
+    return error.starts_with(file) ? error.substr(file.size()) : error;
+  };
+  const std::string good = "sphere {}";
+  EXPECT_EQ(refused("stiffness_n_per_m: -1", good),
+            "2:1: material.m.stiffness_n_per_m = -1 is outside 0 (excluded) to 1e9");
+  EXPECT_EQ(refused("exponent: 0", good), "2:1: material.m.exponent = 0 is outside 1 to 3");
+  EXPECT_EQ(refused("exponent: nan", good), "2:1: material.m.exponent = nan is not a finite number");
+  EXPECT_EQ(refused("damping_s_per_m: -0.1", good),
+            "2:1: material.m.damping_s_per_m = -0.1 is outside 0 to 100");
+  EXPECT_TRUE(refused("", "cone {}").starts_with("4:1: unknown field \"cone\""));
+  EXPECT_EQ(refused("", ""), "3:1: surface.s has no shape; give it a plane, sphere, box, cylinder or hinge");
+  EXPECT_EQ(refused("", "sphere { radius_m: 0 }"),
+            "4:10: surface.s.sphere.radius_m = 0 is outside 0 (excluded) to 1000");
+  EXPECT_EQ(refused("", "box { size_m: [1, -1, 1] }"),
+            "4:7: surface.s.box.size_m.1 = -1 is outside 0 (excluded) to 1000");
+  EXPECT_EQ(
+      refused("", "cylinder { axis: [0, 0, 0] }"),
+      "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
+  config.set_scene_file("scenes/none.txtpb");
+  EXPECT_EQ(resolve_error(), path("scenes/none.txtpb") + ": there is no such file");
+}
+
 TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   config.set_robot_file("robots/none.txtpb");
   EXPECT_EQ(resolve_error(), path("robots/none.txtpb") + ": there is no such file");

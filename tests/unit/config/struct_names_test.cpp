@@ -262,11 +262,57 @@ void expect_same(const SlaveLinkConfig& s, const proto::SlaveLink& m) {
   expect_same(s.impairment, m.impairment());
 }
 
+void expect_same(const SphereConfig& s, const proto::Sphere& m) {
+  expect_same(s.centre_m, m.centre_m());
+  EXPECT_EQ(s.radius_m, m.radius_m());
+  EXPECT_EQ(s.from_tool_start, m.from_tool_start());
+}
+
+void expect_same(const BoxConfig& s, const proto::Box& m) {
+  expect_same(s.centre_m, m.centre_m());
+  expect_same(s.size_m, m.size_m());
+  expect_same(s.rotation_rad, m.rotation_rad());
+  EXPECT_EQ(s.from_tool_start, m.from_tool_start());
+}
+
+void expect_same(const CylinderConfig& s, const proto::Cylinder& m) {
+  expect_same(s.centre_m, m.centre_m());
+  expect_same(s.axis, m.axis());
+  EXPECT_EQ(s.radius_m, m.radius_m());
+  EXPECT_EQ(s.length_m, m.length_m());
+  EXPECT_EQ(s.from_tool_start, m.from_tool_start());
+}
+
+void expect_same(const HingeConfig& s, const proto::Hinge& m) {
+  expect_same(s.axis, m.axis());
+  EXPECT_EQ(s.angle_rad, m.angle_rad());
+  EXPECT_EQ(s.arm_m, m.arm_m());
+}
+
+void expect_same(const MovementConfig& s, const proto::Movement& m) {
+  expect_same(s.velocity_m_per_s, m.velocity_m_per_s());
+  expect_same(s.amplitude_m, m.amplitude_m());
+  EXPECT_EQ(s.frequency_hz, m.frequency_hz());
+}
+
 void expect_same(const SurfaceConfig& s, const proto::Surface& m) {
   EXPECT_EQ(s.name, m.name());
   EXPECT_EQ(s.material, m.material());
-  expect_same(s.plane, m.plane());
+  expect_same(s.plane.value(), m.plane());
+  expect_same(s.sphere.value(), m.sphere());
+  expect_same(s.box.value(), m.box());
+  expect_same(s.cylinder.value(), m.cylinder());
+  expect_same(s.hinge.value(), m.hinge());
+  EXPECT_EQ(s.body, m.body());
+  expect_same(s.movement.value(), m.movement());
 }
+
+void expect_same(const NeedsConfig& s, const proto::Needs& m) {
+  EXPECT_EQ(s.contact, m.contact());
+  EXPECT_EQ(s.rotation, m.rotation());
+}
+
+void expect_same(const WaypointConfig& s, const proto::Waypoint& m) { expect_same(s.point_m, m.point_m()); }
 
 void expect_same(const ToolConfig& s, const proto::Tool& m) {
   expect_same(s.position_m, m.position_m());
@@ -288,6 +334,12 @@ template <class Structs, class Messages>
 void expect_same_list(const Structs& s, const Messages& m) {
   ASSERT_EQ(s.size(), static_cast<std::size_t>(m.size()));
   for (std::size_t i = 0; i < s.size(); ++i) expect_same(s[i], m.Get(static_cast<int>(i)));
+}
+
+void expect_same(const PathConfig& s, const proto::Path& m) {
+  expect_same_list(s.waypoint, m.waypoint());
+  EXPECT_EQ(s.turn_radius_m, m.turn_radius_m());
+  EXPECT_EQ(s.from_tool_start, m.from_tool_start());
 }
 
 TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {
@@ -318,6 +370,11 @@ TEST(Structs, CarryEachFieldOfTheSlaveUnderItsName) {
   EXPECT_EQ(s.scene.name, m.scene().name());
   expect_same_list(s.scene.material, m.scene().material());
   expect_same_list(s.scene.surface, m.scene().surface());
+  EXPECT_EQ(s.scene.basis, m.scene().basis());
+  expect_same(s.scene.needs.value(), m.scene().needs());
+  EXPECT_EQ(s.scene.robot_file, m.scene().robot_file());
+  EXPECT_EQ(s.scene.tool_radius_m, m.scene().tool_radius_m());
+  expect_same(s.scene.path.value(), m.scene().path());
   expect_same(s.sensing, m.sensing());
   expect_same(s.estimator, m.estimator());
   expect_same(s.safety, m.safety());

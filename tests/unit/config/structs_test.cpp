@@ -33,20 +33,31 @@ TEST(Structs, HaveTheDefaultsOfTheSchema) {
   // What stands in lists has defaults too.
   proto::SlaveConfig config;
   config.mutable_scene()->add_material();
-  config.mutable_scene()->add_surface();
+  proto::Surface& surface = *config.mutable_scene()->add_surface();
+  surface.mutable_plane();
+  surface.mutable_sphere();
+  surface.mutable_box();
+  surface.mutable_cylinder();
+  surface.mutable_hinge();
+  surface.mutable_movement();
+  config.mutable_scene()->mutable_needs();
+  config.mutable_scene()->mutable_path();
   for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint();
   SlaveConfig plain;
   plain.scene.material.resize(1);
-  plain.scene.surface.resize(1);
+  plain.scene.surface = {{"", "", PlaneConfig{}, SphereConfig{}, BoxConfig{}, CylinderConfig{}, HingeConfig{},
+                          "", MovementConfig{}}};
+  plain.scene.needs.emplace();
+  plain.scene.path.emplace();
   EXPECT_EQ(difference(to_message(plain), to_message(to_struct(config))), "");
 }
 
 TEST(Structs, HaveDefaultDirectionsAndPointsWhereNoneIsGiven) {
   proto::SlaveConfig config;
-  config.mutable_scene()->add_surface();
+  config.mutable_scene()->add_surface()->mutable_plane();
   EXPECT_EQ(to_struct(proto::MasterConfig{}).operator_.direction, OperatorConfig{}.direction);
-  EXPECT_EQ(to_struct(config).scene.surface[0].plane.point_m, PlaneConfig{}.point_m);
-  EXPECT_EQ(to_struct(config).scene.surface[0].plane.normal, PlaneConfig{}.normal);
+  EXPECT_EQ(to_struct(config).scene.surface[0].plane.value().point_m, PlaneConfig{}.point_m);
+  EXPECT_EQ(to_struct(config).scene.surface[0].plane.value().normal, PlaneConfig{}.normal);
 }
 
 TEST(Structs, KeepExtremeNumbersExactly) {

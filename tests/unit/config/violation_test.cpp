@@ -134,7 +134,55 @@ proto::Scene one_wall() {
   scene.add_material()->set_name("steel");
   scene.add_surface()->set_name("front");
   scene.mutable_surface(0)->set_material("steel");
+  scene.mutable_surface(0)->mutable_plane();
   return scene;
+}
+
+TEST(Validation, WantsOneShapeForEachSurface) {
+  proto::Scene scene = one_wall();
+  scene.mutable_surface(0)->clear_plane();
+  scene.mutable_surface(0)->mutable_movement();  // is none
+  EXPECT_EQ(validation_error(scene),
+            "surface.front has no shape; give it a plane, sphere, box, cylinder or hinge");
+  scene.mutable_surface(0)->mutable_sphere();
+  EXPECT_EQ(validation_error(scene), "no error");
+  scene.mutable_surface(0)->mutable_hinge();
+  EXPECT_EQ(validation_error(scene),
+            "surface.front.hinge is a second shape beside sphere; a surface has one");
+}
+
+TEST(Validation, WantsOneMaterialForABody) {
+  proto::Scene scene = one_wall();
+  scene.add_material()->set_name("foam");
+  *scene.add_surface() = scene.surface(0);
+  scene.mutable_surface(0)->set_body("step");
+  scene.mutable_surface(1)->set_name("top");
+  scene.mutable_surface(1)->set_body("step");
+  EXPECT_EQ(validation_error(scene), "no error");
+  scene.mutable_surface(1)->set_material("foam");
+  EXPECT_EQ(validation_error(scene),
+            "surface.top.material = \"foam\" is another one than \"steel\" of the body \"step\"; a body has "
+            "one material");
+  scene.mutable_surface(0)->clear_body();
+  EXPECT_EQ(validation_error(scene), "no error");
+}
+
+TEST(Validation, WantsTheNeedsOfASceneToCoverItsSurfaces) {
+  proto::Scene scene = one_wall();
+  scene.mutable_needs()->set_rotation(true);
+  EXPECT_EQ(validation_error(scene), "needs leaves out contact, which the surface \"front\" needs");
+  scene.mutable_needs()->set_contact(true);
+  scene.mutable_needs()->set_rotation(false);
+  EXPECT_EQ(validation_error(scene), "no error");
+  scene.mutable_surface(0)->clear_plane();
+  scene.mutable_surface(0)->mutable_hinge();
+  EXPECT_EQ(validation_error(scene), "needs leaves out rotation, which the surface \"front\" needs");
+}
+
+TEST(Validation, WantsAWayToHaveTwoEnds) {
+  proto::Scene scene = one_wall();
+  scene.mutable_path()->add_waypoint();
+  EXPECT_EQ(validation_error(scene), "path.waypoint has 1 elements; a way has two ends");
 }
 
 TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {

@@ -31,7 +31,7 @@ inline SlaveConfig wall_config(double distance_m, double stiffness_n_per_m, doub
   config.robot = space_arm();
   config.scene.name = "wall";
   config.scene.material = {{"wall", stiffness_n_per_m, 1e-3, exponent, 0.1}};
-  config.scene.surface = {{"wall", "wall", {Vector3(distance_m, 0, 0), -Vector3::UnitX(), true}}};
+  config.scene.surface = {{"wall", "wall", PlaneConfig{Vector3(distance_m, 0, 0), -Vector3::UnitX(), true}}};
   config.estimator.exponent = exponent;
   return config;
 }

@@ -1,0 +1,106 @@
+#pragma once
+// The lists of struct_fields.hpp for what a scene's file says.
+
+#include "common/config/field_visit.hpp"
+#include "slave/scene/scene_config.hpp"
+
+namespace longreach {
+
+template <class Visitor, Is<MaterialConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("stiffness_n_per_m", s.stiffness_n_per_m);
+  visit("reference_depth_m", s.reference_depth_m);
+  visit("exponent", s.exponent);
+  visit("damping_s_per_m", s.damping_s_per_m);
+}
+
+template <class Visitor, Is<PlaneConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("point_m", s.point_m);
+  visit("normal", s.normal);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<SphereConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("centre_m", s.centre_m);
+  visit("radius_m", s.radius_m);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<BoxConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("centre_m", s.centre_m);
+  visit("size_m", s.size_m);
+  visit("rotation_rad", s.rotation_rad);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<CylinderConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("centre_m", s.centre_m);
+  visit("axis", s.axis);
+  visit("radius_m", s.radius_m);
+  visit("length_m", s.length_m);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<HingeConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("axis", s.axis);
+  visit("angle_rad", s.angle_rad);
+  visit("arm_m", s.arm_m);
+}
+
+template <class Visitor, Is<MovementConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("velocity_m_per_s", s.velocity_m_per_s);
+  visit("amplitude_m", s.amplitude_m);
+  visit("frequency_hz", s.frequency_hz);
+}
+
+template <class Visitor, Is<SurfaceConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("material", s.material);
+  visit("plane", s.plane);
+  visit("sphere", s.sphere);
+  visit("box", s.box);
+  visit("cylinder", s.cylinder);
+  visit("hinge", s.hinge);
+  visit("body", s.body);
+  visit("movement", s.movement);
+}
+
+template <class Visitor, Is<NeedsConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("contact", s.contact);
+  visit("rotation", s.rotation);
+}
+
+template <class Visitor, Is<WaypointConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("point_m", s.point_m);
+}
+
+template <class Visitor, Is<PathConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("waypoint", s.waypoint);
+  visit("turn_radius_m", s.turn_radius_m);
+  visit("from_tool_start", s.from_tool_start);
+}
+
+template <class Visitor, Is<SceneConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("material", s.material);
+  visit("surface", s.surface);
+  visit("basis", s.basis);
+  visit("needs", s.needs);
+  visit("robot_file", s.robot_file);
+  visit("tool_radius_m", s.tool_radius_m);
+  visit("path", s.path);
+}
+
+}  // namespace longreach

@@ -1,0 +1,49 @@
+#pragma once
+// The contact law of Hunt and Crossley (1975), with a = λ/k:
+//   F(x, v) = k xⁿ (1 + a v)   for penetration x > 0 and speed v inwards, never below 0; else 0
+// and what an impact of a mass m on it conserves,
+//   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1),
+// which holds while 1 + a v > 0. Units of k: N/mⁿ. Friction is not handled.
+
+#include <cmath>
+
+namespace longreach {
+
+struct HuntCrossley {
+  double k = 1000.0;  // N/mⁿ, > 0
+  double n = 1.0;     // 1 to 3
+  double a = 0.1;     // s/m, >= 0
+
+  [[nodiscard]] double force_n(double x, double v) const {
+    if (!(x > 0.0)) return 0.0;
+    const double force = elastic_n(x) * (1.0 + a * v);
+    return force > 0.0 ? force : 0.0;
+  }
+  [[nodiscard]] double elastic_n(double x) const { return x > 0.0 ? k * std::pow(x, n) : 0.0; }
+  /// F/x and dF/dx of the elastic part, N/m; x > 0.
+  [[nodiscard]] double secant_n_per_m(double x) const { return k * std::pow(x, n - 1.0); }
+  [[nodiscard]] double tangent_n_per_m(double x) const { return n * secant_n_per_m(x); }
+  [[nodiscard]] double energy_j(double x) const { return x > 0.0 ? elastic_n(x) * x / (n + 1.0) : 0.0; }
+
+  /// Mean elastic force over the way from x to x + dx, N: (U(x + dx) - U(x))/dx without cancellation. It
+  /// grows with dx.
+  [[nodiscard]] double mean_elastic_n(double x, double dx) const {
+    const double deep = dx > 0.0 ? x + dx : x, way = std::abs(dx);
+    if (!(deep > 0.0)) return 0.0;
+    const double share = way / deep;  // of the depth
+    if (share >= 1.0) return elastic_n(deep) / ((n + 1.0) * share);
+    if (share < 1e-17) return elastic_n(deep);
+    return elastic_n(deep) * -std::expm1((n + 1.0) * std::log1p(-share)) / ((n + 1.0) * share);
+  }
+
+  /// G(v), m²/s²; 1 + a v > 0.
+  [[nodiscard]] double impact_energy(double v) const {
+    const double av = a * v;
+    if (std::abs(av) > 0.1) return (av - std::log1p(av)) / (a * a);
+    double sum = 0.0;  // Σ (-av)^j/(j + 2)
+    for (int j = 15; j >= 0; --j) sum = 1.0 / (j + 2) - av * sum;
+    return v * v * sum;
+  }
+};
+
+}  // namespace longreach

@@ -1,0 +1,69 @@
+#pragma once
+// Implicit surfaces: the signed distance of a point from a solid, and the way out of it.
+//   distance > 0 outside, < 0 inside (to the nearest point of the surface, exact for each shape)
+// Edges and corners are sharp; a tool that is a sphere goes round them smoothly.
+
+#include <limits>
+#include <variant>
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+struct Side {
+  double distance_m = 0.0;
+  Vector3 normal = Vector3::UnitZ();  // unit, outwards
+};
+
+/// Everything behind the plane.
+struct HalfSpace {
+  Vector3 point_m = Vector3::Zero();
+  Vector3 normal = Vector3::UnitZ();  // unit, outwards
+  [[nodiscard]] Side side(const Vector3& p) const { return {normal.dot(p - point_m), normal}; }
+};
+
+struct Ball {
+  Vector3 centre_m = Vector3::Zero();
+  double radius_m = 1.0;
+  [[nodiscard]] Side side(const Vector3& p) const;
+};
+
+struct Block {
+  Vector3 centre_m = Vector3::Zero();
+  Matrix3 R = Matrix3::Identity();   // of the block in W
+  Vector3 half_m = Vector3::Ones();  // half of the edges
+  [[nodiscard]] Side side(const Vector3& p) const;
+};
+
+/// With flat ends.
+struct Rod {
+  Vector3 centre_m = Vector3::Zero();
+  Vector3 axis = Vector3::UnitZ();  // unit
+  double radius_m = 1.0;
+  double half_m = 1.0;  // half of the length
+  [[nodiscard]] Side side(const Vector3& p) const;
+};
+
+using Shape = std::variant<HalfSpace, Ball, Block, Rod>;
+
+inline Side side(const Shape& shape, const Vector3& p) {
+  return std::visit([&p](const auto& solid) { return solid.side(p); }, shape);
+}
+
+/// Axis-aligned box in W that holds the shape; infinite for a half space.
+struct Bounds {
+  Vector3 low = Vector3::Constant(-std::numeric_limits<double>::infinity());
+  Vector3 high = Vector3::Constant(std::numeric_limits<double>::infinity());
+  [[nodiscard]] bool finite() const { return low.allFinite() && high.allFinite(); }
+  /// False also for a point that is not a number.
+  [[nodiscard]] bool within(const Vector3& p, double reach_m) const {
+    return ((p - low).array() >= -reach_m).all() && ((high - p).array() >= -reach_m).all();
+  }
+  [[nodiscard]] Bounds with(const Bounds& other) const {
+    return {low.cwiseMin(other.low), high.cwiseMax(other.high)};
+  }
+};
+
+Bounds bounds(const Shape& shape);
+
+}  // namespace longreach
