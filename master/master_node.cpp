@@ -41,13 +41,6 @@ bool plausible(const HandleState& h) {
          std::abs(h.q_MH.squaredNorm() - 1.0) < 1e-6;
 }
 
-/// A handle is at the soft stop of its workspace.
-bool at_boundary(const HandleState& h, const DeviceConfig& device) {
-  const double share = device.behaviour.stop_share;
-  return h.p_MH.norm() >= share * device.delta.workspace_m ||
-         log_rotation(h.q_MH).norm() >= share * device.spherical.workspace_rad;
-}
-
 }  // namespace
 
 struct MasterNode::State {
@@ -172,7 +165,7 @@ MotionCommand MasterNode::State::command() {
   c.mode = view.mode;
   c.scale = view.scale;
   c.position_m = goal.position_m;
-  c.rotation_rad = log_rotation(goal.rotation);
+  c.rotation_rad = goal.rotation_rad;
   c.goal_kind = turns.next(goal, view.scale);
   return c;
 }
@@ -211,7 +204,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     out.sequence = ++s.sequence;
     out.command = s.command();
     s.history.translation.push(out.sequence, s.mapping.goal().position_m);
-    s.history.rotation.push(out.sequence, log_rotation(s.mapping.goal().rotation));
+    s.history.rotation.push(out.sequence, s.mapping.goal().rotation_rad);
   }
   s.publish(out.F_H_M);
   return out;
@@ -224,10 +217,10 @@ void MasterNode::State::publish(const Wrench& F) {
   view.engagement = safety.engagement();
   view.p_MH = handle.p_MH;
   view.goal_m = mapping.goal().position_m;
-  view.goal_rad = log_rotation(mapping.goal().rotation);
+  view.goal_rad = mapping.goal().rotation_rad;
   view.forecast = mapping.forecast(one_way_s);
-  view.at_boundary =
-      view.mode == MotionMode::kPosition && !mapping.frozen() && at_boundary(handle, config.device);
+  view.at_boundary = view.mode == MotionMode::kPosition && !mapping.frozen() &&
+                     (behaviour.translation().at_stop() || behaviour.rotation().at_stop());
   view.F_H_M = F;
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
   const ContactAxis& surface = linear.contact.foremost();

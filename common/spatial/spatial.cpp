@@ -6,15 +6,6 @@
 #include "common/spatial/sin_cos.hpp"
 
 namespace longreach {
-namespace {
-
-/// Euclidean norm; the careful way only where the square leaves the range.
-double norm(const Vector3& v) {
-  const double square = v.squaredNorm();
-  return square > 1e-200 && square < 1e200 ? std::sqrt(square) : v.stableNorm();
-}
-
-}  // namespace
 
 Quaternion exp_rotation(const Vector3& rotation_rad) {
   const double angle = norm(rotation_rad);

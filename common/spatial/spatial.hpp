@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace longreach {
 
@@ -29,6 +30,13 @@ struct Wrench {
   Vector3 force = Vector3::Zero();   // N
 };
 
+/// Euclidean norm; the careful way only where the square leaves the range.
+inline double norm(const Vector3& v) {
+  const double square = v.squaredNorm();
+  if (square > 1e-200 && square < 1e200) return std::sqrt(square);
+  return v.isZero(0.0) ? 0.0 : v.stableNorm();
+}
+
 /// Rotation vector (axis times angle, rad) to unit quaternion; exact at zero, valid for every finite vector.
 Quaternion exp_rotation(const Vector3& rotation_rad);
 
@@ -47,7 +55,7 @@ inline Pose inverse(const Pose& X_AB) {
 
 /// `v` shortened to at most `limit` (>= 0); direction kept; a zero vector stays zero.
 inline Vector3 clamp_norm(const Vector3& v, double limit) {
-  const double n = v.stableNorm();
+  const double n = norm(v);
   return n > limit ? Vector3(v * (limit / n)) : v;
 }
 

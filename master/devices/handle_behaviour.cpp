@@ -40,7 +40,8 @@ Vector3 HandleSprings::step(const Coordinates& at, bool held, const Gains& gains
                             const BehaviourConfig& config, double dt_s) {
   energy_j_ = supplied_j_ = 0.0;
   Vector3 force = idle(at, held, gains, config.idle, dt_s) + guide(at.x, gains, config.motion);
-  const double r = at.x.stableNorm(), over = r - gains.stop_radius;
+  const double r = norm(at.x), over = r - gains.stop_radius;
+  at_stop_ = over >= 0.0;
   if (over > 0.0 && r > 0.0) {
     force -= gains.stop * over / r * at.x;
     energy_j_ += 0.5 * gains.stop * over * over;

@@ -33,6 +33,7 @@ class HandleSprings {
   [[nodiscard]] double energy_j() const { return energy_j_; }
   [[nodiscard]] double supplied_j() const { return supplied_j_; }  // by the anchor, in the last step
   [[nodiscard]] int guided_axis() const { return axis_; }          // -1: none
+  [[nodiscard]] bool at_stop() const { return at_stop_; }          // the soft one of the workspace
 
  private:
   Vector3 idle(const Coordinates& at, bool held, const Gains& gains, IdleRule rule, double dt_s);
@@ -44,6 +45,7 @@ class HandleSprings {
   Vector3 off_ = Vector3::Zero();
   double energy_j_ = 0.0;
   double supplied_j_ = 0.0;
+  bool at_stop_ = false;
 };
 
 class HandleBehaviour {

@@ -21,7 +21,7 @@ Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, 
 }  // namespace
 
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law) {
-  const double r = deflection.stableNorm();
+  const double r = norm(deflection);
   if (!(r > dead_zone)) return Vector3::Zero();
   const double capped = std::min(r, std::max(radius_max, dead_zone));
   const double effective = law == RateLaw::kContinuous ? capped - dead_zone : capped;
@@ -69,7 +69,7 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
 
 void Mapping::step_rate(const HandleState& handle, double dt_s) {
   // The centre goes home with the hand, so that letting go commands nothing.
-  x_ref_ = clamp_norm(x_ref_, handle.p_MH.stableNorm());
+  x_ref_ = clamp_norm(x_ref_, norm(handle.p_MH));
   if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
     q_ref_ = exp_rotation(clamp_norm(log_rotation(q_ref_), log_rotation(handle.q_MH).norm()));
   const Vector3 rate_m =
@@ -100,7 +100,9 @@ void Mapping::advance(const Vector3& move_m, const Vector3& turn_rad) {
     return;
   }
   goal_.position_m += move_m;
-  if (!turn_rad.isZero(0.0)) goal_.rotation = (exp_rotation(turn_rad) * goal_.rotation).normalized();
+  if (turn_rad.isZero(0.0)) return;
+  goal_.rotation = (exp_rotation(turn_rad) * goal_.rotation).normalized();
+  goal_.rotation_rad = log_rotation(goal_.rotation);
 }
 
 Pose Mapping::forecast(double ahead_s) const {

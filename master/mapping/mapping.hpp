@@ -29,6 +29,7 @@ struct MappingInput {
 struct Goal {
   Vector3 position_m = Vector3::Zero();          // from the anchor, W
   Quaternion rotation = Quaternion::Identity();  // from the anchor, W
+  Vector3 rotation_rad = Vector3::Zero();        // the same as a rotation vector
 };
 
 class Mapping {

@@ -42,8 +42,7 @@ bool ContactSpring::set_surface(double surface_m) {
 }
 
 double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
-  const double share = -std::expm1(-dt_s / config_.fade_s);
-  fading_ -= share * fading_;
+  if (fading_ > 0.0) fading_ *= std::exp(-dt_s / config_.fade_s);
   if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;

@@ -33,7 +33,7 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
     // Only the rise is limited: a force that falls gives no energy away.
     const Vector3 rise = out - f_last_;
     const double most = config_.slew_per_s * dt_s;
-    if (out.squaredNorm() > f_last_.squaredNorm() && rise.stableNorm() > most) {
+    if (out.squaredNorm() > f_last_.squaredNorm() && norm(rise) > most) {
       out = f_last_ + clamp_norm(rise, most);
       clamped_ = true;
     }
@@ -41,7 +41,7 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
     const double owed_j = deficit_j_ - kNoticed_j;
     injecting_ = gain_ > 0.0 && owed_j > 0.0 && v2 > 0.0;
     if (injecting_) out -= gain_ * std::min(owed_j / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
-    clamped_ = clamped_ || out.stableNorm() > config_.force_max;
+    clamped_ = clamped_ || norm(out) > config_.force_max;
     out = clamp_norm(out, config_.force_max);
   }
   if (!out.allFinite()) out.setZero();

@@ -64,10 +64,11 @@ ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping
           in.handle.held};
 }
 
-ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping) {
-  const Vector3 phi = log_rotation(in.handle.q_MH);
-  return {phi, rotation_vector_rate(phi) * in.handle.angular_rad_per_s, log_rotation(mapping.goal().rotation),
-          in.mode == MotionMode::kRate, in.handle.held};
+/// `phi`: rotation vector of the handle; `rate`: D(phi).
+ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, const Vector3& phi,
+                              const Matrix3& rate) {
+  return {phi, rate * in.handle.angular_rad_per_s, mapping.goal().rotation_rad, in.mode == MotionMode::kRate,
+          in.handle.held};
 }
 
 }  // namespace
@@ -120,8 +121,10 @@ bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& his
   const ContactChange first =
       translation_.contact.on_report(report.translation, report.reached_sequence, history.translation,
                                      translation_handle(input, mapping), mapping);
-  const ContactChange second = rotation_.contact.on_report(
-      report.rotation, report.reached_sequence, history.rotation, rotation_handle(input, mapping), mapping);
+  const Vector3 phi = log_rotation(input.handle.q_MH);
+  const ContactChange second =
+      rotation_.contact.on_report(report.rotation, report.reached_sequence, history.rotation,
+                                  rotation_handle(input, mapping, phi, rotation_vector_rate(phi)), mapping);
   return first != ContactChange::kRejected && second != ContactChange::kRejected;
 }
 
@@ -147,12 +150,13 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
 Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {
   const double entered_j = rotation_.guard.observe(log_rotation(in.handle.q_MH * q_last_.conjugate()));
   q_last_ = in.handle.q_MH;
-  const ContactHandle at = rotation_handle(in, mapping);
+  const Vector3 phi = log_rotation(in.handle.q_MH);
+  const Matrix3 rate = rotation_vector_rate(phi);
   const Vector3 contact =
-      rotation_vector_rate(at.x).transpose() * contact_force(rotation_, at, mapping, in.stale);
+      rate.transpose() * contact_force(rotation_, rotation_handle(in, mapping, phi, rate), mapping, in.stale);
   if (config_.law == RenderingLaw::kStiffness) {
     rotation_.account(
-        entered_j, rotation_.contact.energy_j(at.x) + resistance_.rotation_energy_j() + in.rotation.stored_j,
+        entered_j, rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j() + in.rotation.stored_j,
         in.rotation.supplied_j);
   }
   return rotation_.guard.apply(

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "common/spatial/sin_cos.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach {
@@ -50,20 +49,9 @@ Legs next(const Legs& a) { return {a[1], a[2], a[0], a[1]}; }
 Legs after_next(const Legs& a) { return {a[2], a[0], a[1], a[2]}; }
 double sum(const Legs& a) { return a[0] + a[1] + a[2]; }
 
-/// A vector for each leg.
-struct LegVectors {
-  Legs x, y, z;
-};
-
 class OffsetSolver {
  public:
-  OffsetSolver(const DeltaGeometry& g, const Vector3& theta) : g_(g) {
-    const auto turn = sin_cos(std::array{theta[0], theta[1], theta[2], theta[0]});
-    const Legs out = g.radius_m() + g.arm_m() * Legs(turn[0].c, turn[1].c, turn[2].c, turn[3].c);
-    elbow_.x = g.cos_azimuth() * out - g.sin_azimuth() * g.side_m();
-    elbow_.y = g.sin_azimuth() * out + g.cos_azimuth() * g.side_m();
-    elbow_.z = (g.up() * g.arm_m()) * Legs(turn[0].s, turn[1].s, turn[2].s, turn[3].s);
-  }
+  OffsetSolver(const DeltaGeometry& g, const Vector3& theta) : g_(g), elbow_(g.elbows(DeltaTurns(theta))) {}
 
   /// From `start` to a position that closes all loops, in `assembly`.
   [[nodiscard]] DeltaPosition solve(const Vector3& start, DeltaAssembly assembly, double trusted) const;
@@ -75,7 +63,7 @@ class OffsetSolver {
 
  private:
   const DeltaGeometry& g_;
-  LegVectors elbow_;
+  DeltaLegVectors elbow_;
 };
 
 DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, double trusted) const {
@@ -90,13 +78,13 @@ DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, 
     const Legs out = cos * x + sin * y;
     const Legs share = g_.offset_m() / (out * out + z * z).sqrt();
     const Legs less = share * out;
-    const LegVectors n{x - less * cos, y - less * sin, z - share * z};
+    const DeltaLegVectors n{x - less * cos, y - less * sin, z - share * z};
     const Legs excess = 0.5 * (n.x * n.x + n.y * n.y + n.z * n.z - length2);
     // n2 x n3, n3 x n1, n1 x n2
-    const LegVectors one{next(n.x), next(n.y), next(n.z)},
+    const DeltaLegVectors one{next(n.x), next(n.y), next(n.z)},
         two{after_next(n.x), after_next(n.y), after_next(n.z)};
-    const LegVectors across{one.y * two.z - one.z * two.y, one.z * two.x - one.x * two.z,
-                            one.x * two.y - one.y * two.x};
+    const DeltaLegVectors across{one.y * two.z - one.z * two.y, one.z * two.x - one.x * two.z,
+                                 one.x * two.y - one.y * two.x};
     const double volume = n.x[0] * across.x[0] + n.y[0] * across.y[0] + n.z[0] * across.z[0];
     const double regularity = volume * side / (length2 * length);
     if (!(regularity > kFlat)) {

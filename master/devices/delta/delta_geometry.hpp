@@ -14,6 +14,7 @@
 #include <array>
 
 #include "common/core/geometry_error.hpp"
+#include "common/spatial/sin_cos.hpp"
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
@@ -54,6 +55,17 @@ enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
 
 /// A number for each leg, the first leg's once more at the end: two legs at a time.
 using DeltaLegs = Eigen::Array4d;
+struct DeltaLegVectors {
+  DeltaLegs x, y, z;
+};
+struct DeltaTurns {
+  explicit DeltaTurns(const Vector3& theta_rad) {
+    const auto turn = sin_cos(std::array{theta_rad[0], theta_rad[1], theta_rad[2], theta_rad[0]});
+    sine = {turn[0].s, turn[1].s, turn[2].s, turn[3].s};
+    cosine = {turn[0].c, turn[1].c, turn[2].c, turn[3].c};
+  }
+  DeltaLegs sine, cosine;
+};
 
 class DeltaGeometry {
  public:
@@ -86,6 +98,12 @@ class DeltaGeometry {
   /// centre would be with forearms of no length.
   [[nodiscard]] Vector3 elbow(int i, double cos_theta, double sin_theta) const {
     return to_world(i, {radius_ + arm_ * cos_theta, side_, arm_ * sin_theta});
+  }
+
+  /// The same of all legs, in world coordinates.
+  [[nodiscard]] DeltaLegVectors elbows(const DeltaTurns& turn) const {
+    const DeltaLegs out = radius_ + arm_ * turn.cosine;
+    return {cos_ * out - side_ * sin_, sin_ * out + side_ * cos_, (up_ * arm_) * turn.sine};
   }
 
   /// The assembly with the platform on the side to which positive angles turn the arms: how such devices are

@@ -19,12 +19,6 @@ Matrix3 adjugate_columns(const Matrix3& rows) {
   return columns;
 }
 
-/// Direction in which the arm of leg i moves its end, per radian, m.
-Vector3 swing(const DeltaGeometry& g, int i, double theta) {
-  const auto [s, c] = sin_cos(theta);
-  return g.to_world(i, g.arm_m() * Vector3(-s, 0.0, c));
-}
-
 }  // namespace
 
 void require_valid(const DeltaMasses& masses) {
@@ -40,20 +34,24 @@ void require_valid(const DeltaMasses& masses) {
 }
 
 DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const Vector3& p_m) {
+  const DeltaTurns turn(theta_rad);
+  const DeltaLegVectors elbow = g.elbows(turn);
+  const DeltaLegs &cos = g.cos_azimuth(), &sin = g.sin_azimuth();
+  DeltaLegs x = p_m.x() - elbow.x, y = p_m.y() - elbow.y, z = p_m.z() - elbow.z;
+  // The offset lies in the leg's plane between the arm's end and the rods.
+  DeltaLegs out = cos * x + sin * y;
+  const DeltaLegs distance = (out * out + z * z).sqrt();
+  const DeltaLegs share = (distance > 0.0).select(g.offset_m() / distance, 1.0);
+  x -= share * out * cos, y -= share * out * sin, z -= share * z;
+  const DeltaLegs length = (x * x + y * y + z * z).sqrt();
+  const DeltaLegs per_length = (length > 0.0).select(1.0 / length, 0.0);
+  x *= per_length, y *= per_length, z *= per_length;
+  out = cos * x + sin * y;
   DeltaVelocity at;
-  for (int i = 0; i < 3; ++i) {
-    const auto [s, c] = sin_cos(theta_rad[i]);
-    Vector3 rod = g.to_leg(i, p_m - g.elbow(i, c, s));
-    const double distance = std::sqrt(rod.x() * rod.x() + rod.z() * rod.z());
-    // The offset lies in the leg's plane between the arm's end and the rods.
-    const double kept = distance > 0.0 ? (distance - g.offset_m()) / distance : 0.0;
-    rod.x() *= kept;
-    rod.z() *= kept;
-    const double length = rod.norm();
-    if (length > 0.0) rod /= length;
-    at.rods.row(i) = g.to_world(i, rod);
-    at.lever_m[i] = g.arm_m() * (rod.z() * c - rod.x() * s);
-  }
+  at.rods.col(0) = x.head<3>();
+  at.rods.col(1) = y.head<3>();
+  at.rods.col(2) = z.head<3>();
+  at.lever_m = (g.arm_m() * (g.up() * z * turn.cosine - out * turn.sine)).head<3>();
   return at;
 }
 
@@ -87,7 +85,12 @@ DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
   const double with_arm = masses.arm_kg * masses.arm_com_fraction + 0.5 * masses.forearm_kg;
   DeltaTorques result = statics(at, force_n - with_platform * gravity_m_per_s2);
   if (result.status != SolutionStatus::kFound) return result;
-  for (int i = 0; i < 3; ++i) result.tau_nm[i] -= with_arm * gravity_m_per_s2.dot(swing(g, i, theta_rad[i]));
+  // The way of an arm's end, per radian, is in the leg's frame (-a sin θ, 0, a cos θ).
+  const DeltaTurns turn(theta_rad);
+  const Vector3& pull = gravity_m_per_s2;
+  const DeltaLegs outwards = g.cos_azimuth() * pull.x() + g.sin_azimuth() * pull.y();
+  const DeltaLegs along = g.arm_m() * (g.up() * pull.z() * turn.cosine - turn.sine * outwards);
+  result.tau_nm -= with_arm * along.head<3>().matrix();
   return result;
 }
 
