@@ -11,6 +11,7 @@
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/solve.hpp"
+#include "tests/experiments/solve_identify.hpp"
 #include "tests/experiments/train.hpp"
 
 namespace longreach {
@@ -98,6 +99,35 @@ int run(const RunOptions& o) {
   return kDone;
 }
 
+void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
+  CLI::App* solve = app.add_subcommand(
+      "solve",
+      "Answer questions on standard input, one JSON object a line: kinematics of a haptic device or of a "
+      "robot; "
+      "identify: the stiffness of a contact from samples of t, x, f and, if known, v, also as CSV");
+  std::vector<std::string> kinds = solve_kinds();
+  kinds.emplace_back("identify");
+  solve->add_option("kind", kind, "Kind of question")->required()->check(CLI::IsMember(kinds));
+  CLI::Option_group* of_identify = solve->add_option_group("identify");
+  of_identify->add_option("--estimator", identify.estimator, "Estimator; all: a summary of each at the end")
+      ->check(CLI::IsMember(identify_estimators()))
+      ->capture_default_str();
+  of_identify->add_option("--exponent", identify.exponent, "Exponent of fixed-exponent")
+      ->check(CLI::Range(0.5, 3.5))
+      ->capture_default_str();
+  of_identify
+      ->add_option("--force-noise", identify.force_noise_n, "Standard deviation, N; 0: from the samples")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  of_identify->add_option("--position-noise", identify.position_noise_m, "Likewise, m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  solve->callback([of_identify, &kind] {
+    if (kind != "identify" && of_identify->count_all() > 0)
+      throw CLI::ValidationError("solve " + kind, "has no options");
+  });
+}
+
 }  // namespace
 }  // namespace longreach
 
@@ -108,13 +138,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.add_subcommand("list", "Show the experiments");
   std::string kind;
-  app.add_subcommand(
-         "solve",
-         "Answer JSON objects, one a line, about the kinematics of a haptic device or of a robot, or "
-         "about an impact")
-      ->add_option("kind", kind, "Kind of question")
-      ->required()
-      ->check(CLI::IsMember(longreach::solve_kinds()));
+  longreach::IdentifyOptions identify;
+  longreach::add_solve(app, kind, identify);
   std::uint64_t train_seed = 1;
   std::string train_out = "spherical_network.txtpb";
   CLI::App* train = app.add_subcommand(
@@ -148,6 +173,8 @@ int main(int argc, char** argv) {
       longreach::train(kind, train_seed, train_out);
       return longreach::kDone;
     }
+    if (app.got_subcommand("solve") && kind == "identify")
+      return longreach::solve_identify(identify, std::cin, std::cout, std::cerr);
     if (app.got_subcommand("solve")) return longreach::solve(kind, std::cin, std::cout);
     return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
   } catch (const std::exception& e) {

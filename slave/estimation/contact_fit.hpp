@@ -1,0 +1,35 @@
+#pragma once
+// What an estimator of slave/estimation takes and gives.
+//   F = f (ξⁿ + a v ξᵐ),  ξ = x/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;  m = 0: Kelvin-Voigt
+// The parameters are those at a depth that was visited, so that none of them depends on the unit of length: k
+// in N/mⁿ is an extrapolation to a depth of one metre.
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace longreach {
+
+struct PenetrationSample {
+  double x_m = 0.0;        // below the surface; > 0 in contact
+  double v_m_per_s = 0.0;  // its derivative
+  double force_n = 0.0;    // measured, along the outward normal
+};
+
+struct ContactFit {
+  bool valid = false;
+  double reference_m = 1.0;  // x_ref
+  double force_n = 0.0;      // f: the elastic force there
+  double n = 1.0;
+  double a_s_per_m = 0.0;
+  bool kelvin_voigt = false;                             // m = 0
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of (ln f, n, a)
+
+  /// N; `sample.x_m` > 0.
+  [[nodiscard]] double force_at(const PenetrationSample& sample) const {
+    const double xi = sample.x_m / reference_m;
+    const double elastic = n == 1.0 ? xi : std::pow(xi, n);
+    return force_n * (elastic + a_s_per_m * sample.v_m_per_s * (kelvin_voigt ? 1.0 : elastic));
+  }
+};
+
+}  // namespace longreach

@@ -1,0 +1,44 @@
+#pragma once
+// Variance of the white noise on a smooth signal, from its third differences: E[(Δ³s)²] = 20 σ². What moves
+// slower than a tenth of the sample rate hardly counts; of a jump or a kink only so much does that the next
+// samples outweigh it.
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+
+class DifferenceNoise {
+ public:
+  void add(double value) {
+    const double difference = value - 3.0 * last_[0] + 3.0 * last_[1] - last_[2];
+    last_[2] = last_[1];
+    last_[1] = last_[0];
+    last_[0] = value;
+    if (++samples_ <= 3.0) return;
+    samples_ = std::min(samples_, kMemory);
+    largest_ = std::max(largest_, std::abs(value));
+    const double usual = std::max(kOutlier * variance_, kStart * kStart * largest_ * largest_);
+    variance_ += (std::min(difference * difference / 20.0, usual) - variance_) / (samples_ - 3.0);
+  }
+  /// Rather too large while there are few samples; `first` is the sd with none.
+  [[nodiscard]] double cautious_variance(double first) const {
+    const double differences = std::max(samples_ - 3.0, 0.0);
+    const double of_few = differences < kFew ? first * first : 0.0;
+    return std::max(of_few, variance_ * (1.0 + kFew / std::max(differences, 1.0)));
+  }
+  /// 0 with less than four samples.
+  [[nodiscard]] double variance() const { return variance_; }
+
+ private:
+  static constexpr double kOutlier = 25.0;  // of the variance
+  static constexpr double kStart = 0.01;    // of the largest value, sd
+  static constexpr double kFew = 20.0;
+  static constexpr double kMemory = 2000.0;  // samples
+  double last_[3] = {0.0, 0.0, 0.0};
+  double largest_ = 0.0;
+  double samples_ = 0.0;
+  double variance_ = 0.0;
+};
+
+}  // namespace longreach

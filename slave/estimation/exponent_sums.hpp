@@ -1,0 +1,88 @@
+#pragma once
+// Everything that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs of all samples, for every
+// exponent n at once: the sums
+//   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
+// are smooth functions of n, so nothing has to be linearised about an n that is not known yet. They are kept
+// either on a grid, for all n from 0.5 to 3.5, or as Taylor's series about an n that is nearly known.
+// Weights w grow by 1/forgetting a sample: forgetting that leaves the sums alone. Samples with ξ below 0.02
+// weigh nothing and are left out. Not handled: a depth, force or speed that is not finite.
+
+#include <array>
+#include <cstddef>
+
+#include "slave/estimation/contact_fit.hpp"
+
+namespace longreach {
+
+/// The sums at one n and their derivatives by n.
+struct ExponentSums {
+  alignas(16) std::array<std::array<double, 6>, 3> S{};  // [p][order]
+  alignas(16) std::array<std::array<double, 4>, 2> R{};
+};
+
+/// One sample as the sums see it.
+struct WeighedSample {
+  double log_depth = 0.0;  // ln ξ
+  double v_m_per_s = 0.0;
+  double force_n = 0.0;  // times √w
+  double root_weight = 1.0;
+};
+
+/// Chooses x_ref, the largest depth within a factor of 2, and the weights.
+class SampleScale {
+ public:
+  struct Change {
+    bool counts = false;        // else the sample is too shallow
+    double log_ratio = 0.0;     // ln(x_ref before/x_ref now); 0: unchanged
+    double weight_ratio = 1.0;  // that the sums have to be multiplied with
+    WeighedSample sample;
+  };
+  Change step(const PenetrationSample& sample, double forgetting);
+
+  [[nodiscard]] double reference_m() const { return reference_m_; }
+  [[nodiscard]] double weight() const { return root_weight_ * root_weight_; }
+
+ private:
+  double reference_m_ = 0.0;  // 0: no sample yet
+  double root_weight_ = 1.0;
+};
+
+/// The sums at ten nodes, interpolated by the polynomial through them. Error at n in 1..2.5 and ξ in 0.1..2:
+/// 1e-3.
+class ExponentGrid {
+ public:
+  static constexpr std::size_t kNodes = 10;
+  static constexpr double kSpacing = 1.0 / 3.0;
+  static double node(std::size_t j) { return 0.5 + kSpacing * static_cast<double>(j); }
+
+  void add(const WeighedSample& sample);
+  void rescale(double log_ratio, double weight_ratio);
+  /// With derivatives up to `order`, at most 5.
+  [[nodiscard]] ExponentSums at(double n, std::size_t order) const;
+  /// Without derivatives.
+  [[nodiscard]] ExponentSums at_node(std::size_t j) const;
+
+ private:
+  using Nodes = std::array<double, kNodes>;
+  std::array<Nodes, 3> S_{};
+  std::array<Nodes, 2> R_{};
+};
+
+/// Taylor's series about `n0`. Error of S at n0 + δ: (2 δ ln ξ)⁶/720 of it, less for R.
+class ExponentSeries {
+ public:
+  ExponentSeries() = default;
+  ExponentSeries(const ExponentSums& sums, double n0) : sums_(sums), n0_(n0) {}
+
+  /// Returns ξⁿ of the sample, for an n near by.
+  double add(const WeighedSample& sample, double n);
+  void rescale(double log_ratio, double weight_ratio);
+  [[nodiscard]] ExponentSums at(double n) const;
+  [[nodiscard]] double n0() const { return n0_; }
+
+ private:
+  ExponentSums sums_{};
+  double n0_ = 1.0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,253 @@
+#include "slave/estimation/identifier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kDepthMinM = 1e-12, kDepthMaxM = 1e6, kSpeedMax = 1e6, kForceMaxN = 1e12;
+constexpr double kPriorSamples = 200.0;      // weight of the noise that was given
+constexpr double kResidualSamples = 2000.0;  // memory of the residual variance
+constexpr double kFirstNoise = 0.02;         // of the largest force, while nothing tells it
+constexpr double kForceFloor = 1e-6;         // of the largest force: no sensor is better
+constexpr double kStill = 5e-4;              // of the depth
+constexpr double kStillNoise = 3.0;          // sd of the position: it moves by itself
+constexpr std::uint32_t kOften = 16;         // samples between looks at what hardly changes
+constexpr int kHeldMax = 25;
+constexpr double kDriftSamples = 20.0;
+constexpr double kDriftSd = 2.5;      // of the mean over 20 samples, white: sd 0.16
+constexpr double kDriftShare = 0.08;  // of the force; less is not felt
+constexpr double kDriftFloor = 0.25;  // of the force at the reference: shallower contact counts as that
+constexpr double kClipSd = 10.0, kClipShare = 0.5;  // of one innovation: a single one is no change
+constexpr double kSlowTouch = 0.01;                 // a v at the fastest: this, with an sd of this
+constexpr int kEnough = 1000;                       // samples that should have told everything
+constexpr double kPositionShare = 0.1;
+constexpr double kShareSd = 0.05, kExponentSd = 0.05, kDampingShareSd = 0.2;
+constexpr double kSecantSd = 0.0155;  // 3 of them within 5 %, and some room
+constexpr double kContactMinS = 0.05;
+
+constexpr std::array<std::string_view, 5> kNames{"fixed-exponent", "two-stage", "log-linear", "kelvin-voigt",
+                                                 "maximum-likelihood"};
+
+bool usable(const PenetrationSample& s) {  // false for NaN
+  return std::abs(s.x_m) <= kDepthMaxM && std::abs(s.v_m_per_s) <= kSpeedMax &&
+         std::abs(s.force_n) <= kForceMaxN;
+}
+
+double sd_along(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& h) {
+  return std::sqrt(std::max(h.dot(covariance * h), 0.0));
+}
+
+// At the touch, while the speed has hardly changed, elastic and damping force cannot be told apart. What
+// helps is that contacts are met slowly. Given up as soon as the samples contradict. a may be far off and a v
+// not small, so this is done where the law is nearly linear: in b = d ln F/dv and ln F at the mean speed,
+// which does not depend on b.
+ContactFit slow_touch(const ContactFit& f, double speed_max) {
+  const Eigen::Matrix3d& P = f.covariance;
+  const double ratio = -P(0, 2) / P(2, 2);
+  const double share = 1.0 - f.a_s_per_m * ratio;  // 1/(1 + a v) at the mean speed
+  if (!(speed_max > 0.0) || !(share > 0.0) || !std::isfinite(share)) return f;
+  const double speed = ratio / share;
+  const double b = f.a_s_per_m * share;
+  const double variance = P(2, 2) * std::pow(share, 4);
+  const double mean = kSlowTouch / speed_max;
+  const double off = mean - b;
+  if (off * off > 16.0 * (variance + mean * mean)) return f;
+  const double b_new = b + variance / (variance + mean * mean) * off;
+  const double share_new = 1.0 - b_new * speed;
+  if (!(share_new > 0.0)) return f;
+  const double n_by_b = P(1, 2) / (P(2, 2) * share * share);
+  const Eigen::Vector3d along(-speed / share_new, n_by_b, 1.0 / (share_new * share_new));
+  ContactFit g = f;
+  g.force_n = f.force_n * share_new / share;
+  g.n = f.n + n_by_b * (b_new - b);
+  g.a_s_per_m = b_new / share_new;
+  g.covariance = P - P.col(2) * P.row(2) / P(2, 2) +
+                 variance * mean * mean / (variance + mean * mean) * along * along.transpose();
+  return g;
+}
+
+}  // namespace
+
+Identifier::Identifier(const IdentifierConfig& config) : config_(config), estimator_(TwoStage()) {
+  switch (config.kind) {
+    case EstimatorKind::kFixedExponent:
+      estimator_ = FixedExponent(config.exponent, config.forgetting);
+      break;
+    case EstimatorKind::kTwoStage:
+      estimator_ = TwoStage();
+      break;
+    case EstimatorKind::kLogLinear:
+      estimator_ = LogLinear(config.forgetting);
+      break;
+    case EstimatorKind::kKelvinVoigt:
+      estimator_ = KelvinVoigt(config.forgetting);
+      break;
+    case EstimatorKind::kMaximumLikelihood:
+      estimator_ = MaximumLikelihood(config.forgetting);
+      break;
+  }
+}
+
+void Identifier::begin() {
+  restart();
+  residual_squares_ = residuals_ = force_max_n_ = 0.0;
+  changes_ = 0;
+}
+
+void Identifier::restart() {
+  std::visit([](auto& e) { e.reset(); }, estimator_);
+  contact_s_ = drift_n_ = speed_max_ = 0.0;
+  held_ = samples_ = 0;
+  steps_ = 0;
+  settled_ = false;
+}
+
+const ContactFit& Identifier::fit() const {
+  return std::visit([](const auto& e) -> const ContactFit& { return e.fit(); }, estimator_);
+}
+
+double Identifier::force_variance() const {
+  const double given = config_.force_noise_n > 0.0
+                           ? config_.force_noise_n * config_.force_noise_n
+                           : force_noise_.cautious_variance(kFirstNoise * force_max_n_);
+  const double floor = kForceFloor * force_max_n_;
+  return std::max((kPriorSamples * given + residual_squares_) / (kPriorSamples + residuals_), floor * floor);
+}
+
+double Identifier::position_sd() const {
+  return config_.position_noise_m > 0.0 ? config_.position_noise_m : std::sqrt(position_noise_.variance());
+}
+
+bool Identifier::still(double x_m) {
+  const double off = x_m - hold_m_, share = kStill * hold_m_;
+  const double noise = config_.position_noise_m > 0.0 ? config_.position_noise_m * config_.position_noise_m
+                                                      : position_noise_.variance();
+  if (held_ > 0 && off * off <= std::max(share * share, kStillNoise * kStillNoise * noise)) {
+    held_ = std::min(held_ + 1, kHeldMax + 1);
+  } else {
+    hold_m_ = x_m;
+    held_ = 1;
+  }
+  return held_ > kHeldMax;
+}
+
+bool Identifier::settled() const {
+  const ContactFit& f = fit();
+  const double log_depth = std::log(last_.x_m / f.reference_m);
+  return f.valid && sd_along(f.covariance, {1.0, log_depth, 0.0}) < kShareSd;
+}
+
+void Identifier::step(const PenetrationSample& sample, double dt) {
+  if (!usable(sample)) {
+    ++ignored_;
+    return;
+  }
+  force_noise_.add(sample.force_n);
+  position_noise_.add(sample.x_m);
+  if (sample.x_m < kDepthMinM) {
+    held_ = 0;
+    return;
+  }
+  last_ = sample;
+  contact_s_ += dt;
+  force_max_n_ = std::max(force_max_n_, std::abs(sample.force_n));
+  speed_max_ = std::max(speed_max_, std::abs(sample.v_m_per_s));
+  if (++steps_ < kOften || steps_ % kOften == 0) {
+    variance_n2_ = force_variance();
+    settled_ = settled();
+  }
+  double innovation = 0.0;
+  if (still(sample.x_m)) {
+    const ContactFit& known = fit();
+    if (!known.valid) return;
+    innovation = sample.force_n - known.force_at(sample);
+  } else {
+    innovation = std::visit([&](auto& e) { return e.step(sample, variance_n2_); }, estimator_);
+    samples_ = std::min(samples_ + 1, kEnough);
+  }
+  if (settled_ && std::isfinite(innovation)) watch(innovation, sample.force_n - innovation);
+}
+
+void Identifier::watch(double innovation_n, double foreseen_n) {
+  const double variance = variance_n2_;
+  const double force = std::max(std::abs(foreseen_n), kDriftFloor * fit().force_n);
+  const double square = innovation_n * innovation_n;
+  residuals_ = std::min(residuals_ + 1.0, kResidualSamples);
+  residual_squares_ += std::min(square, kClipSd * variance) -
+                       (residuals_ < kResidualSamples ? 0.0 : residual_squares_ / kResidualSamples);
+  // One sample that is far off is no change.
+  const double clip = std::max(kClipSd * std::sqrt(variance), kClipShare * force);
+  drift_n_ += (std::clamp(innovation_n, -clip, clip) - drift_n_) / kDriftSamples;
+  const bool far =
+      drift_n_ * drift_n_ > kDriftSd * kDriftSd * variance && std::abs(drift_n_) > kDriftShare * force;
+  if (!far || config_.kind != EstimatorKind::kMaximumLikelihood || !settled()) return;
+  ++changes_;
+  restart();
+}
+
+ContactAnswer Identifier::answer() {
+  ContactAnswer a;
+  const double variance = force_variance();
+  if (auto* e = std::get_if<MaximumLikelihood>(&estimator_)) e->refresh(variance);
+  a.force_sd_n = std::sqrt(variance);
+  a.changes = changes_;
+  const ContactFit& f = fit();
+  if (!f.valid) return a;
+  const double log_reference = std::log(f.reference_m), log_depth = std::log(last_.x_m) - log_reference;
+  const Eigen::Vector3d to_metre(1.0, -log_reference, 0.0);
+  a.depth_m = last_.x_m;
+  a.n = {f.n, std::sqrt(f.covariance(1, 1))};
+  a.k.value = f.force_n * std::exp(-f.n * log_reference);
+  a.k.sd = a.k.value * sd_along(f.covariance, to_metre);
+  const double amplitude = f.kelvin_voigt ? f.force_n : a.k.value;
+  const Eigen::Vector3d damping(f.a_s_per_m, f.kelvin_voigt ? 0.0 : -f.a_s_per_m * log_reference, 1.0);
+  a.lambda = {amplitude * f.a_s_per_m, amplitude * sd_along(f.covariance, damping)};
+
+  const ContactFit elastic = f.kelvin_voigt ? f : slow_touch(f, speed_max_);
+  a.secant.value = elastic.force_n * std::exp(elastic.n * log_depth) / last_.x_m;
+  a.secant.sd = a.secant.value * sd_along(elastic.covariance, {1.0, log_depth, 0.0});
+  a.stiffness.value = elastic.n * a.secant.value;
+  a.stiffness.sd = a.stiffness.value * sd_along(elastic.covariance, {1.0, log_depth + 1.0 / elastic.n, 0.0});
+
+  const bool biased = position_sd() > kPositionShare * f.reference_m;
+  const bool enough = biased || samples_ >= kEnough || held_ > kHeldMax;
+  const auto judge = [&](Identified& p, double limit, bool early) {
+    const bool known = !biased && !early && p.sd <= limit;
+    p.verdict = known ? Verdict::kIdentified : enough ? Verdict::kNotIdentifiable : Verdict::kNotYet;
+  };
+  const bool early = contact_s_ < kContactMinS;
+  judge(a.k, kShareSd * a.k.value, early);
+  judge(a.lambda, kDampingShareSd * std::abs(a.lambda.value), early);
+  judge(a.n, kExponentSd, early);
+  judge(a.secant, kSecantSd * a.secant.value, early);
+  judge(a.stiffness, kShareSd * a.stiffness.value, early);
+  a.valid = std::isfinite(a.k.value) && std::isfinite(a.k.sd) && std::isfinite(a.lambda.sd) &&
+            std::isfinite(a.stiffness.sd);
+  return a.valid ? a : ContactAnswer{};
+}
+
+bool parse(std::string_view name, EstimatorKind& kind) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return false;
+  kind = static_cast<EstimatorKind>(found - kNames.begin());
+  return true;
+}
+
+std::string_view name_of(EstimatorKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+
+std::string_view text_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNotYet:
+      return "not yet";
+    case Verdict::kIdentified:
+      return "identified";
+    case Verdict::kNotIdentifiable:
+      return "not identifiable";
+  }
+  return "";
+}
+
+}  // namespace longreach

@@ -1,0 +1,108 @@
+#pragma once
+// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v, surface known, with any of the estimators of this
+// folder, and says what it may be trusted in. What they share:
+//   noise: of the force as given, or from differences of the samples; then from the residuals.
+//   hold: resolution, bias and drift repeat themselves in each sample of a still hold, so only 25 samples
+//   within 0.05 % of a depth, or 3 sd of the position, count: nothing winds up, however long it lasts.
+//   change: the force is off by over 8 % for 20 samples and far outside its noise: another object or layer;
+//   the fit begins anew. MAXIMUM_LIKELIHOOD only: the others are off by more than that by themselves. slow
+//   touch: secant and stiffness use that a v at the greatest speed is 0.01 ± 0.01 unless the samples
+//   contradict. Until the speed has changed, nothing else tells elastic from damping force.
+//   verdict: identified is a parameter with an sd below 5 % (k, stiffness), 0.05 (n), 20 % (λ), 5 %/3
+//   (secant), after 50 ms of contact; not identifiable what 1000 samples or a hold have not told, and
+//   everything when the noise of the position is above 10 % of the depth: it biases every method.
+// Samples outside 1e-12..1e6 m, 1e6 m/s, 1e12 N, or not finite, are ignored and counted.
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+#include "slave/estimation/difference_noise.hpp"
+#include "slave/estimation/fixed_exponent.hpp"
+#include "slave/estimation/kelvin_voigt.hpp"
+#include "slave/estimation/log_linear.hpp"
+#include "slave/estimation/maximum_likelihood.hpp"
+#include "slave/estimation/two_stage.hpp"
+
+namespace longreach {
+
+enum class EstimatorKind { kFixedExponent, kTwoStage, kLogLinear, kKelvinVoigt, kMaximumLikelihood };
+inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponent, EstimatorKind::kTwoStage,
+                                                    EstimatorKind::kLogLinear, EstimatorKind::kKelvinVoigt,
+                                                    EstimatorKind::kMaximumLikelihood};
+enum class Verdict { kNotYet, kIdentified, kNotIdentifiable };
+
+struct IdentifierConfig {
+  EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
+  double exponent = 1.5;          // of FIXED_EXPONENT
+  double forgetting = 1.0;        // share of the past that is kept a sample
+  double force_noise_n = 0.0;     // sd; 0: from the samples
+  double position_noise_m = 0.0;  // sd; 0: from the samples
+};
+
+struct Identified {
+  double value = 0.0;
+  double sd = 0.0;
+  Verdict verdict = Verdict::kNotYet;
+};
+
+struct ContactAnswer {
+  bool valid = false;  // there is a fit; else all else is zero
+  Identified k;        // N/mⁿ; Kelvin-Voigt: N/m
+  Identified lambda;   // N s/m^(n+1); Kelvin-Voigt: N s/m
+  Identified n;
+  Identified secant;          // elastic force over depth, N/m, at depth_m
+  Identified stiffness;       // tangent, d(elastic force)/dx, N/m
+  double depth_m = 0.0;       // of the last sample in contact
+  double force_sd_n = 0.0;    // of a sample
+  std::uint32_t changes = 0;  // that were found
+};
+
+class Identifier {
+ public:
+  explicit Identifier(const IdentifierConfig& config);
+
+  /// Another contact: nothing of the one before is kept.
+  void begin();
+  /// `sample.x_m` <= 0 is free space. `dt` since the sample before, s.
+  void step(const PenetrationSample& sample, double dt);
+  /// Everything up to the last sample.
+  [[nodiscard]] ContactAnswer answer();
+  [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
+
+ private:
+  [[nodiscard]] const ContactFit& fit() const;
+  [[nodiscard]] double force_variance() const;
+  [[nodiscard]] double position_sd() const;
+  bool still(double x_m);
+  [[nodiscard]] bool settled() const;  // the force at the present depth is known to 5 %
+  void watch(double innovation_n, double foreseen_n);
+  void restart();
+
+  IdentifierConfig config_;
+  std::variant<FixedExponent, TwoStage, LogLinear, KelvinVoigt, MaximumLikelihood> estimator_;
+  DifferenceNoise force_noise_;
+  DifferenceNoise position_noise_;
+  PenetrationSample last_{};  // in contact
+  double contact_s_ = 0.0;    // since the fit began
+  double speed_max_ = 0.0;    // since then
+  double force_max_n_ = 0.0;
+  double residual_squares_ = 0.0;
+  double residuals_ = 0.0;
+  double drift_n_ = 0.0;      // mean innovation of the last 20 samples
+  double hold_m_ = 0.0;       // depth of the present hold
+  int held_ = 0;              // samples in it
+  int samples_ = 0;           // in the fit
+  std::uint32_t steps_ = 0;   // since the fit began
+  double variance_n2_ = 0.0;  // of the force, as looked at last
+  bool settled_ = false;      // likewise
+  std::uint32_t changes_ = 0;
+  std::uint64_t ignored_ = 0;
+};
+
+/// "maximum-likelihood" and so on; false for any other name.
+bool parse(std::string_view name, EstimatorKind& kind);
+std::string_view name_of(EstimatorKind kind);
+std::string_view text_of(Verdict verdict);
+
+}  // namespace longreach

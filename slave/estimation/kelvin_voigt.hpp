@@ -1,0 +1,27 @@
+#pragma once
+// Spring and damper, F = K x + B v, by recursive least squares: the linear model. It gives k = K in N/m, λ =
+// B in N s/m, n = 1. Wrong at the touch and at the release (it jumps by B v and pulls), and wherever n is
+// not 1.
+
+#include "slave/estimation/linear_contact.hpp"
+
+namespace longreach {
+
+class KelvinVoigt {
+ public:
+  explicit KelvinVoigt(double forgetting) : forgetting_(forgetting) {}
+
+  void reset() { *this = KelvinVoigt(forgetting_); }
+  double step(const PenetrationSample& sample, double force_variance_n2) {
+    if (linear_.reference_m <= 0.0) linear_.reference_m = sample.x_m;
+    return linear_.step({sample.x_m / linear_.reference_m, sample.v_m_per_s}, sample, forgetting_,
+                        force_variance_n2, 1.0, true);
+  }
+  [[nodiscard]] const ContactFit& fit() const { return linear_.fit; }
+
+ private:
+  double forgetting_;
+  LinearContact linear_;
+};
+
+}  // namespace longreach

@@ -1,0 +1,30 @@
+#pragma once
+// `longreach-lab solve identify`: stiffness, k, λ and n of a contact from anybody's recording. Input: JSON
+// objects, one a line, or CSV with a header: t (s, rising), x (penetration in m; <= 0 is free space), f (N,
+// positive when pushing) and, in all lines or in none, v (m/s; without it, from x by central differences, so
+// the answers lag by one line). One answer a line:
+//   {"t", "k", "lambda", "n", "stiffness", "secant", "sd": {of each}, "verdict"}
+// stiffness is the tangent at the present depth, secant the elastic force over the depth, both N/m. null: not
+// yet a fit, or not identifiable. verdict: "not yet", "identified", "not identifiable", or which of them is
+// what. With estimator "all" there is one line for each estimator, after the last sample.
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace longreach {
+
+struct IdentifyOptions {
+  std::string estimator = "maximum-likelihood";
+  double exponent = 1.5;          // of fixed-exponent
+  double force_noise_n = 0.0;     // sd; 0: from the recording
+  double position_noise_m = 0.0;  // sd; 0: from the recording
+};
+
+/// Names of the estimators, and "all".
+std::vector<std::string> identify_estimators();
+
+/// Returns 0; 2 after a line that cannot be read, which is named on `errors`.
+int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostream& out, std::ostream& errors);
+
+}  // namespace longreach
