@@ -2,12 +2,12 @@
 // From goal to joint setpoint:
 //   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
 // What the joints cannot do is taken back from the tool limiter at once: its pose and velocity are those of
-// the joints' path, so nothing winds up. Before that happens the tool slows down: when a joint nears its
-// speed, and near a singular pose in proportion to its conditioning, unless it is on the way out. Right
-// beside a singular pose the joints go through it by self motion, and the tool may leave its way by about
-// half a per cent of the reach, instead of the arm being led around. Every setpoint is watched from outside,
-// by differences. Tool limits hold as far as the joints let the tool keep them: a joint that must brake comes
-// first.
+// the joints' path, so nothing winds up. The joints follow the tool's straight way, except near a singular
+// pose and where the arm is in its own way: there they go straight to the solution at the goal, or to the
+// nearest pose, as long as the tool only comes nearer on that way, but for half a per cent of the reach. Of
+// several solutions at a singular pose they take the branch that the arm was last in. In contact the tool
+// keeps its straight way. Every setpoint is watched from outside, by differences. The limits of the joints
+// and the speed limits of the tool always hold; its acceleration limits only while it goes straight.
 
 #include <cstdint>
 #include <optional>
@@ -45,9 +45,8 @@ class SlaveMotion {
  private:
   [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input);
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
-  [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal) const;
+  [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const;
   [[nodiscard]] ToolBound tool_bound() const;
-  void slow_down(const JointVector& rad_per_s, double conditioning, double dt, Clamps& clamps);
 
   CommandConfig command_;
   RobotConfig robot_;
@@ -56,9 +55,10 @@ class SlaveMotion {
   JointLimiter joints_;
   LimitWatch watch_;
   Pose X_WE_{};
-  double speed_share_ = 1.0;
   bool turning_ = false;       // on a way of the joints to another solution
-  double conditioning_ = 0.0;  // of the tick before
+  double conditioning_ = 1.0;  // of the tick before
+  JointVector home_rad_ =
+      JointVector::Zero();  // of the branch that the arm was last in, away from singular poses
   std::uint64_t failures_ = 0;
 };
 

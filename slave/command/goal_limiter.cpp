@@ -45,14 +45,13 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   const Pose goal = inside(*input.X_WE_goal, out);
   observe_goal(goal, input.dt);
 
-  const double share = std::clamp(input.speed_share, 0.0, 1.0);
   VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
   linear.caps = {guard(input.contact), workspace(input.dt)};
   const VectorStep along =
-      pursue(linear, {share * config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, input.dt});
+      pursue(linear, {config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, input.dt});
   const VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};
   const VectorStep about =
-      pursue(angular, {share * config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
+      pursue(angular, {config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
 
   out.tool_speed = along.limited || about.limited;
   out.force_guard = along.capped[0];

@@ -24,8 +24,7 @@ struct ContactForce {
 struct LimiterInput {
   std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay
   ContactForce contact{};
-  double speed_share = 1.0;  // 0 to 1 of the speed limits: slow-down asked for by the joints
-  double dt = 0.0;           // s, > 0
+  double dt = 0.0;  // s, > 0
 };
 
 struct LimiterOutput {

@@ -6,9 +6,8 @@
 // mean keeps each convex bound of the path; the jerk of the setpoint is (a - a_N)/(N dt), at most 2 A/(N dt)
 // <= J. It comes (N - 1)/2 ticks later than the path. Where N would exceed kTicksMax, A is lowered instead.
 // All joints are slowed alike, and go alike from the speeds they have towards those they should have, so that
-// the tool's motion lies between the two. Where it would still be faster than the tool may be, because the
-// arm has another shape by now, they go towards braking alike. Only a joint that would pass its position
-// limit all the same brakes by itself.
+// the tool's motion lies between the two; and never where they could not brake alike in time for every
+// position limit and for the tool's speed, which the arm's changing shape raises by J̇ q̇ meanwhile.
 
 #include <algorithm>
 #include <array>
@@ -24,16 +23,17 @@ struct JointsLimited {
   [[nodiscard]] bool any() const { return speed || position; }
 };
 
-/// What the tool may do: J with its angular and its linear rows each in shares of the tool's speed limit.
+/// What the tool may do, with the arm's Jacobian J. As it is made: anything.
 struct ToolBound {
-  Eigen::Matrix<double, 6, kMaxJoints> J_share = decltype(J_share)::Zero();
+  Eigen::Matrix<double, 6, kMaxJoints> J = decltype(J)::Zero();  // [angular; linear]
+  double rad_per_s = 1.0, m_per_s = 1.0;                         // > 0
 
-  [[nodiscard]] double used(const JointVector& rad_per_s) const {
-    const Vector6 V = J_share * rad_per_s;
-    return std::max(V.head<3>().norm(), V.tail<3>().norm());
+  /// The share of the speed limits that [angular; linear] uses.
+  [[nodiscard]] double share(const Vector6& V) const {
+    return std::max(V.head<3>().norm() / rad_per_s, V.tail<3>().norm() / m_per_s);
   }
-  /// The joint speeds nearest to these (damped) at which the tool keeps its limits.
-  [[nodiscard]] JointVector within(const JointVector& rad_per_s) const;
+  /// J̇ q̇: the tool's acceleration while the joints keep their speeds.
+  [[nodiscard]] Vector6 turn(const JointVector& joint_rad_per_s) const;
 };
 
 class JointLimiter {
@@ -45,7 +45,7 @@ class JointLimiter {
   /// At rest at these joints, moved into their limits.
   void reset(const JointVector& joint_rad);
 
-  /// True if one step leads there.
+  /// True if one step leads there, and the arm changes its shape slowly.
   [[nodiscard]] bool reaches(const JointVector& wanted_rad, double dt) const;
   /// Towards `wanted_rad` (finite). dt > 0, s, the same in every step (another one begins at rest).
   JointsLimited step(const JointVector& wanted_rad, const ToolBound& tool, double dt);
@@ -58,15 +58,17 @@ class JointLimiter {
 
  private:
   struct Joint {
-    double min, max, speed, acceleration, jerk, near;  // near: from this far off a position limit is felt
+    double min, max, speed, acceleration, jerk;
+  };
+  struct JointsShare {
+    double speed = 1.0, position = 1.0;  // of joint speeds: what limits of speed and of position leave
+    [[nodiscard]] double least() const { return std::min(speed, position); }
   };
   void tune(double dt);
-  [[nodiscard]] double most(const Joint& j, double left_rad, double share) const;
-  JointsLimited limit(JointVector& rad_per_s, const ToolBound& tool) const;
-  [[nodiscard]] double share_before_limits(const JointVector& rad_per_s) const;
-  [[nodiscard]] bool fits(const JointVector& rad_per_s, const ToolBound& tool) const;
+  [[nodiscard]] JointsShare share(const JointVector& rad_per_s, const ToolBound& tool) const;
+  [[nodiscard]] double stop_s(const JointVector& rad_per_s) const;
   [[nodiscard]] JointVector go_towards(const JointVector& rad_per_s) const;
-  [[nodiscard]] JointVector slowed(const JointVector& rad_per_s, const ToolBound& tool) const;
+  JointsLimited limit(JointVector& rad_per_s, const ToolBound& tool) const;
   void average();
 
   std::array<Joint, kMaxJoints> joint_{};

@@ -100,7 +100,7 @@ TEST(GoalLimiter, ReachesAStillGoalExactlyAndWithoutOvershoot) {
     const Vector3 way = goal.p.normalized();
     const Vector3 turn = log_rotation(goal.q);
     for (int i = 0; i < 30000; ++i) {
-      watch.see(limiter.step({goal, {}, 1.0, kDt}).X_WE);
+      watch.see(limiter.step({goal, {}, kDt}).X_WE);
       ASSERT_LE(way.dot(watch.before.p), goal.p.norm() + 1e-12) << "seed " << seed;
       ASSERT_LE(turn.normalized().dot(log_rotation(watch.before.q)), turn.norm() + 1e-12) << "seed " << seed;
     }
@@ -117,7 +117,7 @@ TEST(GoalLimiter, BrakesInTimeAndNotMuchTooEarly) {
   const Pose goal{Vector3(0.5, 0, 0), Quaternion::Identity()};
   int ticks = 0;
   while ((limiter.setpoint().p - goal.p).norm() > 1e-9 && ticks < 100000) {
-    limiter.step({goal, {}, 1.0, kDt});
+    limiter.step({goal, {}, kDt});
     ++ticks;
   }
   const double optimal = 0.5 / 0.25 + 0.25 / 1.25;  // trapezium of the limits
@@ -134,7 +134,7 @@ TEST(GoalLimiter, FollowsAGoalWithinTheLimitsWithoutLag) {
     // Starts away from the setpoint: it has to catch up first.
     const Pose goal{Vector3(0.02 + 0.05 * std::sin(w * t), 0.05 * (1 - std::cos(w * t)), 0.01 * t),
                     exp_rotation(Vector3(0.05 * std::sin(w * t), 0, 0.1 * (1 - std::cos(w * t))))};
-    limiter.step({goal, {}, 1.0, kDt});
+    limiter.step({goal, {}, kDt});
     if (t > 2.0) {
       ASSERT_LT((limiter.setpoint().p - goal.p).norm(), 1e-11) << t;
       ASSERT_LT(limiter.setpoint().q.angularDistance(goal.q), 1e-8) << t;
@@ -148,15 +148,15 @@ TEST(GoalLimiter, BrakesToAStandWithoutAGoalAndStays) {
   limiter.reset({});
   Watch watch;
   for (int i = 0; i < 500; ++i)
-    watch.see(limiter.step({Pose{Vector3(2, 0, 0), exp_rotation(Vector3(0, 1, 0))}, {}, 1.0, kDt}).X_WE);
+    watch.see(limiter.step({Pose{Vector3(2, 0, 0), exp_rotation(Vector3(0, 1, 0))}, {}, kDt}).X_WE);
   const Vector3 began = watch.before.p;
   const double v = watch.velocity.linear.norm();
   EXPECT_NEAR(v, 0.25, 1e-9);
-  for (int i = 0; i < 250; ++i) watch.see(limiter.step({std::nullopt, {}, 1.0, kDt}).X_WE);
+  for (int i = 0; i < 250; ++i) watch.see(limiter.step({std::nullopt, {}, kDt}).X_WE);
   EXPECT_NEAR((watch.before.p - began).norm(), v * v / (2 * 1.25), v * kDt);
   EXPECT_TRUE(limiter.at_rest());
   const Vector3 stopped = watch.before.p;
-  for (int i = 0; i < 1000; ++i) limiter.step({std::nullopt, {}, 1.0, kDt});
+  for (int i = 0; i < 1000; ++i) limiter.step({std::nullopt, {}, kDt});
   EXPECT_EQ(limiter.setpoint().p, stopped);
   watch.expect_within(config);
 }
@@ -171,8 +171,7 @@ TEST(GoalLimiter, KeepsTheWorkspaceEvenIfTheGoalFliesOut) {
   watch.before = limiter.setpoint();
   for (int i = 0; i < 5000; ++i) {
     const double x = std::min(0.5 * 0.5 * std::pow(i * kDt, 2), 0.24 * i * kDt);  // fast, within the limits
-    const LimiterOutput out =
-        limiter.step({Pose{Vector3(1 + x, 2, 3), Quaternion::Identity()}, {}, 1.0, kDt});
+    const LimiterOutput out = limiter.step({Pose{Vector3(1 + x, 2, 3), Quaternion::Identity()}, {}, kDt});
     watch.see(out.X_WE);
     ASSERT_LE((out.X_WE.p - Vector3(1, 2, 3)).norm(), 0.3 + 1e-9);
     reported = reported || out.workspace;
@@ -188,15 +187,13 @@ TEST(GoalLimiter, TheGuardStopsTheAdvanceAndLeavesTheWayBackFree) {
   limiter.reset({});
   const ContactForce full{true, Vector3(-1, 0, 0), 25.0};
   for (int i = 0; i < 100; ++i) {
-    const LimiterOutput out =
-        limiter.step({Pose{Vector3(0.1, 0.05, 0), Quaternion::Identity()}, full, 1.0, kDt});
+    const LimiterOutput out = limiter.step({Pose{Vector3(0.1, 0.05, 0), Quaternion::Identity()}, full, kDt});
     EXPECT_TRUE(out.force_guard);
     EXPECT_LE(out.X_WE.p.x(), 1e-15);
   }
   EXPECT_GT(limiter.setpoint().p.y(), 1e-3);  // along the wall it may go
   const double x = limiter.setpoint().p.x();
-  for (int i = 0; i < 500; ++i)
-    limiter.step({Pose{Vector3(-0.1, 0, 0), Quaternion::Identity()}, full, 1.0, kDt});
+  for (int i = 0; i < 500; ++i) limiter.step({Pose{Vector3(-0.1, 0, 0), Quaternion::Identity()}, full, kDt});
   EXPECT_LT(limiter.setpoint().p.x(), x - 0.05);
 }
 
@@ -207,7 +204,7 @@ TEST(GoalLimiter, TheGuardFollowsTheBrakingLawBelowItsForce) {
     limiter.reset({});
     const Vector3 n = Vector3(-1, 1, 0).normalized();
     for (int i = 0; i < 400; ++i)
-      limiter.step({Pose{-1.0 * n, Quaternion::Identity()}, {true, n, force}, 1.0, kDt});
+      limiter.step({Pose{-1.0 * n, Quaternion::Identity()}, {true, n, force}, kDt});
     const double allowed = std::sqrt(2 * 1.25 * (20.0 - force) / 2e4);
     EXPECT_NEAR(-n.dot(limiter.velocity().linear), std::min(allowed, 0.25), 1e-12) << force;
   }
@@ -224,7 +221,7 @@ TEST(GoalLimiter, TheGuardBoundsThePeakForceOfAFastTouch) {
     const double force = std::max(0.0, 5000.0 * (tool - wall));
     peak = std::max(peak, force);
     const Pose goal{Vector3(std::min(0.05 * i * kDt, 0.2), 0, 0), Quaternion::Identity()};
-    limiter.step({goal, {force > 0.5, Vector3(-1, 0, 0), force}, 1.0, kDt});
+    limiter.step({goal, {force > 0.5, Vector3(-1, 0, 0), force}, kDt});
     tool += (limiter.setpoint().p.x() - tool) * -std::expm1(-62.83 * kDt);
   }
   EXPECT_GT(peak, 15.0);  // it does press
@@ -235,9 +232,9 @@ TEST(GoalLimiter, BrakesForAGoalThatIsNotFinite) {
   GoalLimiter limiter(CommandConfig{}, Vector3::Zero());
   limiter.reset({});
   Pose goal{Vector3(1, 0, 0), Quaternion::Identity()};
-  for (int i = 0; i < 100; ++i) limiter.step({goal, {}, 1.0, kDt});
+  for (int i = 0; i < 100; ++i) limiter.step({goal, {}, kDt});
   goal.p.y() = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 300; ++i) limiter.step({goal, {}, 1.0, kDt});
+  for (int i = 0; i < 300; ++i) limiter.step({goal, {}, kDt});
   EXPECT_TRUE(limiter.at_rest());
   EXPECT_TRUE(limiter.setpoint().p.allFinite());
 }

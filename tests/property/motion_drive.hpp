@@ -1,0 +1,170 @@
+#pragma once
+// A robot on a tour of its goal (goal_tours.hpp), judged from outside at every tick: by the differences of
+// its setpoints, by the tool's distance from its goal, and by what the robot says about that.
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slave/motion.hpp"
+#include "tests/property/goal_tours.hpp"
+
+namespace longreach::test {
+
+constexpr double kDt = 1e-3;
+constexpr double kSettleS = 120.0;  // at most, after the goal has come to rest
+constexpr double kStuckS = 5.0;     // an arm that stands so long in its own way stays there
+
+struct Worst {
+  double position = 0.0;                               // rad beyond a limit
+  double speed = 0.0, acceleration = 0.0, jerk = 0.0;  // share of the limit
+  double tool_m_per_s = 0.0, tool_rad_per_s = 0.0;
+  double singular = 0.0;  // least singular value of J over the reach where det J changed its sign
+};
+
+inline double least_singular_value(const Kinematics& arm, const JointVector& q) {
+  Jacobian J = arm.rigid_with_jacobian(q).J;
+  J.bottomRows<3>() /= arm.reach_m();
+  return Eigen::JacobiSVD<Jacobian>(J).singularValues()[5];
+}
+
+// Differences of the setpoints against the limits of the joints, and the branch that the arm is in.
+class Judge {
+ public:
+  Judge(const RobotConfig& robot, const Kinematics& arm, const JointVector& q)
+      : robot_(robot), arm_(arm), q_(q), left_(left(q)) {}
+
+  void see(const JointVector& q, Worst& worst) {
+    const JointVector v = (q - q_) / kDt, a = (v - v_) / kDt, jerk = (a - a_) / kDt;
+    for (int i = 0; i < kMaxJoints; ++i) {
+      const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
+      worst.position = std::max({worst.position, q[i] - j.max_rad, j.min_rad - q[i]});
+      worst.speed = std::max(worst.speed, std::abs(v[i]) / j.speed_max_rad_per_s);
+      worst.acceleration = std::max(worst.acceleration, std::abs(a[i]) / j.acceleration_max_rad_per_s2);
+      worst.jerk = std::max(worst.jerk, std::abs(jerk[i]) / j.jerk_max_rad_per_s3);
+    }
+    const bool now_left = left(q);
+    if (now_left != left_) worst.singular = std::max(worst.singular, least_singular_value(arm_, q));
+    q_ = q, v_ = v, a_ = a, left_ = now_left;
+  }
+
+ private:
+  [[nodiscard]] bool left(const JointVector& q) const {
+    return arm_.rigid_with_jacobian(q).J.determinant() < 0.0;
+  }
+
+  const RobotConfig& robot_;
+  const Kinematics& arm_;
+  JointVector q_, v_ = JointVector::Zero(), a_ = JointVector::Zero();
+  bool left_;
+};
+
+// How long the arm needs from joints to joints, straight, with nothing but the speed limits in the way.
+inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const CommandConfig& command,
+                         const JointVector& from, const JointVector& to) {
+  constexpr int kParts = 100;
+  double joints_s = 0.0, tool_m = 0.0, tool_rad = 0.0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const double speed = robot.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
+    joints_s = std::max(joints_s, std::abs(to[i] - from[i]) / speed);
+  }
+  Pose before = arm.forward(from);
+  for (int n = 1; n <= kParts; ++n) {
+    const Pose X = arm.forward(from + (to - from) * n / kParts);
+    tool_m += (X.p - before.p).norm();
+    tool_rad += X.q.angularDistance(before.q);
+    before = X;
+  }
+  return std::max({joints_s, tool_m / command.speed_max_m_per_s, tool_rad / command.speed_max_rad_per_s});
+}
+
+struct Outcome {
+  double off_m = 0.0;  // of the tool from the goal's way
+  bool arrived = false;
+  bool blocked = false;                     // at the end the arm stood in its own way and said so
+  double arrived_s = 0.0;                   // after the goal came to rest
+  double swiftest_s = 0.0;                  // for the same
+  double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was told
+};
+
+inline double off_the_way(const Tour& tour, const Vector3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Leg& leg : tour.legs) {
+    const Vector3 d = leg.to.p - leg.from.p;
+    const double share = std::clamp(d.dot(p - leg.from.p) / std::max(d.squaredNorm(), 1e-30), 0.0, 1.0);
+    least = std::min(least, (leg.from.p + share * d - p).norm());
+  }
+  return least;
+}
+
+// A robot on one tour, judged at every tick.
+struct Drive {
+  Drive(const RobotConfig& of, const Kinematics& arm_of, const CommandConfig& with, const Tour& on)
+      : robot(of), arm(arm_of), command(with), motion(with, of), tour(on), judge(of, arm_of, on.start) {
+    motion.reset(on.start);
+    before = motion.X_WE();
+  }
+
+  void tick(const std::optional<Pose>& goal) {
+    const Clamps c = motion.step({goal, {}, kDt});
+    blocked = c.unreachable || c.joint_position || c.singularity;
+    judge.see(motion.joint_setpoint_rad(), worst);
+    const Pose& X = motion.X_WE();
+    outcome.off_m = std::max(outcome.off_m, off_the_way(tour, X.p));
+    if (goal && !(blocked || c.tool_speed || c.joint_speed || c.workspace)) {
+      outcome.silent_m = std::max(outcome.silent_m, (X.p - goal->p).norm());
+      outcome.silent_rad = std::max(outcome.silent_rad, log_rotation(X.q * goal->q.conjugate()).norm());
+    }
+    worst.tool_m_per_s = std::max(worst.tool_m_per_s, (X.p - before.p).norm() / kDt);
+    worst.tool_rad_per_s = std::max(worst.tool_rad_per_s, X.q.angularDistance(before.q) / kDt);
+    before = X;
+  }
+
+  void follow(Random& random) {
+    for (const Leg& leg : tour.legs) {
+      std::optional<Pose> goal = leg.from;
+      for (double t = 0.0; t < leg.seconds; t += kDt) {
+        if (!tour.jumps) goal = leg.at(t / leg.seconds);
+        if (tour.jumps && random.chance(0.005)) goal = leg.at(random.uniform());
+        if (tour.jumps && random.chance(0.001)) goal.reset();
+        tick(goal);
+      }
+    }
+  }
+
+  // Until the tool is at its goal, or stands somewhere else and says why.
+  void settle(const Pose& goal) {
+    constexpr double kThere = 1e-9, kStillM = 1e-3;
+    const JointVector from = motion.joint_setpoint_rad();
+    JointVector stands = from;
+    double still_s = 0.0;
+    outcome.arrived = outcome.blocked = false;
+    for (double t = 0.0; t < kSettleS && !outcome.arrived && !outcome.blocked; t += kDt) {
+      tick(goal);
+      const JointVector& q = motion.joint_setpoint_rad();
+      still_s += kDt;
+      if (!((q - stands).cwiseAbs().maxCoeff() < kStillM)) stands = q, still_s = 0.0;
+      if (!blocked) still_s = 0.0;
+      outcome.arrived_s = t;
+      outcome.blocked = still_s > kStuckS;
+      outcome.arrived = (before.p - goal.p).norm() <= kThere &&
+                        log_rotation(before.q * goal.q.conjugate()).norm() <= kThere;
+    }
+    outcome.blocked = !outcome.arrived && blocked;
+    outcome.swiftest_s = swiftest_s(robot, arm, command, from, motion.joint_setpoint_rad());
+  }
+
+  const RobotConfig& robot;
+  const Kinematics& arm;
+  const CommandConfig& command;
+  SlaveMotion motion;
+  const Tour& tour;
+  Judge judge;
+  Pose before{};
+  Worst worst{};
+  Outcome outcome{};
+  bool blocked = false;  // in the last tick
+};
+
+}  // namespace longreach::test
