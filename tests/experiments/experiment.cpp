@@ -43,6 +43,10 @@ const std::vector<Experiment>& experiments() {
        run_scale_steps, scale_steps_plots},
       {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
        run_fk_network, fk_network_plots},
+      {"identify",
+       "five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
+       "to steel",
+       run_identify, identify_plots},
       {"synthesis",
        "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
        run_synthesis, synthesis_plots},

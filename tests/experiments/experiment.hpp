@@ -81,6 +81,8 @@ std::vector<Metric> run_scale_steps(const ExperimentRun& run);
 std::vector<Plot> scale_steps_plots();
 std::vector<Metric> run_fk_network(const ExperimentRun& run);
 std::vector<Plot> fk_network_plots();
+std::vector<Metric> run_identify(const ExperimentRun& run);
+std::vector<Plot> identify_plots();
 std::vector<Metric> run_synthesis(const ExperimentRun& run);
 std::vector<Plot> synthesis_plots();
 

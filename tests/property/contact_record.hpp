@@ -12,6 +12,8 @@
 
 namespace longreach::test {
 
+using Samples = std::vector<PenetrationSample>;
+
 enum class Excitation { kProbe, kTouchCycles, kSine };
 
 struct ContactCell {
@@ -43,8 +45,8 @@ inline PenetrationSample motion(Excitation excitation, double t) {
   return {0.5 + 0.45 * std::sin(w * t), 0.45 * w * std::cos(w * t), 0.0};
 }
 
-inline std::vector<PenetrationSample> exact_record(const ContactCell& cell, double seconds = 2.0) {
-  std::vector<PenetrationSample> record;
+inline Samples exact_record(const ContactCell& cell, double seconds = 2.0) {
+  Samples record;
   for (int i = 0; i < static_cast<int>(seconds * 1e3); ++i) {
     PenetrationSample sample = motion(cell.excitation, 1e-3 * i);
     sample.x_m *= cell.deepest_m();
@@ -55,18 +57,18 @@ inline std::vector<PenetrationSample> exact_record(const ContactCell& cell, doub
   return record;
 }
 
-inline std::vector<PenetrationSample> with_noise(std::vector<PenetrationSample> record, double sd_n,
-                                                 Random& random) {
+inline Samples with_noise(Samples record, double sd_n, Random& random) {
   for (PenetrationSample& sample : record) sample.force_n += sd_n * random.normal();
   return record;
 }
 
-/// Least sd of any unbiased estimate, surface known: of k and λ as fractions, of n.
+/// Least sd of any unbiased estimate, surface known: of n, of the others as fractions. stiffness: the tangent
+/// at the deepest.
 struct ContactBound {
-  double k = 0.0, lambda = 0.0, n = 0.0;
+  double k = 0.0, lambda = 0.0, n = 0.0, stiffness = 0.0;
 };
 
-inline ContactBound cramer_rao(const ContactCell& cell, const std::vector<PenetrationSample>& exact) {
+inline ContactBound cramer_rao(const ContactCell& cell, const Samples& exact) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  // of (ln f at the deepest, n, a at the speed scale)
   const double deepest = cell.deepest_m();
   for (const PenetrationSample& s : exact) {
@@ -79,7 +81,8 @@ inline ContactBound cramer_rao(const ContactCell& cell, const std::vector<Penetr
   const Eigen::Matrix3d C = A.inverse();
   const auto sd = [&](const Eigen::Vector3d& h) { return std::sqrt(h.dot(C * h)); };
   const double to_metre = -std::log(deepest);
-  return {sd({1.0, to_metre, 0.0}), sd({1.0, to_metre, 1.0 / (cell.a * deepest)}), sd({0.0, 1.0, 0.0})};
+  return {sd({1.0, to_metre, 0.0}), sd({1.0, to_metre, 1.0 / (cell.a * deepest)}), sd({0.0, 1.0, 0.0}),
+          sd({1.0, 1.0 / cell.n, 0.0})};
 }
 
 }  // namespace longreach::test

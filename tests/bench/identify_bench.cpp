@@ -1,0 +1,44 @@
+// Cost of a sample of contact identification, over records of 2 s that begin with nothing known. Nanoseconds
+// are a reading; the measure is the count of instructions:
+//   valgrind --tool=callgrind --toggle-collect='longreach::MaximumLikelihood::step(*' bench_identify
+//     --benchmark_filter=MaximumLikelihood --benchmark_min_time=0.01
+
+#include <benchmark/benchmark.h>
+
+#include "slave/estimation/identifier.hpp"
+#include "tests/property/contact_record.hpp"
+
+namespace longreach {
+namespace {
+
+test::Samples record() {
+  Random random(1);
+  return test::with_noise(test::exact_record({}), 0.05, random);
+}
+
+void MaximumLikelihoodAlone(benchmark::State& state) {
+  const test::Samples samples = record();
+  for (auto _ : state) {
+    MaximumLikelihood estimator(1.0);
+    for (const PenetrationSample& s : samples) benchmark::DoNotOptimize(estimator.step(s, 0.0025));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
+}
+BENCHMARK(MaximumLikelihoodAlone);
+
+/// With noise, hold, change and verdict.
+void Identify(benchmark::State& state) {
+  const test::Samples samples = record();
+  const EstimatorKind kind = kEstimatorKinds[state.range(0)];
+  state.SetLabel(std::string(name_of(kind)));
+  for (auto _ : state) {
+    Identifier identifier({.kind = kind});
+    for (const PenetrationSample& s : samples) identifier.step(s, 1e-3);
+    benchmark::DoNotOptimize(identifier.answer());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
+}
+BENCHMARK(Identify)->DenseRange(0, 4);
+
+}  // namespace
+}  // namespace longreach
