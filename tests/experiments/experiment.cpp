@@ -44,7 +44,7 @@ const std::vector<Experiment>& experiments() {
       {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
        run_fk_network, fk_network_plots},
       {"identify",
-       "five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
+       "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
        "to steel",
        run_identify, identify_plots},
       {"synthesis",
