@@ -5,11 +5,14 @@
 #include <numbers>
 
 #include "slave/robot/flexible_joint.hpp"
+#include "slave/scene/yielding.hpp"
 
 namespace longreach {
 namespace {
 
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
+constexpr int kCorrections = 6;     // of a touching tool's way in a tick
+constexpr double kBesideM = 1e-13;  // that is not corrected
 
 struct Servo {
   double rate_per_s;  // ω; 0: ideal
@@ -37,6 +40,10 @@ JointMotion approach(const Servo& servo, double angle_rad, double setpoint_rad, 
   return {setpoint_rad - sign * rest, sign * std::min(speed_max, servo.rate_per_s * rest)};
 }
 
+bool flexible(const JointConfig& joint) { return joint.stiffness_nm_per_rad > 0.0; }
+
+ToolMotion tool_motion(const Pose& X_WE, double t_s) { return {.p_WE = X_WE.p, .q_WE = X_WE.q, .t_s = t_s}; }
+
 JointVector start_joints(const RobotConfig& robot) {
   JointVector q;
   for (int i = 0; i < kMaxJoints; ++i) q[i] = robot.joint[static_cast<std::size_t>(i)].start_rad;
@@ -55,6 +62,7 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       joint_rad_(start_joints(config.robot)),
       servo_rad_(joint_rad_),
       setpoint_rad_(joint_rad_),
+      flexible_(std::ranges::any_of(config.robot.joint, flexible)),
       X_WE_(X_WE_start_) {}
 
 RobotState SimulatedArm::read(Time now) {
@@ -90,18 +98,52 @@ void SimulatedArm::write(const JointVector& joint_setpoint_rad) {
 
 void SimulatedArm::move(double dt) {
   const double rate = 2.0 * std::numbers::pi * robot_.servo_hz;
+  std::array<ServoMotion, kMaxJoints> servo;
+  std::array<LinkState, kMaxJoints> link;
   for (int i = 0; i < kMaxJoints; ++i) {
-    const JointConfig& joint = robot_.joint[static_cast<std::size_t>(i)];
+    const std::size_t k = static_cast<std::size_t>(i);
     const double before_rad = servo_rad_[i];
-    const JointMotion motion = approach({rate, joint.speed_max_rad_per_s}, before_rad, setpoint_rad_[i], dt);
+    const JointMotion motion =
+        approach({rate, robot_.joint[k].speed_max_rad_per_s}, before_rad, setpoint_rad_[i], dt);
     servo_rad_[i] = motion.angle_rad;
-    LinkState link{motion.angle_rad, motion.rad_per_s};
-    if (joint.stiffness_nm_per_rad > 0.0) {
-      const double even = dt > 0.0 ? (motion.angle_rad - before_rad) / dt : 0.0;
-      link = swing(joint, {joint_rad_[i], joint_rad_per_s_[i]}, {before_rad, even}, torque_nm_[i], dt);
+    servo[k] = {before_rad, dt > 0.0 ? (motion.angle_rad - before_rad) / dt : 0.0};
+    link[k] = {joint_rad_[i], joint_rad_per_s_[i]};
+    joint_rad_[i] = motion.angle_rad;
+    joint_rad_per_s_[i] = motion.rad_per_s;
+  }
+  if (!flexible_ || !(dt > 0.0)) return;
+  const auto swing_all = [&](const JointVector& torque_nm) {
+    for (int i = 0; i < kMaxJoints; ++i) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      if (!flexible(robot_.joint[k])) continue;
+      const LinkState next = swing(robot_.joint[k], link[k], servo[k], torque_nm[i], dt);
+      joint_rad_[i] = next.rad;
+      joint_rad_per_s_[i] = next.rad_per_s;
     }
-    joint_rad_[i] = link.rad;
-    joint_rad_per_s_[i] = link.rad_per_s;
+  };
+  swing_all(JointVector::Zero());
+  if (scene_.empty()) return;
+  JointVector before_rad, give = JointVector::Zero();  // rad, rad/(N m)
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    JointConfig smooth = robot_.joint[k];
+    smooth.friction_nm = 0.0;
+    before_rad[i] = flexible(smooth) ? link[k].rad : servo[k].rad;
+    if (flexible(smooth)) give[i] = swing(smooth, {}, {}, 1.0, dt).rad;
+  }
+  const ToolMotion from = tool_motion(X_WE_, t_s_ - dt);
+  ToolMotion free = tool_motion(kinematics_.forward(joint_rad_), t_s_);
+  for (int i = 0; i < kCorrections; ++i) {
+    const Jacobian J = kinematics_.rigid_with_jacobian(0.5 * (before_rad + joint_rad_)).J;
+    const Yielded tool = yield(scene_, from, free, J * give.asDiagonal() * J.transpose(), dt);
+    if (i == 0 && tool.wrench.isZero(0.0)) return;
+    swing_all(J.transpose() * tool.wrench);
+    // The tool's way is not the straight line that the compliance makes of it.
+    const Pose X_WE = kinematics_.forward(joint_rad_);
+    const Vector3 beside_m = X_WE.p - tool.to.p_WE;
+    free.p_WE += beside_m;
+    free.q_WE = (X_WE.q * tool.to.q_WE.conjugate() * free.q_WE).normalized();
+    if (beside_m.norm() <= kBesideM) return;
   }
 }
 
@@ -113,7 +155,6 @@ void SimulatedArm::feel() {
   contact_ = scene_.contact({X_WE_.p, v_WE_, X_WE_.q, w_WE, t_s_});
   if (contact_.surface >= 0) surface_ = contact_.surface;
   F_E_W_ = {contact_.moment_nm, contact_.force_n};
-  torque_nm_ = tool.J.transpose() * (Vector6() << F_E_W_.moment, F_E_W_.force).finished();
 }
 
 double SimulatedArm::material_secant(double depth_m) const {

@@ -4,10 +4,10 @@
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick; 0 Hz: q̇
 //   only limited
 // A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
-// feels the force on the tool; the others do not (their motion is imposed). Joints are measured at the link,
-// exactly. Its time is what read() is given. It watches its master: without a setpoint for 20 ms it stops its
-// joints where they are, until the next one. The accessors that begin with true_ are for the laboratory
-// alone.
+// gives way to what the tool touches, so that the contact creates no energy however stiff it is
+// (yielding.hpp); the others do not (their motion is imposed). Joints are measured at the link, exactly. Its
+// time is what read() is given. It watches its master: without a setpoint for 20 ms it stops its joints where
+// they are, until the next one. The accessors that begin with true_ are for the laboratory alone.
 
 #include <cstdint>
 #include <optional>
@@ -56,7 +56,7 @@ class SimulatedArm : public Robot {
   JointVector joint_rad_per_s_ = JointVector::Zero();
   JointVector servo_rad_;
   JointVector setpoint_rad_;
-  JointVector torque_nm_ = JointVector::Zero();  // of the force on the tool, at the last read
+  bool flexible_;  // has joints with a stiffness
   Pose X_WE_{};
   Vector3 v_WE_ = Vector3::Zero();
   Wrench F_E_W_{};

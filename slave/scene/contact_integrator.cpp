@@ -1,6 +1,7 @@
 #include "slave/scene/contact_integrator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 
@@ -14,10 +15,21 @@ struct ExpQuotients {
   double phi1, phi2;
 };
 
+// 2/(j + 2)! for j from 13 to 0.
+constexpr std::array<double, 14> kTerms = [] {
+  std::array<double, 14> terms{};
+  double term = 1.0;
+  for (int j = 0; j < 14; ++j) {
+    terms[static_cast<std::size_t>(13 - j)] = term;
+    term /= j + 3;
+  }
+  return terms;
+}();
+
 ExpQuotients exp_quotients(double d) {
   if (d > -0.5) {
-    double sum = 1.0;
-    for (int i = 15; i >= 3; --i) sum = 1.0 + d / i * sum;
+    double sum = 0.0;  // Σ d^j 2/(j + 2)!
+    for (const double term : kTerms) sum = term + d * sum;
     return {1.0 + 0.5 * d * sum, 0.5 * sum};
   }
   const double phi1 = (std::exp(d) - 1.0) / d;
@@ -41,16 +53,11 @@ Trial attempt(const ContactMass& contact, const NormalMotion& from, double dq, d
   Trial trial{};
   trial.dx = (from.speed_m_per_s + w * e.phi2 * dq) * dt;
   trial.dv = w * e.phi1 * dq;
-  const double mean = law.mean_elastic_n(from.depth_m, trial.dx);
-  trial.kick = mean / contact.mass_kg * dt;
+  const HuntCrossley::Mean mean = law.mean_elastic(from.depth_m, trial.dx);
+  trial.kick = mean.force_n / contact.mass_kg * dt;
   trial.error = dq + trial.kick;
-  // How the mean force changes with dx: by its limit where the quotient would cancel.
-  const double to = from.depth_m + trial.dx, deep = std::max(from.depth_m, to);
-  const double stiffness = !(deep > 0.0)                      ? 0.0
-                           : std::abs(trial.dx) < 1e-4 * deep ? 0.5 * law.n * mean / deep
-                                                              : (law.elastic_n(to) - mean) / trial.dx;
   trial.rate = w * (e.phi1 - e.phi2);
-  trial.slope = 1.0 + stiffness / contact.mass_kg * trial.rate * dt * dt;
+  trial.slope = 1.0 + mean.slope_n_per_m / contact.mass_kg * trial.rate * dt * dt;
   return trial;
 }
 

@@ -25,15 +25,24 @@ struct HuntCrossley {
   [[nodiscard]] double tangent_n_per_m(double x) const { return n * secant_n_per_m(x); }
   [[nodiscard]] double energy_j(double x) const { return x > 0.0 ? elastic_n(x) * x / (n + 1.0) : 0.0; }
 
-  /// Mean elastic force over the way from x to x + dx, N: (U(x + dx) - U(x))/dx without cancellation. It
-  /// grows with dx.
-  [[nodiscard]] double mean_elastic_n(double x, double dx) const {
+  struct Mean {
+    double force_n = 0.0;        // (U(x + dx) - U(x))/dx, without cancellation; it grows with dx
+    double slope_n_per_m = 0.0;  // its derivative by dx
+  };
+  /// The elastic force over the way from x to x + dx.
+  [[nodiscard]] Mean mean_elastic(double x, double dx) const {
     const double deep = dx > 0.0 ? x + dx : x, way = std::abs(dx);
-    if (!(deep > 0.0)) return 0.0;
-    const double share = way / deep;  // of the depth
-    if (share >= 1.0) return elastic_n(deep) / ((n + 1.0) * share);
-    if (share < 1e-17) return elastic_n(deep);
-    return elastic_n(deep) * -std::expm1((n + 1.0) * std::log1p(-share)) / ((n + 1.0) * share);
+    if (!(deep > 0.0)) return {};
+    const double most = elastic_n(deep), share = way / deep;  // of the depth
+    if (share < 1e-12) return {most, 0.5 * n * most / deep};
+    double mean = most / ((n + 1.0) * share), end = dx > 0.0 ? most : 0.0;
+    if (share < 1.0) {
+      const double spent = std::expm1((n + 1.0) * std::log1p(-share));  // (1 - share)^(n+1) - 1
+      mean *= -spent;
+      if (dx < 0.0) end = most * (1.0 + spent) / (1.0 - share);
+    }
+    // By its limit where the quotient would cancel.
+    return {mean, share < 1e-4 ? 0.5 * n * mean / deep : (end - mean) / dx};
   }
 
   /// G(v), m²/s²; 1 + a v > 0.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -113,48 +114,78 @@ void Scene::plant_tree() {
   tree_ = BoundsTree(finite);
 }
 
+template <class Visit>
+void Scene::near(const Vector3& p, double reach_m, Visit&& visit) const {
+  for (const std::uint32_t i : always_) visit(bodies_[i]);
+  tree_.find(p, tool_radius_m_ + reach_m, [&](std::uint32_t found) { visit(bodies_[in_tree_[found]]); });
+}
+
 SceneContact Scene::contact(const ToolMotion& tool) const {
   SceneContact result;
-  for (const std::uint32_t i : always_) touch(bodies_[i], tool, result);
-  tree_.find(tool.p_WE, tool_radius_m_,
-             [&](std::uint32_t found) { touch(bodies_[in_tree_[found]], tool, result); });
-  for (const Hinge& hinge : hinges_) turn(hinge, tool, result);
+  near(tool.p_WE, 0.0, [&](const Body& body) {
+    const Nearest at = nearest(body, tool);
+    result.asked += static_cast<int>(body.parts.size());
+    if (!(at.depth_m > 0.0)) return;
+    const double rate = at.gradient.dot(tool.v_WE - at.v_m_per_s);
+    result.force_n -= body.law.force_n(at.depth_m, rate) * at.gradient;
+    deepest(result, at.surface, at.depth_m, -at.gradient);
+  });
+  for (const Hinge& hinge : hinges_) {
+    const Nearest at = nearest(hinge, tool);
+    ++result.asked;
+    if (!(at.depth_m > 0.0)) continue;
+    result.moment_nm -= hinge.law.force_n(at.depth_m, at.gradient.dot(tool.w_WE)) * at.gradient;
+    deepest(result, at.surface, at.depth_m, Vector3::Zero());
+  }
   return result;
 }
 
-void Scene::touch(const Body& body, const ToolMotion& tool, SceneContact& result) const {
-  double depth = 0.0, rate = 0.0;
-  Vector3 normal;
-  int surface = -1;
+Scene::Nearest Scene::nearest(const Body& body, const ToolMotion& tool) const {
+  Nearest result{-std::numeric_limits<double>::infinity(), -Vector3::UnitZ(), Vector3::Zero(),
+                 Vector3::Zero(), -1};
   for (const Part& part : body.parts) {
     const Moved by = part.moves ? moved(part.movement, tool.t_s) : Moved{Vector3::Zero(), Vector3::Zero()};
-    const Side near = side(part.shape, tool.p_WE - by.by_m);
-    ++result.asked;
-    if (!(tool_radius_m_ - near.distance_m > depth)) continue;
-    depth = tool_radius_m_ - near.distance_m;
-    rate = near.normal.dot(by.v_m_per_s - tool.v_WE);
-    normal = near.normal;
-    surface = part.surface;
+    const Side out = side(part.shape, tool.p_WE - by.by_m);
+    const double depth = tool_radius_m_ - out.distance_m;
+    if (depth > result.depth_m) result = {depth, -out.normal, by.by_m, by.v_m_per_s, part.surface};
   }
-  if (surface < 0) return;
-  result.force_n += body.law.force_n(depth, rate) * normal;
-  deepest(result, surface, depth, normal);
+  return result;
 }
 
 // The twist of the turn since the start about the axis (swing and twist), and its derivative.
-void Scene::turn(const Hinge& hinge, const ToolMotion& tool, SceneContact& result) const {
+Scene::Nearest Scene::nearest(const Hinge& hinge, const ToolMotion& tool) const {
   const Quaternion q = tool.q_WE * q_start_.conjugate();
   const double w = q.w() < 0.0 ? -q.w() : q.w();
   const Vector3 v = q.w() < 0.0 ? Vector3(-q.vec()) : q.vec();
   const double along = hinge.axis.dot(v);
-  ++result.asked;
-  const double depth = hinge.arm_m * (2.0 * std::atan2(along, w) - hinge.angle_rad);
-  if (!(depth > 0.0)) return;
-  const Vector3 gradient =
-      (w * w * hinge.axis + w * v.cross(hinge.axis) + along * v) / (w * w + along * along);
-  const double rate = hinge.arm_m * gradient.dot(tool.w_WE);
-  result.moment_nm -= hinge.law.force_n(depth, rate) * hinge.arm_m * gradient;
-  deepest(result, hinge.surface, depth, Vector3::Zero());
+  const Vector3 twist = (w * w * hinge.axis + w * v.cross(hinge.axis) + along * v) / (w * w + along * along);
+  return {hinge.arm_m * (2.0 * std::atan2(along, w) - hinge.angle_rad), hinge.arm_m * twist, Vector3::Zero(),
+          Vector3::Zero(), hinge.surface};
+}
+
+SceneMean Scene::mean_contact(const ToolMotion& from, const ToolMotion& to, double dt) const {
+  SceneMean mean;
+  const auto add = [&](const HuntCrossley& law, const Nearest& before, const Nearest& after,
+                       const Vector3& way, int rows) {
+    const double change = after.depth_m - before.depth_m;
+    const double damping = 1.0 + law.a * change / dt;
+    const auto [elastic, slope] = law.mean_elastic(before.depth_m, change);
+    if (!(elastic * damping > 0.0)) return;
+    Vector3 along = 0.5 * (before.gradient + after.gradient);
+    const double length2 = way.squaredNorm();
+    if (length2 > 0.0) along += (change - along.dot(way)) / length2 * way;
+    mean.wrench.segment<3>(rows) -= elastic * damping * along;
+    const double stiffness = slope * damping + elastic * law.a / dt;
+    mean.stiffness.block<3, 3>(rows, rows) += stiffness * along * along.transpose();
+  };
+  const Vector3 way = to.p_WE - from.p_WE;
+  near(from.p_WE, way.norm(), [&](const Body& body) {
+    const Nearest before = nearest(body, from), after = nearest(body, to);
+    add(body.law, before, after, way - (after.by_m - before.by_m), 3);
+  });
+  const Vector3 turn = hinges_.empty() ? Vector3::Zero() : log_rotation(to.q_WE * from.q_WE.conjugate());
+  for (const Hinge& hinge : hinges_) add(hinge.law, nearest(hinge, from), nearest(hinge, to), turn, 0);
+  return mean;
 }
 
 double Scene::secant_n_per_m(int surface, double depth_m) const {

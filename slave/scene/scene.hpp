@@ -37,6 +37,11 @@ struct SceneContact {
   int asked = 0;                     // surfaces whose distance was computed
 };
 
+struct SceneMean {
+  Vector6 wrench = Vector6::Zero();                                             // [moment; force] as above
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  // about -∂wrench/∂move
+};
+
 class Scene {
  public:
   /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or a direction is
@@ -45,6 +50,12 @@ class Scene {
 
   [[nodiscard]] bool empty() const { return bodies_.empty() && hinges_.empty(); }
   [[nodiscard]] SceneContact contact(const ToolMotion& tool) const;
+
+  /// What acts over a move in which the poses and times of `from` and `to` count, not their velocities; dt >
+  /// 0, s. Its work is what the contacts store or spend: mean elastic force (hunt_crossley.hpp) times (1 + a
+  /// Δp/dt), along a direction that makes it F·move = -F Δp (discrete gradient, Gonzalez 1996). So no move
+  /// creates energy.
+  [[nodiscard]] SceneMean mean_contact(const ToolMotion& from, const ToolMotion& to, double dt) const;
 
   /// Static F/p of surface `surface` at `depth_m` > 0, N/m; 0 for an index that is none.
   [[nodiscard]] double secant_n_per_m(int surface, double depth_m) const;
@@ -67,8 +78,18 @@ class Scene {
     int surface;
   };
   void plant_tree();
-  void touch(const Body& body, const ToolMotion& tool, SceneContact& result) const;
-  void turn(const Hinge& hinge, const ToolMotion& tool, SceneContact& result) const;
+  // The nearest side of a body, or of the stop of a hinge.
+  struct Nearest {
+    double depth_m;     // negative: not touching
+    Vector3 gradient;   // of depth: by place, of a body, or by turn, of a hinge
+    Vector3 by_m;       // how far the surface has moved
+    Vector3 v_m_per_s;  // its velocity
+    int surface;
+  };
+  [[nodiscard]] Nearest nearest(const Body& body, const ToolMotion& tool) const;
+  [[nodiscard]] Nearest nearest(const Hinge& hinge, const ToolMotion& tool) const;
+  template <class Visit>
+  void near(const Vector3& p, double reach_m, Visit&& visit) const;
 
   double tool_radius_m_;
   Quaternion q_start_;

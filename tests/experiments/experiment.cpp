@@ -10,64 +10,67 @@
 
 namespace longreach {
 
-const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> kExperiments = {
-      {"touch",
-       "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
-       run_touch, touch_plots},
-      {"first-touch", "A wall met at 50 mm/s, 3 s away: what the hand feels then and at the second touch.",
-       run_first_touch, first_touch_plots},
-      {"spike", "In contact the delay steps from 0.8 to 12 s: force, energy, and the way back to work.",
-       run_spike, spike_plots},
-      {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
-       run_rate_contact, rate_contact_plots},
-      {"six-dof-contact", "An oblique plane, a corner and a torque, from stiffness tensors alone.",
-       run_six_dof_contact, six_dof_contact_plots},
-      {"hostile-updates",
-       "A million hostile stiffness reports in four hands: passive, limited, without steps?",
-       run_hostile_updates, hostile_updates_plots},
-      {"home-rotation", "The rotational handle returns home on a spring (Fig. 9, 10): damping and stiffness.",
-       run_home_rotation, home_rotation_plots},
-      {"home-translation", "The translational handle returns home (Fig. 17): on a spring, and gliding.",
-       run_home_translation, home_translation_plots},
-      {"wall-rotation", "Turning into a virtual wall (Fig. 12).", run_wall_rotation, wall_rotation_plots},
-      {"wall-translation",
-       "The stiffest stable virtual wall (Fig. 18) against sample time, hand, delay, encoders and friction.",
-       run_wall_translation, wall_translation_plots},
-      {"gravity", "Torques that carry the translational device, and where it goes when let go (Fig. 15, 16).",
-       run_gravity, gravity_plots},
-      {"rate-mapping", "Rate control (Fig. 13, 14): deflection and speed of the robot, both laws, dead zone.",
-       run_rate_mapping, rate_mapping_plots},
-      {"scale-steps",
-       "The buttons step the scale in motion: do goal and force step, is friction f / k_scale?",
-       run_scale_steps, scale_steps_plots},
-      {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
-       run_fk_network, fk_network_plots},
-      {"identify",
-       "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
-       "to steel",
-       run_identify, identify_plots},
-      {"synthesis",
-       "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
-       run_synthesis, synthesis_plots},
-      {"delay-sweep",
-       "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
-       "limits.",
-       run_delay_sweep, delay_sweep_plots},
-      {"press-wall",
-       "One wall across one link: each textbook law over time, or the one that rendering.law names.",
-       run_press_wall, press_wall_plots},
-      {"delay-seeds",
-       "The worst of many seeds, over every round trip and every named link that has no outage.",
-       run_delay_seeds, delay_seeds_plots},
-      {"singular-paths",
-       "The tool straight through the wrist, elbow and shoulder singularities of a PUMA 560: its error, the "
-       "joints' "
-       "speeds.",
-       run_singular_paths, singular_paths_plots},
-  };
-  return kExperiments;
-}
+namespace {
+
+const std::vector<Experiment> kExperiments = {
+    {"touch", "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
+     run_touch, touch_plots},
+    {"first-touch", "A wall met at 50 mm/s, 3 s away: what the hand feels then and at the second touch.",
+     run_first_touch, first_touch_plots},
+    {"spike", "In contact the delay steps from 0.8 to 12 s: force, energy, and the way back to work.",
+     run_spike, spike_plots},
+    {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
+     run_rate_contact, rate_contact_plots},
+    {"six-dof-contact", "An oblique plane, a corner and a torque, from stiffness tensors alone.",
+     run_six_dof_contact, six_dof_contact_plots},
+    {"hostile-updates", "A million hostile stiffness reports in four hands: passive, limited, without steps?",
+     run_hostile_updates, hostile_updates_plots},
+    {"home-rotation", "The rotational handle returns home on a spring (Fig. 9, 10): damping and stiffness.",
+     run_home_rotation, home_rotation_plots},
+    {"home-translation", "The translational handle returns home (Fig. 17): on a spring, and gliding.",
+     run_home_translation, home_translation_plots},
+    {"wall-rotation", "Turning into a virtual wall (Fig. 12).", run_wall_rotation, wall_rotation_plots},
+    {"wall-translation",
+     "The stiffest stable virtual wall (Fig. 18) against sample time, hand, delay, encoders and friction.",
+     run_wall_translation, wall_translation_plots},
+    {"gravity", "Torques that carry the translational device, and where it goes when let go (Fig. 15, 16).",
+     run_gravity, gravity_plots},
+    {"rate-mapping", "Rate control (Fig. 13, 14): deflection and speed of the robot, both laws, dead zone.",
+     run_rate_mapping, rate_mapping_plots},
+    {"scale-steps", "The buttons step the scale in motion: do goal and force step, is friction f / k_scale?",
+     run_scale_steps, scale_steps_plots},
+    {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
+     run_fk_network, fk_network_plots},
+    {"identify",
+     "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
+     "to steel",
+     run_identify, identify_plots},
+    {"synthesis",
+     "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
+     run_synthesis, synthesis_plots},
+    {"delay-sweep",
+     "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
+     "limits.",
+     run_delay_sweep, delay_sweep_plots},
+    {"press-wall",
+     "One wall across one link: each textbook law over time, or the one that rendering.law names.",
+     run_press_wall, press_wall_plots},
+    {"delay-seeds", "The worst of many seeds, over every round trip and every named link that has no outage.",
+     run_delay_seeds, delay_seeds_plots},
+    {"singular-paths",
+     "The tool straight through the wrist, elbow and shoulder singularities of a PUMA 560: its error, the "
+     "joints' "
+     "speeds.",
+     run_singular_paths, singular_paths_plots},
+    {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
+     run_impact, impact_plots},
+    {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", run_scenes_cost,
+     scenes_cost_plots},
+};
+
+}  // namespace
+
+const std::vector<Experiment>& experiments() { return kExperiments; }
 
 const Experiment* find_experiment(std::string_view name) {
   for (const Experiment& e : experiments()) {

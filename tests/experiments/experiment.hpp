@@ -94,5 +94,9 @@ std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
 std::vector<Plot> delay_seeds_plots();
 std::vector<Metric> run_singular_paths(const ExperimentRun& run);
 std::vector<Plot> singular_paths_plots();
+std::vector<Metric> run_impact(const ExperimentRun& run);
+std::vector<Plot> impact_plots();
+std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
+std::vector<Plot> scenes_cost_plots();
 
 }  // namespace longreach

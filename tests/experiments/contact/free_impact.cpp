@@ -20,7 +20,7 @@ double energy(const ContactMass& contact, const NormalMotion& at) {
 FreeImpactOutcome run_free_impact(const FreeImpact& impact) {
   const ContactMass& contact = impact.contact;
   const double touched = impact.speed_m_per_s;
-  NormalMotion now{0.0, touched};
+  NormalMotion now{-impact.phase * touched * impact.dt, touched};
   const double invariant_at_touch = invariant(contact, now);
   FreeImpactOutcome out;
   for (long n = 0; n < kFreeImpactSteps && !out.left; ++n) {
@@ -41,8 +41,8 @@ FreeImpactOutcome run_free_impact(const FreeImpact& impact) {
           std::max(out.penetration_max_m, std::pow(n1 * contact.mass_kg / contact.law.k * h, 1.0 / n1));
     }
     out.left = next.depth_m <= 0.0 && next.speed_m_per_s < 0.0;
-    const double share = out.left ? now.depth_m / (now.depth_m - next.depth_m) : 1.0;
-    out.contact_time_s = (static_cast<double>(n) + share) * impact.dt;
+    const double share = out.left ? std::max(now.depth_m, 0.0) / (now.depth_m - next.depth_m) : 1.0;
+    out.contact_time_s = (static_cast<double>(n) + share - impact.phase) * impact.dt;
     now = next;
   }
   out.restitution = -now.speed_m_per_s / touched;

@@ -12,6 +12,7 @@ struct FreeImpact {
   ContactMass contact{};
   double speed_m_per_s = 0.1;  // > 0, at touch
   double dt = 1e-3;            // > 0, s
+  double phase = 0.0;          // of the first step that passes before the touch, 0 to 1
   Integrator integrator = Integrator::kDiscreteGradient;
 };
 

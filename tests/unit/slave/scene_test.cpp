@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "common/core/random.hpp"
+#include "slave/scene/yielding.hpp"
+#include "tests/unit/allocations.hpp"
 
 namespace longreach {
 namespace {
@@ -263,6 +265,22 @@ TEST(Scene, NeedsWhatItsSurfacesNeedUnlessItSaysItself) {
   config.surface.clear();
   config.needs = NeedsConfig{.contact = true};  // a real robot: its surfaces are not simulated
   EXPECT_TRUE(needs(config).contact);
+}
+
+TEST(Scene, AllocatesNothingInAStep) {
+  const Scene scene(
+      scene_of({box(Vector3(-0.4, 0, 0), Vector3(1, 1, 1)), box(Vector3(0.4, 0, 0), Vector3(1, 1, 1))}),
+      Pose{});
+  const ToolMotion from{Vector3(0, 0, 0.499), Vector3::Zero()}, free{Vector3(0, 0, 0.498), Vector3::Zero()};
+  Compliance compliance = Compliance::Zero();
+  compliance.bottomRightCorner<3, 3>().diagonal().setConstant(1e-6);
+  test::count_allocations(true);
+  const SceneContact touching = scene.contact(free);
+  const Yielded tool = yield(scene, from, free, compliance, 1e-3);
+  test::count_allocations(false);
+  EXPECT_EQ(test::allocations(), 0);
+  EXPECT_EQ(touching.contacts, 2);
+  EXPECT_TRUE(tool.converged && tool.wrench[5] > 0.0);
 }
 
 }  // namespace

@@ -100,5 +100,48 @@ TEST(SimulatedArm, SensorNoiseHasTheConfiguredSpreadAndIsSeeded) {
   EXPECT_DOUBLE_EQ(arm.material_secant(0.002), 1000.0);
 }
 
+// An arm on springs, pushed 2 mm into walls of any stiffness and left alone: what it has of energy never
+// rises, and no force pulls. A force that is held for a tick would throw it off the wall again and again.
+TEST(SimulatedArm, ContactCreatesNoEnergyHoweverStiffItIs) {
+  for (const double stiffness : {1e3, 1e5, 1e7, 1e9}) {
+    for (const double exponent : {1.0, 1.5}) {
+      SlaveConfig config = test::wall_config(-0.002, stiffness, exponent);
+      config.scene.material[0].damping_s_per_m = 0.0;
+      for (JointConfig& joint : config.robot.joint) {
+        joint.stiffness_nm_per_rad = 5e4;
+        joint.inertia_kg_m2 = 50.0;
+      }
+      SimulatedArm arm(config, Random(1));
+      const JointVector servo = test::start_joints();
+      const HuntCrossley law{stiffness / std::pow(1e-3, exponent - 1.0), exponent, 0.0};
+      Time now{};
+      RobotState state = arm.read(now);
+      const auto energy = [&] {
+        double sum = law.energy_j(arm.true_penetration_m());
+        for (int i = 0; i < kMaxJoints; ++i) {
+          sum += 25.0 * state.joint_rad_per_s[i] * state.joint_rad_per_s[i] +
+                 2.5e4 * (state.joint_rad[i] - servo[i]) * (state.joint_rad[i] - servo[i]);
+        }
+        return sum;
+      };
+      const double start = energy();
+      double most = 0.0;
+      int touching = 0;
+      for (int i = 0; i < 5000; ++i) {
+        arm.write(servo);
+        now += milliseconds(1);
+        state = arm.read(now);
+        most = std::max(most, energy() / start);
+        ASSERT_LE(arm.true_wrench().force.x(), 0.0);
+        touching += arm.true_penetration_m() > 0.0 ? 1 : 0;
+      }
+      EXPECT_LE(most, 1.0 + 2e-5) << stiffness << " " << exponent;
+      EXPECT_GT(touching, 5);
+      std::printf("wall of %g N/m, n = %g: at most %.6f of the energy, %d ticks touching\n", stiffness,
+                  exponent, most, touching);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace longreach

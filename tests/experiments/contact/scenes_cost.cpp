@@ -1,0 +1,138 @@
+// What a scene costs: microseconds of a step of the simulated robot and the slave's node with each scene that
+// ships, and of the contact alone where the tool touches something; then with 1 to 10,000 surfaces, at rest
+// (found through a tree of bounds) and moving (asked one after the other). The one experiment whose figures
+// are of this machine and its load.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "common/config/config.hpp"
+#include "common/core/random.hpp"
+#include "slave/robot/simulated_arm.hpp"
+#include "slave/slave_node.hpp"
+#include "tests/experiments/experiment.hpp"
+#include "tests/experiments/trace.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kSteps = 2000;
+constexpr int kRounds = 7;  // the quickest counts: the others were disturbed
+
+// Of one of `times` calls, in the quickest of the rounds.
+template <class Call>
+double cost_us(int times, Call&& call) {
+  double best = 1e300;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < times; ++i) call(i);
+    const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - began;
+    best = std::min(best, spent.count() / times);
+  }
+  return best;
+}
+
+double slave_step_us(const SlaveConfig& config) {
+  SimulatedArm arm(config, Random(1));
+  SlaveNode node(config);
+  SlaveInput input;
+  return cost_us(kSteps, [&](int) {
+    input.now += std::chrono::milliseconds(1);
+    input.robot = arm.read(input.now);
+    arm.write(node.step(input).joint_setpoint_rad);
+  });
+}
+
+struct ContactCost {
+  double us = 0.0;
+  double asked = 0.0;     // mean, surfaces whose distance was computed
+  double touching = 0.0;  // share of places with contact
+};
+
+ContactCost contact_cost(const Scene& scene, const Vector3& centre_m, double reach_m) {
+  Random random(1);
+  std::vector<ToolMotion> tools(kSteps);
+  ContactCost cost;
+  for (ToolMotion& tool : tools) {
+    tool.p_WE =
+        centre_m + reach_m * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    tool.q_WE = exp_rotation(0.1 * Vector3(random.normal(), random.normal(), random.normal()));
+    const SceneContact c = scene.contact(tool);
+    cost.asked += static_cast<double>(c.asked) / kSteps;
+    cost.touching += c.contacts > 0 ? 1.0 / kSteps : 0.0;
+  }
+  double sum = 0.0;  // so that nothing is left out
+  cost.us = cost_us(kSteps, [&](int i) { sum += scene.contact(tools[static_cast<std::size_t>(i)]).depth_m; });
+  if (!std::isfinite(sum)) cost.us = 0.0;
+  return cost;
+}
+
+Scene many(int count, bool moving) {
+  SceneConfig config;
+  config.material.push_back({.name = "m"});
+  Random random(2);
+  for (int i = 0; i < count; ++i) {
+    SurfaceConfig& s = config.surface.emplace_back();
+    s.material = "m";
+    s.sphere = SphereConfig{Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)),
+                            0.02, false};
+    if (moving) s.movement.emplace();
+  }
+  return Scene(config, Pose{});
+}
+
+std::vector<std::string> ready_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(find_deploy_folder() / "scenes")) {
+    if (entry.path().extension() == ".txtpb") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::vector<Plot> scenes_cost_plots() {
+  return {
+      {.name = "scenes_cost",
+       .csv = "scenes_cost",
+       .title =
+           "Spheres in a cube of 2 m: those at rest are found through a tree, moving ones asked one by one",
+       .x_column = "surfaces",
+       .x_label = "surfaces",
+       .panels = {{"time of a step (µs)",
+                   {{"resting_us", "at rest"}, {"moving_us", "moving"}},
+                   "set logscale xy\nset yrange [0.005:1000]\nset format y '%g'"},
+                  {"distances computed",
+                   {{"resting_asked", "at rest"}, {"moving_asked", "moving"}},
+                   "set logscale xy\nset yrange [0.01:20000]\nset format y '%g'"}}}};
+}
+
+std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
+  std::vector<Metric> metrics;
+  for (const std::string& name : ready_scenes()) {
+    proto::SlaveConfig message;
+    message.set_scene_file("scenes/" + name + ".txtpb");
+    resolve_files(message, find_deploy_folder());
+    const SlaveConfig config = to_struct(message);
+    const Pose start = SimulatedArm(config, Random(1)).start_pose();
+    const ContactCost cost = contact_cost(Scene(config.scene, start), start.p + Vector3(0.12, 0, 0), 0.05);
+    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node"});
+    metrics.push_back({name + "_contact_us", cost.us, "contact alone"});
+    metrics.push_back({name + "_touching", 100.0 * cost.touching, "% of these places"});
+  }
+  Trace trace(run.out, "scenes_cost",
+              {"surfaces", "resting_us", "moving_us", "resting_asked", "moving_asked"});
+  for (const int count : {1, 3, 10, 30, 100, 300, 1000, 3000, 10000}) {
+    const ContactCost resting = contact_cost(many(count, false), Vector3::Zero(), 1.0);
+    const ContactCost moving = contact_cost(many(count, true), Vector3::Zero(), 1.0);
+    trace.row({static_cast<double>(count), resting.us, moving.us, resting.asked, moving.asked});
+    metrics.push_back({std::to_string(count) + "_resting_us", resting.us, "contact alone"});
+    metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone"});
+  }
+  trace.close();
+  return metrics;
+}
+
+}  // namespace longreach
