@@ -12,10 +12,10 @@ constexpr double kFullForce_s = 0.4;
 
 void ContactSpring::begin(double s_m, double surface_m) {
   target_ = fading_ = 0.0;
-  clamped_ = yielding_ = false;
+  clamped_ = yielding_ = leaving_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
-  s_last_m_ = s_m;
+  s_slow_m_ = s_m;
 }
 
 bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
@@ -48,7 +48,7 @@ double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
   return_anchor(s_m, dt_s, tank);
-  s_last_m_ = s_m;
+  s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
   return force_n(s_m);
 }
 
@@ -60,7 +60,8 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
     anchor_m_ = std::max(s_m, surface_m_);
     return;
   }
-  const double move = -std::expm1(-dt_s / config_.fade_s) * (surface_m_ - anchor_m_);
+  const double share = -std::expm1(-dt_s / config_.fade_s);
+  const double move = share * (surface_m_ - anchor_m_);
   if (move >= 0.0) {
     anchor_m_ += std::min(move, depth);
     return;
@@ -68,9 +69,13 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
   if (yielding_) return;
   // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
   const double most = config_.force_max_n / k;
-  // A wall that was learnt late, far behind: it grows, and not while the hand retreats from it.
+  // A wall that was learnt late, far behind: it grows; a hand that leaves it goes free.
   const double fastest = most * dt_s / kFullForce_s;
-  if (-move > fastest && s_m < s_last_m_) return;
+  leaving_ = s_m < s_slow_m_ && (leaving_ || -move > fastest);
+  if (leaving_) {
+    anchor_m_ += share * depth;
+    return;
+  }
   double out = std::min({-move, std::max(0.0, most - depth), fastest});
   const double cost = 0.5 * k * out * (2.0 * depth + out);
   const double there = tank.level_j();

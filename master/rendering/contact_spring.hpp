@@ -8,8 +8,9 @@
 //   a lower k enters with the time constant `fade_s`, anchor fixed: force eases, energy falls;
 //   without force the anchor returns to the surface for free: a = max(s, w);
 //   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy;
-//   a wall that was learnt late grows, from no force to the limit in kFullForce_s at the fastest and not
-//   while the hand retreats: it does not step; above `force_max_n` the spring yields: the anchor gives way.
+//   a wall that was learnt late grows, from no force to the limit in kFullForce_s at the fastest: it does not
+//   step; while it is still far behind, a hand that retreats goes free: the force eases, and does not come
+//   again on the way; above `force_max_n` the spring yields: the anchor gives way.
 //
 // Pure; every input may be anything, non-finite ones are refused by set_*. Lengths and forces may as well be
 // angles and moments.
@@ -59,10 +60,11 @@ class ContactSpring {
   double fading_ = 0.0;  // stiffness that is on its way out, N/m
   double anchor_m_ = 0.0;
   double surface_m_ = 0.0;
-  double s_last_m_ = 0.0;
+  double s_slow_m_ = 0.0;  // follows the handle with fade_s: which way it goes, apart from tremor
   double paid_j_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;
+  bool leaving_ = false;  // the hand retreats from a wall that was far behind it
 };
 
 }  // namespace longreach

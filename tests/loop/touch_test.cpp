@@ -96,6 +96,15 @@ TEST_P(Touch, TheHandFeelsTheWallCalmlyWhereItIs) {
 
 INSTANTIATE_TEST_SUITE_P(Grid, Touch, testing::ValuesIn(grid()));
 
+/// The hand drives five times as far as the tool: when it learns of the wall, that is 25 mm behind it.
+TEST(Touch, ASoftWallLearntFarBehindTheHandIsDisplayedRight) {
+  for (std::uint64_t seed = 1; seed <= 30; seed += full_size() ? 1 : 5) {
+    const Values v =
+        touch({"profile=moon", "mapping.scale=0.2", "scene.material.wall.stiffness_n_per_m=500"}, seed);
+    EXPECT_LT(v.at("displayed_stiffness_error"), 0.045) << "seed " << seed;
+  }
+}
+
 TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   const Values v =
       touch({"profile=moon-relay", "scene.material.wall.stiffness_n_per_m=5000", "rendering.law=NAIVE"}, 1);

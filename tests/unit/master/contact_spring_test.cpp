@@ -46,6 +46,26 @@ TEST(ContactSpring, ReturnsToTheSurfaceForFreeWhenTheHandRetreats) {
   EXPECT_NEAR(spring.step(0.001, kTick_s), 5.0, 1e-9);
 }
 
+TEST(ContactSpring, FarBehindAHandThatRetreatsIsNotFeltOnTheWay) {
+  Spring spring({});
+  double s = 0.04;
+  spring.begin(s, 0.0);
+  spring.set_stiffness(s, 500.0);
+  Random random(1);
+  const auto tick = [&](double speed_m_per_s) {
+    s += speed_m_per_s * kTick_s;
+    spring.tank.fill(0.02);  // nothing is too dear
+    return spring.step(s + 1e-5 * random.normal(), kTick_s);
+  };
+  for (int i = 0; i < 100; ++i) tick(0.005);
+  EXPECT_GT(spring.force_n(s), 1.0) << "it grows while the hand presses";
+  double felt_s = 0.0;
+  while (s > 0.0) felt_s += tick(-0.02) > 0.2 ? kTick_s : 0.0;
+  EXPECT_LT(felt_s, 0.3) << "of 2 s";
+  for (int i = 0; i < 100; ++i) tick(0.02);
+  EXPECT_NEAR(spring.force_n(s), 500.0 * s, 0.02) << "and then it is where it was registered";
+}
+
 TEST(ContactSpring, TakesAHigherStiffnessWithoutAForceStepAndWithLessEnergy) {
   Spring spring({});
   spring.begin(-0.001, 0.0);
