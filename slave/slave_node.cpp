@@ -6,6 +6,7 @@
 #include "common/link/playout.hpp"
 #include "slave/contact.hpp"
 #include "slave/motion.hpp"
+#include "slave/sensing/tool_load.hpp"
 #include "slave/slave_safety.hpp"
 
 namespace longreach {
@@ -54,6 +55,7 @@ struct SlaveNode::State {
         touchable(needs(config.scene).contact),
         safety(config.safety),
         motion(config.command, config.robot),
+        sensor(config.sensing),
         contact(config.sensing, config.estimator),
         playout(config.playout),
         turn_playout(config.playout) {}
@@ -67,13 +69,14 @@ struct SlaveNode::State {
   void book_reached();
   void report(Time now, SlaveOutput& output);
   void send_telemetry(const SlaveInput& input, SlaveOutput& output);
-  void show(const RobotState& robot, const Clamps& clamps, std::uint64_t rejected_values);
+  void show(const Clamps& clamps, std::uint64_t rejected_values);
 
   SlaveLinkConfig link;
   double loop_hz;
   bool touchable;  // else there is no contact, sensor or estimator
   SlaveSafety safety;
   SlaveMotion motion;
+  ToolCompensation sensor;
   SlaveContact contact;
   Playout playout;       // of position goals
   Playout turn_playout;  // of orientation goals: each datagram carries one of the two
@@ -108,6 +111,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.link = config.link;
   s.safety.configure(config.safety);
   s.motion.configure(config.command);
+  s.sensor.configure(config.sensing);
   s.contact.configure(config.sensing, config.estimator);
   s.playout.configure(config.playout);
   s.turn_playout.configure(config.playout);
@@ -119,6 +123,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   s.robot_ok = input.robot.ok && finite(input.robot);
   if (!s.robot_seen && s.robot_ok) {
     s.motion.reset(input.robot.joint_rad);
+    s.sensor.zero();
     s.robot_seen = true;
   }
   if (s.decide(input)) s.begin_engagement(input.robot);
@@ -132,7 +137,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   // was missed is caught up within them.
   if (dt > 0.0) clamps = s.motion.step({X_WE_goal, s.contact.force(), 1.0 / s.loop_hz});
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
-  s.show(input.robot, clamps, s.rejected_values);
+  s.show(clamps, s.rejected_values);
   s.book_reached();
 
   SlaveOutput output;
@@ -176,6 +181,7 @@ void SlaveNode::State::begin_engagement(const RobotState& robot) {
     motion.reset(robot.joint_rad);
   }
   X_WE_anchor = motion.X_WE();
+  if (!contact.in_contact()) sensor.zero();
   playout.clear();
   turn_playout.clear();
   contact.forget_goals();
@@ -217,16 +223,21 @@ Pose SlaveNode::State::play(Time now) {
 }
 
 void SlaveNode::State::feel(const RobotState& robot, double dt) {
+  view.F_E_W = robot.F_F_W;
   if (!touchable) {
     view.X_WE = motion.kinematics().forward(robot.joint_rad);
     return;
   }
   const ToolKinematics tool = motion.kinematics().forward_with_jacobian(robot.joint_rad);
   view.X_WE = tool.X_WE;
-  const Vector3 v_WE = tool.J.bottomRows<3>() * robot.joint_rad_per_s;
+  const Twist V_WE{tool.J.topRows<3>() * robot.joint_rad_per_s,
+                   tool.J.bottomRows<3>() * robot.joint_rad_per_s};
+  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, dt);
+  if (!sensor.ready()) return;
   const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
-  contact.step({tool.X_WE.p, v_WE, robot.F_F_W.force, follows ? played_sequence : 0.0, scale, dt,
+  contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
                 view.clamps.force_guard});
+  if (contact.in_contact()) sensor.abandon();
 }
 
 void SlaveNode::State::book_reached() {
@@ -281,12 +292,11 @@ void SlaveNode::State::send_telemetry(const SlaveInput& input, SlaveOutput& outp
   output.telemetry_sequence = ++telemetry_sequence;
 }
 
-void SlaveNode::State::show(const RobotState& robot, const Clamps& clamps, std::uint64_t rejected) {
+void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.state = safety.state();
   view.cause = safety.cause();
   view.engagement = safety.engagement();
   view.X_WE_anchor = X_WE_anchor;
-  if (robot_ok) view.F_E_W = robot.F_F_W;
   view.in_contact = contact.in_contact();
   view.estimate = contact.estimate();
   view.reported_stiffness_n_per_m = contact.reported_n_per_m();

@@ -224,6 +224,21 @@ Finding check_mapping(const proto::Mapping& mapping) {
                   {"radius_max_rad", mapping.radius_max_rad()});
 }
 
+Finding within(const PathStep& step, Finding finding) {
+  if (finding) finding->path.insert(finding->path.begin(), step);
+  return finding;
+}
+
+// A force that the sensor cannot tell is one that nobody guards against.
+Finding check_guarded(const proto::SlaveConfig& config) {
+  const double guard_n = config.command().force_guard_n(), range_n = config.sensing().force_range_n();
+  if (range_n == 0.0 || guard_n < range_n) return std::nullopt;
+  const PathStep section{config.GetDescriptor()->FindFieldByName("sensing"), -1};
+  return within(section, at(config.sensing(), "force_range_n",
+                            " = " + format_number(range_n) +
+                                " is not above command.force_guard_n = " + format_number(guard_n)));
+}
+
 // The rules of one message, without those of its parts.
 Finding check_message(const Message& message) {
   if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
@@ -244,15 +259,11 @@ Finding check_message(const Message& message) {
   if (const auto* script = dynamic_cast<const proto::Operator*>(&message)) {
     return is_direction(*script, "direction", script->direction());
   }
+  if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
     return in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
   }
   return std::nullopt;
-}
-
-Finding within(const PathStep& step, Finding finding) {
-  if (finding) finding->path.insert(finding->path.begin(), step);
-  return finding;
 }
 
 // What the laboratory can do and a program cannot: the configuration of a program is a message of its own,

@@ -273,6 +273,13 @@ void visit_fields(Visitor& visit, S& s) {
   visit("prefer", s.prefer);
 }
 
+template <class Visitor, Is<ToolLoadConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("mass_kg", s.mass_kg);
+  visit("com_m", s.com_m);
+  visit("inertia_kg_m2", s.inertia_kg_m2);
+}
+
 template <class Visitor, Is<SensingConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("force_noise_n", s.force_noise_n);
@@ -280,6 +287,18 @@ void visit_fields(Visitor& visit, S& s) {
   visit("touch_n", s.touch_n);
   visit("release_n", s.release_n);
   visit("filter_s", s.filter_s);
+  visit("force_bias_n", s.force_bias_n);
+  visit("moment_bias_nm", s.moment_bias_nm);
+  visit("force_drift_n", s.force_drift_n);
+  visit("moment_drift_nm", s.moment_drift_nm);
+  visit("force_resolution_n", s.force_resolution_n);
+  visit("moment_resolution_nm", s.moment_resolution_nm);
+  visit("force_range_n", s.force_range_n);
+  visit("moment_range_nm", s.moment_range_nm);
+  visit("bandwidth_hz", s.bandwidth_hz);
+  visit("tool", s.tool);
+  visit("gravity_m_per_s2", s.gravity_m_per_s2);
+  visit("zero_s", s.zero_s);
 }
 
 template <class Visitor, Is<EstimatorConfig> S>

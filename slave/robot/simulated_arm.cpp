@@ -58,7 +58,7 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       kinematics_(config.robot),
       X_WE_start_(kinematics_.forward(start_joints(config.robot))),
       scene_(config.scene, X_WE_start_),
-      random_(random),
+      sensor_(config.sensing, random),
       joint_rad_(start_joints(config.robot)),
       servo_rad_(joint_rad_),
       setpoint_rad_(joint_rad_),
@@ -78,11 +78,7 @@ RobotState SimulatedArm::read(Time now) {
   RobotState state;
   state.joint_rad = joint_rad_;
   state.joint_rad_per_s = joint_rad_per_s_;
-  state.F_F_W = F_E_W_;
-  if (!scene_.empty()) {
-    for (int i = 0; i < 3; ++i) state.F_F_W.force[i] += sensing_.force_noise_n * random_.normal();
-    for (int i = 0; i < 3; ++i) state.F_F_W.moment[i] += sensing_.moment_noise_nm * random_.normal();
-  }
+  if (!scene_.empty()) state.F_F_W = sense(dt);
   return state;
 }
 
@@ -150,11 +146,20 @@ void SimulatedArm::move(double dt) {
 void SimulatedArm::feel() {
   const ToolKinematics tool = kinematics_.forward_with_jacobian(joint_rad_);
   X_WE_ = tool.X_WE;
-  v_WE_ = tool.J.bottomRows<3>() * joint_rad_per_s_;
-  const Vector3 w_WE = tool.J.topRows<3>() * joint_rad_per_s_;
-  contact_ = scene_.contact({X_WE_.p, v_WE_, X_WE_.q, w_WE, t_s_});
+  V_WE_ = {tool.J.topRows<3>() * joint_rad_per_s_, tool.J.bottomRows<3>() * joint_rad_per_s_};
+  contact_ = scene_.contact({X_WE_.p, V_WE_.linear, X_WE_.q, V_WE_.angular, t_s_});
   if (contact_.surface >= 0) surface_ = contact_.surface;
   F_E_W_ = {contact_.moment_nm, contact_.force_n};
+}
+
+// The sensor's channels are along the axes of the tool, and it carries the tool.
+Wrench SimulatedArm::sense(double dt) {
+  const SensorMotion motion = motion_.step(X_WE_.q, V_WE_, sensing_.gravity_m_per_s2, 0.0, dt);
+  const Wrench tool = tool_wrench(sensing_.tool, motion);
+  const Quaternion q_EW = X_WE_.q.conjugate();
+  const Wrench told =
+      sensor_.step({q_EW * F_E_W_.moment + tool.moment, q_EW * F_E_W_.force + tool.force}, dt);
+  return {X_WE_.q * told.moment, X_WE_.q * told.force};
 }
 
 double SimulatedArm::material_secant(double depth_m) const {

@@ -1,6 +1,6 @@
 #pragma once
 // A robot that is not there: six joints with first-order servos, the tool by forward kinematics, the scene's
-// force on the tool, a noisy force sensor.
+// force on the tool, a force sensor at E that carries the tool.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick; 0 Hz: q̇
 //   only limited
 // A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
@@ -15,6 +15,8 @@
 #include "common/core/random.hpp"
 #include "slave/robot/kinematics.hpp"
 #include "slave/scene/scene.hpp"
+#include "slave/sensing/force_sensor.hpp"
+#include "slave/sensing/tool_load.hpp"
 #include "slave/slave_config.hpp"
 
 namespace longreach {
@@ -30,8 +32,8 @@ class SimulatedArm : public Robot {
 
   [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // forward kinematics of start_rad
   [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // at the last read
-  [[nodiscard]] const Vector3& true_velocity() const { return v_WE_; }  // of E in W, m/s
-  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }    // without noise
+  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
+  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
   /// Static secant F/p at `depth_m` of the surface in contact, or of the one touched last, else of the first;
   /// N/m, 0 in a scene without surfaces.
@@ -42,13 +44,15 @@ class SimulatedArm : public Robot {
  private:
   void move(double dt);
   void feel();
+  Wrench sense(double dt);
 
   RobotConfig robot_;
   SensingConfig sensing_;
   Kinematics kinematics_;
   Pose X_WE_start_;
   Scene scene_;
-  Random random_;
+  ForceSensor sensor_;
+  SensorMotionEstimate motion_{};
   std::optional<Time> now_{};
   double t_s_ = 0.0;  // since the first read
   std::optional<Time> written_{};
@@ -58,7 +62,7 @@ class SimulatedArm : public Robot {
   JointVector setpoint_rad_;
   bool flexible_;  // has joints with a stiffness
   Pose X_WE_{};
-  Vector3 v_WE_ = Vector3::Zero();
+  Twist V_WE_{};
   Wrench F_E_W_{};
   SceneContact contact_{};
   int surface_ = 0;

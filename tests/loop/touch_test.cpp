@@ -105,6 +105,17 @@ TEST(Touch, ASoftWallLearntFarBehindTheHandIsDisplayedRight) {
   }
 }
 
+TEST(Touch, IsTheSameWithASensorThatCarriesAToolAndHasABias) {
+  const std::vector<std::string> sensor{
+      "sensing.tool.mass_kg=4",    "sensing.tool.com_m=0.01, 0, 0.1", "sensing.gravity_m_per_s2=0, 0, -9.81",
+      "sensing.force_bias_n=5",    "sensing.moment_bias_nm=0.5",      "sensing.force_resolution_n=0.02",
+      "sensing.force_range_n=200", "sensing.bandwidth_hz=500",        "sensing.zero_s=0.2"};
+  const Values v = touch(sensor, 3);
+  EXPECT_LT(v.at("displayed_stiffness_error"), 0.05);
+  EXPECT_LT(v.at("wall_registration_error_m"), 1e-3);
+  EXPECT_EQ(v.at("false_holds"), 0.0);
+}
+
 TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   const Values v =
       touch({"profile=moon-relay", "scene.material.wall.stiffness_n_per_m=5000", "rendering.law=NAIVE"}, 1);

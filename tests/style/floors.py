@@ -2,7 +2,7 @@
 
 Within the stages of a side the order is that of the flow, so a stage sees the stages whose output it takes and none of
 those that it feeds. A haptic device is built from its drives upwards. At the slave that is the way of the force: what
-the scene presses, the robot meets; command, sensing and estimation work on the robot's state. Within floor 4: bytes,
+the scene presses, the sensor feels and the robot meets; command and estimation work on the robot's state. Within floor 4: bytes,
 then configuration, then I/O, then what a program shows and serves.
 """
 
@@ -14,7 +14,7 @@ FOLDERS = {
     'common/link': 1, 'common/crypto': 1,
     'master/devices/drive': 2.0, 'master/devices/delta': 2.01, 'master/devices/spherical': 2.01,
     'master/devices': 2.02, 'master/mapping': 2.1, 'master/rendering': 2.2,
-    'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.3, 'slave/estimation': 2.4,
+    'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.05, 'slave/estimation': 2.4,
     'slave/comparison': 2.4,
     'master': 3, 'slave': 3,
     'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io': 4.3, 'master/console': 4.4,

@@ -187,6 +187,9 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.mutable_sensing()->set_release_n(0.5);
   EXPECT_EQ(resolve_error(), "sensing.release_n = 0.5 is not below touch_n = 0.3");
   config.clear_sensing();
+  config.mutable_sensing()->set_force_range_n(20.0);
+  EXPECT_EQ(resolve_error(), "sensing.force_range_n = 20 is not above command.force_guard_n = 20");
+  config.clear_sensing();
   config.mutable_robot()->add_joint();
   EXPECT_EQ(resolve_error(), "robot has 1 joints; 6 are needed");
 }
