@@ -73,7 +73,7 @@ void SlaveContact::identify(const ContactInput& input) {
   }
   penetration_m_ = std::max(sample.x_m - surface_m(), 0.0);
   // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
-  force_ = {true, normal, std::max(sample.force_n, sample.force_filtered_n)};
+  force_ = {true, normal, std::max(sample.force_n, sample.force_filtered_n), reported_.stiffness_n_per_m()};
 }
 
 double SlaveContact::surface_m() const {

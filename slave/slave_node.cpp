@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/link/playout.hpp"
+#include "slave/command/servo_lag.hpp"
 #include "slave/contact.hpp"
 #include "slave/motion.hpp"
 #include "slave/sensing/tool_load.hpp"
@@ -55,6 +56,7 @@ struct SlaveNode::State {
         touchable(needs(config.scene).contact),
         safety(config.safety),
         motion(config.command, config.robot),
+        servo(config.robot.servo_hz),
         sensor(config.sensing),
         contact(config.sensing, config.estimator),
         playout(config.playout),
@@ -66,6 +68,7 @@ struct SlaveNode::State {
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
   void feel(const RobotState& robot, double dt);
+  [[nodiscard]] ContactForce pressed() const;
   void book_reached();
   void report(Time now, SlaveOutput& output);
   void send_telemetry(const SlaveInput& input, SlaveOutput& output);
@@ -76,6 +79,8 @@ struct SlaveNode::State {
   bool touchable;  // else there is no contact, sensor or estimator
   SlaveSafety safety;
   SlaveMotion motion;
+  ServoLag servo;
+  Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
   ToolCompensation sensor;
   SlaveContact contact;
   Playout playout;       // of position goals
@@ -135,7 +140,10 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   Clamps clamps;
   // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
   // was missed is caught up within them.
-  if (dt > 0.0) clamps = s.motion.step({X_WE_goal, s.contact.force(), 1.0 / s.loop_hz});
+  if (dt > 0.0) {
+    clamps = s.motion.step({X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
+    s.lead_m = s.servo.step(s.motion.X_WE().p, 1.0 / s.loop_hz);
+  }
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
   s.book_reached();
@@ -238,6 +246,15 @@ void SlaveNode::State::feel(const RobotState& robot, double dt) {
   contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
                 view.clamps.force_guard});
   if (contact.in_contact()) sensor.abandon();
+}
+
+// What the reflexes know: no force where they must not move the robot, because it is stopped or not ok.
+ContactForce SlaveNode::State::pressed() const {
+  const bool moves = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
+  ContactForce force = contact.force();
+  if (!moves || !robot_ok) force.force_n = 0.0;
+  force.lead_m = -force.reaction.dot(lead_m);
+  return force;
 }
 
 void SlaveNode::State::book_reached() {

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "common/config/guarded.hpp"
 #include "common/config/number_text.hpp"
 #include "common/config/violation.hpp"
 #include "common/spatial/spatial.hpp"
@@ -229,14 +230,20 @@ Finding within(const PathStep& step, Finding finding) {
   return finding;
 }
 
-// A force that the sensor cannot tell is one that nobody guards against.
+// A force that the sensor cannot tell, or that is passed before it is noticed, is one that nobody guards
+// against.
 Finding check_guarded(const proto::SlaveConfig& config) {
   const double guard_n = config.command().force_guard_n(), range_n = config.sensing().force_range_n();
-  if (range_n == 0.0 || guard_n < range_n) return std::nullopt;
-  const PathStep section{config.GetDescriptor()->FindFieldByName("sensing"), -1};
-  return within(section, at(config.sensing(), "force_range_n",
-                            " = " + format_number(range_n) +
-                                " is not above command.force_guard_n = " + format_number(guard_n)));
+  if (range_n > 0.0 && guard_n >= range_n) {
+    const PathStep section{config.GetDescriptor()->FindFieldByName("sensing"), -1};
+    return within(section, at(config.sensing(), "force_range_n",
+                              " = " + format_number(range_n) +
+                                  " is not above command.force_guard_n = " + format_number(guard_n)));
+  }
+  const std::string why = unguarded(config);
+  if (why.empty()) return std::nullopt;
+  const PathStep section{config.GetDescriptor()->FindFieldByName("command"), -1};
+  return within(section, at(config.command(), "force_guard_n", why));
 }
 
 // The rules of one message, without those of its parts.

@@ -6,6 +6,9 @@
 namespace longreach {
 namespace {
 
+constexpr double kBleed_s = 0.2;    // τ: of a servo's lag and a loop's delay many times
+constexpr double kHoldShare = 0.5;  // of the guard, that stays in a hold
+
 bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
 
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
@@ -38,7 +41,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   LimiterOutput out;
   X_WE_before_ = X_WE_;
   if (!input.X_WE_goal || !finite(*input.X_WE_goal)) {
-    brake(input.dt);
+    brake(input.contact, input.dt);
     out.X_WE = X_WE_;
     return out;
   }
@@ -63,8 +66,9 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   return out;
 }
 
-void GoalLimiter::brake(double dt) {
-  V_WE_.linear -= clamp_norm(V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
+void GoalLimiter::brake(const ContactForce& contact, double dt) {
+  const Vector3 back = bleed_off(contact, kHoldShare * config_.force_guard_n) * contact.reaction;
+  V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
   V_WE_.angular -= clamp_norm(V_WE_.angular, config_.acceleration_max_rad_per_s2 * dt);
   X_WE_.p += V_WE_.linear * dt;
   X_WE_.q = (exp_rotation(V_WE_.angular * dt) * X_WE_.q).normalized();
@@ -89,13 +93,25 @@ void GoalLimiter::observe_goal(const Pose& goal, double dt) {
   X_WE_goal_ = goal;
 }
 
+// Speed out of the contact that eases what is above the limit; 0: nothing is.
+double GoalLimiter::bleed_off(const ContactForce& contact, double limit_n) const {
+  if (!contact.in_contact || !(contact.force_n > limit_n)) return 0.0;
+  const double k =
+      contact.stiffness_n_per_m > 0.0 ? contact.stiffness_n_per_m : config_.guard_stiffness_n_per_m;
+  return std::min((contact.force_n - limit_n) / (k * kBleed_s), config_.speed_max_m_per_s);
+}
+
 VelocityCap GoalLimiter::guard(const ContactForce& contact) const {
   VelocityCap cap;
   if (!contact.in_contact) return cap;
   cap.active = true;
   cap.direction = -contact.reaction;
-  const double margin_n = std::max(config_.force_guard_n - contact.force_n, 0.0);
-  cap.speed = std::sqrt(2.0 * config_.acceleration_max_m_per_s2 * margin_n / config_.guard_stiffness_n_per_m);
+  // In braking distances of the stiffest surface: what is left, or what is too much of what is still coming.
+  const double k = config_.guard_stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
+  const double left_m = (config_.force_guard_n - contact.force_n) / k - coming_m;
+  const double braking = std::sqrt(2.0 * config_.acceleration_max_m_per_s2 *
+                                   std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
+  cap.speed = (left_m > 0.0 ? braking : -braking) - bleed_off(contact, config_.force_guard_n);
   return cap;
 }
 

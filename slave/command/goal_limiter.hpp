@@ -2,8 +2,11 @@
 // From the goal that the operator asks for to a setpoint pose that the robot may be asked for: speed and
 // acceleration of the tool in translation and rotation, a workspace sphere about the tool's start, and the
 // force guard:
-//   in contact, the speed into the contact is at most √(2 a (G - F)/k_max), and 0 from F = G on; outwards it
-//   is free.
+//   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
+//   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
+//   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
+//   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
+//   the contact is not lost. Without a goal, so in a hold, it does so down to G/2.
 // A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
 // Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
 
@@ -19,10 +22,12 @@ struct ContactForce {
   bool in_contact = false;
   Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
   double force_n = 0.0;                // measured along it
+  double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
+  double lead_m = 0.0;                 // of the setpoint into the contact, still to come by the servo's lag
 };
 
 struct LimiterInput {
-  std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay
+  std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay, but for the bleed-off
   ContactForce contact{};
   double dt = 0.0;  // s, > 0
 };
@@ -59,7 +64,8 @@ class GoalLimiter {
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
 
  private:
-  void brake(double dt);
+  void brake(const ContactForce& contact, double dt);
+  [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
   Pose inside(const Pose& goal, LimiterOutput& out) const;
   void observe_goal(const Pose& goal, double dt);
   VelocityCap guard(const ContactForce& contact) const;

@@ -190,6 +190,15 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.mutable_sensing()->set_force_range_n(20.0);
   EXPECT_EQ(resolve_error(), "sensing.force_range_n = 20 is not above command.force_guard_n = 20");
   config.clear_sensing();
+  config.mutable_scene()->mutable_needs()->set_contact(true);
+  config.mutable_command()->set_force_guard_n(5.0);
+  EXPECT_EQ(
+      resolve_error(),
+      "command.force_guard_n = 5 cannot be held at a touch with 0.05 m/s on 5000 N/m, but 8.6; set it to "
+      "that, or command.speed_max_m_per_s lower");
+  config.mutable_command()->set_speed_max_m_per_s(0.01);
+  EXPECT_EQ(resolve_error(), "no error");
+  config.Clear();
   config.mutable_robot()->add_joint();
   EXPECT_EQ(resolve_error(), "robot has 1 joints; 6 are needed");
 }

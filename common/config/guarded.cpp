@@ -1,0 +1,47 @@
+#include "common/config/guarded.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/config/number_text.hpp"
+#include "slave/command/guard_config.hpp"
+
+namespace longreach {
+namespace {
+
+double first_order_s(double bandwidth_hz) {
+  return bandwidth_hz > 0.0 ? 0.5 / (std::numbers::pi * bandwidth_hz) : 0.0;
+}
+
+FirstTouch first_touch(const proto::SlaveConfig& config) {
+  FirstTouch touch;
+  touch.stiffness_n_per_m = std::min(touch.stiffness_n_per_m, config.command().guard_stiffness_n_per_m());
+  touch.guard_stiffness_n_per_m = config.command().guard_stiffness_n_per_m();
+  touch.speed_m_per_s = std::min(touch.speed_m_per_s, config.command().speed_max_m_per_s());
+  touch.deceleration_m_per_s2 = config.command().acceleration_max_m_per_s2();
+  double jerk_s = 0.0;  // that the setpoint is late by, for its jerk limit
+  for (const proto::Joint& j : config.robot().joint()) {
+    jerk_s = std::max(jerk_s, j.acceleration_max_rad_per_s2() / j.jerk_max_rad_per_s3());
+  }
+  touch.lag_s = 1.0 / config.loop().rate_hz() + jerk_s + first_order_s(config.sensing().bandwidth_hz());
+  touch.servo_s = first_order_s(config.robot().servo_hz());
+  touch.touch_n = config.sensing().touch_n();
+  touch.filter_s = config.sensing().filter_s();
+  return touch;
+}
+
+}  // namespace
+
+std::string unguarded(const proto::SlaveConfig& config) {
+  if (!config.scene().needs().contact()) return "";
+  const FirstTouch touch = first_touch(config);
+  const double guard_n = config.command().force_guard_n(), least_n = least_guard_n(touch);
+  if (guard_n >= least_n) return "";
+  return " = " + format_number(guard_n) + " cannot be held at a touch with " +
+         format_number(touch.speed_m_per_s) + " m/s on " + format_number(touch.stiffness_n_per_m) +
+         " N/m, but " + format_number(std::ceil(10.0 * least_n) / 10.0) +
+         "; set it to that, or command.speed_max_m_per_s lower";
+}
+
+}  // namespace longreach

@@ -1,0 +1,44 @@
+#pragma once
+// The least force guard G that holds the peak of a first touch to 1.35 G. With speed v on stiffness k the
+// tool goes on by v T while nothing is slower yet, T the lag of loop and setpoint and what the contact needs
+// to be noticed. Then the setpoint brakes at a, and turns back until the tool, late by the servo's τ, has
+// come to rest after t; or, of a high guard, it brakes from where the guard's law begins to
+// (goal_limiter.hpp):
+//   peak = max(k (v T + v t - a t²/2 + v τ),  G + k v lag - (k_max - k) v²/(2 a))
+//   T = lag + touch/(k v) + √(2 τ_f touch/(k v)),   t = v/a + τ (1 - exp(-t/τ))
+// A bound for a tool that does not give way; one of up to 10 kg on a servo of 3 Hz or more stays below. What
+// it comes to afterwards is the guard itself.
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+
+constexpr double kGuardOvershoot = 1.35;  // of the guard, that a first touch may come to
+
+struct FirstTouch {
+  double stiffness_n_per_m = 5000.0;
+  double guard_stiffness_n_per_m = 2e4;  // k_max >= k
+  double speed_m_per_s = 0.05;
+  double deceleration_m_per_s2 = 1.25;
+  double lag_s = 0.0;     // from the force to the setpoint
+  double servo_s = 0.0;   // τ, from there to the tool
+  double touch_n = 0.3;   // at which a contact is noticed
+  double filter_s = 0.0;  // τ_f, of the force that decides
+};
+
+inline double least_guard_n(const FirstTouch& t) {
+  constexpr int kIterations = 50;
+  const double k = t.stiffness_n_per_m, v = t.speed_m_per_s, a = t.deceleration_m_per_s2;
+  const double notice_s = t.touch_n / (k * v);
+  const double late_s = t.lag_s + notice_s + std::sqrt(2.0 * t.filter_s * notice_s);
+  double rest_s = v / a + t.servo_s;
+  for (int i = 0; i < kIterations && t.servo_s > 0.0; ++i) {
+    rest_s = v / a - t.servo_s * std::expm1(-rest_s / t.servo_s);  // a contraction, from above
+  }
+  const double peak_n = k * (v * (late_s + rest_s + t.servo_s) - 0.5 * a * rest_s * rest_s);
+  const double over_n = k * v * t.lag_s - (t.guard_stiffness_n_per_m - k) * 0.5 * v * v / a;
+  return std::max(peak_n / kGuardOvershoot, over_n / (kGuardOvershoot - 1.0));
+}
+
+}  // namespace longreach

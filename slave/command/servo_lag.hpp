@@ -1,0 +1,32 @@
+#pragma once
+// How far a setpoint is ahead of a tool that follows it through a servo of known bandwidth:
+//   x' = 2π f (s - x),   lead = s - x
+// Not modelled: what the contact makes the tool give way by; that lead is not on its way.
+
+#include <cmath>
+#include <numbers>
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+class ServoLag {
+ public:
+  /// `servo_hz` = 0: the servo is ideal, the lead zero.
+  explicit ServoLag(double servo_hz) : rate_per_s_(2.0 * std::numbers::pi * servo_hz) {}
+
+  /// The setpoint `s_m`, `dt` after the last; the first is where the tool is. Returns the lead, m.
+  Vector3 step(const Vector3& s_m, double dt) {
+    if (!begun_ || !(rate_per_s_ > 0.0)) x_m_ = s_m;
+    begun_ = true;
+    x_m_ -= std::expm1(-rate_per_s_ * dt) * (s_m - x_m_);
+    return s_m - x_m_;
+  }
+
+ private:
+  double rate_per_s_;
+  Vector3 x_m_ = Vector3::Zero();
+  bool begun_ = false;
+};
+
+}  // namespace longreach
