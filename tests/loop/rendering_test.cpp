@@ -41,6 +41,13 @@ TEST(FirstTouch, GrowsWithoutAStepAndRegistersTheWallByTheTouchSequence) {
   EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
 }
 
+TEST(FirstTouch, IsHeldByTheForceGuardAndByNothingElse) {
+  auto m = metrics("first-touch");
+  EXPECT_LE(m.at("guard_peak_over_guard_max"), 1.35);
+  EXPECT_GT(m.at("guard_peak_over_guard_max_without_guard"), 10.0);
+  EXPECT_NEAR(m.at("hold_force_over_guard"), 0.5, 0.025);
+}
+
 TEST(Spike, EasesTheForceAndLetsTheWorkGoOnAfterANewEngagement) {
   auto m = metrics("spike");
   EXPECT_GT(m.at("force_when_it_began_n"), 1.0);

@@ -13,20 +13,9 @@
 namespace longreach::test {
 namespace {
 
-/// All, or every 29th: in each factor every value comes.
-std::vector<GuardCase> sample() {
-  const std::vector<GuardCase> all = guard_envelope();
-  std::vector<GuardCase> some;
-  const std::size_t step = static_cast<std::size_t>(campaign(1, 29));
-  for (std::size_t i = 4; i < all.size(); i += step) some.push_back(all[i]);
-  some.push_back(all[0]);
-  some.push_back({8.0, 4e-3, 5.0, 10.0, 3.0, 3.0});  // the worst
-  return some;
-}
-
 TEST(ForceGuard, HoldsThePeakOfAFirstTouchWhateverTheDelayOfTheLink) {
   double worst = 0.0;
-  for (const GuardCase& c : sample()) {
+  for (const GuardCase& c : guard_sample()) {
     const GuardTouch touch = guard_touch(c);
     ASSERT_GT(touch.touched_s, 0.0) << c;
     EXPECT_LE(touch.peak_n, kGuardOvershoot * c.guard_n) << c;
@@ -36,12 +25,12 @@ TEST(ForceGuard, HoldsThePeakOfAFirstTouchWhateverTheDelayOfTheLink) {
     worst = std::max(worst, touch.peak_n / c.guard_n);
   }
   RecordProperty("worst", std::to_string(worst));
-  std::printf("force guard: at most %.2f of the guard over %zu touches\n", worst, sample().size());
+  std::printf("force guard: at most %.2f of the guard over %zu touches\n", worst, guard_sample().size());
 }
 
 TEST(ForceGuard, WithoutItTheSameTouchesPressOn) {
   int far = 0;
-  for (GuardCase c : sample()) {
+  for (GuardCase c : guard_sample()) {
     // Where the servo's spring lets the goal press through to more than the guard.
     const double servo_n_per_m = c.mass_kg * std::pow(2.0 * std::numbers::pi * c.servo_hz, 2);
     const double behind_m = std::min(0.02 + c.speed_m_per_s * c.round_trip_s, c.speed_m_per_s * kPressed_s);
@@ -51,7 +40,7 @@ TEST(ForceGuard, WithoutItTheSameTouchesPressOn) {
     EXPECT_GT(guard_touch(c).peak_n, kGuardOvershoot * c.guard_n) << c;
     ++far;
   }
-  EXPECT_GT(2 * far, static_cast<int>(sample().size()));
+  EXPECT_GT(2 * far, static_cast<int>(guard_sample().size()));
 }
 
 /// Any robot that gives way to nothing, any speed, any wall up to the stiffest that the guard reckons with.

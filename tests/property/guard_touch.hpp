@@ -13,6 +13,7 @@
 
 #include "slave/robot/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
+#include "tests/property/campaign.hpp"
 
 namespace longreach::test {
 
@@ -50,6 +51,17 @@ inline std::vector<GuardCase> guard_envelope() {
     }
   }
   return cases;
+}
+
+/// The whole grid with LONGREACH_FULL, else every 29th of it, which has every value of every factor; and the
+/// worst.
+inline std::vector<GuardCase> guard_sample() {
+  const std::vector<GuardCase> all = guard_envelope();
+  std::vector<GuardCase> some;
+  const std::size_t step = static_cast<std::size_t>(campaign(1, 29));
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  some.push_back({8.0, 4e-3, 5.0, 10.0, 3.0, 3.0});
+  return some;
 }
 
 inline std::ostream& operator<<(std::ostream& out, const GuardCase& c) {

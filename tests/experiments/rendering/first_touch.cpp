@@ -1,5 +1,6 @@
 // The first touch of an unknown wall: fast, stiff, far away. The hand runs on for a round trip before the
-// news comes; nothing may jump then, and the second touch is felt where the wall is.
+// news comes; nothing may jump then, and the second touch is felt where the wall is. The slave meanwhile has
+// its force guard (first_touch_guard.hpp).
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/laboratory.hpp"
+#include "tests/experiments/rendering/first_touch_guard.hpp"
 #include "tests/experiments/trace.hpp"
 
 namespace longreach {
@@ -146,10 +148,12 @@ std::vector<Plot> first_touch_plots() {
            .title = "A wall of 5 N/mm met at 50 mm/s, round trip 3 s",
            .x_column = "t_s",
            .x_label = "time (s)",
-           .panels = {
-               {"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
-               {"depth of the goal (mm)", {{"goal_depth_m", "commanded", 1e3}}, ""},
-               {"force (N)", {{"felt_n", "contact at the hand"}, {"tool_n", "at the tool, far away"}}, ""}}}};
+           .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
+                      {"depth of the goal (mm)", {{"goal_depth_m", "commanded", 1e3}}, ""},
+                      {"force (N)",
+                       {{"felt_n", "contact at the hand"}, {"tool_n", "at the tool, far away"}},
+                       ""}}},
+          first_touch_guard_plot()};
 }
 
 std::vector<Metric> run_first_touch(const ExperimentRun& run) {
@@ -161,16 +165,20 @@ std::vector<Metric> run_first_touch(const ExperimentRun& run) {
   trace.close();
   if (run.progress) run.progress(0.5);
   const FirstTouch control = touch(prepared(master, Registration::kArrival), slave, run.seed, nullptr);
+  const std::vector<Metric> guard = run_first_touch_guard(run.out);
   if (run.progress) run.progress(1.0);
-  return {{"round_trip_s", kRoundTrip_s, "s"},
-          {"felt_after_s", ours.felt_s - ours.crossed_s, "s"},
-          {"felt_after_round_trip_s", ours.felt_s - ours.crossed_s - kRoundTrip_s, "s"},
-          {"force_step_max_n", ours.step_max_n, "N"},
-          {"registration_error_m", std::abs(ours.registration_m), "m"},
-          {"registration_error_without_touch_sequence_m", std::abs(control.registration_m), "m"},
-          {"tool_force_max_n", ours.force_max_n, "N"},
-          {"port_energy_min_j", ours.energy_min_j, "J"},
-          {"energy_drawdown_j", ours.drawdown_j, "J"}};
+  std::vector<Metric> metrics{
+      {"round_trip_s", kRoundTrip_s, "s"},
+      {"felt_after_s", ours.felt_s - ours.crossed_s, "s"},
+      {"felt_after_round_trip_s", ours.felt_s - ours.crossed_s - kRoundTrip_s, "s"},
+      {"force_step_max_n", ours.step_max_n, "N"},
+      {"registration_error_m", std::abs(ours.registration_m), "m"},
+      {"registration_error_without_touch_sequence_m", std::abs(control.registration_m), "m"},
+      {"tool_force_max_n", ours.force_max_n, "N"},
+      {"port_energy_min_j", ours.energy_min_j, "J"},
+      {"energy_drawdown_j", ours.drawdown_j, "J"}};
+  metrics.insert(metrics.end(), guard.begin(), guard.end());
+  return metrics;
 }
 
 }  // namespace longreach
