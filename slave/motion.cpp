@@ -26,7 +26,8 @@ SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
       inverse_(robot),
       limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
       joints_(robot),
-      watch_(robot) {
+      watch_(robot),
+      patience_(inverse_.kinematics().reach_m()) {
   reset(start_joints(robot));
 }
 
@@ -40,14 +41,21 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   X_WE_ = inverse_.kinematics().forward(joints_.setpoint_rad());
   limiter_.reset(X_WE_);
   watch_.reset(joints_.setpoint_rad(), X_WE_);
+  patience_.reset();
+  stands_.reset();
   conditioning_ = 1.0;
   turning_ = false;
   home_rad_ = joints_.path_rad();
 }
 
 Clamps SlaveMotion::step(const MotionInput& input) {
-  Clamps clamps;
-  const LimiterOutput wanted = limiter_.step({input.X_WE_goal, input.contact, input.dt});
+  const bool waits = input.X_WE_goal && !input.contact.in_contact;
+  const bool ends = waits && patience_.ends(X_WE_, *input.X_WE_goal, input.dt);
+  if (!ends) stands_.reset();
+  if (!waits) patience_.reset();
+  Clamps clamps = stands_.value_or(Clamps{});
+  const LimiterOutput wanted =
+      limiter_.step({stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt});
   clamps.tool_speed = wanted.tool_speed;
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;
@@ -59,10 +67,10 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     conditioning_ = found.conditioning;
     if (plain && conditioning_ >= kSingularBand) home_rad_ = joints_.path_rad();
     clamps.joint_speed = limited.speed;
-    clamps.joint_position = limited.position || found.at_joint_limit;
-    clamps.unreachable = found.status == InverseStatus::kNearest;
-    clamps.singularity = found.status == InverseStatus::kSingular || conditioning_ < kSingularBand;
-    if (clamps.unreachable) ++failures_;
+    clamps.joint_position |= limited.position || found.at_joint_limit;
+    clamps.unreachable |= found.status == InverseStatus::kNearest;
+    clamps.singularity |= found.status == InverseStatus::kSingular || conditioning_ < kSingularBand;
+    if (found.status == InverseStatus::kNearest) ++failures_;
     if (limited.any()) {
       limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
     } else if (found.status != InverseStatus::kFound || found.rotation_ignored) {
@@ -72,6 +80,10 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     const bool moves = !joints_.at_rest();  // the joints brake for a tool that has stopped
     joints_.step(joints_.path_rad(), moves ? tool_bound() : ToolBound{}, input.dt);
     if (moves) limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
+  }
+  if (ends && (clamps.unreachable || clamps.joint_position || clamps.singularity)) {
+    stands_ = clamps;
+    stands_->unreachable = true;  // from here
   }
   if (!joints_.settled()) X_WE_ = kinematics().forward(joints_.setpoint_rad());
   watch_.step(joints_.setpoint_rad(), X_WE_, command_, input.dt);
@@ -107,9 +119,9 @@ bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goa
   return true;
 }
 
-// The joints for a pose one tick away. At a singular pose, or where the arm is in its own way, the solution
-// at the goal decides: the joints go there if the tool only comes nearer on that way and touches nothing. At
-// a singular pose that is the solution of the branch that the arm was last in, or the nearest pose.
+// The joints for a pose one tick away. At a singular pose, or where the arm is in its own way, the joints go
+// straight to those at the goal, or at the nearest pose, if the tool only comes nearer on that way and
+// touches nothing. At a singular pose the branch that the arm was last in goes before the nearest.
 InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
   const JointVector& q = joints_.path_rad();
@@ -117,20 +129,26 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   const bool singular =
       conditioning_ < kSingularBand || (found.joint_rad - q).cwiseAbs().maxCoeff() > kFarRad;
   if (!singular && !turning_ && found.status != InverseStatus::kNearest) return found;
+  const bool turned = turning_;
+  turning_ = false;
+  if (input.contact.in_contact) return found;
   const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
+  const double aside_m = singular || turned ? kAside * kinematics().reach_m() : 0.0;
   const bool homes = singular && inverse_.closed().applies();  // a search would not come back in time
-  InverseResult there = inverse_.solve(X_WE_goal, homes ? home_rad_ : q,
-                                       {command_.tolerance_m, homes ? 1 : command_.iterations_max});
-  const bool exact = there.status != InverseStatus::kNearest;
-  if (!exact && homes) there = inverse_.solve(X_WE_goal, q, tolerance);
-  const JointVector way = there.joint_rad - q;
-  const bool stuck = found.status == InverseStatus::kNearest || way.cwiseAbs().maxCoeff() > kFarRad;
-  turning_ = (singular || (exact && stuck)) && !input.contact.in_contact &&
-             leads_nearer(way, to_rigid(X_WE_goal), singular ? kAside * kinematics().reach_m() : 0.0);
-  if (!turning_) return found;
-  found.joint_rad = q + way / ticks_for(way, input.dt);
-  found.X_WE = kinematics().forward(found.joint_rad);
-  found.status = exact ? InverseStatus::kSingular : InverseStatus::kNearest;
+  for (const bool home : {true, false}) {
+    if (home && !homes) continue;
+    const InverseResult there = inverse_.solve(X_WE_goal, home ? home_rad_ : q,
+                                               {command_.tolerance_m, home ? 1 : command_.iterations_max});
+    const bool exact = there.status != InverseStatus::kNearest;
+    const JointVector way = there.joint_rad - q;
+    const bool stuck = found.status == InverseStatus::kNearest || way.cwiseAbs().maxCoeff() > kFarRad;
+    turning_ = (singular || stuck) && (exact || !home) && leads_nearer(way, to_rigid(X_WE_goal), aside_m);
+    if (!turning_) continue;
+    found.joint_rad = q + way / ticks_for(way, input.dt);
+    found.X_WE = kinematics().forward(found.joint_rad);
+    found.status = exact ? InverseStatus::kSingular : InverseStatus::kNearest;
+    break;
+  }
   return found;
 }
 

@@ -14,6 +14,7 @@
 
 #include "slave/command/goal_limiter.hpp"
 #include "slave/command/joint_limiter.hpp"
+#include "slave/command/patience.hpp"
 #include "slave/limit_watch.hpp"
 #include "slave/robot/inverse.hpp"
 
@@ -54,9 +55,11 @@ class SlaveMotion {
   GoalLimiter limiter_;
   JointLimiter joints_;
   LimitWatch watch_;
+  Patience patience_;
   Pose X_WE_{};
-  bool turning_ = false;       // on a way of the joints to another solution
-  double conditioning_ = 1.0;  // of the tick before
+  std::optional<Clamps> stands_{};  // why
+  bool turning_ = false;            // on a way of the joints to another solution
+  double conditioning_ = 1.0;       // of the tick before
   JointVector home_rad_ =
       JointVector::Zero();  // of the branch that the arm was last in, away from singular poses
   std::uint64_t failures_ = 0;

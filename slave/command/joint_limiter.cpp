@@ -73,12 +73,10 @@ JointsLimited JointLimiter::step(const JointVector& wanted_rad, const ToolBound&
 }
 
 bool JointLimiter::reaches(const JointVector& wanted_rad, double dt) const {
-  constexpr double kSlowShare = 0.3;  // of the speed: no pose turns the tool quickly then
   const JointVector rad_per_s = (wanted_rad - path_rad_) / dt;
   for (int i = 0; i < kMaxJoints; ++i) {
     const Joint& j = joint_[static_cast<std::size_t>(i)];
     if (!(std::abs(rad_per_s[i] - rad_per_s_[i]) <= j.acceleration * dt)) return false;
-    if (!(std::abs(rad_per_s[i]) <= kSlowShare * j.speed)) return false;
   }
   return share(rad_per_s, {}).least() >= 1.0;
 }
@@ -97,7 +95,7 @@ double JointLimiter::stop_s(const JointVector& rad_per_s) const {
 JointLimiter::JointsShare JointLimiter::share(const JointVector& rad_per_s, const ToolBound& tool) const {
   const Vector6 turn = tool.turn(rad_per_s);
   const double stop_s = this->stop_s(rad_per_s);
-  const double used = tool.share(tool.J * rad_per_s + 0.5 * dt_ * turn);
+  const double used = tool.share(tool.J * rad_per_s);
   const double gained = tool.share(turn) * stop_s;
   JointsShare share;
   if (used > 1.0) share.speed = 1.0 / used;
@@ -124,29 +122,32 @@ JointVector JointLimiter::go_towards(const JointVector& rad_per_s) const {
   return most > dt_ ? JointVector(rad_per_s_ + (dt_ / most) * change) : rad_per_s;
 }
 
+// A joint that stops within a tick stops at its position limit by itself.
+JointVector JointLimiter::inside(const JointVector& rad_per_s) const {
+  JointVector kept = rad_per_s;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const Joint& j = joint_[static_cast<std::size_t>(i)];
+    kept[i] = std::clamp(kept[i], (j.min - path_rad_[i]) / dt_, (j.max - path_rad_[i]) / dt_);
+  }
+  return kept;
+}
+
 JointsLimited JointLimiter::limit(JointVector& rad_per_s, const ToolBound& tool) const {
   constexpr int kHalvings = 6;
   constexpr double kAll = 1.0 - 1e-9;
   const JointsShare room = share(rad_per_s, tool);
   rad_per_s *= room.least();
-  const JointVector next = go_towards(rad_per_s);
-  const JointsLimited limited{room.speed < 1.0 || next != rad_per_s, room.position < 1.0};
+  const JointVector near = go_towards(rad_per_s), next = inside(near);
+  const JointsLimited limited{room.speed < 1.0 || near != rad_per_s, room.position < 1.0 || next != near};
   rad_per_s = next;
   if (limited.any() && share(next, tool).least() < kAll) {
     const JointVector braking = go_towards(JointVector::Zero());
     double enough = 0.0, much = 1.0;
     for (int n = 0; n < kHalvings; ++n) {
       const double middle = 0.5 * (enough + much);
-      (share(braking + middle * (next - braking), tool).least() >= kAll ? enough : much) = middle;
+      (share(inside(braking + middle * (near - braking)), tool).least() >= kAll ? enough : much) = middle;
     }
-    rad_per_s = braking + enough * (next - braking);
-  }
-  for (int i = 0; i < kMaxJoints; ++i) {
-    const Joint& j = joint_[static_cast<std::size_t>(i)];
-    const double high = std::min(j.speed, braking_speed(j.max - path_rad_[i], j.acceleration, dt_));
-    const double low = -std::min(j.speed, braking_speed(path_rad_[i] - j.min, j.acceleration, dt_));
-    const double reach = j.acceleration * dt_, v = rad_per_s_[i];  // against rounding of the caps
-    rad_per_s[i] = std::clamp(std::clamp(rad_per_s[i], low, high), v - reach, v + reach);
+    rad_per_s = inside(braking + enough * (near - braking));
   }
   return limited;
 }

@@ -15,7 +15,9 @@ struct RobotState {
   JointVector joint_rad = JointVector::Zero();  // measured
   JointVector joint_rad_per_s = JointVector::Zero();
   Wrench F_F_W{};  // force sensor, in W, by the environment on the tool
-  bool ok = true;  // false: the robot has stopped by itself
+  // false: the robot has failed, which latches a fault. A stop by its own watchdog is none: it ends with the
+  // next setpoint.
+  bool ok = true;
 };
 
 class Robot {

@@ -79,12 +79,18 @@ inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const 
   return std::max({joints_s, tool_m / command.speed_max_m_per_s, tool_rad / command.speed_max_rad_per_s});
 }
 
+// How long an arm took for a way, and the least that it could have.
+struct Arrival {
+  double s = 0.0, swiftest_s = 0.0;
+};
+
 struct Outcome {
   double off_m = 0.0;  // of the tool from the goal's way
   bool arrived = false;
-  bool blocked = false;                     // at the end the arm stood in its own way and said so
-  double arrived_s = 0.0;                   // after the goal came to rest
-  double swiftest_s = 0.0;                  // for the same
+  bool hindered =
+      false;  // at the end the arm stood in its own way, or its goal was out of reach, and it said so
+  Arrival from_rest{};                      // since the goal came to rest
+  Arrival from_free{};                      // since the arm last said that it was in its own way
   double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was told
 };
 
@@ -108,11 +114,11 @@ struct Drive {
 
   void tick(const std::optional<Pose>& goal) {
     const Clamps c = motion.step({goal, {}, kDt});
-    blocked = c.unreachable || c.joint_position || c.singularity;
+    hindered = c.unreachable || c.joint_position;
     judge.see(motion.joint_setpoint_rad(), worst);
     const Pose& X = motion.X_WE();
     outcome.off_m = std::max(outcome.off_m, off_the_way(tour, X.p));
-    if (goal && !(blocked || c.tool_speed || c.joint_speed || c.workspace)) {
+    if (goal && !(hindered || c.singularity || c.tool_speed || c.joint_speed || c.workspace)) {
       outcome.silent_m = std::max(outcome.silent_m, (X.p - goal->p).norm());
       outcome.silent_rad = std::max(outcome.silent_rad, log_rotation(X.q * goal->q.conjugate()).norm());
     }
@@ -135,24 +141,25 @@ struct Drive {
 
   // Until the tool is at its goal, or stands somewhere else and says why.
   void settle(const Pose& goal) {
-    constexpr double kThere = 1e-9, kStillM = 1e-3;
+    constexpr double kThere = 1e-9, kStillRad = 1e-3;
     const JointVector from = motion.joint_setpoint_rad();
-    JointVector stands = from;
-    double still_s = 0.0;
-    outcome.arrived = outcome.blocked = false;
-    for (double t = 0.0; t < kSettleS && !outcome.arrived && !outcome.blocked; t += kDt) {
+    JointVector stands = from, free = from;
+    double still_s = 0.0, free_s = 0.0, t = 0.0;
+    outcome.arrived = false;
+    for (; t < kSettleS && still_s < kStuckS && !outcome.arrived; t += kDt) {
       tick(goal);
       const JointVector& q = motion.joint_setpoint_rad();
       still_s += kDt;
-      if (!((q - stands).cwiseAbs().maxCoeff() < kStillM)) stands = q, still_s = 0.0;
-      if (!blocked) still_s = 0.0;
-      outcome.arrived_s = t;
-      outcome.blocked = still_s > kStuckS;
+      if (!((q - stands).cwiseAbs().maxCoeff() < kStillRad)) stands = q, still_s = 0.0;
+      if (!hindered) still_s = 0.0;
+      if (hindered) free = q, free_s = t;
       outcome.arrived = (before.p - goal.p).norm() <= kThere &&
                         log_rotation(before.q * goal.q.conjugate()).norm() <= kThere;
     }
-    outcome.blocked = !outcome.arrived && blocked;
-    outcome.swiftest_s = swiftest_s(robot, arm, command, from, motion.joint_setpoint_rad());
+    outcome.hindered = hindered;
+    const JointVector& to = motion.joint_setpoint_rad();
+    outcome.from_rest = {t, swiftest_s(robot, arm, command, from, to)};
+    outcome.from_free = {t - free_s, swiftest_s(robot, arm, command, free, to)};
   }
 
   const RobotConfig& robot;
@@ -164,7 +171,7 @@ struct Drive {
   Pose before{};
   Worst worst{};
   Outcome outcome{};
-  bool blocked = false;  // in the last tick
+  bool hindered = false;  // in the last tick
 };
 
 }  // namespace longreach::test

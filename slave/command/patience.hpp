@@ -1,0 +1,46 @@
+#pragma once
+// Whether the tool still comes nearer to a goal that rests. The distance is √((L angle)² + |p|²), L the
+// reach.
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+class Patience {
+ public:
+  static constexpr double kMoved = 1e-3;  // of the reach: a goal that moves by less rests
+  static constexpr double kThere = 2e-3;  // of the reach: nearer than this the tool is at the goal
+
+  explicit Patience(double reach_m) : reach_m_(reach_m) {}
+
+  void reset() { X_WE_goal_.reset(); }
+
+  /// True: far from a goal that rests, the tool has come no nearer for kPatienceS. dt in s.
+  [[nodiscard]] bool ends(const Pose& X_WE, const Pose& X_WE_goal, double dt) {
+    constexpr double kPatienceS = 3.0, kNearer = 1e-4;  // of the reach
+    if (!X_WE_goal_ || !(distance_m(*X_WE_goal_, X_WE_goal) <= kMoved * reach_m_)) {
+      X_WE_goal_ = X_WE_goal;
+      least_m_ = std::numeric_limits<double>::infinity();
+    }
+    const double now_m = distance_m(X_WE, X_WE_goal);
+    since_s_ += dt;
+    if (now_m < least_m_ - kNearer * reach_m_) least_m_ = now_m, since_s_ = 0.0;
+    return since_s_ >= kPatienceS && now_m > kThere * reach_m_;
+  }
+
+ private:
+  [[nodiscard]] double distance_m(const Pose& a, const Pose& b) const {
+    return std::hypot(reach_m_ * log_rotation(a.q * b.q.conjugate()).norm(), (a.p - b.p).norm());
+  }
+
+  double reach_m_;
+  std::optional<Pose> X_WE_goal_{};
+  double least_m_ = 0.0;
+  double since_s_ = 0.0;
+};
+
+}  // namespace longreach
