@@ -73,10 +73,12 @@ JointsLimited JointLimiter::step(const JointVector& wanted_rad, const ToolBound&
 }
 
 bool JointLimiter::reaches(const JointVector& wanted_rad, double dt) const {
+  constexpr double kSlowShare = 0.3;  // of the speed: no pose turns the tool quickly then
   const JointVector rad_per_s = (wanted_rad - path_rad_) / dt;
   for (int i = 0; i < kMaxJoints; ++i) {
     const Joint& j = joint_[static_cast<std::size_t>(i)];
     if (!(std::abs(rad_per_s[i] - rad_per_s_[i]) <= j.acceleration * dt)) return false;
+    if (!(std::abs(rad_per_s[i]) <= kSlowShare * j.speed)) return false;
   }
   return share(rad_per_s, {}).least() >= 1.0;
 }

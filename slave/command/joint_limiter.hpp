@@ -45,7 +45,7 @@ class JointLimiter {
   /// At rest at these joints, moved into their limits.
   void reset(const JointVector& joint_rad);
 
-  /// True if one step leads there.
+  /// True if one step leads there, and the arm changes its shape slowly.
   [[nodiscard]] bool reaches(const JointVector& wanted_rad, double dt) const;
   /// Towards `wanted_rad` (finite). dt > 0, s, the same in every step (another one begins at rest).
   JointsLimited step(const JointVector& wanted_rad, const ToolBound& tool, double dt);
