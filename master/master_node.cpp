@@ -164,6 +164,7 @@ MotionCommand MasterNode::State::command() {
   c.request = safety.request();
   c.mode = view.mode;
   c.scale = view.scale;
+  c.grip = view.load;
   c.position_m = goal.position_m;
   c.rotation_rad = goal.rotation_rad;
   c.goal_kind = turns.next(goal, view.scale);

@@ -27,7 +27,7 @@ struct OperatorRequests {
   std::optional<double> scale{};  // 0.05 to 1; others are ignored and counted
   int scale_steps = 0;            // of 0.05
   bool clutch = false;            // level: while true the handle moves without the robot
-  std::optional<bool> load{};     // the gripper carries something
+  std::optional<bool> load{};     // close the gripper on something, or open it: a level
 };
 
 struct MasterInput {
@@ -50,7 +50,7 @@ struct MasterView {
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
-  bool load = false;         // in the gripper
+  bool load = false;         // the gripper is closed, on a load
   bool at_boundary = false;  // position mode: a handle meets its soft stop, time to relocate with the clutch
   Vector3 p_MH = Vector3::Zero();    // handle, m
   Vector3 goal_m = Vector3::Zero();  // goal minus anchor, W

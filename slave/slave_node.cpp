@@ -92,6 +92,7 @@ struct SlaveNode::State {
   bool robot_seen = false;
   Pose X_WE_anchor{};
   double scale = 1.0;  // k_scale as last sent
+  bool grip = false;   // likewise: a hold or a silence drops nothing
   double played_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
 
@@ -150,6 +151,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
 
   SlaveOutput output;
   output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
+  output.grip = s.grip;
   s.report(input.now, output);
   s.send_telemetry(input, output);
   s.view.touch_sequence = s.contact.touch_sequence();
@@ -206,7 +208,10 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
         !possible(command)) {
       continue;
     }
-    if (received.newest) scale = command.scale;
+    if (received.newest) {
+      scale = command.scale;
+      grip = command.grip;
+    }
     Vector6 goal = Vector6::Zero();
     if (command.goal_kind == GoalKind::kPosition) {
       goal.head<3>() = command.position_m;
@@ -304,6 +309,7 @@ void SlaveNode::State::send_telemetry(const SlaveInput& input, SlaveOutput& outp
   t.rejected = input.rejected;
   t.limit_violations = view.limit_violations;
   t.late_ticks = input.late_ticks;
+  t.load = input.robot.load;
   clamps_since_telemetry = {};
   output.telemetry = t;
   output.telemetry_sequence = ++telemetry_sequence;

@@ -56,6 +56,7 @@ struct SlaveView {
 
 struct SlaveOutput {
   JointVector joint_setpoint_rad = JointVector::Zero();
+  bool grip = false;  // gripper closed
   std::optional<StiffnessReport> report{};
   std::uint64_t report_sequence = 0;
   std::optional<Telemetry> telemetry{};

@@ -30,6 +30,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
 
   const SlaveOutput out = node_.step(in);
   arm_.write(out.joint_setpoint_rad);
+  arm_.grip(out.grip);
   if (out.report) port_.send(now, out.report_sequence, *out.report);
   if (out.telemetry) port_.send(now, out.telemetry_sequence, *out.telemetry);
 

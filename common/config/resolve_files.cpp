@@ -1,6 +1,7 @@
 // What both sides keep in files of their own: the devices of a master, robot and scene of a slave.
 
 #include "common/config/config.hpp"
+#include "common/config/scene_files.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -59,6 +60,8 @@ void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
   if (!resolved.has_scene()) {
     *resolved.mutable_scene() = load_part<proto::Scene>(deploy_folder, resolved.scene_file(), "scene");
   }
+  if (resolved.scene().has_bodies())
+    load_scene_files(*resolved.mutable_scene()->mutable_bodies(), deploy_folder);
   const std::string& made_for = resolved.scene().robot_file();
   if (!resolved.has_robot_file() && !made_for.empty()) resolved.set_robot_file(made_for);
   resolve_robot(resolved, deploy_folder);

@@ -91,6 +91,47 @@ void visit_fields(Visitor& visit, S& s) {
   visit("from_tool_start", s.from_tool_start);
 }
 
+template <class Visitor, Is<SceneFileConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("name", s.name);
+  visit("text", s.text);
+}
+
+template <class Visitor, Is<BondConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("stiffness_n_per_m", s.stiffness_n_per_m);
+  visit("damping_n_s_per_m", s.damping_n_s_per_m);
+  visit("stiffness_nm_per_rad", s.stiffness_nm_per_rad);
+  visit("damping_nm_s_per_rad", s.damping_nm_s_per_rad);
+  visit("play_m", s.play_m);
+  visit("play_rad", s.play_rad);
+}
+
+template <class Visitor, Is<GripperConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("fixture", s.fixture);
+  visit("reach_m", s.reach_m);
+  visit("reach_rad", s.reach_rad);
+  visit("bond", s.bond);
+}
+
+template <class Visitor, Is<LatchConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("striker", s.striker);
+  visit("keeper", s.keeper);
+  visit("travel_m", s.travel_m);
+  visit("angle_rad", s.angle_rad);
+  visit("bond", s.bond);
+}
+
+template <class Visitor, Is<BodiesConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("mjcf_file", s.mjcf_file);
+  visit("file", s.file);
+  visit("gripper", s.gripper);
+  visit("latch", s.latch);
+}
+
 template <class Visitor, Is<SceneConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("name", s.name);
@@ -101,6 +142,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("robot_file", s.robot_file);
   visit("tool_radius_m", s.tool_radius_m);
   visit("path", s.path);
+  visit("bodies", s.bodies);
 }
 
 }  // namespace longreach

@@ -51,6 +51,7 @@ struct Telemetry {
   std::uint64_t rejected = 0;  // datagrams dropped, all reasons
   std::uint64_t limit_violations = 0;
   std::uint64_t late_ticks = 0;  // ticks late by over 100 ms
+  bool load = false;             // the gripper holds something
 };
 
 }  // namespace longreach

@@ -158,6 +158,7 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
   out.set_request(static_cast<std::uint32_t>(command.request));
   out.set_mode(static_cast<std::uint32_t>(command.mode));
   out.set_scale(command.scale);
+  out.set_grip(command.grip);
   out.mutable_position_m()->Clear();
   out.mutable_rotation_rad()->Clear();
   if (command.goal_kind == GoalKind::kPosition) {
@@ -177,6 +178,7 @@ std::optional<MotionCommand> read(const proto::MotionCommand& in) {
   out.request = *request;
   out.mode = *mode;
   out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
+  out.grip = in.grip();
   if (in.position_m_size() == 3 && in.rotation_rad_size() == 0) {
     if (!all_within(in.position_m(), kGoalMaxM)) return std::nullopt;
     out.goal_kind = GoalKind::kPosition;
@@ -228,6 +230,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_rejected(telemetry.rejected);
   out.set_limit_violations(telemetry.limit_violations);
   out.set_late_ticks(telemetry.late_ticks);
+  out.set_load(telemetry.load);
 }
 
 std::optional<Telemetry> read(const proto::Telemetry& in) {
@@ -262,6 +265,7 @@ std::optional<Telemetry> read(const proto::Telemetry& in) {
   out.rejected = in.rejected();
   out.limit_violations = in.limit_violations();
   out.late_ticks = in.late_ticks();
+  out.load = in.load();
   return out;
 }
 

@@ -18,6 +18,7 @@ struct RobotState {
   // false: the robot has failed, which latches a fault. A stop by its own watchdog is none: it ends with the
   // next setpoint.
   bool ok = true;
+  bool load = false;  // the gripper holds something
 };
 
 class Robot {
@@ -25,6 +26,8 @@ class Robot {
   virtual ~Robot() = default;
   virtual RobotState read(Time now) = 0;
   virtual void write(const JointVector& joint_setpoint_rad) = 0;
+  /// Closes or opens the gripper: a level. A robot without one ignores it.
+  virtual void grip(bool /*closed*/) {}
 };
 
 }  // namespace longreach

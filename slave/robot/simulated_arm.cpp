@@ -58,6 +58,8 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       kinematics_(config.robot),
       X_WE_start_(kinematics_.forward(start_joints(config.robot))),
       scene_(config.scene, X_WE_start_),
+      bodies_(config.scene.bodies ? std::optional<Bodies>(std::in_place, config.scene, X_WE_start_)
+                                  : std::nullopt),
       sensor_(config.sensing, random),
       joint_rad_(start_joints(config.robot)),
       servo_rad_(joint_rad_),
@@ -74,11 +76,12 @@ RobotState SimulatedArm::read(Time now) {
   }
   t_s_ += dt;
   move(dt);
-  feel();
+  feel(dt);
   RobotState state;
   state.joint_rad = joint_rad_;
   state.joint_rad_per_s = joint_rad_per_s_;
-  if (!scene_.empty()) state.F_F_W = sense(dt);
+  if (!scene_.empty() || bodies_) state.F_F_W = sense(dt);
+  state.load = bodies_ && bodies_->contact().holds;
   return state;
 }
 
@@ -143,13 +146,18 @@ void SimulatedArm::move(double dt) {
   }
 }
 
-void SimulatedArm::feel() {
+void SimulatedArm::feel(double dt) {
   const ToolKinematics tool = kinematics_.forward_with_jacobian(joint_rad_);
   X_WE_ = tool.X_WE;
   V_WE_ = {tool.J.topRows<3>() * joint_rad_per_s_, tool.J.bottomRows<3>() * joint_rad_per_s_};
   contact_ = scene_.contact({X_WE_.p, V_WE_.linear, X_WE_.q, V_WE_.angular, t_s_});
   if (contact_.surface >= 0) surface_ = contact_.surface;
   F_E_W_ = {contact_.moment_nm, contact_.force_n};
+  if (!bodies_) return;
+  const BodiesContact& met = bodies_->step(X_WE_, dt);
+  F_E_W_.moment += met.F_E_W.moment;
+  F_E_W_.force += met.F_E_W.force;
+  contact_.depth_m = std::max(contact_.depth_m, met.depth_m);
 }
 
 // The sensor's channels are along the axes of the tool, and it carries the tool.

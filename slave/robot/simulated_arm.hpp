@@ -14,6 +14,7 @@
 
 #include "common/core/random.hpp"
 #include "slave/robot/kinematics.hpp"
+#include "slave/scene/bodies.hpp"
 #include "slave/scene/scene.hpp"
 #include "slave/sensing/force_sensor.hpp"
 #include "slave/sensing/tool_load.hpp"
@@ -23,12 +24,15 @@ namespace longreach {
 
 class SimulatedArm : public Robot {
  public:
-  /// Throws std::invalid_argument as Scene does.
+  /// Throws std::invalid_argument as Scene and Bodies do.
   SimulatedArm(const SlaveConfig& config, Random random);
 
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted.
   void write(const JointVector& joint_setpoint_rad) override;
+  void grip(bool closed) override {
+    if (bodies_) bodies_->grip(closed);
+  }
 
   [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // forward kinematics of start_rad
   [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // at the last read
@@ -38,12 +42,15 @@ class SimulatedArm : public Robot {
   /// Static secant F/p at `depth_m` of the surface in contact, or of the one touched last, else of the first;
   /// N/m, 0 in a scene without surfaces.
   [[nodiscard]] double material_secant(double depth_m) const;
+  /// What floats freely; null in a scene without.
+  [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
+  [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
   [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
 
  private:
   void move(double dt);
-  void feel();
+  void feel(double dt);
   Wrench sense(double dt);
 
   RobotConfig robot_;
@@ -51,6 +58,7 @@ class SimulatedArm : public Robot {
   Kinematics kinematics_;
   Pose X_WE_start_;
   Scene scene_;
+  std::optional<Bodies> bodies_;
   ForceSensor sensor_;
   SensorMotionEstimate motion_{};
   std::optional<Time> now_{};

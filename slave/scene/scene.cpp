@@ -72,6 +72,7 @@ void deepest(SceneContact& result, int surface, double depth_m, const Vector3& n
 NeedsConfig needs(const SceneConfig& scene) {
   if (scene.needs) return *scene.needs;
   NeedsConfig all;
+  all.contact = scene.bodies.has_value();
   for (const SurfaceConfig& surface : scene.surface) (surface.hinge ? all.rotation : all.contact) = true;
   return all;
 }

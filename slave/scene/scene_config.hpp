@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/spatial/spatial.hpp"
+#include "slave/scene/bodies_config.hpp"
 
 namespace longreach {
 
@@ -100,6 +101,7 @@ struct SceneConfig {
   std::string robot_file;              // the robot that it is made for
   double tool_radius_m = 0.0;          // 0: the tool is a point
   std::optional<PathConfig> path{};
+  std::optional<BodiesConfig> bodies{};
 };
 
 /// What is built: what the scene states, else what its surfaces need.

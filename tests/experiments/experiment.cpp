@@ -64,6 +64,10 @@ const std::vector<Experiment> kExperiments = {
      run_singular_paths, singular_paths_plots},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
      run_impact, impact_plots},
+    {"docking",
+     "A free-floating spacecraft is grasped, dragged and docked across the link (Fig. 20, 21); three "
+     "mistakes.",
+     run_docking, docking_plots},
     {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", run_scenes_cost,
      scenes_cost_plots},
 };

@@ -98,5 +98,7 @@ std::vector<Metric> run_impact(const ExperimentRun& run);
 std::vector<Plot> impact_plots();
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
 std::vector<Plot> scenes_cost_plots();
+std::vector<Metric> run_docking(const ExperimentRun& run);
+std::vector<Plot> docking_plots();
 
 }  // namespace longreach

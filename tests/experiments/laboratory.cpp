@@ -45,6 +45,7 @@ void Laboratory::step_slave() {
   in.rejected = slave_port_.rejected_total();
   const SlaveOutput out = slave_node_.step(in);
   arm_.write(out.joint_setpoint_rad);
+  arm_.grip(out.grip);
   if (out.report) {
     report_depths_.push(slave_node_.view().reported_depth_m);
     last_report_ = out.report_sequence;

@@ -36,6 +36,7 @@ class Laboratory {
   [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
   [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
   [[nodiscard]] const SimulatedArm& arm() const { return arm_; }
+  [[nodiscard]] SimulatedArm& arm() { return arm_; }
   [[nodiscard]] const SimulatedDevices& devices() const { return devices_; }
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }

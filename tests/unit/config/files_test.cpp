@@ -112,6 +112,38 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
   EXPECT_EQ(resolve_error(), path("scenes/none.txtpb") + ": there is no such file");
 }
 
+// A scene's bodies bring an MJCF file, which brings meshes; a mesh is closed.
+TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
+  const std::string solid = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+  folder.write("scenes/wall.txtpb", "bodies { mjcf_file: \"scenes/b.xml\" }");
+  EXPECT_EQ(resolve_error(), path("scenes/b.xml") + ": there is no such file");
+  folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
+  EXPECT_EQ(resolve_error(),
+            path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": there is no such file");
+  const std::string mesh = path("scenes/m.obj");
+  folder.write("scenes/m.obj", solid);
+  EXPECT_EQ(resolve_error(),
+            mesh + ":5: the mesh is not closed: an edge of this face has no face on its other side");
+  folder.write("scenes/m.obj", solid + "f 1 3 4\n");
+  EXPECT_EQ(resolve_error(), mesh +
+                                 ":8: the face has an edge in the same direction as that of line 5; faces go "
+                                 "round anticlockwise, seen from outside");
+  folder.write("scenes/m.obj", solid + "f 1 4 5\n");
+  EXPECT_EQ(resolve_error(), mesh + ":8: the face names the vertex \"5\", and there are 4 before it");
+  folder.write("scenes/m.obj", "v 0 0 0\n");
+  EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
+  folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
+  EXPECT_EQ(
+      resolve_error(),
+      path("scenes/b.xml") + ":1: \"m.stl\" is not a mesh beside the file; name an OBJ file in its folder");
+  folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
+  folder.write("scenes/m.obj", solid + "f 1/1 4/2 3/3\n");
+  EXPECT_EQ(resolve_error(), "no error");
+  ASSERT_EQ(config.scene().bodies().file_size(), 2);
+  EXPECT_EQ(config.scene().bodies().file(0).name(), "scenes/b.xml");
+  EXPECT_EQ(config.scene().bodies().file(1).name(), "m.obj");
+}
+
 TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   config.set_robot_file("robots/none.txtpb");
   EXPECT_EQ(resolve_error(), path("robots/none.txtpb") + ": there is no such file");

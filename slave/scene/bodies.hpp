@@ -1,0 +1,105 @@
+#pragma once
+// Free-floating rigid bodies, what they touch, a gripper that holds one, and a latch. The tool's motion is
+// given; nothing else moves but by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
+// gravity. Each step solves one implicit equation for the mean wrenches (interaction.hpp) by Newton, so that,
+// for any stiffness and several contacts at once,
+//   energy of the bodies, contacts and bonds  <=  that before + work of the tool,
+// momentum is conserved, and no contact pulls. Frame S: origin where the tool starts, axes of W; `tool` has
+// the axes of S at start. No friction. A robot with flexible joints does not give way to bodies.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "slave/scene/collision_model.hpp"
+
+namespace longreach {
+
+struct BodiesContact {
+  Wrench F_E_W{};        // mean over the step, on the tool at E, by contacts and by what it holds
+  double depth_m = 0.0;  // of the deepest contact of the tool or of the body that it holds
+  int contacts = 0;      // pairs of geoms in touch
+  bool holds = false;    // the gripper holds a body
+  bool latched = false;
+};
+
+class Bodies {
+ public:
+  /// Throws std::invalid_argument as CollisionModel does. scene.bodies is there.
+  Bodies(const SceneConfig& scene, const Pose& X_WE_start);
+
+  /// A level. Closing, it holds a fixture within reach; open, it lets go.
+  void grip(bool closed) { closed_ = closed; }
+
+  /// To where the tool is after dt s, in W. dt = 0 changes nothing.
+  const BodiesContact& step(const Pose& X_WE, double dt);
+
+  [[nodiscard]] const BodiesContact& contact() const { return contact_; }
+  [[nodiscard]] int count() const { return model_.tool(); }
+  [[nodiscard]] const FreeBody& body(int i) const { return model_.bodies()[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }  // in S
+  /// How a body stands relative to how it started: [0] in W.
+  [[nodiscard]] Pose displaced(int i) const;
+  void push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s);  // sets its velocities, in W
+  void place(int i, const Pose& X_S);                                      // its inertial frame
+  /// Distance from E to the gripper's fixture, in W; zero without a gripper.
+  [[nodiscard]] Vector3 to_fixture_m() const;
+
+  [[nodiscard]] double energy_j() const;  // kinetic, of gravity, in contacts and bonds
+  [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // done by the tool so far
+  [[nodiscard]] double spent_j() const { return spent_j_; }          // let go of by gripper and latch so far
+  [[nodiscard]] std::uint64_t unconverged() const {
+    return unconverged_;
+  }  // steps that were split to the end
+
+ private:
+  static constexpr int kMost = CollisionModel::kBodiesMax;
+  static constexpr int kRows = 6 * kMost;
+  using Wrenches = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kRows, 1>;
+  using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kRows, kRows>;
+
+  struct Attempt {
+    std::array<RigidState, kMost> to{};
+    std::array<Mover, kMost + 2> mover{};
+    Wrenches answer{};
+    Wrench on_tool{};  // about the middle of the tool's way
+    double tool_work_j = 0.0;
+    Stiffness stiffness{};
+  };
+  struct Held {
+    int body;
+    BondRest rest;
+  };
+
+  void advance(const Pose& X_tool, double dt, int splits);
+  void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
+  void answer(double dt, Attempt& out);
+  void add(const Interaction& f, int a, int b, Attempt& out) const;
+  void accept(const Attempt& done, const Pose& X_tool, double dt);
+  void look();  // what is near what, now
+  void close_gripper();
+  void close_latch();
+  [[nodiscard]] bool off(const GeomPair& pair) const;
+  [[nodiscard]] Pose fixture() const;
+
+  CollisionModel model_;
+  std::optional<GripperConfig> gripper_;
+  std::optional<LatchConfig> latch_;
+  CollisionModel::Site fixture_{};
+  int striker_ = -1, keeper_ = -1;
+  Pose X_WE_start_;
+  std::array<RigidState, kMost> state_{};
+  Pose X_tool_{};               // in S
+  std::vector<GeomPair> near_;  // at the state
+  bool closed_ = false;
+  std::optional<Held> held_{}, latched_{};
+  Wrench impulse_{};  // on the tool in this step
+  BodiesContact contact_{};
+  double tool_work_j_ = 0.0;
+  double spent_j_ = 0.0;
+  std::uint64_t unconverged_ = 0;
+  Wrenches last_{};  // of the last step
+  Attempt best_{}, next_{};
+};
+
+}  // namespace longreach

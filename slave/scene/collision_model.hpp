@@ -1,0 +1,84 @@
+#pragma once
+// What an MJCF file says about bodies, and where their geoms meet: MuJoCo reads the file, computes mass and
+// inertia, and finds contacts. Its solver and integrator never run; forces and motion are ours (bodies.hpp).
+// MuJoCo's library is loaded when the first model is made and not before.
+//   bodies with a free joint     float freely; that named `tool` moves with the tool instead
+//   other bodies                 rest in the world; joints of other kinds are refused
+//   a geom's MJCF `material`     names a material of the scene; geoms that meet nothing need none
+// Of several contacts of a pair of geoms the deepest counts. A mesh collides as its convex hull.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slave/scene/interaction.hpp"
+#include "slave/scene/scene_config.hpp"
+
+namespace longreach {
+
+/// Bodies by number: the free ones from 0, then the tool, then the world.
+struct GeomPair {
+  int geom_a = 0, geom_b = 0;  // geom_a < geom_b
+  int body_a = 0, body_b = 0;
+  Meeting meeting{};  // its normal from A to B
+};
+
+struct FreeBody {
+  std::string name;
+  RigidMass mass{};
+  Pose X_start{};  // of the inertial frame
+};
+
+class CollisionModel {
+ public:
+  /// Geoms nearer than this are found.
+  static constexpr double kNearM = 0.01;
+  static constexpr int kBodiesMax = 4;
+
+  /// Throws std::invalid_argument "FILE:LINE: reason" for a file that is not to be used, and where MuJoCo is
+  /// not installed.
+  explicit CollisionModel(const SceneConfig& scene);
+  ~CollisionModel();
+  CollisionModel(CollisionModel&&) noexcept;
+
+  [[nodiscard]] const std::vector<FreeBody>& bodies() const { return bodies_; }
+  [[nodiscard]] int tool() const { return static_cast<int>(bodies_.size()); }
+  [[nodiscard]] int world() const { return tool() + 1; }
+
+  /// Pairs of geoms that are near each other with the bodies at X (inertial frames) and the tool at X_tool,
+  /// in the order of their geoms; valid until the next call.
+  std::span<const GeomPair> near(std::span<const Pose> X, const Pose& X_tool);
+
+  /// How two geoms push: the softer of their materials.
+  [[nodiscard]] const HuntCrossley& law(const GeomPair& pair) const;
+
+  struct Site {
+    int body;
+    Pose X_B;  // in the body's inertial frame
+  };
+  /// Both throw std::invalid_argument if there is none of that name.
+  [[nodiscard]] Site site(const std::string& name) const;
+  [[nodiscard]] int geom(const std::string& name) const;
+  [[nodiscard]] int body_of(int geom) const { return body_of_geom_[static_cast<std::size_t>(geom)]; }
+  [[nodiscard]] Pose geom_pose(int geom) const;  // at the last near()
+
+  /// Whether MuJoCo's library is in this process.
+  static bool loaded();
+
+ private:
+  struct Engine;
+  void take_bodies();
+  void take_laws(const SceneConfig& scene);
+
+  std::string file_;
+  std::unique_ptr<Engine> engine_;
+  std::vector<FreeBody> bodies_;
+  std::vector<int> body_of_geom_;
+  std::vector<HuntCrossley> laws_;  // of each geom
+  std::vector<double> stiffness_;   // likewise, at the reference depth
+  std::vector<GeomPair> pairs_;
+};
+
+}  // namespace longreach

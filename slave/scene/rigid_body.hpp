@@ -1,0 +1,50 @@
+#pragma once
+// A free rigid body over one step, in which the wrench w that acts on average moves it: midpoint rule for the
+// way, the energy-momentum rule of Simo and Wong (1991) for the turn,
+//   Δp = dt (v + dt F/2m),   Δv = dt F/m
+//   R' = R cay(dt Ω̄),        L' = L + dt M,    Ω̄ = (Ω + Ω')/2,   L = R I Ω
+// It conserves momentum, and its kinetic energy changes by exactly w·move, with move = [θ; Δp] and the Cayley
+// vector θ = dt R Ω̄, by which a point x of the body goes Δx = Δp + θ × (x̄ - p̄), bars for means over the
+// step: so a force that acts there does the work F·Δx, and what is stored elsewhere can be balanced with it.
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+struct RigidMass {
+  double mass_kg = 1.0;                     // > 0
+  Vector3 inertia_kg_m2 = Vector3::Ones();  // about the centre of mass, along the principal axes; > 0
+  Vector3 gravity_m_per_s2 = Vector3::Zero();
+};
+
+struct RigidState {
+  Pose X{};                                    // centre of mass, principal axes
+  Vector3 v_m_per_s = Vector3::Zero();         // of the centre of mass
+  Vector3 spin_kg_m2_per_s = Vector3::Zero();  // angular momentum about it, in W
+};
+
+struct RigidMove {
+  Vector3 turn = Vector3::Zero();  // Cayley vector in W: 2 tan(angle/2) along the axis
+  Vector3 way_m = Vector3::Zero();
+};
+
+struct RigidStep {
+  RigidState to{};
+  RigidMove move{};
+};
+
+/// `wrench`: [moment about the centre of mass; force], mean over dt > 0, without gravity.
+RigidStep step_rigid(const RigidMass& mass, const RigidState& from, const Vector6& wrench, double dt);
+
+/// The move between two poses; turns by less than π.
+RigidMove move_between(const Pose& from, const Pose& to);
+
+/// About the change of [turn; way] by the wrench.
+Eigen::Matrix<double, 6, 6> rigid_compliance(const RigidMass& mass, const Pose& X, double dt);
+
+/// Angular velocity in W.
+Vector3 angular_rad_per_s(const RigidMass& mass, const RigidState& state);
+/// With gravity's, zero at the origin.
+double energy_j(const RigidMass& mass, const RigidState& state);
+
+}  // namespace longreach
