@@ -57,6 +57,7 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
   std::string left_out;
   if (!needed.contact) left_out = "contact, estimation";
   if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
+  if (!config.scene().has_bodies()) left_out += left_out.empty() ? "free bodies" : ", free bodies";
   if (!left_out.empty())
     spdlog::info("left out=\"{}\" because=\"the scene {} needs none\"", left_out, config.scene().name());
 }

@@ -132,6 +132,29 @@ void Bodies::answer(double dt, Attempt& out) {
   out.stiffness.setZero(rows, rows);
   out.on_tool = {};
   out.tool_work_j = 0.0;
+  if (!(nearer_m(out) < clear_m_)) meet(dt, out);
+  const auto mover = [&](int i) -> const Mover& { return out.mover[static_cast<std::size_t>(i)]; };
+  if (held_) {
+    const int t = model_.tool();
+    add(hold(gripper_->bond, held_->rest, mover(t), mover(held_->body), dt), t, held_->body, out);
+  }
+  if (latched_) {
+    const int a = model_.body_of(keeper_);
+    add(hold(latch_->bond, latched_->rest, mover(a), mover(latched_->body), dt), a, latched_->body, out);
+  }
+}
+
+double Bodies::nearer_m(const Attempt& a) const {
+  double most = 0.0;
+  for (int i = 0; i <= model_.tool(); ++i) {
+    const RigidMove& move = a.mover[static_cast<std::size_t>(i)].move;
+    most = std::max(most, move.way_m.norm() + move.turn.norm() * model_.reach_m(i));
+  }
+  return 2.0 * most;
+}
+
+// Contacts, from what was near before to what is near after the moves that were tried.
+void Bodies::meet(double dt, Attempt& out) {
   std::array<Pose, kMost> X;
   for (std::size_t i = 0; i < X.size(); ++i) X[i] = out.to[i].X;
   const auto after = model_.near({X.data(), static_cast<std::size_t>(count())},
@@ -156,14 +179,6 @@ void Bodies::answer(double dt, Attempt& out) {
     if (known) ++before;
   }
   for (; before != near_.end(); ++before) meet(*before, before->meeting, apart(before->meeting));
-  if (held_) {
-    const int t = model_.tool();
-    add(hold(gripper_->bond, held_->rest, mover(t), mover(held_->body), dt), t, held_->body, out);
-  }
-  if (latched_) {
-    const int a = model_.body_of(keeper_);
-    add(hold(latch_->bond, latched_->rest, mover(a), mover(latched_->body), dt), a, latched_->body, out);
-  }
 }
 
 void Bodies::add(const Interaction& f, int a, int b, Attempt& out) const {
@@ -203,7 +218,8 @@ void Bodies::accept(const Attempt& done, const Pose& X_tool, double dt) {
   tool_work_j_ += done.tool_work_j;
   state_ = done.to;
   X_tool_ = X_tool;
-  look();
+  clear_m_ -= nearer_m(done);
+  if (clear_m_ < 0.5 * CollisionModel::kNearM) look();
 }
 
 void Bodies::look() {
@@ -211,6 +227,7 @@ void Bodies::look() {
   for (std::size_t i = 0; i < X.size(); ++i) X[i] = state_[i].X;
   const auto found = model_.near({X.data(), static_cast<std::size_t>(count())}, X_tool_);
   near_.assign(found.begin(), found.end());
+  clear_m_ = near_.empty() ? CollisionModel::kNearM : 0.0;
 }
 
 bool Bodies::off(const GeomPair& pair) const {

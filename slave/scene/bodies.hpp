@@ -74,6 +74,9 @@ class Bodies {
   void advance(const Pose& X_tool, double dt, int splits);
   void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
   void answer(double dt, Attempt& out);
+  void meet(double dt, Attempt& out);
+  /// How much nearer to each other any two geoms can have come at most.
+  [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);
   void look();  // what is near what, now
@@ -91,6 +94,7 @@ class Bodies {
   std::array<RigidState, kMost> state_{};
   Pose X_tool_{};               // in S
   std::vector<GeomPair> near_;  // at the state
+  double clear_m_ = 0.0;        // no two geoms are nearer than this
   bool closed_ = false;
   std::optional<Held> held_{}, latched_{};
   Wrench impulse_{};  // on the tool in this step

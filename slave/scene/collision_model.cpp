@@ -178,9 +178,14 @@ void CollisionModel::take_bodies() {
   number[static_cast<std::size_t>(tool_body)] = tool();
   engine_->place.push_back(m.jnt_qposadr[m.body_jntadr[tool_body]]);
   engine_->X_IB.push_back(Pose{});
+  reach_m_.resize(bodies_.size() + 1);
   for (int g = 0; g < m.ngeom; ++g) {
     const int body = number[static_cast<std::size_t>(m.geom_bodyid[g])];
     body_of_geom_.push_back(body < 0 ? world() : body);
+    if (body < 0) continue;
+    const auto b = static_cast<std::size_t>(body);
+    const Vector3 centre = vector(m.geom_pos + 3 * g) - inverse(engine_->X_IB[b]).p;
+    reach_m_[b] = std::max(reach_m_[b], centre.norm() + m.geom_rbound[g]);
   }
 }
 

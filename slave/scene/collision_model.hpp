@@ -63,6 +63,8 @@ class CollisionModel {
   [[nodiscard]] int geom(const std::string& name) const;
   [[nodiscard]] int body_of(int geom) const { return body_of_geom_[static_cast<std::size_t>(geom)]; }
   [[nodiscard]] Pose geom_pose(int geom) const;  // at the last near()
+  /// Of a free body or the tool: no point of it is farther from the frame that near() is given.
+  [[nodiscard]] double reach_m(int body) const { return reach_m_[static_cast<std::size_t>(body)]; }
 
   /// Whether MuJoCo's library is in this process.
   static bool loaded();
@@ -78,6 +80,7 @@ class CollisionModel {
   std::vector<int> body_of_geom_;
   std::vector<HuntCrossley> laws_;  // of each geom
   std::vector<double> stiffness_;   // likewise, at the reference depth
+  std::vector<double> reach_m_;
   std::vector<GeomPair> pairs_;
 };
 

@@ -5,11 +5,13 @@
 namespace longreach {
 namespace {
 
-constexpr double kStill_m = 1e-10;  // a way that drowns in the rounding of places, and has no direction
+constexpr double kStill_m = 1e-8;  // a way that drowns in the rounding of places, and has no direction
 
 // What has to be added to the mean force so that its work over `way` is `work`.
 Vector3 correction(const Vector3& force, const Vector3& way, double work) {
-  return (work - force.dot(way)) / (way.squaredNorm() + kStill_m * kStill_m) * way;
+  constexpr double kStill2 = kStill_m * kStill_m;
+  const double length2 = way.squaredNorm(), sure = length2 / (length2 * length2 + kStill2 * kStill2);
+  return (work - force.dot(way)) * sure * way;
 }
 
 // A stretched spring with play: its force, and what it stores.

@@ -108,7 +108,7 @@ TEST(ScenesCost, TellsOfEachSceneAndOfTenThousandSurfaces) {
   const auto cost = by_name(run_scenes_cost({}));
   for (const char* name :
        {"free_step_us", "wall_step_us", "materials_step_us", "layers_step_us", "path_step_us",
-        "hinge_step_us", "1_resting_us", "10000_resting_us", "10000_moving_us"})
+        "hinge_step_us", "dock_step_us", "1_resting_us", "10000_resting_us", "10000_moving_us"})
     EXPECT_GT(cost.at(name), 0.0) << name;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kEnd_s = 420.0;
 constexpr double kFrame_s = 1.0 / 30.0;
-constexpr double kGuardShare = 1.35;        // of the guard: the greatest force that it promises
-constexpr double kSlow_m_per_s = 0.05;      // a target that drifts no faster can be taken again
+constexpr double kGuardShare = 1.35;    // of the guard: the greatest force that it promises
+constexpr double kSlow_m_per_s = 0.05;  // a target that drifts no faster can be taken again
 // Of the slave's force: what a hand holds against, it lets run when the catch gives way.
 constexpr double kForceShare = 0.2;
 constexpr double kLoadAcceleration = 0.05;  // m/s²: the load's inertia stays below what counts as a touch

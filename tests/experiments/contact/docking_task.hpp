@@ -22,8 +22,8 @@ struct DockingOutcome {
   double port_energy_min_j = 0.0;
   double energy_created_j = 0.0;  // by the scene: stored more than was done on it
   std::uint64_t limit_violations = 0, unconverged = 0;
-  bool ended = false;             // the operator came to his end
-  bool safe = false;  // no fault or stop, no limit broken, the force guard kept, the target left slow
+  bool ended = false;  // the operator came to his end
+  bool safe = false;   // no fault or stop, no limit broken, the force guard kept, the target left slow
 };
 
 DockingOutcome dock(const proto::LabConfig& config, std::uint64_t seed, DockingMistake mistake, Trace* trace);

@@ -68,6 +68,15 @@ ContactCost contact_cost(const Scene& scene, const Vector3& centre_m, double rea
   return cost;
 }
 
+// Of a step of the bodies, where the first of them is displaced by this, held or not.
+double bodies_us(const SceneConfig& config, const Vector3& displaced_m, bool held) {
+  Bodies bodies(config, Pose{});
+  bodies.place(0, {bodies.body(0).X_start.p + displaced_m, bodies.body(0).X_start.q});
+  const Pose tool{held ? bodies.to_fixture_m() : Vector3::Zero().eval(), Quaternion::Identity()};
+  bodies.grip(held);
+  return cost_us(kSteps, [&](int) { bodies.step(tool, 1e-3); });
+}
+
 Scene many(int count, bool moving) {
   SceneConfig config;
   config.material.push_back({.name = "m"});
@@ -116,9 +125,17 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     message.set_scene_file("scenes/" + name + ".txtpb");
     resolve_files(message, find_deploy_folder());
     const SlaveConfig config = to_struct(message);
+    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node"});
+    if (config.scene.bodies) {
+      const Vector3 docking_m{0.441, -0.45, 0.05};  // of scene dock: the striker presses the keeper
+      metrics.push_back(
+          {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "bodies alone"});
+      metrics.push_back({name + "_held_us", bodies_us(config.scene, Vector3::Zero(), true), "bodies alone"});
+      metrics.push_back({name + "_pressing_us", bodies_us(config.scene, docking_m, true), "bodies alone"});
+      continue;
+    }
     const Pose start = SimulatedArm(config, Random(1)).start_pose();
     const ContactCost cost = contact_cost(Scene(config.scene, start), start.p + Vector3(0.12, 0, 0), 0.05);
-    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node"});
     metrics.push_back({name + "_contact_us", cost.us, "contact alone"});
     metrics.push_back({name + "_touching", 100.0 * cost.touching, "% of these places"});
   }

@@ -73,6 +73,22 @@ TEST(MasterView, KeepsTheLoadUntilItIsPutDown) {
   EXPECT_FALSE(b.node.view().load);
 }
 
+TEST(MasterView, TheGripperIsALevelInEachCommand) {
+  Bench b;
+  const auto sent = [&b] {
+    for (int i = 0; i < 20; ++i) {
+      if (const auto command = b.tick().command) return command->grip;
+    }
+    return false;
+  };
+  EXPECT_FALSE(sent());
+  b.in.requests.load = true;
+  EXPECT_TRUE(sent());
+  EXPECT_TRUE(sent());
+  b.in.requests.load = false;
+  EXPECT_FALSE(sent());
+}
+
 TEST(MasterView, ALoadIsFeltInRateMode) {
   double force_n[2];
   for (const bool load : {false, true}) {

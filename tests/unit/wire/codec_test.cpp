@@ -25,6 +25,7 @@ TEST(Codec, KeepsEveryFieldOfAMotionCommand) {
   EXPECT_EQ(out.request, Request::kEngage);
   EXPECT_EQ(out.mode, MotionMode::kRate);
   EXPECT_EQ(out.scale, 0.35);
+  EXPECT_TRUE(out.grip);
   EXPECT_EQ(out.goal_kind, GoalKind::kPosition);
   EXPECT_EQ(out.position_m, in.position_m);
   EXPECT_EQ(out.rotation_rad, Vector3(Vector3::Zero()));
@@ -88,6 +89,7 @@ TEST(Codec, KeepsEveryFieldOfTelemetry) {
   EXPECT_EQ(out.rejected, 11u);
   EXPECT_EQ(out.limit_violations, 12u);
   EXPECT_EQ(out.late_ticks, 13u);
+  EXPECT_TRUE(out.load);
 }
 
 TEST(Codec, ExtremeMessagesFitADatagramAndAreAccepted) {

@@ -26,6 +26,7 @@ inline MotionCommand command() {
   c.request = Request::kEngage;
   c.mode = MotionMode::kRate;
   c.scale = 0.35;
+  c.grip = true;
   c.position_m = {0.1, -0.2, 0.3};
   return c;
 }
@@ -70,6 +71,7 @@ inline Telemetry telemetry() {
   t.rejected = 11;
   t.limit_violations = 12;
   t.late_ticks = 13;
+  t.load = true;
   return t;
 }
 

@@ -1,0 +1,34 @@
+// The task of scene `dock` from beginning to end, and a mistake.
+#include <gtest/gtest.h>
+
+#include "tests/experiments/contact/docking_task.hpp"
+#include "tests/experiments/experiment.hpp"
+#include "tests/property/campaign.hpp"
+
+namespace longreach {
+namespace {
+
+DockingOutcome docked(std::uint64_t seed, DockingMistake mistake) {
+  return dock(configure({}, LONGREACH_DEPLOY), seed, mistake, nullptr);
+}
+
+TEST(Docking, SucceedsAcrossTheLinkAndIsFelt) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(campaign(30, 1)); ++seed) {
+    const DockingOutcome o = docked(seed, DockingMistake::kNone);
+    EXPECT_TRUE(o.grasped && o.docked && o.felt_success && o.safe) << "seed " << seed;
+    EXPECT_GT(o.felt_success_n, 1.0) << "seed " << seed;
+    EXPECT_LT(o.energy_created_j, 1e-9) << "seed " << seed;
+    EXPECT_GT(o.port_energy_min_j, -1e-3) << "seed " << seed;
+  }
+}
+
+TEST(Docking, AMistakeIsFeltAndHarmsNobody) {
+  for (int m = 1; m <= campaign(kDockingMistakes - 1, 1); ++m) {
+    const DockingOutcome o = docked(1, static_cast<DockingMistake>(m));
+    EXPECT_GT(o.felt_mistake_n, 0.5) << to_string(static_cast<DockingMistake>(m));
+    EXPECT_TRUE(o.ended && o.safe) << to_string(static_cast<DockingMistake>(m));
+  }
+}
+
+}  // namespace
+}  // namespace longreach
