@@ -9,16 +9,18 @@ constexpr double kHand_n_per_m = 400.0;  // a firm grip
 constexpr double kPullMax_m = 0.04;      // the hand's target ahead of the handle: 16 N
 constexpr double kRoom_m = 0.055;        // of the handle about home, before it is relocated
 constexpr double kRelocation_s = 1.2;
-constexpr double kFast_m_per_s = 0.05, kFine_m_per_s = 0.015, kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
+constexpr double kFast_m_per_s = 0.022, kFine_m_per_s = 0.015, kInsert_m_per_s = 0.01,
+                 kPress_m_per_s = 0.0015;
 constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
 constexpr double kCareful_m = 0.03;   // in front of the catch
 constexpr double kFelt_n = 0.8, kGone_n = 0.25;
 constexpr double kBeside_m = 0.155;  // the funnel's rim, seen from its middle
+constexpr double kTilt_rad = 0.15;   // more than the channel lets in
 
 }  // namespace
 
 std::string_view to_string(DockingMistake mistake) {
-  constexpr std::string_view kNames[] = {"none", "overshoots", "misses_guide", "pushes_on"};
+  constexpr std::string_view kNames[] = {"none", "tilted", "misses_guide", "pushes_on"};
   return kNames[static_cast<int>(mistake)];
 }
 
@@ -91,7 +93,8 @@ bool DockingOperator::relocate(const DockingOperatorInput& in, const Vector3& to
   const double t = in.t_s - *relocating_s_;
   out_.requests.clutch = true;
   if (t > 0.1) hand_m_ += clamp_norm(to_m - hand_m_, 0.15 * in.dt_s);
-  if (t < kRelocation_s || (to_m - in.master->p_MH).norm() > 0.004) return false;
+  const bool there = (to_m - in.master->p_MH).norm() < 0.004;
+  if (t < kRelocation_s || (!there && t < 2.0 * kRelocation_s)) return false;  // a contact may push
   hand_m_ = in.master->p_MH;
   relocating_s_.reset();
   return true;
@@ -153,15 +156,8 @@ void DockingOperator::approach(const DockingOperatorInput& in) {
 }
 
 void DockingOperator::reach(const DockingOperatorInput& in) {
-  Vector3 target = in.picture.fixture_m + misjudged_m_;
-  if (mistake_ == DockingMistake::kOvershoots) {
-    target.x() += 0.1;
-    if (in.master->spring_force_n.norm() > kFelt_n && !felt_s_) felt_s_ = in.t_s;
-    if (felt_s_ && in.t_s - *felt_s_ > reaction_s_) return enter(DockingPhase::kRetreat, in);
-    if (carry(in, target, kFine_m_per_s) && looked(in)) enter(DockingPhase::kRetreat, in);
-    return;
-  }
-  if (carry(in, target, kFine_m_per_s) && looked(in)) enter(DockingPhase::kGrasp, in);
+  if (carry(in, in.picture.fixture_m + misjudged_m_, kFine_m_per_s) && looked(in))
+    enter(DockingPhase::kGrasp, in);
 }
 
 void DockingOperator::grasp(const DockingOperatorInput& in) {
@@ -190,7 +186,8 @@ void DockingOperator::drag(const DockingOperatorInput& in) {
 // one has shown.
 void DockingOperator::align(const DockingOperatorInput& in) {
   if (rounds_ % 2 == 0) {
-    const Quaternion straight = exp_rotation(-in.picture.turned_rad - misjudged_rad_);
+    const Vector3 tilt_rad = (mistake_ == DockingMistake::kTilted ? kTilt_rad : 0.0) * Vector3::UnitZ();
+    const Quaternion straight = exp_rotation(tilt_rad - in.picture.turned_rad - misjudged_rad_);
     const Quaternion change = straight * in.picture.tool.q;
     aim_rad_ = log_rotation(change);
     aim_m_ = guide_.mouth_m + misjudged_m_ - straight * striker_from_tool(in);
@@ -212,7 +209,7 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
   }
   turn(in, aim_rad_);
   // What is felt here is a wrong contact: he gives up.
-  if (mistake_ == DockingMistake::kMissesGuide) {
+  if (mistake_ == DockingMistake::kMissesGuide || mistake_ == DockingMistake::kTilted) {
     if (in.master->spring_force_n.x() < -kFelt_n && !felt_s_) felt_s_ = in.t_s;
     if (felt_s_ && in.t_s - *felt_s_ > 1.0) return enter(DockingPhase::kRetreat, in);
   }

@@ -17,7 +17,7 @@ namespace longreach {
 
 enum class DockingMistake : std::uint8_t {
   kNone,
-  kOvershoots,   // goes too far at the grasp and bumps into the target
+  kTilted,       // does not turn the target straight
   kMissesGuide,  // comes in beside the funnel
   kPushesOn      // does not stop when the catch has given way
 };

@@ -16,7 +16,8 @@ constexpr double kGuardShare = 1.35;    // of the guard: the greatest force that
 constexpr double kSlow_m_per_s = 0.05;  // a target that drifts no faster can be taken again
 // Of the slave's force: what a hand holds against, it lets run when the catch gives way.
 constexpr double kForceShare = 0.2;
-constexpr double kLoadAcceleration = 0.05;  // m/s²: the load's inertia stays below what counts as a touch
+// What the load's inertia makes, 3 N, stays below what counts as a touch, and the force guard holds.
+constexpr double kLoadAcceleration = 0.1, kLoadSpeed = 0.025;
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
@@ -25,9 +26,10 @@ SlaveConfig slave_config(const proto::LabConfig& lab) {
   message.clear_robot();
   message.clear_robot_file();
   message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
+  message.mutable_command()->set_speed_max_m_per_s(kLoadSpeed);
   message.mutable_command()->set_acceleration_max_rad_per_s2(0.1);
-  message.mutable_sensing()->set_touch_n(2.5);
-  message.mutable_sensing()->set_release_n(1.2);
+  message.mutable_sensing()->set_touch_n(4.0);
+  message.mutable_sensing()->set_release_n(2.0);
   resolve_files(message, find_deploy_folder());
   return to_struct(message);
 }
@@ -121,9 +123,8 @@ class Task {
     out_.target_speed_max_m_per_s = std::max(out_.target_speed_max_m_per_s, speed);
     const bool pressing = person_.phase() == DockingPhase::kPress && !person_.felt_success();
     if (pressing) out_.felt_success_n = std::max(out_.felt_success_n, against);
-    const bool wrong = mistake_ == DockingMistake::kPushesOn      ? person_.felt_success()
-                       : mistake_ == DockingMistake::kMissesGuide ? person_.phase() >= DockingPhase::kInsert
-                                                                  : true;
+    const bool wrong = mistake_ == DockingMistake::kPushesOn ? person_.felt_success()
+                                                             : person_.phase() >= DockingPhase::kInsert;
     if (mistake_ != DockingMistake::kNone && wrong)
       out_.felt_mistake_n = std::max(out_.felt_mistake_n, against);
     out_.energy_created_j = std::max(
