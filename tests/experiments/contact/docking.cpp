@@ -37,9 +37,7 @@ std::vector<Plot> docking_plots() {
                    {"force on the tool (N)", {{"force_x_n", "along x"}, {"force_n", "magnitude"}}, ""},
                    {"felt against the push (N)", {{"felt_n", "contact at the hand"}}, ""},
                    {"state",
-                    {{"mode", "position mode"},
-                     {"holds", "gripper holds", 0.9},
-                     {"latched", "latched", 0.8}},
+                    {{"mode", "position mode"}, {"holds", "gripper holds", 0.9}, {"latched", "latched", 0.8}},
                     "set yrange [-0.1:1.3]"}},
         .panel_px = 150.0};
   };
