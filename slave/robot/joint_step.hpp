@@ -10,9 +10,6 @@ namespace longreach {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Solves A x = b for symmetric A. Returns the least of D; x is meaningless unless that is positive.
-double solve_symmetric(Matrix6 A, JointVector& x);
-
 struct JointStep {
   JointVector joint_rad;
   double
@@ -20,8 +17,9 @@ struct JointStep {
 };
 
 /// With the given damping; where the least pivot is below `singular_m2`, with a tenth of what is missing
-/// more.
-JointStep damped_step(const Jacobian& J_m, const Vector6& e_m, double damping_m2, double singular_m2);
+/// more. `J` in SI, `e_m` [angular times length; linear].
+JointStep damped_step(const Jacobian& J, double length_m, const Vector6& e_m, double damping_m2,
+                      double singular_m2);
 
 /// Undamped, by orthogonal decomposition of J, which keeps the digits that JᵀJ loses. What J moves by less
 /// than 1e-11 of its largest column is left as it is. At most 0.1 rad.

@@ -1,8 +1,11 @@
 #include "slave/robot/numeric_inverse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "slave/robot/joint_step.hpp"
 
@@ -19,28 +22,27 @@ struct Temper {
   bool turns_freely;       // joints with a range of a whole turn pass their limits on the way
 };
 constexpr Temper kFollow{0.3, 0.005, 1.0, 12, false};
-constexpr Temper kSearch{0.5, 3e-5, 0.003, 4, true};
+constexpr Temper kSearch{0.5, 3e-5, 0.003, 3, true};
 
 struct Candidate {
   JointVector joint_rad;
   RigidKinematics tool;
   Vector6 error;
   double residual_m;
+
+  void place(const Kinematics& kinematics, const Rigid& goal, const JointVector& q_rad) {
+    joint_rad = q_rad;
+    tool = kinematics.rigid_with_jacobian(q_rad);
+    error.head<3>() = kinematics.reach_m() * chord_between(tool.X_WE.R, goal.R);
+    error.tail<3>() = goal.p - tool.X_WE.p;
+    residual_m = error.norm();
+  }
 };
 
-Candidate evaluate(const Kinematics& kinematics, const Rigid& goal, const JointVector& joint_rad) {
-  Candidate c{joint_rad, kinematics.rigid_with_jacobian(joint_rad), Vector6::Zero(), 0.0};
-  c.error << kinematics.reach_m() * rotation_between(c.tool.X_WE.R, goal.R), goal.p - c.tool.X_WE.p;
-  c.residual_m = c.error.norm();
-  return c;
-}
-
 JointVector step_from(const Candidate& c, double boost, double length_m, const Temper& temper) {
-  Jacobian J_m = c.tool.J;
-  J_m.topRows<3>() *= length_m;
   const double singular_m = temper.singular * length_m;
   const double damping_m2 = temper.damping * boost * c.residual_m * c.residual_m;
-  JointVector step = damped_step(J_m, c.error, damping_m2, singular_m * singular_m).joint_rad;
+  JointVector step = damped_step(c.tool.J, length_m, c.error, damping_m2, singular_m * singular_m).joint_rad;
   const double largest = step.cwiseAbs().maxCoeff();
   if (!(largest <= temper.step_max_rad)) step *= temper.step_max_rad / largest;
   return step;
@@ -53,6 +55,19 @@ NumericInverse::NumericInverse(const RobotConfig& robot) : kinematics_(robot) {
     min_rad_[i] = robot.joint[static_cast<std::size_t>(i)].min_rad;
     max_rad_[i] = robot.joint[static_cast<std::size_t>(i)].max_rad;
   }
+  for (std::uint32_t n = 1; n <= kKnownStarts; ++n) {
+    const Place place = place_m(kinematics_.rigid_forward(start(n)));
+    start_place_m_.row(n - 1) = place;
+    start_square_m2_[n - 1] = place.squaredNorm();
+  }
+}
+
+NumericInverse::Place NumericInverse::place_m(const Rigid& X_WE) const {
+  constexpr double kRadius = 0.2;  // of the reach; measured: half the steps that the whole reach leads to
+  const double weight = kRadius * kinematics_.reach_m() / std::numbers::sqrt2;
+  Place place;
+  place << weight * X_WE.R.reshaped().transpose(), X_WE.p.transpose();
+  return place;
 }
 
 // Evenly spread without randomness: multiples of the powers of 1/φ₆, φ₆ the root of x^7 = x + 1 (Roberts
@@ -82,49 +97,57 @@ struct NumericInverse::Run {
     return temper.turns_freely && inverse.max_rad_[i] - inverse.min_rad_[i] >= kTurn;
   }
 
-  // Within the limits; a joint that turns freely only when the run is over.
-  [[nodiscard]] JointVector limited(const JointVector& q, bool over) const {
+  // Within the limits, but for joints that turn freely.
+  [[nodiscard]] JointVector limited(const JointVector& q) const {
     JointVector allowed = q.cwiseMax(inverse.min_rad_).cwiseMin(inverse.max_rad_);
     for (int i = 0; i < kMaxJoints; ++i) {
-      if (!turns(i)) continue;
-      const double middle = 0.5 * (inverse.min_rad_[i] + inverse.max_rad_[i]);
-      const double folded = middle + std::remainder(q[i] - middle, 2.0 * std::numbers::pi);
-      allowed[i] = over ? std::clamp(folded, inverse.min_rad_[i], inverse.max_rad_[i]) : q[i];
+      if (turns(i)) allowed[i] = q[i];
     }
     return allowed;
+  }
+
+  // Within the limits, joints that turn freely by whole turns.
+  [[nodiscard]] JointVector folded(JointVector q) const {
+    for (int i = 0; i < kMaxJoints; ++i) {
+      const double middle = 0.5 * (inverse.min_rad_[i] + inverse.max_rad_[i]);
+      if (turns(i)) q[i] = middle + std::remainder(q[i] - middle, 2.0 * std::numbers::pi);
+    }
+    return q.cwiseMax(inverse.min_rad_).cwiseMin(inverse.max_rad_);
   }
 
   [[nodiscard]] NumericResult from(const JointVector& start_rad) const {
     const Kinematics& kinematics = inverse.kinematics_;
     const double length = kinematics.reach_m();
-    Candidate best = evaluate(kinematics, goal, start_rad);
+    std::array<Candidate, 2> candidates;
+    Candidate *best = candidates.data(), *next = best + 1;
+    best->place(kinematics, goal, start_rad);
     NumericResult result;
-    double boost = 1.0, milestone = best.residual_m;
+    double boost = 1.0, milestone = best->residual_m;
     std::uint32_t since = 0;
     // A loose tolerance must not freeze a slow motion: one step is made unless the start is exact.
-    for (std::uint32_t i = 0; i < tolerance.iterations_max && std::isfinite(best.residual_m); ++i) {
+    for (std::uint32_t i = 0; i < tolerance.iterations_max && std::isfinite(best->residual_m); ++i) {
       const double enough = i == 0 ? 1e-14 * length : tolerance.residual_m;
-      if (best.residual_m <= enough || ++since > temper.patience) break;
-      const JointVector step = step_from(best, boost, length, temper);
+      if (best->residual_m <= enough || ++since > temper.patience) break;
+      const JointVector step = step_from(*best, boost, length, temper);
       ++result.iterations;
       if (!step.allFinite()) break;
-      const JointVector wanted = best.joint_rad + step;
-      const JointVector allowed = limited(wanted, false);
+      const JointVector wanted = best->joint_rad + step;
+      const JointVector allowed = limited(wanted);
       result.at_joint_limit = result.at_joint_limit || allowed != wanted;
-      const Candidate next = evaluate(kinematics, goal, allowed);
-      if (next.residual_m < best.residual_m) {
-        best = next;
+      next->place(kinematics, goal, allowed);
+      if (next->residual_m < best->residual_m) {
+        std::swap(best, next);
         boost = std::max(0.1 * boost, 1.0);
-        if (best.residual_m < 0.5 * milestone) milestone = best.residual_m, since = 0;
+        if (best->residual_m < 0.5 * milestone) milestone = best->residual_m, since = 0;
       } else {
         boost = std::min(100.0 * boost, 1e12);
       }
     }
-    if (temper.turns_freely) best = evaluate(kinematics, goal, limited(best.joint_rad, true));
-    result.found = best.residual_m <= tolerance.residual_m;
-    result.joint_rad = best.joint_rad;
-    result.tool = best.tool;
-    result.residual_m = best.residual_m;
+    if (const JointVector q = folded(best->joint_rad); q != best->joint_rad) best->place(kinematics, goal, q);
+    result.found = best->residual_m <= tolerance.residual_m;
+    result.joint_rad = best->joint_rad;
+    result.tool = best->tool;
+    result.residual_m = best->residual_m;
     return result;
   }
 };
@@ -136,15 +159,30 @@ NumericResult NumericInverse::search_once(const Rigid& X_WE_goal, const JointVec
 
 NumericResult NumericInverse::solve(const Rigid& X_WE_goal, const JointVector& start_rad,
                                     const InverseTolerance& tolerance) const {
-  const bool searches = tolerance.restarts_max > 0;
-  NumericResult best = Run{*this, X_WE_goal, tolerance, searches ? kSearch : kFollow}.from(start_rad);
-  for (std::uint32_t n = 1; n <= tolerance.restarts_max; ++n) {
+  const Place goal = place_m(X_WE_goal);
+  if (tolerance.restarts_max == 0 || !goal.allFinite())
+    return Run{*this, X_WE_goal, tolerance, kFollow}.from(start_rad);
+  constexpr double kTried = std::numeric_limits<double>::infinity();
+  Eigen::Array<double, kKnownStarts + 1, 1> miss;  // squared distances less |goal|²; the last is start_rad's
+  miss.head<kKnownStarts>() = start_square_m2_ - 2.0 * (start_place_m_ * goal.transpose()).array();
+  miss[kKnownStarts] =
+      (place_m(kinematics_.rigid_forward(start_rad)) - goal).squaredNorm() - goal.squaredNorm();
+  NumericResult best;
+  std::uint32_t iterations = 0;
+  for (std::uint32_t n = 0; n <= tolerance.restarts_max; ++n) {
+    std::uint32_t number = n;
+    if (n <= kKnownStarts) {
+      Eigen::Index nearest;
+      miss.minCoeff(&nearest);
+      miss[nearest] = kTried;
+      number = (nearest + 1) % (kKnownStarts + 1);
+    }
+    const NumericResult next = search_once(X_WE_goal, number == 0 ? start_rad : start(number), tolerance);
+    iterations += next.iterations;
+    if (n == 0 || next.residual_m < best.residual_m) best = next;
     if (best.found || !std::isfinite(best.residual_m)) break;
-    const NumericResult next = search_once(X_WE_goal, start(n), tolerance);
-    const std::uint32_t iterations = best.iterations + next.iterations;
-    if (next.residual_m < best.residual_m) best = next;
-    best.iterations = iterations;
   }
+  best.iterations = iterations;
   return best;
 }
 

@@ -4,8 +4,8 @@
 // with the robot's reach L making radians and metres comparable, damping |e|² that vanishes at the solution
 // (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after a step that did not
 // help (Levenberg). Joint limits are kept by projection. One run finds a solution of the branch that it
-// starts in and no other; a search starts again from elsewhere, from a fixed sequence of starts, until it has
-// found one.
+// starts in and no other; a search starts again from elsewhere until it has found one: from a fixed sequence
+// of starts, those first whose tools are nearest to the goal.
 
 #include <cstdint>
 
@@ -49,10 +49,16 @@ class NumericInverse {
 
  private:
   struct Run;
+  static constexpr std::uint32_t kKnownStarts = 128;  // whose tools' places are known
+  using Place = Eigen::Matrix<double, 1, 12>;  // of a tool: rotation matrix times a length, position; m
+
+  [[nodiscard]] Place place_m(const Rigid& X_WE) const;
 
   Kinematics kinematics_;
   JointVector min_rad_;
   JointVector max_rad_;
+  Eigen::Matrix<double, kKnownStarts, 12> start_place_m_;
+  Eigen::Array<double, kKnownStarts, 1> start_square_m2_;
 };
 
 }  // namespace longreach

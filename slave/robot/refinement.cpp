@@ -41,12 +41,14 @@ bool Refinement::improve(Placed& placed) const {
 Placed Refinement::moved(const Placed& from, bool damped) const {
   constexpr double kDamping = 1e-12;  // of the reach squared
   const double length = kinematics_.reach_m();
-  Jacobian J_m = from.tool.J;
-  J_m.topRows<3>() *= length;
   Vector6 e_m;
   e_m << length * from.rotation_error_rad, from.position_error_m;
-  return at(from.joint_rad + (damped ? damped_step(J_m, e_m, kDamping * length * length, 0.0).joint_rad
-                                     : newton_step(J_m, e_m)));
+  if (damped)
+    return at(from.joint_rad +
+              damped_step(from.tool.J, length, e_m, kDamping * length * length, 0.0).joint_rad);
+  Jacobian J_m = from.tool.J;
+  J_m.topRows<3>() *= length;
+  return at(from.joint_rad + newton_step(J_m, e_m));
 }
 
 // Each step the better of two: one leaves out directions that are all but lost, and so keeps their rounding

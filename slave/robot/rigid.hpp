@@ -40,4 +40,15 @@ inline Vector3 rotation_between(const Matrix3& from, const Matrix3& to) {
   return w * (arc_tangent(sine, cosine) / sine);
 }
 
+/// The same with the length 2 sin(θ/2) instead of the angle θ: its square is half that of the difference of
+/// the matrices (Frobenius), and it takes no arc tangent.
+inline Vector3 chord_between(const Matrix3& from, const Matrix3& to) {
+  const Vector3 w =
+      0.5 * (from.col(0).cross(to.col(0)) + from.col(1).cross(to.col(1)) + from.col(2).cross(to.col(2)));
+  const double half = 0.25 * (from.cwiseProduct(to).sum() + 1.0);  // cos² θ/2
+  constexpr double kTurned = 1e-9;
+  if (half > kTurned) return w * (1.0 / std::sqrt(half));
+  return clamp_norm(rotation_between(from, to), 2.0);
+}
+
 }  // namespace longreach
