@@ -7,7 +7,7 @@
 // nearest pose, as long as the tool only comes nearer on that way, but for half a per cent of the reach. Of
 // several solutions at a singular pose they take the branch that the arm was last in. In contact the tool
 // keeps its straight way. Every setpoint is watched from outside, by differences. The limits of the joints
-// always hold, the speed limits of the tool within 2 %; its acceleration limits only while it goes straight.
+// always hold, the speed limits of the tool within 1 %; its acceleration limits only while it goes straight.
 
 #include <cstdint>
 #include <optional>
