@@ -113,6 +113,7 @@ struct CollisionModel::Engine {
     model = mujoco.load_xml(name.c_str(), files.get(), error.data(), static_cast<int>(error.size()));
     mujoco.delete_files(files.get());
     if (model == nullptr) throw std::invalid_argument(with_line(config.mjcf_file, error.data()));
+    make_room(config.mjcf_file);
     state = mujoco.make_state(model);
     for (int g = 0; g < model->ngeom; ++g) {
       model->geom_margin[g] = kNearM;
@@ -121,6 +122,23 @@ struct CollisionModel::Engine {
     // Of the distances of convex shapes.
     model->opt.mpr_tolerance = 1e-12;
     model->opt.mpr_iterations = 200;
+  }
+
+  // For all contacts that any pose can have, whatever the file says: MuJoCo leaves out what has no room.
+  void make_room(const std::string& file) {
+    int pairs = 0;
+    for (int a = 0; a < model->ngeom; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const bool meet = (model->geom_contype[a] & model->geom_conaffinity[b]) != 0 ||
+                          (model->geom_contype[b] & model->geom_conaffinity[a]) != 0;
+        if (meet && model->body_weldid[model->geom_bodyid[a]] != model->body_weldid[model->geom_bodyid[b]])
+          ++pairs;
+      }
+    }
+    if (pairs > kPairsMax)
+      refuse(file, "has " + std::to_string(pairs) + " pairs of geoms that may meet; at most " +
+                       std::to_string(kPairsMax) + " are possible: part them with contype and conaffinity");
+    model->nconmax = pairs * mjMAXCONPAIR;
   }
 
   void put(std::size_t i, const Pose& X_WI) {

@@ -36,6 +36,7 @@ class CollisionModel {
   /// Geoms nearer than this are found.
   static constexpr double kNearM = 0.01;
   static constexpr int kBodiesMax = 4;
+  static constexpr int kPairsMax = 10000;  // of geoms that may meet; 20 kB each
 
   /// Throws std::invalid_argument "FILE:LINE: reason" for a file that is not to be used, and where MuJoCo is
   /// not installed.

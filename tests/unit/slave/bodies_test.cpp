@@ -6,26 +6,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "slave/scene/scene.hpp"
+#include "tests/unit/slave/bodies_scene.hpp"
 
 namespace longreach {
 namespace {
 
-SceneConfig scene_of(const std::string& world, double stiffness = 1e5, double damping = 0.0) {
-  SceneConfig scene;
-  scene.material = {{"hard", stiffness, 0.001, 1.5, damping}};
-  scene.bodies.emplace();
-  scene.bodies->mjcf_file = "scenes/test.xml";
-  scene.bodies->file = {{"scenes/test.xml",
-                         "<mujoco>\n<option gravity='0 0 0'/>\n"
-                         "<asset><material name='hard'/></asset>\n<worldbody>\n" +
-                             world + "</worldbody>\n</mujoco>\n"}};
-  return scene;
-}
-
-const Pose kAway{{5.0, 0.0, 0.0}, Quaternion::Identity()};
-const std::string kTool =
-    "<body name='tool'><freejoint/><geom type='sphere' size='0.02' mass='1' material='hard'/></body>\n";
+using namespace test;
 
 // A closed room of boxes about two tumbling bodies.
 std::string room() {
@@ -34,17 +20,6 @@ std::string room() {
   for (const char* at : places)
     walls += std::string("<geom type='box' size='0.5 0.5 0.5' material='hard' pos='") + at + "'/>\n";
   return walls;
-}
-
-std::string balls() {
-  std::string text;
-  for (const char* at : {"0.1 0 0", "-0.1 0 0", "0 0.1 0", "0 -0.1 0", "0 0 0.12"})
-    text += std::string("<geom type='sphere' size='0.04' mass='2' material='hard' pos='") + at + "'/>";
-  return text;
-}
-
-std::string star(const std::string& name, const std::string& at) {
-  return "<body name='" + name + "' pos='" + at + "'><freejoint/>" + balls() + "</body>\n";
 }
 
 struct Total {
@@ -147,12 +122,6 @@ TEST(Bodies, TheToolPushesWithoutCreatingEnergy) {
   const RigidState& a = bodies.state(0);
   EXPECT_GT(a.v_m_per_s.x(), 0.1);
   EXPECT_LT((impulse - bodies.body(0).mass.mass_kg * a.v_m_per_s).norm(), 1e-9);
-}
-
-SceneConfig with_gripper(const std::string& world) {
-  SceneConfig scene = scene_of(world);
-  scene.bodies->gripper.emplace();
-  return scene;
 }
 
 const std::string kLoad =
@@ -261,49 +230,6 @@ TEST(Bodies, AMeshHasItsVolumesMassAndPushesWithItsFaces) {
   }
   EXPECT_NEAR(bodies.state(0).v_m_per_s.x(), 0.2, 0.005);  // twice the tool's: nothing is lost
   EXPECT_LT(bodies.state(0).v_m_per_s.tail<2>().norm(), 1e-3);
-}
-
-std::string refusal(const SceneConfig& scene) {
-  try {
-    const Bodies bodies(scene, Pose{});
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "";
-}
-
-TEST(Bodies, RefuseWhatIsNotToBeUsed) {
-  const auto starts = [](const SceneConfig& scene, const std::string& text, const std::string& part) {
-    const std::string why = refusal(scene);
-    EXPECT_TRUE(why.starts_with(text)) << why;
-    EXPECT_NE(why.find(part), std::string::npos) << why;
-  };
-  const std::string at = "scenes/test.xml:";
-  starts(scene_of("<body name='tool'>\n<freejint/></body>"), at + "6: ", "freejint");
-  starts(scene_of(kTool + "<body name='ghost'><freejoint/></body>"), at, "mass");
-  starts(scene_of(star("a", "0 0 0")), at, "\"tool\"");
-  starts(scene_of(kTool), at, "0 free bodies");
-  starts(scene_of(kTool + "<body name='a'><joint type='hinge'/><geom size='1' material='hard'/></body>"), at,
-         "neither free nor at rest");
-  starts(scene_of(kTool + "<body name='a'><freejoint/><geom name='g' size='1'/></body>"), at,
-         "the geom \"g\" has no material");
-  starts(with_gripper(kTool + star("a", "1 0 0")), at, "no site \"fixture\"");
-}
-
-// Whoever does not need MuJoCo does not pay for it.
-TEST(Bodies, MuJoCoIsLoadedByTheFirstOfThemOnly) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process of its own, in which no other test ran
-  EXPECT_EXIT(
-      {
-        SceneConfig wall;
-        wall.material.push_back({.name = "m"});
-        wall.surface.push_back({.name = "w", .material = "m", .plane = PlaneConfig{}});
-        const Scene scene(wall, Pose{});
-        const bool before = CollisionModel::loaded();
-        const Bodies bodies(scene_of(kTool + star("a", "1 0 0")), Pose{});
-        std::exit(!before && CollisionModel::loaded() ? 0 : 1);
-      },
-      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
