@@ -9,23 +9,42 @@ constexpr double kOnsetShare = 0.25;   // of the touch threshold: the force has 
 constexpr double kSamePlaceM = 0.003;  // the surface that was met before is met again
 constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
+constexpr std::size_t kBefore = 64;       // samples before the touch that are kept
+constexpr double kValidSd = 0.5;          // fraction
+
+Identifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
+  return Identifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
+}
 
 }  // namespace
 
+SensingConfig rotational(SensingConfig s) {
+  s.force_noise_n = s.moment_noise_nm;
+  s.touch_n = s.touch_nm;
+  s.release_n = s.release_nm;
+  return s;
+}
+
+EstimatorConfig rotational(EstimatorConfig e) {
+  e.working_force_n = e.working_moment_nm;
+  return e;
+}
+
 SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
     : sensing_(sensing),
-      working_force_n_(estimator.working_force_n),
-      first_sd_(estimator.first_sd),
+      estimator_(estimator),
       detector_(sensing),
-      estimator_(estimator, sensing.force_noise_n),
-      reported_(estimator) {}
+      identifier_(identifier(estimator, sensing)),
+      reported_(estimator),
+      before_(kBefore) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
+  const bool other = estimator.kind != estimator_.kind || estimator.exponent != estimator_.exponent ||
+                     estimator.forgetting != estimator_.forgetting;
+  if (other) identifier_ = identifier(estimator, sensing);
   sensing_ = sensing;
-  working_force_n_ = estimator.working_force_n;
-  first_sd_ = estimator.first_sd;
+  estimator_ = estimator;
   detector_.configure(sensing);
-  estimator_.configure(estimator);
   reported_.configure(estimator);
 }
 
@@ -36,9 +55,11 @@ void SlaveContact::step(const ContactInput& input) {
   penetration_m_ = 0.0;
   if (reading_.in_contact) {
     identify(input);
-  } else if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) {
-    onset_m_ = input.p_WE;
+    return;
   }
+  answer_ = {};
+  before_.push({input.p_WE, input.v_WE, input.force_n});
+  if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_m_ = input.p_WE;
 }
 
 void SlaveContact::begin(const ContactInput& input) {
@@ -46,34 +67,66 @@ void SlaveContact::begin(const ContactInput& input) {
   const bool again = known_ && reading_.normal.dot(known_normal_) > kSameNormal &&
                      std::abs(known_normal_.dot(onset_m_ - known_point_m_)) < kSamePlaceM;
   known_ = again;
-  estimator_.begin(input.scale * working_force_n_);
+  identifier_.begin();
+  working_.begin();
+  working_force_n_ = input.scale * estimator_.working_force_n;
   reported_.begin(again);
   if (!again) stiffness_.setZero();
   reference_m_ = input.p_WE;
+  // As far in front of the onset as the tool is behind it.
+  const double first_m = -2.0 * reading_.normal.dot(onset_m_ - reference_m_);
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    const PenetrationSample s = sample(before_[i]);
+    if (s.x_m >= first_m) identifier_.step(s, 0.0);
+  }
+  before_.clear();
   played_at_touch_ = input.played_sequence;
   touch_sequence_ = 0.0;
 }
 
+PenetrationSample SlaveContact::sample(const Before& at) const {
+  const Vector3& normal = reading_.normal;
+  return {-normal.dot(at.p_WE - reference_m_), -normal.dot(at.v_WE), normal.dot(at.force_n)};
+}
+
 void SlaveContact::identify(const ContactInput& input) {
   const Vector3& normal = reading_.normal;
-  ContactSample sample;
-  sample.x_m = -normal.dot(input.p_WE - reference_m_);
-  sample.v_m_per_s = -normal.dot(input.v_WE);
-  sample.force_n = normal.dot(input.force_n);
-  sample.force_filtered_n = normal.dot(reading_.filtered_n);
-  sample.guarded = input.guarded;
-  if (reported_.step(estimator_.step(sample, input.dt), normal)) {
-    stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
+  const PenetrationSample s = sample({input.p_WE, input.v_WE, input.force_n});
+  identifier_.step(s, input.dt);
+  answer_ = identifier_.answer();
+  if (answer_.changes != changes_) working_.begin();
+  changes_ = answer_.changes;
+  const double working_m = identifier_.depth_of(working_force_n_);
+  ContactAnswer told = identifier_.answer_at(working_.depth_m(working_m));
+  // Another object under the tool: rather than to extrapolate far, the nearest depth that was visited.
+  if (changes_ > 0 && told.valid && !well_known(told))
+    told = identifier_.answer_at(identifier_.visited(told.depth_m));
+  // A depth at which the guard holds the tool is not the operator's choice.
+  if (well_known(told) && !input.guarded) {
+    working_.follow(working_m, s.x_m - told.surface.value, estimator_.depth_filter_s, input.dt);
   }
-  const SecantEstimate& e = estimator_.estimate();
-  if (e.valid && e.stiffness_sd_n_per_m < first_sd_ * e.stiffness_n_per_m) {
+  if (reported_.step(told, normal)) {
+    stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
+    reported_at_m_ = reference_m_ - (answer_.surface.value + reported_.depth_m()) * normal;
+  }
+  if (well_known(answer_)) {
     known_ = true;
     known_normal_ = normal;
-    known_point_m_ = reference_m_ - e.surface_m * normal;
+    known_point_m_ = reference_m_ - answer_.surface.value * normal;
   }
-  penetration_m_ = std::max(sample.x_m - surface_m(), 0.0);
+  penetration_m_ = std::max(s.x_m - surface_m(), 0.0);
   // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
-  force_ = {true, normal, std::max(sample.force_n, sample.force_filtered_n), reported_.stiffness_n_per_m()};
+  force_ = {true, normal, std::max(s.force_n, normal.dot(reading_.filtered_n)),
+            reported_.stiffness_n_per_m()};
+}
+
+void SlaveContact::move_origin(const Vector3& by) {
+  for (Vector3* place : {&onset_m_, &known_point_m_, &reference_m_, &reported_at_m_}) *place -= by;
+  before_.clear();
+}
+
+bool SlaveContact::well_known(const ContactAnswer& a) const {
+  return a.valid && a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
 }
 
 double SlaveContact::surface_m() const {
@@ -94,15 +147,24 @@ void SlaveContact::locate_touch(const Playout& playout, const Vector3& anchor_m,
 ContactEstimate SlaveContact::estimate() const {
   ContactEstimate result;
   if (!reading_.in_contact) return result;
-  const SecantEstimate& e = estimator_.estimate();
-  result.n = e.n;
-  result.depth_m = e.depth_m;
-  result.valid = e.valid;
-  if (!e.valid) return result;
-  result.stiffness_n_per_m = e.stiffness_n_per_m;
-  result.stiffness_sd_n_per_m = e.stiffness_sd_n_per_m;
-  result.k = e.k;
-  result.lambda = e.lambda;
+  const ContactAnswer& a = answer_;
+  result.valid = a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
+  if (!result.valid) return result;
+  result.stiffness_n_per_m = a.stiffness.value;
+  result.stiffness_sd_n_per_m = a.stiffness.sd;
+  result.secant_n_per_m = a.secant.value;
+  result.k = a.k.value;
+  result.lambda = a.lambda.value;
+  result.n = a.n.value;
+  result.k_sd = a.k.sd;
+  result.lambda_sd = a.lambda.sd;
+  result.n_sd = a.n.sd;
+  result.correlation = a.correlation;
+  result.stiffness_verdict = a.stiffness.verdict;
+  result.k_verdict = a.k.verdict;
+  result.lambda_verdict = a.lambda.verdict;
+  result.n_verdict = a.n.verdict;
+  result.depth_m = a.depth_m;
   return result;
 }
 

@@ -6,12 +6,14 @@
 
 #include <cstdint>
 
+#include "common/core/ring.hpp"
 #include "common/link/playout.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
 #include "slave/command/goal_limiter.hpp"
-#include "slave/estimation/contact_estimator.hpp"
+#include "slave/estimation/identifier.hpp"
 #include "slave/estimation/reported_stiffness.hpp"
+#include "slave/estimation/working_depth.hpp"
 #include "slave/sensing/contact_detector.hpp"
 
 namespace longreach {
@@ -26,6 +28,10 @@ struct ContactInput {
   bool guarded = false;               // the force guard held the tool in the last step
 };
 
+/// For a contact by rotation: places are rotation vectors, N are N m, m are rad.
+SensingConfig rotational(SensingConfig sensing);
+EstimatorConfig rotational(EstimatorConfig estimator);
+
 class SlaveContact {
  public:
   SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator);
@@ -38,12 +44,17 @@ class SlaveContact {
   void locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence);
   /// The goals begin anew: the present contact was met by none of them and counts from the first.
   void forget_goals() { touch_sequence_ = played_at_touch_ = 0.0; }
+  /// All places count from elsewhere.
+  void move_origin(const Vector3& by);
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
-  [[nodiscard]] std::uint32_t touch() const { return touch_; }             // counts from 1
+  [[nodiscard]] std::uint32_t touch() const { return touch_; }  // counts from 1
+  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
   [[nodiscard]] double touch_sequence() const { return touch_sequence_; }  // fractional; 0: none
   [[nodiscard]] double reported_n_per_m() const { return reported_.stiffness_n_per_m(); }
   [[nodiscard]] double reported_depth_m() const { return reported_.depth_m(); }
+  /// Where that is, in W.
+  [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
   /// Where the surface is, in W.
   [[nodiscard]] Vector3 surface_point() const { return reference_m_ - surface_m() * reading_.normal; }
@@ -53,15 +64,24 @@ class SlaveContact {
 
  private:
   void begin(const ContactInput& input);
+  struct Before {  // the touch
+    Vector3 p_WE, v_WE, force_n;
+  };
+  [[nodiscard]] PenetrationSample sample(const Before& at) const;
   void identify(const ContactInput& input);
+  [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
   [[nodiscard]] double surface_m() const;
 
   SensingConfig sensing_;
-  double working_force_n_;  // at the hand
-  double first_sd_;
+  EstimatorConfig estimator_;
   ContactDetector detector_;
-  ContactEstimator estimator_;
+  Identifier identifier_;
+  WorkingDepth working_;
+  double working_force_n_ = 1.0;  // at the tool
+  std::uint32_t changes_ = 0;     // of the contact, that were found
   ReportedStiffness reported_;
+  ContactAnswer answer_{};
+  Ring<Before> before_;  // what was measured just before the touch
   ContactReading reading_{};
   ContactForce force_{};
   Vector3 onset_m_ = Vector3::Zero();  // tool when the force was last in the noise
@@ -71,6 +91,7 @@ class SlaveContact {
   Vector3 known_point_m_ = Vector3::Zero();
   Vector3 reference_m_ = Vector3::Zero();  // tool at the touch
   Matrix3 stiffness_ = Matrix3::Zero();    // as reported
+  Vector3 reported_at_m_ = Vector3::Zero();
   double penetration_m_ = 0.0;
   double played_at_touch_ = 0.0;
   double touch_sequence_ = 0.0;

@@ -53,12 +53,13 @@ struct SlaveNode::State {
   explicit State(const SlaveConfig& config)
       : link(config.link),
         loop_hz(config.loop.rate_hz),
-        touchable(needs(config.scene).contact),
+        needs(longreach::needs(config.scene)),
         safety(config.safety),
         motion(config.command, config.robot),
         servo(config.robot.servo_hz),
         sensor(config.sensing),
         contact(config.sensing, config.estimator),
+        turn_contact(rotational(config.sensing), rotational(config.estimator)),
         playout(config.playout),
         turn_playout(config.playout) {}
 
@@ -76,15 +77,17 @@ struct SlaveNode::State {
 
   SlaveLinkConfig link;
   double loop_hz;
-  bool touchable;  // else there is no contact, sensor or estimator
+  NeedsConfig needs;  // what is not needed of contact, sensor and estimator is not there
   SlaveSafety safety;
   SlaveMotion motion;
   ServoLag servo;
   Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
   ToolCompensation sensor;
   SlaveContact contact;
-  Playout playout;       // of position goals
-  Playout turn_playout;  // of orientation goals: each datagram carries one of the two
+  SlaveContact turn_contact;  // places are rotation vectors from the anchor, in W
+  Playout playout;            // of position goals
+  Playout
+      turn_playout;  // of orientation goals, in the place of positions: each datagram carries one of the two
   SlaveView view;
 
   std::optional<Time> stepped_at{};
@@ -94,12 +97,13 @@ struct SlaveNode::State {
   double scale = 1.0;  // k_scale as last sent
   bool grip = false;   // likewise: a hold or a silence drops nothing
   double played_sequence = 0.0;
+  double played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
 
   std::optional<Time> report_due{};
   std::uint64_t report_sequence = 0;
   StiffnessReport reported{};
-  double reported_n_per_m = 0.0;
+  double reported_n_per_m = 0.0, reported_nm_per_rad = 0.0;
   std::optional<Time> telemetry_due{};
   std::uint64_t telemetry_sequence = 0;
   Clamps clamps_since_telemetry{};
@@ -119,6 +123,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.motion.configure(config.command);
   s.sensor.configure(config.sensing);
   s.contact.configure(config.sensing, config.estimator);
+  s.turn_contact.configure(rotational(config.sensing), rotational(config.estimator));
   s.playout.configure(config.playout);
   s.turn_playout.configure(config.playout);
 }
@@ -190,12 +195,15 @@ void SlaveNode::State::begin_engagement(const RobotState& robot) {
   if ((robot.joint_rad - motion.joint_setpoint_rad()).cwiseAbs().maxCoeff() > kSetpointLostRad) {
     motion.reset(robot.joint_rad);
   }
+  const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
-  if (!contact.in_contact()) sensor.zero();
+  if (!contact.in_contact() && !turn_contact.in_contact()) sensor.zero();
+  turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
   contact.forget_goals();
-  played_sequence = 0.0;
+  turn_contact.forget_goals();
+  played_sequence = played_turn_sequence = 0.0;
   reached_sequence = 0;
 }
 
@@ -217,7 +225,7 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
       goal.head<3>() = command.position_m;
       playout.push(received.received, received.sent, received.sequence, goal);
     } else {
-      goal.tail<3>() = command.rotation_rad;
+      goal.head<3>() = command.rotation_rad;
       turn_playout.push(received.received, received.sent, received.sequence, goal);
     }
   }
@@ -230,14 +238,15 @@ Pose SlaveNode::State::play(Time now) {
     X_WE.p += played->goal.head<3>();
   }
   if (const auto played = turn_playout.play(now)) {
-    X_WE.q = (exp_rotation(played->goal.tail<3>()) * X_WE.q).normalized();
+    played_turn_sequence = played->sequence;
+    X_WE.q = (exp_rotation(played->goal.head<3>()) * X_WE.q).normalized();
   }
   return X_WE;
 }
 
 void SlaveNode::State::feel(const RobotState& robot, double dt) {
   view.F_E_W = robot.F_F_W;
-  if (!touchable) {
+  if (!needs.contact && !needs.rotation) {
     view.X_WE = motion.kinematics().forward(robot.joint_rad);
     return;
   }
@@ -248,9 +257,16 @@ void SlaveNode::State::feel(const RobotState& robot, double dt) {
   view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, dt);
   if (!sensor.ready()) return;
   const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
-  contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
-                view.clamps.force_guard});
-  if (contact.in_contact()) sensor.abandon();
+  if (needs.contact) {
+    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
+                  view.clamps.force_guard});
+  }
+  if (needs.rotation) {
+    const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
+    turn_contact.step(
+        {turn, V_WE.angular, view.F_E_W.moment, follows ? played_turn_sequence : 0.0, scale, dt, false});
+  }
+  if (contact.in_contact() || turn_contact.in_contact()) sensor.abandon();
 }
 
 // What the reflexes know: no force where they must not move the robot, because it is stopped or not ok.
@@ -263,7 +279,10 @@ ContactForce SlaveNode::State::pressed() const {
 }
 
 void SlaveNode::State::book_reached() {
-  if (safety.state() != SafetyState::kEngaged || contact.in_contact() || played_sequence < 1.0) return;
+  if (safety.state() != SafetyState::kEngaged || contact.in_contact() || turn_contact.in_contact() ||
+      played_sequence < 1.0) {
+    return;
+  }
   if ((view.X_WE.p - view.X_WE_goal.p).norm() > kReachedM) return;
   reached_sequence = std::max(reached_sequence, static_cast<std::uint64_t>(played_sequence));
 }
@@ -272,17 +291,24 @@ void SlaveNode::State::report(Time now, SlaveOutput& output) {
   const bool changed = safety.state() != reported.state || safety.engagement() != reported.engagement ||
                        safety.cause() != reported.cause || contact.touch() != reported.translation.touch ||
                        contact.in_contact() != reported.translation.in_contact ||
-                       contact.reported_n_per_m() != reported_n_per_m;
-  const double rate_hz = contact.in_contact() ? link.heartbeat_contact_hz : link.heartbeat_free_hz;
+                       contact.reported_n_per_m() != reported_n_per_m ||
+                       turn_contact.touch() != reported.rotation.touch ||
+                       turn_contact.in_contact() != reported.rotation.in_contact ||
+                       turn_contact.reported_n_per_m() != reported_nm_per_rad;
+  const bool touching = contact.in_contact() || turn_contact.in_contact();
+  const double rate_hz = touching ? link.heartbeat_contact_hz : link.heartbeat_free_hz;
   if (changed) report_due.reset();
   if (!due(report_due, now, rate_hz)) return;
   contact.locate_touch(playout, X_WE_anchor.p, played_sequence);
+  turn_contact.locate_touch(turn_playout, Vector3::Zero(), played_turn_sequence);
   reported.engagement = safety.engagement();
   reported.state = safety.state();
   reported.cause = safety.cause();
   reported.translation = contact.report();
+  reported.rotation = turn_contact.report();
   reported.reached_sequence = reached_sequence;
   reported_n_per_m = contact.reported_n_per_m();
+  reported_nm_per_rad = turn_contact.reported_n_per_m();
   output.report = reported;
   output.report_sequence = ++report_sequence;
 }
@@ -320,10 +346,12 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.cause = safety.cause();
   view.engagement = safety.engagement();
   view.X_WE_anchor = X_WE_anchor;
-  view.in_contact = contact.in_contact();
+  view.in_contact = contact.in_contact() || turn_contact.in_contact();
   view.estimate = contact.estimate();
   view.reported_stiffness_n_per_m = contact.reported_n_per_m();
-  view.reported_depth_m = contact.reported_depth_m();
+  view.turn_estimate = turn_contact.estimate();
+  view.reported_stiffness_nm_per_rad = turn_contact.reported_n_per_m();
+  view.reported_at_m = contact.reported_at_m();
   view.touch_sequence = contact.touch_sequence();
   view.touch = contact.touch();
   view.played_sequence = played_sequence;

@@ -42,7 +42,9 @@ struct SlaveView {
   bool in_contact = false;
   ContactEstimate estimate{};  // as it is now
   double reported_stiffness_n_per_m = 0.0;
-  double reported_depth_m = 0.0;  // depth that the reported stiffness belongs to
+  ContactEstimate turn_estimate{};  // of a contact by rotation: m are rad, N are N m
+  double reported_stiffness_nm_per_rad = 0.0;
+  Vector3 reported_at_m = Vector3::Zero();  // place, in W, that the reported stiffness belongs to
   double touch_sequence = 0.0;
   std::uint32_t touch = 0;
   double played_sequence = 0.0;

@@ -52,6 +52,11 @@ proto::Status SlaveService::status() {
   assign(view.X_WE_goal.p, *out.mutable_goal_m());
   out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.reported_stiffness_n_per_m);
+  if (view.reported_stiffness_nm_per_rad > 0.0) {
+    out.set_rotational_stiffness_nm_per_rad(view.reported_stiffness_nm_per_rad);
+  }
+  out.set_estimate(view.turn_estimate.valid ? in_words(view.turn_estimate, "N m/rad")
+                                            : in_words(view.estimate, "N/m"));
   out.set_force_n(view.F_E_W.force.norm());
   add_clamps(out, view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");

@@ -268,7 +268,10 @@ Finding check_message(const Message& message) {
   }
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
-    return in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
+    auto wrong = in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
+    return wrong
+               ? wrong
+               : in_order(*sensing, {"release_nm", sensing->release_nm()}, {"touch_nm", sensing->touch_nm()});
   }
   return std::nullopt;
 }

@@ -183,6 +183,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("friction_nm", s.friction_nm);
   visit("friction_stiffness_nm_per_rad", s.friction_stiffness_nm_per_rad);
   visit("home_spring", s.home_spring);
+  visit("ke_by_scale", s.ke_by_scale);
 }
 
 template <class Visitor, Is<MasterSafetyConfig> S>
@@ -299,16 +300,20 @@ void visit_fields(Visitor& visit, S& s) {
   visit("tool", s.tool);
   visit("gravity_m_per_s2", s.gravity_m_per_s2);
   visit("zero_s", s.zero_s);
+  visit("touch_nm", s.touch_nm);
+  visit("release_nm", s.release_nm);
 }
 
 template <class Visitor, Is<EstimatorConfig> S>
 void visit_fields(Visitor& visit, S& s) {
+  visit("kind", s.kind);
   visit("exponent", s.exponent);
   visit("forgetting", s.forgetting);
   visit("depth_filter_s", s.depth_filter_s);
   visit("first_sd", s.first_sd);
   visit("deadband", s.deadband);
   visit("working_force_n", s.working_force_n);
+  visit("working_moment_nm", s.working_moment_nm);
 }
 
 template <class Visitor, Is<SlaveSafetyConfig> S>

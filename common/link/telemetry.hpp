@@ -22,15 +22,25 @@ struct Clamps {
   bool unreachable = false;
 };
 
+/// What may be thought of an estimate.
+enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable };
+
 /// The estimator's present answer.
 struct ContactEstimate {
-  double stiffness_n_per_m = 0.0;     // secant f/p at `depth_m`
+  double stiffness_n_per_m = 0.0;     // tangent dF/dp of the elastic force, here
   double stiffness_sd_n_per_m = 0.0;  // one standard deviation
   double k = 0.0;                     // N/m^n
   double lambda = 0.0;                // N s/m^(n+1)
   double n = 1.0;                     // exponent
-  double depth_m = 0.0;               // depth that the reported stiffness belongs to
+  double depth_m = 0.0;               // here: below the estimated surface
   bool valid = false;                 // false: not yet, or no contact
+  double secant_n_per_m = 0.0;        // F/p of the elastic force, here: stiffness over n
+  double k_sd = 0.0, lambda_sd = 0.0, n_sd = 0.0;
+  double correlation = 0.0;  // of k and λ
+  Verdict stiffness_verdict = Verdict::kNotYet;
+  Verdict k_verdict = Verdict::kNotYet;
+  Verdict lambda_verdict = Verdict::kNotYet;
+  Verdict n_verdict = Verdict::kNotYet;
 };
 
 struct Telemetry {

@@ -11,6 +11,7 @@ namespace {
 using Doubles = google::protobuf::RepeatedField<double>;
 using Floats = google::protobuf::RepeatedField<float>;
 
+constexpr double kEstimateMax = 1e30;    // keeps a float finite
 constexpr double kSequenceMax = 9e15;    // below 2^53: a fractional sequence still has its fraction's halves
 constexpr double kScaleRounding = 1e-9;  // steps of 0.05 do not add up exactly
 constexpr double kUnitTolerance = 1e-6;  // of a quaternion's norm
@@ -111,28 +112,62 @@ ContactEstimate sendable(const ContactEstimate& e) {
   return e.valid && finite ? e : ContactEstimate{};
 }
 
+float finite_float(double value) {
+  return static_cast<float>(std::clamp(value, -kEstimateMax, kEstimateMax));
+}
+
 void write(const ContactEstimate& e, proto::Telemetry& out) {
   out.set_stiffness_n_per_m(e.stiffness_n_per_m);
-  out.set_stiffness_sd_n_per_m(e.stiffness_sd_n_per_m);
-  out.set_k(e.k);
-  out.set_lambda(e.lambda);
-  out.set_n(e.n);
-  out.set_depth_m(e.depth_m);
+  out.set_stiffness_sd_n_per_m(finite_float(e.stiffness_sd_n_per_m));
+  out.set_k(finite_float(e.k));
+  out.set_lambda(finite_float(e.lambda));
+  out.set_n(finite_float(e.n));
+  out.set_depth_m(finite_float(e.depth_m));
   out.set_estimate_valid(e.valid);
+  out.clear_estimate_sd();
+  out.set_verdicts(0);
+  if (!e.valid) return;
+  for (const double sd : {e.k_sd, e.lambda_sd, e.n_sd}) out.add_estimate_sd(finite_float(sd));
+  out.add_estimate_sd(finite_float(e.correlation));
+  std::uint32_t verdicts = 0;
+  for (const Verdict v : {e.n_verdict, e.lambda_verdict, e.k_verdict, e.stiffness_verdict}) {
+    verdicts = verdicts << 2 | static_cast<std::uint32_t>(v);
+  }
+  out.set_verdicts(verdicts);
 }
 
 std::optional<ContactEstimate> read_estimate(const proto::Telemetry& in) {
-  const double values[] = {
-      in.stiffness_n_per_m(), in.stiffness_sd_n_per_m(), in.k(), in.lambda(), in.n(), in.depth_m()};
-  if (!std::all_of(std::begin(values), std::end(values), [](double v) { return std::isfinite(v); })) {
-    return std::nullopt;
+  ContactEstimate e;
+  e.stiffness_n_per_m = in.stiffness_n_per_m();
+  e.stiffness_sd_n_per_m = static_cast<double>(in.stiffness_sd_n_per_m());
+  e.k = static_cast<double>(in.k());
+  e.lambda = static_cast<double>(in.lambda());
+  e.n = static_cast<double>(in.n());
+  e.depth_m = static_cast<double>(in.depth_m());
+  e.valid = in.estimate_valid();
+  for (const double v : {e.stiffness_n_per_m, e.stiffness_sd_n_per_m, e.k, e.lambda, e.n, e.depth_m}) {
+    if (!std::isfinite(v)) return std::nullopt;
   }
-  return ContactEstimate{values[0], values[1], values[2],          values[3],
-                         values[4], values[5], in.estimate_valid()};
+  if (!e.valid) return e;
+  const auto& sd = in.estimate_sd();
+  if (sd.size() != 4 || !all_within(sd, 2.0 * kEstimateMax)) return std::nullopt;
+  e.secant_n_per_m = e.n != 0.0 ? e.stiffness_n_per_m / e.n : 0.0;
+  e.k_sd = static_cast<double>(sd[0]);
+  e.lambda_sd = static_cast<double>(sd[1]);
+  e.n_sd = static_cast<double>(sd[2]);
+  e.correlation = static_cast<double>(sd[3]);
+  std::uint32_t bits = in.verdicts();
+  for (Verdict* v : {&e.stiffness_verdict, &e.k_verdict, &e.lambda_verdict, &e.n_verdict}) {
+    const auto verdict = to_enum(bits & 3u, Verdict::kNotIdentifiable);
+    if (!verdict) return std::nullopt;
+    *v = *verdict;
+    bits >>= 2;
+  }
+  return bits == 0 ? std::optional(e) : std::nullopt;
 }
 
 bool link_figures_possible(const proto::Telemetry& in) {
-  return within(in.penetration_m(), -1e9, 1e9) && within(in.up_loss(), 0.0, 1.0) &&
+  return within(static_cast<double>(in.penetration_m()), -1e9, 1e9) && within(in.up_loss(), 0.0, 1.0) &&
          within(in.up_jitter_s(), 0.0, 1e9) && within(in.playout_delay_s(), 0.0, 1e9);
 }
 
@@ -222,7 +257,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   assign(telemetry.F_E_W.force, *out.mutable_force_n());
   assign(telemetry.F_E_W.moment, *out.mutable_moment_nm());
   write(sendable(telemetry.estimate), out);
-  out.set_penetration_m(telemetry.penetration_m);
+  out.set_penetration_m(static_cast<float>(telemetry.penetration_m));
   out.set_clamps(to_bits(telemetry.clamps));
   out.set_up_loss(static_cast<float>(telemetry.up_loss));
   out.set_up_jitter_s(static_cast<float>(telemetry.up_jitter_s));
@@ -257,7 +292,7 @@ std::optional<Telemetry> read(const proto::Telemetry& in) {
   std::copy(in.joint_rad().begin(), in.joint_rad().end(), out.joint_rad.begin());
   out.F_E_W = {to_vector(in.moment_nm()), to_vector(in.force_n())};
   out.estimate = *estimate;
-  out.penetration_m = in.penetration_m();
+  out.penetration_m = static_cast<double>(in.penetration_m());
   out.clamps = *clamps;
   out.up_loss = static_cast<double>(in.up_loss());
   out.up_jitter_s = static_cast<double>(in.up_jitter_s());

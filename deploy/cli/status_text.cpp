@@ -90,6 +90,13 @@ constexpr auto kRows = std::to_array<Row>({
      [](const Status& s) {
        return s.has_stiffness_n_per_m() ? print("%.4g N/m", s.stiffness_n_per_m()) : std::string();
      }},
+    {"rotational stiffness",
+     [](const Status& s) {
+       return s.has_rotational_stiffness_nm_per_rad()
+                  ? print("%.4g N m/rad", s.rotational_stiffness_nm_per_rad())
+                  : std::string();
+     }},
+    {"contact estimate", [](const Status& s) { return s.estimate(); }},
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
     {"energy from the hand", energy},
     {"clamped", [](const Status& s) { return joined(s.clamped()); }},
@@ -141,6 +148,7 @@ std::string line_of(const SideReport& report) {
   if (status.has_mode()) append(text, status.mode());
   if (status.has_scale()) append(text, print("scale %.4g", status.scale()));
   if (status.in_contact()) append(text, print("%.4g N/m", status.stiffness_n_per_m()));
+  if (!status.estimate().empty()) append(text, status.estimate());
   if (status.has_force_n()) append(text, print("%.3g N", status.force_n()));
   if (!status.clamped().empty()) append(text, "clamped: " + joined(status.clamped()));
   return text;

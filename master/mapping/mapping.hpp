@@ -53,6 +53,7 @@ class Mapping {
   [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
   [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }
   [[nodiscard]] bool frozen() const { return frozen_; }
+  [[nodiscard]] double scale() const { return scale_; }  // k_scale
   /// R_WM.
   [[nodiscard]] const Quaternion& base() const { return base_; }
 

@@ -76,6 +76,7 @@ void Contact::forget_what_is_free(std::uint64_t reached_sequence, const GoalHist
 bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, const Vector3& motion,
                           const ContactHandle& handle, const Mapping& mapping) {
   Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
+  const double ke = config_.ke * (config_.ke_by_scale ? mapping.scale() : 1.0);
   const double least = kLeastShare * left.cwiseAbs().maxCoeff();
   bool any = false;
   // News is old: an axis that is not in it may be pressed again by now, and stays until free space disproves
@@ -89,7 +90,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
       if (a.released || (a.touch == contact.touch && !config_.by_arrival)) a.goal = goal;
       a.touch = a.released ? contact.touch : a.touch;
       a.released = false;
-      a.reported = config_.ke * k;
+      a.reported = ke * k;
       left = across(left, a.n_W);
       any = true;
       a.spring.set_stiffness(a.s(handle.x), a.reported);
@@ -102,7 +103,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
     const Vector3 into = inward(n, motion);
     if (!n.allFinite() || into.isZero(0.0)) continue;
     forget_beside(n, handle.x);
-    add_axis(into, contact, goal, handle, mapping, config_.ke * rest.values[i]);
+    add_axis(into, contact, goal, handle, mapping, ke * rest.values[i]);
     any = true;
   }
   return any;

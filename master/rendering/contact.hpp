@@ -26,6 +26,7 @@ namespace longreach {
 struct ContactConfig {
   ContactSpringConfig spring{};
   double ke = 1.0;
+  bool ke_by_scale = false;     // rendered is ke k_scale of what is estimated, else ke of it
   double damping = 0.0;         // B, N s/m
   double forget_depth = 0.005;  // behind a surface, m
   bool by_arrival = false;      // surfaces lie at the newest goal, for contrast

@@ -45,6 +45,7 @@ struct RenderingConfig {
   double friction_nm = 0.003;
   double friction_stiffness_nm_per_rad = 1.0;
   bool home_spring = false;
+  bool ke_by_scale = false;
 };
 
 }  // namespace longreach

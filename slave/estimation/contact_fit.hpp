@@ -1,6 +1,7 @@
 #pragma once
 // What an estimator of slave/estimation takes and gives.
-//   F = f (ξⁿ + a v ξᵐ),  ξ = x/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;  m = 0: Kelvin-Voigt
+//   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;  m = 0:
+//   Kelvin-Voigt
 // The parameters are those at a depth that was visited, so that none of them depends on the unit of length: k
 // in N/mⁿ is an extrapolation to a depth of one metre.
 
@@ -10,7 +11,7 @@
 namespace longreach {
 
 struct PenetrationSample {
-  double x_m = 0.0;        // below the surface; > 0 in contact
+  double x_m = 0.0;        // along the inward normal, from the surface if that is known
   double v_m_per_s = 0.0;  // its derivative
   double force_n = 0.0;    // measured, along the outward normal
 };
@@ -18,15 +19,17 @@ struct PenetrationSample {
 struct ContactFit {
   bool valid = false;
   double reference_m = 1.0;  // x_ref
-  double force_n = 0.0;      // f: the elastic force there
+  double surface_m = 0.0;    // x0; 0: known, or what the samples count from
+  double force_n = 0.0;      // f: the elastic force at x_ref behind it
   double n = 1.0;
   double a_s_per_m = 0.0;
   bool kelvin_voigt = false;                             // m = 0
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of (ln f, n, a)
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  // of (ln f, n, a, x0)
 
-  /// N; `sample.x_m` > 0.
+  /// N; 0 in front of the surface.
   [[nodiscard]] double force_at(const PenetrationSample& sample) const {
-    const double xi = sample.x_m / reference_m;
+    const double xi = (sample.x_m - surface_m) / reference_m;
+    if (!(xi > 0.0)) return 0.0;
     const double elastic = n == 1.0 ? xi : std::pow(xi, n);
     return force_n * (elastic + a_s_per_m * sample.v_m_per_s * (kelvin_voigt ? 1.0 : elastic));
   }

@@ -1,15 +1,27 @@
 #pragma once
 // Parameters of the contact estimator. Meaning, unit and range: proto/config.proto; the same names.
 
+#include <cstdint>
+
 namespace longreach {
 
+enum class EstimatorKind : std::uint8_t {
+  kFixedExponent = 0,
+  kTwoStage = 1,
+  kLogLinear = 2,
+  kKelvinVoigt = 3,
+  kMaximumLikelihood = 4
+};
+
 struct EstimatorConfig {
+  EstimatorKind kind = EstimatorKind::kFixedExponent;
   double exponent = 1.0;
   double forgetting = 0.9998;  // a sample at 1 kHz
   double depth_filter_s = 10.0;
-  double first_sd = 0.05;        // fraction
-  double deadband = 0.08;        // fraction
-  double working_force_n = 3.0;  // at the hand
+  double first_sd = 0.03;          // fraction
+  double deadband = 0.08;          // fraction
+  double working_force_n = 3.0;    // at the hand
+  double working_moment_nm = 0.1;  // likewise
 };
 
 }  // namespace longreach

@@ -36,7 +36,7 @@ bool usable(const PenetrationSample& s) {  // false for NaN
          std::abs(s.force_n) <= kForceMaxN;
 }
 
-double sd_along(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& h) {
+double sd_along(const Eigen::Matrix4d& covariance, const Eigen::Vector4d& h) {
   return std::sqrt(std::max(h.dot(covariance * h), 0.0));
 }
 
@@ -45,7 +45,7 @@ double sd_along(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& h) {
 // not small, so this is done where the law is nearly linear: in b = d ln F/dv and ln F at the mean speed,
 // which does not depend on b.
 ContactFit slow_touch(const ContactFit& f, double speed_max) {
-  const Eigen::Matrix3d& P = f.covariance;
+  const Eigen::Matrix4d& P = f.covariance;
   const double ratio = -P(0, 2) / P(2, 2);
   const double share = 1.0 - f.a_s_per_m * ratio;  // 1/(1 + a v) at the mean speed
   if (!(speed_max > 0.0) || !(share > 0.0) || !std::isfinite(share)) return f;
@@ -59,7 +59,7 @@ ContactFit slow_touch(const ContactFit& f, double speed_max) {
   const double share_new = 1.0 - b_new * speed;
   if (!(share_new > 0.0)) return f;
   const double n_by_b = P(1, 2) / (P(2, 2) * share * share);
-  const Eigen::Vector3d along(-speed / share_new, n_by_b, 1.0 / (share_new * share_new));
+  const Eigen::Vector4d along(-speed / share_new, n_by_b, 1.0 / (share_new * share_new), 0.0);
   ContactFit g = f;
   g.force_n = f.force_n * share_new / share;
   g.n = f.n + n_by_b * (b_new - b);
@@ -71,24 +71,39 @@ ContactFit slow_touch(const ContactFit& f, double speed_max) {
 
 }  // namespace
 
-Identifier::Identifier(const IdentifierConfig& config) : config_(config), estimator_(TwoStage()) {
-  switch (config.kind) {
+Identifier::Identifier(const IdentifierConfig& config)
+    : config_(config), estimator_(config.surface_known ? behind_known(config) : behind_unknown(config)) {}
+
+Identifier::Estimator Identifier::behind_known(const IdentifierConfig& c) {
+  switch (c.kind) {
     case EstimatorKind::kFixedExponent:
-      estimator_ = FixedExponent(config.exponent, config.forgetting);
-      break;
+      return FixedExponent(c.exponent, c.forgetting);
     case EstimatorKind::kTwoStage:
-      estimator_ = TwoStage();
-      break;
+      return TwoStage();
     case EstimatorKind::kLogLinear:
-      estimator_ = LogLinear(config.forgetting);
-      break;
+      return LogLinear(c.forgetting);
     case EstimatorKind::kKelvinVoigt:
-      estimator_ = KelvinVoigt(config.forgetting);
-      break;
+      return KelvinVoigt(c.forgetting);
     case EstimatorKind::kMaximumLikelihood:
-      estimator_ = MaximumLikelihood(config.forgetting);
       break;
   }
+  return MaximumLikelihood(c.forgetting);
+}
+
+Identifier::Estimator Identifier::behind_unknown(const IdentifierConfig& c) {
+  switch (c.kind) {
+    case EstimatorKind::kFixedExponent:
+      return ContactCurve({c.exponent, c.forgetting, false});
+    case EstimatorKind::kTwoStage:
+      return BehindSurface<TwoStage>(TwoStage(), c.forgetting);
+    case EstimatorKind::kLogLinear:
+      return BehindSurface<LogLinear>(LogLinear(c.forgetting), c.forgetting);
+    case EstimatorKind::kKelvinVoigt:
+      return ContactCurve({1.0, c.forgetting, true});
+    case EstimatorKind::kMaximumLikelihood:
+      break;
+  }
+  return ContactCurve({0.0, c.forgetting, false});
 }
 
 void Identifier::begin() {
@@ -101,6 +116,8 @@ void Identifier::restart() {
   std::visit([](auto& e) { e.reset(); }, estimator_);
   contact_s_ = drift_n_ = speed_max_ = 0.0;
   held_ = samples_ = 0;
+  deepest_m_ = -kDepthMaxM;
+  shallowest_m_ = kDepthMaxM;
   steps_ = 0;
   settled_ = false;
 }
@@ -122,7 +139,10 @@ double Identifier::position_sd() const {
 }
 
 bool Identifier::still(double x_m) {
-  const double off = x_m - hold_m_, share = kStill * hold_m_;
+  const double off = x_m - hold_m_;
+  // Of the depth, which may still be a wild guess: then of the way that was seen.
+  const double share = kStill * std::min(hold_m_ - fit().surface_m,
+                                         config_.surface_known ? kDepthMaxM : deepest_m_ - shallowest_m_);
   const double noise = config_.position_noise_m > 0.0 ? config_.position_noise_m * config_.position_noise_m
                                                       : position_noise_.variance();
   if (held_ > 0 && off * off <= std::max(share * share, kStillNoise * kStillNoise * noise)) {
@@ -136,8 +156,8 @@ bool Identifier::still(double x_m) {
 
 bool Identifier::settled() const {
   const ContactFit& f = fit();
-  const double log_depth = std::log(last_.x_m / f.reference_m);
-  return f.valid && sd_along(f.covariance, {1.0, log_depth, 0.0}) < kShareSd;
+  const double log_depth = std::log((last_.x_m - f.surface_m) / f.reference_m);
+  return f.valid && sd_along(f.covariance, {1.0, log_depth, 0.0, 0.0}) < kShareSd;
 }
 
 void Identifier::step(const PenetrationSample& sample, double dt) {
@@ -147,11 +167,15 @@ void Identifier::step(const PenetrationSample& sample, double dt) {
   }
   force_noise_.add(sample.force_n);
   position_noise_.add(sample.x_m);
-  if (sample.x_m < kDepthMinM) {
+  const bool placed = config_.surface_known || fit().valid;
+  if (placed && sample.x_m - fit().surface_m < kDepthMinM) {
     held_ = 0;
+    if (!config_.surface_known) std::visit([&](auto& e) { e.step(sample, variance_n2_); }, estimator_);
     return;
   }
   last_ = sample;
+  deepest_m_ = std::max(deepest_m_, sample.x_m);
+  shallowest_m_ = std::min(shallowest_m_, sample.x_m);
   contact_s_ += dt;
   force_max_n_ = std::max(force_max_n_, std::abs(sample.force_n));
   speed_max_ = std::max(speed_max_, std::abs(sample.v_m_per_s));
@@ -189,28 +213,51 @@ void Identifier::watch(double innovation_n, double foreseen_n) {
 }
 
 ContactAnswer Identifier::answer() {
+  if (auto* e = std::get_if<MaximumLikelihood>(&estimator_)) e->refresh(force_variance());
+  return answer_at(last_.x_m - fit().surface_m);
+}
+
+double Identifier::depth_of(double force_n) const {
+  const ContactFit& f = fit();
+  return f.valid ? f.reference_m * std::pow(force_n / f.force_n, 1.0 / f.n) : 0.0;
+}
+
+double Identifier::visited(double depth_m) const {
+  const double surface_m = fit().surface_m;
+  return std::min(std::max(depth_m, shallowest_m_ - surface_m), deepest_m_ - surface_m);
+}
+
+ContactAnswer Identifier::answer_at(double depth_m) const {
   ContactAnswer a;
-  const double variance = force_variance();
-  if (auto* e = std::get_if<MaximumLikelihood>(&estimator_)) e->refresh(variance);
-  a.force_sd_n = std::sqrt(variance);
+  a.force_sd_n = std::sqrt(force_variance());
   a.changes = changes_;
   const ContactFit& f = fit();
-  if (!f.valid) return a;
-  const double log_reference = std::log(f.reference_m), log_depth = std::log(last_.x_m) - log_reference;
-  const Eigen::Vector3d to_metre(1.0, -log_reference, 0.0);
-  a.depth_m = last_.x_m;
-  a.n = {f.n, std::sqrt(f.covariance(1, 1))};
+  if (!f.valid || !(depth_m > 0.0)) return a;
+  const Eigen::Matrix4d& P = f.covariance;
+  const double log_reference = std::log(f.reference_m), log_depth = std::log(depth_m) - log_reference;
+  const Eigen::Vector4d to_metre(1.0, -log_reference, 0.0, 0.0);
+  a.depth_m = depth_m;
+  a.surface = {f.surface_m, std::sqrt(P(3, 3))};
+  a.n = {f.n, std::sqrt(P(1, 1))};
   a.k.value = f.force_n * std::exp(-f.n * log_reference);
-  a.k.sd = a.k.value * sd_along(f.covariance, to_metre);
+  const double log_k_sd = sd_along(P, to_metre);
+  a.k.sd = a.k.value * log_k_sd;
   const double amplitude = f.kelvin_voigt ? f.force_n : a.k.value;
-  const Eigen::Vector3d damping(f.a_s_per_m, f.kelvin_voigt ? 0.0 : -f.a_s_per_m * log_reference, 1.0);
-  a.lambda = {amplitude * f.a_s_per_m, amplitude * sd_along(f.covariance, damping)};
+  const Eigen::Vector4d damping(f.a_s_per_m, f.kelvin_voigt ? 0.0 : -f.a_s_per_m * log_reference, 1.0, 0.0);
+  const double damping_sd = sd_along(P, damping);
+  a.lambda = {amplitude * f.a_s_per_m, amplitude * damping_sd};
+  if (log_k_sd > 0.0 && damping_sd > 0.0) {
+    a.correlation = std::clamp(to_metre.dot(P * damping) / (log_k_sd * damping_sd), -1.0, 1.0);
+  }
 
-  const ContactFit elastic = f.kelvin_voigt ? f : slow_touch(f, speed_max_);
-  a.secant.value = elastic.force_n * std::exp(elastic.n * log_depth) / last_.x_m;
-  a.secant.sd = a.secant.value * sd_along(elastic.covariance, {1.0, log_depth, 0.0});
+  const bool slow = config_.surface_known && !f.kelvin_voigt;
+  const ContactFit elastic = slow ? slow_touch(f, speed_max_) : f;
+  const double by_n = log_depth, tangent_by_n = log_depth + 1.0 / elastic.n;
+  const double by_surface = -(elastic.n - 1.0) / depth_m;  // at this place, wherever the surface is
+  a.secant.value = elastic.force_n * std::exp(elastic.n * log_depth) / depth_m;
+  a.secant.sd = a.secant.value * sd_along(elastic.covariance, {1.0, by_n, 0.0, by_surface});
   a.stiffness.value = elastic.n * a.secant.value;
-  a.stiffness.sd = a.stiffness.value * sd_along(elastic.covariance, {1.0, log_depth + 1.0 / elastic.n, 0.0});
+  a.stiffness.sd = a.stiffness.value * sd_along(elastic.covariance, {1.0, tangent_by_n, 0.0, by_surface});
 
   const bool biased = position_sd() > kPositionShare * f.reference_m;
   const bool enough = biased || samples_ >= kEnough || held_ > kHeldMax;
@@ -222,6 +269,7 @@ ContactAnswer Identifier::answer() {
   judge(a.k, kShareSd * a.k.value, early);
   judge(a.lambda, kDampingShareSd * std::abs(a.lambda.value), early);
   judge(a.n, kExponentSd, early);
+  judge(a.surface, kShareSd * depth_m, early);
   judge(a.secant, kSecantSd * a.secant.value, early);
   judge(a.stiffness, kShareSd * a.stiffness.value, early);
   a.valid = std::isfinite(a.k.value) && std::isfinite(a.k.sd) && std::isfinite(a.lambda.sd) &&

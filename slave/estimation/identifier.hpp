@@ -1,6 +1,8 @@
 #pragma once
-// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v, surface known, with any of the estimators of this
-// folder, and says what it may be trusted in. What they share:
+// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with any of the estimators of this folder, and says
+// what it may be trusted in. The surface is known, or identified with the rest; then positions count from any
+// fixed point, samples from before the touch belong to it, and all depths are those behind the surface as
+// known now. What the estimators share:
 //   noise: of the force as given, or from differences of the samples; then from the residuals.
 //   hold: resolution, bias and drift repeat themselves in each sample of a still hold, so only 25 samples
 //   within 0.05 % of a depth, or 3 sd of the position, count: nothing winds up, however long it lasts.
@@ -17,7 +19,11 @@
 #include <string_view>
 #include <variant>
 
+#include "common/link/telemetry.hpp"
+#include "slave/estimation/behind_surface.hpp"
+#include "slave/estimation/contact_curve.hpp"
 #include "slave/estimation/difference_noise.hpp"
+#include "slave/estimation/estimator_config.hpp"
 #include "slave/estimation/fixed_exponent.hpp"
 #include "slave/estimation/kelvin_voigt.hpp"
 #include "slave/estimation/log_linear.hpp"
@@ -26,11 +32,9 @@
 
 namespace longreach {
 
-enum class EstimatorKind { kFixedExponent, kTwoStage, kLogLinear, kKelvinVoigt, kMaximumLikelihood };
 inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponent, EstimatorKind::kTwoStage,
                                                     EstimatorKind::kLogLinear, EstimatorKind::kKelvinVoigt,
                                                     EstimatorKind::kMaximumLikelihood};
-enum class Verdict { kNotYet, kIdentified, kNotIdentifiable };
 
 struct IdentifierConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
@@ -38,6 +42,7 @@ struct IdentifierConfig {
   double forgetting = 1.0;        // share of the past that is kept a sample
   double force_noise_n = 0.0;     // sd; 0: from the samples
   double position_noise_m = 0.0;  // sd; 0: from the samples
+  bool surface_known = true;      // positions count from it
 };
 
 struct Identified {
@@ -53,7 +58,9 @@ struct ContactAnswer {
   Identified n;
   Identified secant;          // elastic force over depth, N/m, at depth_m
   Identified stiffness;       // tangent, d(elastic force)/dx, N/m
-  double depth_m = 0.0;       // of the last sample in contact
+  Identified surface;         // m, where positions count from
+  double correlation = 0.0;   // of k and λ
+  double depth_m = 0.0;       // that it is told for
   double force_sd_n = 0.0;    // of a sample
   std::uint32_t changes = 0;  // that were found
 };
@@ -64,13 +71,24 @@ class Identifier {
 
   /// Another contact: nothing of the one before is kept.
   void begin();
-  /// `sample.x_m` <= 0 is free space. `dt` since the sample before, s.
+  /// In front of a surface that is known is free space. `dt` since the sample before, s.
   void step(const PenetrationSample& sample, double dt);
-  /// Everything up to the last sample.
+  /// At the depth of the last sample in contact. Everything up to the last sample; with an unknown surface up
+  /// to the last 32.
   [[nodiscard]] ContactAnswer answer();
+  /// The same of another depth, > 0.
+  [[nodiscard]] ContactAnswer answer_at(double depth_m) const;
+  /// The depth nearest to `depth_m` that the samples of the fit have seen.
+  [[nodiscard]] double visited(double depth_m) const;
+  /// Depth at which the elastic force is `force_n` > 0; 0 without a fit.
+  [[nodiscard]] double depth_of(double force_n) const;
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
+  using Estimator = std::variant<FixedExponent, TwoStage, LogLinear, KelvinVoigt, MaximumLikelihood,
+                                 ContactCurve, BehindSurface<TwoStage>, BehindSurface<LogLinear>>;
+  static Estimator behind_known(const IdentifierConfig& config);
+  static Estimator behind_unknown(const IdentifierConfig& config);
   [[nodiscard]] const ContactFit& fit() const;
   [[nodiscard]] double force_variance() const;
   [[nodiscard]] double position_sd() const;
@@ -80,7 +98,7 @@ class Identifier {
   void restart();
 
   IdentifierConfig config_;
-  std::variant<FixedExponent, TwoStage, LogLinear, KelvinVoigt, MaximumLikelihood> estimator_;
+  Estimator estimator_;
   DifferenceNoise force_noise_;
   DifferenceNoise position_noise_;
   PenetrationSample last_{};  // in contact
@@ -89,13 +107,14 @@ class Identifier {
   double force_max_n_ = 0.0;
   double residual_squares_ = 0.0;
   double residuals_ = 0.0;
-  double drift_n_ = 0.0;      // mean innovation of the last 20 samples
-  double hold_m_ = 0.0;       // depth of the present hold
-  int held_ = 0;              // samples in it
-  int samples_ = 0;           // in the fit
-  std::uint32_t steps_ = 0;   // since the fit began
-  double variance_n2_ = 0.0;  // of the force, as looked at last
-  bool settled_ = false;      // likewise
+  double drift_n_ = 0.0;                         // mean innovation of the last 20 samples
+  double deepest_m_ = 0.0, shallowest_m_ = 0.0;  // positions in contact
+  double hold_m_ = 0.0;                          // position of the present hold
+  int held_ = 0;                                 // samples in it
+  int samples_ = 0;                              // in the fit
+  std::uint32_t steps_ = 0;                      // since the fit began
+  double variance_n2_ = 0.0;                     // of the force, as looked at last
+  bool settled_ = false;                         // likewise
   std::uint32_t changes_ = 0;
   std::uint64_t ignored_ = 0;
 };

@@ -28,7 +28,7 @@ struct LinearContact {
     fit.a_s_per_m = a;
     Eigen::Matrix<double, 3, 2> J;  // of (ln f, n, a) by c
     J << 1.0 / c[0], 0.0, 0.0, 0.0, -a / c[0], 1.0 / c[0];
-    fit.covariance = variance_n2 * J * inverse * J.transpose();
+    fit.covariance.topLeftCorner<3, 3>() = variance_n2 * J * inverse * J.transpose();
     fit.valid = c[0] > 0.0 && fit.covariance.allFinite();
     return innovation;
   }

@@ -33,7 +33,7 @@ class LogLinear {
     fit_.n = theta[1];
     fit_.a_s_per_m = theta[2];
     const double residual = std::max(squares_ - theta.dot(equations_.b()), 1e-12 * squares_);
-    fit_.covariance = residual / std::max(samples_ - 3.0, 1.0) * inverse;
+    fit_.covariance.topLeftCorner<3, 3>() = residual / std::max(samples_ - 3.0, 1.0) * inverse;
     fit_.valid = samples_ > 3.0 && std::isfinite(fit_.force_n) && fit_.covariance.allFinite();
     return innovation;
   }

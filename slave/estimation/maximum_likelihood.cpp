@@ -139,7 +139,7 @@ void MaximumLikelihood::refresh(double force_variance_n2) {
   fit_.force_n = step.c0;
   fit_.n = n_;
   fit_.a_s_per_m = step.c1 / step.c0;
-  fit_.covariance = step.covariance;
+  fit_.covariance.topLeftCorner<3, 3>() = step.covariance;
 
   const double sd = std::sqrt(fit_.covariance(1, 1));
   if (!known_ && sd < kKnownSd && std::abs(step.n) < kConverged * sd) {

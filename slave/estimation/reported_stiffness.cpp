@@ -4,12 +4,22 @@
 #include <cmath>
 
 namespace longreach {
+namespace {
 
-bool ReportedStiffness::step(const SecantEstimate& estimate, const Vector3& normal) {
-  if (!estimate.valid) return false;
-  const double value = estimate.stiffness_n_per_m;
-  const double sd = estimate.stiffness_sd_n_per_m / value;
-  if (!(sd < config_.first_sd)) return false;  // nothing is replaced by what is hardly known
+constexpr double kWrong = 0.3;    // of the held value, and 5 sd: another object
+constexpr double kWrongSd = 0.1;  // fraction, of what replaces it
+
+}  // namespace
+
+bool ReportedStiffness::step(const ContactAnswer& a, const Vector3& normal) {
+  if (!a.valid) return false;
+  const double value = a.stiffness.value;
+  const double sd = a.stiffness.sd / value;
+  // Nothing is replaced by what is hardly known, unless it is surely wrong.
+  const double held = stiffness_n_per_m_;
+  const bool wrong =
+      held > 0.0 && sd < kWrongSd && std::abs(value - held) > std::max(kWrong * held, 5.0 * sd * value);
+  if (!(sd < config_.first_sd) && !wrong) return false;
   if (stiffness_n_per_m_ > 0.0) {
     // ‖S n nᵀ - S' n' n'ᵀ‖² = (S - S')² + 2 S S' |n × n'|²
     const double off = std::sqrt(std::pow(value - stiffness_n_per_m_, 2) +
@@ -21,7 +31,7 @@ bool ReportedStiffness::step(const SecantEstimate& estimate, const Vector3& norm
     if (!large) corrected_ = true;
   }
   stiffness_n_per_m_ = value;
-  depth_m_ = estimate.depth_m;
+  depth_m_ = a.depth_m;
   normal_ = normal;
   return true;
 }

@@ -1,12 +1,13 @@
 #pragma once
-// What of the estimate is told to the operator. Each change of the rendered stiffness moves the felt wall a
-// little, so the reported value is held: it appears when its sd is below `first_sd`, then changes only by
-// more than max(deadband, 3 sd), or once a touch when its sd is below 1 % and it is off by more than max(2 %,
-// 3 sd), in the Frobenius norm of S n nᵀ: a direction that was learnt better is a change as well. A second
+// What of the estimate is told to the operator: the contact's stiffness (tangent), held. Each change of the
+// rendered stiffness moves the felt wall a little, so the value appears when its sd is below `first_sd`, then
+// changes only by more than max(deadband, 3 sd), or once a touch when its sd is below 1 % and it is off by
+// more than max(2 %, 3 sd), in the Frobenius norm of S n nᵀ: a direction that was learnt better is a change
+// as well. A value that is surely wrong, by over 30 % and 5 sd, gives way to one known to 10 %. A second
 // touch of the same surface goes on with it.
 
 #include "common/spatial/spatial.hpp"
-#include "slave/estimation/contact_estimator.hpp"
+#include "slave/estimation/identifier.hpp"
 
 namespace longreach {
 
@@ -22,7 +23,7 @@ class ReportedStiffness {
   }
 
   /// True if the reported value has changed.
-  bool step(const SecantEstimate& estimate, const Vector3& normal);
+  bool step(const ContactAnswer& answer, const Vector3& normal);
 
   [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: none yet
   [[nodiscard]] double depth_m() const { return depth_m_; }                      // that it belongs to

@@ -151,7 +151,6 @@ void SimulatedArm::feel(double dt) {
   X_WE_ = tool.X_WE;
   V_WE_ = {tool.J.topRows<3>() * joint_rad_per_s_, tool.J.bottomRows<3>() * joint_rad_per_s_};
   contact_ = scene_.contact({X_WE_.p, V_WE_.linear, X_WE_.q, V_WE_.angular, t_s_});
-  if (contact_.surface >= 0) surface_ = contact_.surface;
   F_E_W_ = {contact_.moment_nm, contact_.force_n};
   if (!bodies_) return;
   const BodiesContact& met = bodies_->step(X_WE_, dt);
@@ -170,8 +169,14 @@ Wrench SimulatedArm::sense(double dt) {
   return {X_WE_.q * told.moment, X_WE_.q * told.force};
 }
 
-double SimulatedArm::material_secant(double depth_m) const {
-  return scene_.secant_n_per_m(surface_, depth_m);
+double SimulatedArm::material_stiffness(const Vector3& p_WE) const {
+  const auto at = [this](const Vector3& p) {
+    return scene_.contact({.p_WE = p, .q_WE = X_WE_start_.q, .t_s = t_s_});
+  };
+  const SceneContact here = at(p_WE);
+  const Vector3 step = 1e-4 * here.depth_m * here.normal;
+  if (step.isZero(0.0)) return 0.0;
+  return here.normal.dot(at(p_WE - step).force_n - at(p_WE + step).force_n) / (2.0 * step.norm());
 }
 
 }  // namespace longreach

@@ -39,9 +39,8 @@ class SimulatedArm : public Robot {
   [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
   [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
-  /// Static secant F/p at `depth_m` of the surface in contact, or of the one touched last, else of the first;
-  /// N/m, 0 in a scene without surfaces.
-  [[nodiscard]] double material_secant(double depth_m) const;
+  /// Static dF/dp of all that is touched at `p_WE`, along the way out, by differences; N/m, 0 in free space.
+  [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
   /// What floats freely; null in a scene without.
   [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
   [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
@@ -73,7 +72,6 @@ class SimulatedArm : public Robot {
   Twist V_WE_{};
   Wrench F_E_W_{};
   SceneContact contact_{};
-  int surface_ = 0;
   bool stopped_ = false;
   std::uint64_t rejected_ = 0;
 };

@@ -26,6 +26,8 @@ struct SensingConfig {
   ToolLoadConfig tool{};
   Vector3 gravity_m_per_s2 = Vector3::Zero();
   double zero_s = 0.0;
+  double touch_nm = 0.03;
+  double release_nm = 0.012;
 };
 
 }  // namespace longreach

@@ -47,7 +47,7 @@ void Laboratory::step_slave() {
   arm_.write(out.joint_setpoint_rad);
   arm_.grip(out.grip);
   if (out.report) {
-    report_depths_.push(slave_node_.view().reported_depth_m);
+    report_places_.push(slave_node_.view().reported_at_m);
     last_report_ = out.report_sequence;
     ++haptic_return_.datagrams;
     haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kHeaderBytes;
@@ -90,10 +90,9 @@ void Laboratory::step_master() {
   requests_ = OperatorRequests{};
   for (const auto& received : in.reports) {
     const std::uint64_t back = last_report_ - received.sequence;
-    if (!received.newest || !received.message.translation.in_contact || back >= report_depths_.size())
+    if (!received.newest || !received.message.translation.in_contact || back >= report_places_.size())
       continue;
-    const double depth_m = report_depths_[report_depths_.size() - 1 - back];
-    if (depth_m > 0.0) rendered_depth_m_ = depth_m;
+    rendered_at_m_ = report_places_[report_places_.size() - 1 - back];
   }
 }
 

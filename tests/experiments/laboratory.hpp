@@ -43,8 +43,8 @@ class Laboratory {
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
-  /// Depth that the stiffness which the master renders now was estimated at, m; zero before the first.
-  [[nodiscard]] double rendered_depth_m() const { return rendered_depth_m_; }
+  /// Where the stiffness which the master renders now belongs to, in W; zero before the first.
+  [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
   /// What the person does from now on, instead of the script.
   void drive(const HandTarget& target) { driven_ = target; }
   /// Asked for in the next tick, besides what the script does.
@@ -73,10 +73,10 @@ class Laboratory {
   OperatorRequests requests_{};
   std::optional<double> rtt_s_{};
   bool let_go_ = false;
-  Ring<double> report_depths_{4096};  // of the last reports, by sequence
+  Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
   HapticReturn haptic_return_{};
-  double rendered_depth_m_ = 0.0;
+  Vector3 rendered_at_m_ = Vector3::Zero();
 };
 
 }  // namespace longreach

@@ -4,7 +4,7 @@
 // Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
 // the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on, and again
 // after each hold, which leaves the wall at another place of the handle (own intercept). Its
-// reference is ke times the material's true secant stiffness at the depth that the slave reported it for.
+// reference is ke times the material's true stiffness (tangent) at the place that the slave reported it for.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ struct Watch {
   HapticReturn return_before{}, return_after{};  // while probing
   double return_s = 0.0;
   LineFit displayed;
-  double reference_sum = 0.0;  // of ke times the true secant, over the samples of `displayed`
+  double reference_sum = 0.0;  // of ke times the true tangent, over the samples of `displayed`
   double displayed_span_s = 0.0;
   double first_touch_s = -1.0;
   double unsettled_s = -1.0;  // when the hand was last in a hold
@@ -91,7 +91,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   if (lab.now_s() < std::max(w.first_touch_s, w.unsettled_s) + w.rtt_s + 1.0) return;
   if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
     w.displayed.add(m.inward.dot(m.p_MH), spring_n);
-    w.reference_sum += ke * lab.arm().material_secant(lab.rendered_depth_m());
+    w.reference_sum += ke * lab.arm().material_stiffness(lab.rendered_at_m());
     w.displayed_span_s += lab.period_s();
   }
 }

@@ -69,6 +69,8 @@ void expect_same(const SensingConfig& s, const proto::Sensing& m) {
   EXPECT_EQ(s.touch_n, m.touch_n());
   EXPECT_EQ(s.release_n, m.release_n());
   EXPECT_EQ(s.filter_s, m.filter_s());
+  EXPECT_EQ(s.touch_nm, m.touch_nm());
+  EXPECT_EQ(s.release_nm, m.release_nm());
   EXPECT_EQ(s.force_bias_n, m.force_bias_n());
   EXPECT_EQ(s.moment_bias_nm, m.moment_bias_nm());
   EXPECT_EQ(s.force_drift_n, m.force_drift_n());
@@ -84,11 +86,14 @@ void expect_same(const SensingConfig& s, const proto::Sensing& m) {
 }
 
 void expect_same(const EstimatorConfig& s, const proto::Estimator& m) {
+  EXPECT_EQ(static_cast<int>(s.kind), m.kind());
   EXPECT_EQ(s.exponent, m.exponent());
   EXPECT_EQ(s.forgetting, m.forgetting());
   EXPECT_EQ(s.depth_filter_s, m.depth_filter_s());
   EXPECT_EQ(s.first_sd, m.first_sd());
   EXPECT_EQ(s.deadband, m.deadband());
+  EXPECT_EQ(s.working_force_n, m.working_force_n());
+  EXPECT_EQ(s.working_moment_nm, m.working_moment_nm());
 }
 
 void expect_same(const SlaveSafetyConfig& s, const proto::SlaveSafety& m) {

@@ -121,6 +121,7 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.friction_nm, m.friction_nm());
   EXPECT_EQ(s.friction_stiffness_nm_per_rad, m.friction_stiffness_nm_per_rad());
   EXPECT_EQ(s.home_spring, m.home_spring());
+  EXPECT_EQ(s.ke_by_scale, m.ke_by_scale());
 }
 
 void expect_same(const MasterSafetyConfig& s, const proto::MasterSafety& m) {

@@ -153,7 +153,7 @@ TEST(SlaveNode, TouchesTheWallReportsItsStiffnessAndWhereItWasMet) {
     const SlaveView& view = loop.view();
     ASSERT_TRUE(view.in_contact);
     EXPECT_EQ(view.touch, 1U);
-    EXPECT_NEAR(view.reported_stiffness_n_per_m / loop.arm.material_secant(view.reported_depth_m), 1.0, 0.03);
+    EXPECT_NEAR(view.reported_stiffness_n_per_m / loop.arm.material_stiffness(view.reported_at_m), 1.0, 0.03);
     const Matrix3 expected =
         view.reported_stiffness_n_per_m * Vector3::UnitX() * Vector3::UnitX().transpose();
     EXPECT_LT((loop.last_report->translation.stiffness - expected).norm(), 0.03 * stiffness);

@@ -74,7 +74,7 @@ TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
   EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 14);
-  EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 36);
+  EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 40);
 }
 
 TEST(Codec, RefusesGoalsBeyondReason) {

@@ -77,9 +77,18 @@ TEST(Codec, KeepsEveryFieldOfTelemetry) {
   EXPECT_EQ(out.estimate.k, 3e4);
   EXPECT_EQ(out.estimate.lambda, 3e3);
   EXPECT_EQ(out.estimate.n, 1.5);
-  EXPECT_EQ(out.estimate.depth_m, 0.002);
+  EXPECT_NEAR(out.estimate.depth_m, 0.002, 1e-9);
   EXPECT_TRUE(out.estimate.valid);
-  EXPECT_EQ(out.penetration_m, 0.0015);
+  EXPECT_EQ(out.estimate.k_sd, 300.0);
+  EXPECT_EQ(out.estimate.lambda_sd, 200.0);
+  EXPECT_EQ(out.estimate.n_sd, 0.125);
+  EXPECT_EQ(out.estimate.correlation, -0.5);
+  EXPECT_EQ(out.estimate.secant_n_per_m, 1000.0 / 1.5);
+  EXPECT_EQ(out.estimate.stiffness_verdict, Verdict::kIdentified);
+  EXPECT_EQ(out.estimate.k_verdict, Verdict::kNotYet);
+  EXPECT_EQ(out.estimate.lambda_verdict, Verdict::kNotIdentifiable);
+  EXPECT_EQ(out.estimate.n_verdict, Verdict::kIdentified);
+  EXPECT_NEAR(out.penetration_m, 0.0015, 1e-9);
   const Clamps& c = out.clamps;
   EXPECT_TRUE(c.tool_speed && !c.joint_speed && c.joint_position && !c.workspace && c.force_guard &&
               !c.singularity && c.unreachable);

@@ -63,6 +63,12 @@ inline Telemetry telemetry() {
   t.joint_rad = {0.5, -0.25, 1.0, 2.0, -3.0, 0.125};
   t.F_E_W = {{0.5, 0.25, -0.125}, {1.5, -2.5, 3.5}};
   t.estimate = {1000.0, 10.0, 3e4, 3e3, 1.5, 0.002, true};
+  t.estimate.k_sd = 300.0;
+  t.estimate.lambda_sd = 200.0;
+  t.estimate.n_sd = 0.125;
+  t.estimate.correlation = -0.5;
+  t.estimate.stiffness_verdict = t.estimate.n_verdict = Verdict::kIdentified;
+  t.estimate.lambda_verdict = Verdict::kNotIdentifiable;
   t.penetration_m = 0.0015;
   t.clamps = {true, false, true, false, true, false, true};
   t.up_loss = 0.25;

@@ -1,0 +1,53 @@
+#pragma once
+// Where the surface is, and k, λ and n of what lies behind it, together:
+//   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref for x > x0, else 0;   m = n, Kelvin-Voigt: m = 0
+// For white, normally distributed noise of the force the maximum of the likelihood of all samples: given n
+// and x0 the law is linear in (f, f a), so these are projected out (Golub and Pereyra 1973) and n and x0 are
+// found by damped Gauss-Newton steps on the samples' bins (depth_bins.hpp). Samples from before the touch
+// belong to it: that there was no force yet tells where the surface is not. n is free, or given. Weak priors:
+// n 1.5 ± 0.5, a 0 ± 3 s/m. The fit is brought up to date when the samples have grown by 1/32, at least
+// every 32. Not handled: noise of the position.
+
+#include "slave/estimation/depth_bins.hpp"
+
+namespace longreach {
+
+class ContactCurve {
+ public:
+  struct Law {
+    double exponent = 0.0;  // 0: free
+    double forgetting = 1.0;
+    bool kelvin_voigt = false;
+  };
+  explicit ContactCurve(const Law& law);
+
+  void reset() { *this = ContactCurve(law_); }
+  /// Returns the force less what was foreseen, N; NaN without a fit.
+  double step(const PenetrationSample& sample, double force_variance_n2);
+  [[nodiscard]] const ContactFit& fit() const { return fit_; }
+
+ private:
+  struct Place {
+    double n = 1.0;
+    double x0 = 0.0;
+  };
+  struct Fitted;
+
+  [[nodiscard]] Fitted fitted(const Place& place, double variance) const;
+  void refresh(double force_variance_n2);
+  void search(double variance);
+  void publish(const Fitted& fitted, double variance);
+
+  Law law_;
+  double prior_n_, prior_n_sd_;
+  DepthBins bins_;
+  double shallowest_m_ = 0.0, deepest_m_ = 0.0;
+  bool sought_ = false;  // a first place was found
+  Place place_;
+  double damping_ = 1e-3;
+  int samples_ = 0;
+  int unused_ = 0;  // of them, not yet in the fit
+  ContactFit fit_{};
+};
+
+}  // namespace longreach

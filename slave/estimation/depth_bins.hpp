@@ -1,0 +1,88 @@
+#pragma once
+// The samples of a contact in bounded room, for a fit that has to try other surfaces and exponents: sums over
+// narrow bins of the position. A bin stands at the mean of its samples, so what is lost is the curvature
+// within a bin: at n = 1.5 and 64 bins 1e-4 of the force at the greatest depth. The bins double their width,
+// two becoming one, when a sample lies outside. Weights grow by 1/forgetting a sample.
+
+#include <array>
+#include <cmath>
+
+#include "slave/estimation/contact_fit.hpp"
+
+namespace longreach {
+
+struct DepthBin {
+  double w = 0.0;   // Σ w
+  double x = 0.0;   // Σ w x
+  double v = 0.0;   // Σ w v
+  double vv = 0.0;  // Σ w v²
+  double f = 0.0;   // Σ w F
+  double fv = 0.0;  // Σ w F v
+
+  void add(const DepthBin& b) {
+    w += b.w;
+    x += b.x;
+    v += b.v;
+    vv += b.vv;
+    f += b.f;
+    fv += b.fv;
+  }
+  void scale(double by) {
+    w *= by;
+    x *= by;
+    v *= by;
+    vv *= by;
+    f *= by;
+    fv *= by;
+  }
+};
+
+class DepthBins {
+ public:
+  static constexpr int kBins = 64;
+
+  void add(const PenetrationSample& s, double forgetting) {
+    if (width_m_ <= 0.0) {
+      width_m_ = kFirstWidthM;
+      first_m_ = s.x_m - 0.5 * kBins * width_m_;
+    }
+    for (int i = 0; i < kDoublingsMax && !within(s.x_m); ++i) double_width(s.x_m < first_m_);
+    if (!within(s.x_m)) return;
+    weight_ /= forgetting;
+    if (weight_ > kWeightMax) {
+      for (DepthBin& bin : bins_) bin.scale(1.0 / weight_);
+      weight_ = 1.0;
+    }
+    const double w = weight_, wv = w * s.v_m_per_s;
+    const auto i = static_cast<std::size_t>((s.x_m - first_m_) / width_m_);
+    bins_[std::min<std::size_t>(i, kBins - 1)].add(
+        {w, w * s.x_m, wv, wv * s.v_m_per_s, w * s.force_n, wv * s.force_n});
+  }
+  [[nodiscard]] const std::array<DepthBin, kBins>& bins() const { return bins_; }
+  [[nodiscard]] double weight() const { return weight_; }  // of the last sample
+
+ private:
+  static constexpr double kFirstWidthM = 1e-9;
+  static constexpr int kDoublingsMax = 64;
+  static constexpr double kWeightMax = 1e6;
+
+  [[nodiscard]] bool within(double x) const { return x >= first_m_ && x < first_m_ + kBins * width_m_; }
+  // Towards smaller or greater positions.
+  void double_width(bool down) {
+    std::array<DepthBin, kBins> wide{};
+    const int first = down ? kBins / 2 : 0;
+    for (int i = 0; i < kBins; ++i) {
+      wide[static_cast<std::size_t>(first + i / 2)].add(bins_[static_cast<std::size_t>(i)]);
+    }
+    bins_ = wide;
+    if (down) first_m_ -= kBins * width_m_;
+    width_m_ *= 2.0;
+  }
+
+  std::array<DepthBin, kBins> bins_{};
+  double first_m_ = 0.0;
+  double width_m_ = 0.0;  // 0: no sample yet
+  double weight_ = 1.0;
+};
+
+}  // namespace longreach
