@@ -4,6 +4,7 @@
 
 #include "common/config/config.hpp"
 #include "common/io/status_fields.hpp"
+#include "common/link/estimate_words.hpp"
 
 namespace longreach {
 namespace {
@@ -55,8 +56,11 @@ proto::Status SlaveService::status() {
   if (view.reported_stiffness_nm_per_rad > 0.0) {
     out.set_rotational_stiffness_nm_per_rad(view.reported_stiffness_nm_per_rad);
   }
-  out.set_estimate(view.turn_estimate.valid ? in_words(view.turn_estimate, "N m/rad")
-                                            : in_words(view.estimate, "N/m"));
+  const bool turns = view.turn_estimate.valid;
+  const ContactEstimate& estimate = turns ? view.turn_estimate : view.estimate;
+  if (estimate.valid) {
+    out.set_estimate(stiffness_in_words(estimate, turns ? "N m/rad" : "N/m") + ", " + law_in_words(estimate));
+  }
   out.set_force_n(view.F_E_W.force.norm());
   add_clamps(out, view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");

@@ -1,16 +1,10 @@
 #include "common/io/status_fields.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
 namespace longreach {
-namespace {
-
-constexpr double kApart = 0.9;  // correlation of what cannot be told apart
-
-}  // namespace
 
 std::string_view to_string(SafetyState state) {
   switch (state) {
@@ -50,29 +44,6 @@ std::string_view to_string(HoldCause cause) {
       return "device fault";
   }
   return "unknown";
-}
-
-std::string in_words(const ContactEstimate& e, std::string_view unit) {
-  if (!e.valid) return "";
-  char text[96];
-  const auto told = [&text](const char* format, auto... values) {
-    std::snprintf(text, sizeof text, format, values...);
-    return std::string(text);
-  };
-  const double sd = e.stiffness_sd_n_per_m / e.stiffness_n_per_m;
-  std::string words =
-      told("%.3g ", e.stiffness_n_per_m) + std::string(unit) + told(" within %.2g %%", 100.0 * sd);
-  const auto add = [&words](Verdict verdict, const std::string& known, const std::string& name) {
-    words += ", " + (verdict == Verdict::kIdentified ? known
-                     : verdict == Verdict::kNotYet   ? name + " not yet known"
-                                                     : name + " cannot be told");
-  };
-  add(e.n_verdict, told("n %.3g within %.2g", e.n, e.n_sd), "n");
-  add(e.lambda_verdict,
-      told("lambda/k %.3g s/m within %.2g %%", e.lambda / e.k, 100.0 * e.lambda_sd / std::abs(e.lambda)),
-      "lambda");
-  if (e.lambda_verdict != Verdict::kIdentified && std::abs(e.correlation) > kApart) words += " apart from k";
-  return words;
 }
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count) {

@@ -18,10 +18,6 @@ namespace longreach {
 std::string_view to_string(SafetyState state);  // as in proto/control: Idle, Observing, ...
 std::string_view to_string(HoldCause cause);    // in words; empty for kNone
 
-/// What of a contact is known, and how well: "1.02e+03 N/m within 0.5 %, n 1.5 within 0.02, lambda cannot be
-/// told". `unit` of the stiffness. Empty without a contact that is known at all.
-std::string in_words(const ContactEstimate& estimate, std::string_view unit);
-
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
 /// rejected, and rejected_REASON each.
 void add_counts(proto::Status& status, const RejectionCounts& counts);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "common/link/estimate_words.hpp"
 #include "master/console/keys.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/console/words.hpp"
@@ -133,9 +134,16 @@ std::string stiffness_line(const ConsoleSnapshot& s) {
   const ContactEstimate& estimate = s.view.far.estimate;
   std::string line = text("%.3f N/mm at the hand", s.view.stiffness_n_per_m * 1e-3);
   if (s.view.far_known && estimate.valid) {
-    line += text(", slave measures %.3f", estimate.stiffness_n_per_m * 1e-3);
+    line += text(", slave measures %.3f within %.2g %%", estimate.stiffness_n_per_m * 1e-3,
+                 100.0 * estimate.stiffness_sd_n_per_m / estimate.stiffness_n_per_m);
   }
   return line;
+}
+
+// What may be thought of the slave's estimate.
+std::string contact_line(const ConsoleSnapshot& s) {
+  if (!s.view.far_known || !s.view.far.estimate.valid) return s.view.in_contact ? "not yet known" : "none";
+  return law_in_words(s.view.far.estimate);
 }
 
 std::uint64_t total(const RejectionCounts& counts) {
@@ -197,6 +205,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.line("tool at", tool_line(s));
   page.whole("");
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
+  page.line("contact", contact_line(s), s.view.in_contact ? Tone::kPlain : Tone::kDim);
   add_forces(page, s, width);
   page.line("energy", text("%+.2f mJ into the hand's port, least %+.2f mJ", s.view.port_energy_j * 1e3,
                            s.view.port_energy_min_j * 1e3));

@@ -30,6 +30,11 @@ ConsoleSnapshot touching() {
   s.view.far.X_WE.p = Vector3(9.8123, 0.0, 4.25);
   s.view.far.F_E_W.force = Vector3(-2.9, 0.0, 0.0);
   s.view.far.estimate.stiffness_n_per_m = 1002.0;
+  s.view.far.estimate.stiffness_sd_n_per_m = 5.01;
+  s.view.far.estimate.n = 1.5;
+  s.view.far.estimate.n_sd = 0.02;
+  s.view.far.estimate.n_verdict = Verdict::kIdentified;
+  s.view.far.estimate.lambda_verdict = Verdict::kNotIdentifiable;
   s.view.far.estimate.valid = true;
   s.link.rtt_s = 2.602;
   s.link.jitter_s = 0.0101;
@@ -69,7 +74,8 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "forecast  x    +0.00  y    +0.00  z    +0.00 mm when the robot hears it\n"
       "tool at   x  +9.8123  y  +0.0000  z  +4.2500 m  (1.3 s ago)\n"
       "\n"
-      "stiffness 0.981 N/mm at the hand, slave measures 1.002\n"
+      "stiffness 0.981 N/mm at the hand, slave measures 1.002 within 0.5 %\n"
+      "contact   n 1.5 within 0.02, lambda cannot be told\n"
       "hand         3.00 N [========................................] 15 N\n"
       "robot        2.90 N [========................................]\n"
       "energy    +4.60 mJ into the hand's port, least -0.12 mJ\n"
@@ -77,6 +83,16 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "clamped   nothing\n"
       "loop      0 ticks late, 0 missed, 0 rejected\n";
   EXPECT_EQ(render(touching(), 74, false), expected);
+}
+
+TEST(View, SaysWhetherAContactIsKnown) {
+  ConsoleSnapshot s = touching();
+  s.view.far.estimate.valid = false;
+  EXPECT_TRUE(contains(render(s, 80, false), "contact   not yet known\n"));
+  s.view.in_contact = false;
+  EXPECT_TRUE(contains(render(s, 80, false), "contact   none\n"));
+  s.view.far_known = false;
+  EXPECT_TRUE(contains(render(s, 80, false), "contact   none\n"));
 }
 
 TEST(View, SaysTheSameWithAndWithoutColor) {

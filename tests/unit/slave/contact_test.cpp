@@ -92,31 +92,45 @@ INSTANTIATE_TEST_SUITE_P(Walls, ContactAccuracy,
                                          Walls{500, 1.5, 3, 2e-3}, Walls{5000, 1.5, 0.6, 1e-3},
                                          Walls{5000, 1.5, 3, 2e-3}));
 
-// Over noise and over materials: a is drawn from what the estimator presumes, sd 3 s/m.
+/// RMS over noise and materials of the error over its sd, after so many ticks; a is drawn with sd `a_sd`,
+/// s/m.
+double honesty(const EstimatorConfig& config, double n, double a_sd, int ticks) {
+  double squares = 0.0;
+  constexpr int kSeeds = 100;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const double a = a_sd * std::abs(Random(seed).child("material").normal());
+    Bench bench{1000.0, n, a, 0.05, Random(seed)};
+    SlaveContact contact(SensingConfig{}, config);
+    for (int i = 0; i < ticks; ++i) {
+      const double w = 2 * test::kPi * 0.5;
+      bench.step(contact, i < 2000 ? 1.5e-3 * (1.0 - i / 2000.0) + 1e-3 : 2e-4 * w * std::cos(w * i * kDt));
+    }
+    const ContactEstimate e = contact.estimate();
+    EXPECT_TRUE(e.valid) << "seed " << seed;
+    const double truth = n * bench.secant(bench.x_m - 0.1);
+    squares += std::pow((e.stiffness_n_per_m - truth) / e.stiffness_sd_n_per_m, 2);
+  }
+  return std::sqrt(squares / kSeeds);
+}
+
+// a is presumed to be 0 ± 3 s/m. Of materials that are more viscous than that it holds once the speed has
+// changed.
 TEST(SlaveContact, ItsStandardDeviationIsHonest) {
   for (const double n : {1.0, 1.5}) {
-    for (const int ticks : {1500, 4000, 9000}) {
-      double squares = 0.0;
-      constexpr int kSeeds = 200;
-      for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-        const double a = 3.0 * std::abs(Random(seed).child("material").normal());
-        Bench bench{1000.0, n, a, 0.05, Random(seed)};
-        SlaveContact contact(SensingConfig{}, free_exponent());
-        for (int i = 0; i < ticks; ++i) {
-          const double w = 2 * test::kPi * 0.5;
-          bench.step(contact,
-                     i < 2000 ? 1.5e-3 * (1.0 - i / 2000.0) + 1e-3 : 2e-4 * w * std::cos(w * i * kDt));
+    EstimatorConfig given;
+    given.exponent = n;
+    for (const EstimatorConfig& config : {given, free_exponent()}) {
+      for (const double a_sd : {3.0, 10.0}) {
+        for (const int ticks : {1500, 4000, 9000}) {
+          if (a_sd > 3.0 && ticks < 4000) continue;
+          const double rms = honesty(config, n, a_sd, ticks);
+          const std::string what = std::string(name_of(config.kind)) + " n " + std::to_string(n) + " a " +
+                                   std::to_string(a_sd) + " after " + std::to_string(ticks);
+          EXPECT_GT(rms, 0.5) << what;
+          EXPECT_LT(rms, 2.0) << what;
+          RecordProperty(what, std::to_string(rms));
         }
-        const ContactEstimate e = contact.estimate();
-        ASSERT_TRUE(e.valid) << "seed " << seed;
-        const double truth = n * bench.secant(bench.x_m - 0.1);
-        const double error = (e.stiffness_n_per_m - truth) / e.stiffness_sd_n_per_m;
-        squares += error * error;
       }
-      const double rms = std::sqrt(squares / kSeeds);
-      EXPECT_GT(rms, 0.5) << "n " << n << " after " << ticks;
-      EXPECT_LT(rms, 2.0) << "n " << n << " after " << ticks;
-      RecordProperty("rms_" + std::to_string(n) + "_" + std::to_string(ticks), std::to_string(rms));
     }
   }
 }

@@ -106,6 +106,9 @@ inline Telemetry extreme_telemetry() {
   t.engagement = std::numeric_limits<std::uint32_t>::max();
   const double big = std::numeric_limits<double>::max();
   t.estimate = {-big, big, -big, big, -big, big, true};
+  t.estimate.k_sd = t.estimate.lambda_sd = t.estimate.n_sd = t.estimate.correlation = big;
+  t.estimate.stiffness_verdict = t.estimate.k_verdict = Verdict::kNotIdentifiable;
+  t.estimate.lambda_verdict = t.estimate.n_verdict = Verdict::kNotIdentifiable;
   t.joint_rad.fill(-1e9);
   t.F_E_W = {Vector3::Constant(1e12), Vector3::Constant(-1e12)};
   t.clamps = {true, true, true, true, true, true, true};
