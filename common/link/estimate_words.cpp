@@ -1,7 +1,7 @@
 #include "common/link/estimate_words.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace longreach {
 namespace {
@@ -9,12 +9,13 @@ namespace {
 constexpr double kApart = 0.9;     // correlation of what cannot be told apart
 constexpr double kGivenSd = 1e-5;  // of n: it was not estimated
 
-template <class... Values>
-std::string told(const char* format, Values... values) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
+std::string number(double value, int digits) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+  return {text, end};
 }
+
+std::string percent(double share) { return number(100.0 * share, 2) + " %"; }
 
 std::string judged(Verdict verdict, const std::string& known, const std::string& name) {
   switch (verdict) {
@@ -32,16 +33,16 @@ std::string judged(Verdict verdict, const std::string& known, const std::string&
 
 std::string stiffness_in_words(const ContactEstimate& e, std::string_view unit) {
   if (!e.valid) return "";
-  const double share = e.stiffness_sd_n_per_m / e.stiffness_n_per_m;
-  return told("%.3g ", e.stiffness_n_per_m) + std::string(unit) + told(" within %.2g %%", 100.0 * share);
+  return number(e.stiffness_n_per_m, 3) + " " + std::string(unit) + " within " +
+         percent(e.stiffness_sd_n_per_m / e.stiffness_n_per_m);
 }
 
 std::string law_in_words(const ContactEstimate& e) {
   if (!e.valid) return "";
   const std::string n =
-      e.n_sd < kGivenSd ? told("n %.3g as given", e.n) : told("n %.3g within %.2g", e.n, e.n_sd);
+      "n " + number(e.n, 3) + (e.n_sd < kGivenSd ? " as given" : " within " + number(e.n_sd, 2));
   const std::string lambda =
-      told("lambda/k %.3g s/m within %.2g %%", e.lambda / e.k, 100.0 * e.lambda_sd / std::abs(e.lambda));
+      "lambda/k " + number(e.lambda / e.k, 3) + " s/m within " + percent(e.lambda_sd / std::abs(e.lambda));
   const bool mixed = e.lambda_verdict != Verdict::kIdentified && std::abs(e.correlation) > kApart;
   return judged(e.n_verdict, n, "n") + ", " + judged(e.lambda_verdict, lambda, "lambda") +
          (mixed ? " apart from k" : "");

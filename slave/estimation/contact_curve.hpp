@@ -7,8 +7,8 @@
 // belong to it: that there was no force yet tells where the surface is not. n is free, or given. Weak priors:
 // n 1.5 ± 0.5, a 0 ± 3 s/m (known materials have less than 1; against ± 10 s/m a free n is known in 0.8
 // instead of 1.3 s in 9 of 10 touches, first values off by 7 % at most instead of 46 %; at constant speed a
-// material of 10 s/m is then off by more than its sd says). The fit is brought up to date when the samples have grown by 1/32, at least
-// every 32. Not handled: noise of the position.
+// material of 10 s/m is then off by more than its sd says). The fit is brought up to date when the samples
+// have grown by 1/32, at least every 32. Not handled: noise of the position.
 
 #include "slave/estimation/depth_bins.hpp"
 
