@@ -10,6 +10,7 @@
 #include "common/io/program.hpp"
 #include "common/io/real_time_loop.hpp"
 #include "common/io/rpc_server.hpp"
+#include "common/io/session_seeker.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/io/stop_signal.hpp"
 #include "master/console/keyboard.hpp"
@@ -31,11 +32,6 @@ struct MasterOptions : ProgramOptions {
   std::optional<double> wall_n_per_m{};
 };
 
-std::uint64_t new_session() {
-  return static_cast<std::uint64_t>(
-      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
-}
-
 /// The shorthands are settings like any other.
 ProgramOptions with_shorthands(const MasterOptions& options) {
   ProgramOptions out = options;
@@ -53,7 +49,11 @@ ViewKind view_kind(const std::string& name) {
 /// Logs what has changed since the last call.
 class Chronicle {
  public:
-  void write(const MasterSnapshot& s) {
+  void write(const MasterSnapshot& s, const std::string& trouble) {
+    if (trouble != trouble_) {
+      if (!trouble.empty()) spdlog::warn("session trouble=\"{}\"", trouble);
+      trouble_ = trouble;
+    }
     const MasterView& now = s.view;
     if (now.state != last_.view.state) {
       spdlog::info("state from={} to={} cause=\"{}\" engagement={}", to_string(last_.view.state),
@@ -63,7 +63,7 @@ class Chronicle {
     if (now.in_contact != last_.view.in_contact) {
       spdlog::info("contact now={} stiffness_n_per_m={:.0f}", now.in_contact, now.stiffness_n_per_m);
     }
-    if (s.side.peer_session != last_.side.peer_session) spdlog::info("slave session={}", s.side.peer_session);
+    if (s.side.session != last_.side.session) spdlog::info("session number={:016x}", s.side.session);
     if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
       spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
                    s.side.loop.missed_ticks);
@@ -73,6 +73,7 @@ class Chronicle {
 
  private:
   MasterSnapshot last_{};
+  std::string trouble_;
 };
 
 ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
@@ -105,12 +106,14 @@ class Housekeeping {
 
   [[nodiscard]] bool live() const { return view_.live(); }
 
-  void run(const std::atomic<bool>& stop) {
+  void run(const std::atomic<bool>& stop, const SessionSeeker& seeker) {
     while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
       std::this_thread::sleep_for(kPollPeriod);
       const MasterSnapshot s = service_.snapshot();
-      chronicle_.write(s);
+      const std::string trouble = seeker.trouble();
+      chronicle_.write(s, trouble);
       ConsoleSnapshot shown = picture(s, config_);
+      shown.trouble = trouble;
       shown.seconds = seconds();
       if (options_.seconds) shown.seconds_left = *options_.seconds - shown.seconds;
       shown.show_keys = poll_keys(s.view.mode);
@@ -180,7 +183,7 @@ int operate(const MasterOptions& options) {
   auto& stop = stop_requested();
   set_up_log("master", options.log);
   const MasterConfig plain = to_struct(config);
-  MasterShell shell(plain, new_session());
+  MasterShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
   MasterService service(shell, config);
   RpcServer rpc(plain.rpc.listen, service, "master");
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
@@ -208,7 +211,16 @@ int operate(const MasterOptions& options) {
       stop = true;
     }
   });
-  housekeeping.run(stop);
+  {
+    const SessionSeeker seeker(
+        slave_rpc_address(plain.link.slave, plain.link.slave_rpc),
+        [&service]() -> SessionSeeker::Present {
+          const SideFigures side = service.snapshot().side;
+          return {side.session, side.link.silence_s};
+        },
+        [&service](const Session& session) { return service.adopt(session); });
+    housekeeping.run(stop, seeker);
+  }
   end = true;
   loop_thread.join();
   rpc.stop();

@@ -17,6 +17,7 @@ struct MasterLinkConfig {
   std::string listen = "0.0.0.0:0";
   double send_hz = 200.0;
   ImpairmentConfig impairment{};
+  std::string slave_rpc;
 };
 
 struct MasterSafetyConfig {

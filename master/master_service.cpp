@@ -116,9 +116,10 @@ std::optional<Refusal> MasterService::set_scale(double scale) {
 std::optional<Refusal> MasterService::engage() {
   const double silence_s = snapshot().side.link.silence_s;
   if (!(silence_s <= config_.safety().silence_s())) {
-    return Refusal{
-        Refusal::Kind::kPrecondition,
-        "the slave is not heard; check that longreach-slave runs and that link.slave is its address"};
+    return Refusal{Refusal::Kind::kPrecondition,
+                   "the slave is not heard; check that longreach-slave runs and that link.slave and "
+                   "link.slave_rpc lead to "
+                   "it; the master's log says more"};
   }
   OperatorRequests requests;
   requests.engage = true;
@@ -133,6 +134,13 @@ std::optional<Refusal> MasterService::stop() {
 
 std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
   return post(shell_.mailbox(), MasterCommand(requests));
+}
+
+bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }
+
+std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
+    const proto::OpenSessionRequest&) {
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are opened at the slave"};
 }
 
 }  // namespace longreach

@@ -22,11 +22,15 @@ class MasterService : public ControlBackend {
   std::optional<Refusal> set_scale(double scale) override;
   std::optional<Refusal> engage() override;
   std::optional<Refusal> stop() override;
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(
+      const proto::OpenSessionRequest& request) override;
 
   /// The newest picture of the loop; callable from any thread but the loop's.
   MasterSnapshot snapshot();
   /// Hands what keys asked for to the loop; callable from any thread but the loop's.
   std::optional<Refusal> request(const OperatorRequests& requests);
+  /// Hands a session to the loop; false: it did not answer. Callable from any thread but the loop's.
+  bool adopt(const Session& session);
 
  private:
   MasterShell& shell_;

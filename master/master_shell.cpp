@@ -7,10 +7,10 @@ constexpr double kKeyboardSpeed_m_per_s = 0.1;  // a key asks for a step; a hand
 
 }  // namespace
 
-MasterShell::MasterShell(const MasterConfig& config, std::uint64_t session)
+MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
     : config_(config),
       channel_(config.link.listen, config.link.slave),
-      port_(channel_, session, config.link.impairment, Random(session).child("down")),
+      port_(channel_, config.link.impairment, Random(seed).child("down")),
       devices_(config.device),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
@@ -30,7 +30,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.telemetry = port_.telemetry();
   in.requests = requests;
   in.last_heard = endpoint.monitor().last_heard();
-  in.peer_restarts = endpoint.peer_restarts();
+  in.peer_restarts = endpoint.restarts();
   in.rtt_s = snapshot_.side.link.rtt_s;
 
   const MasterOutput out = node_.step(in);
@@ -48,6 +48,8 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
     requests = *asked;
   } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
     port_.impairment().configure(*impairment, now);
+  } else if (const auto* session = std::get_if<Session>(&command)) {
+    port_.follow(*session);
   } else {
     const auto& change = std::get<MasterChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;

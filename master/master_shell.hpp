@@ -29,7 +29,7 @@ struct MasterChange {
   bool impairment = false;       // config.link.impairment has changed
   bool script = false;           // what the script acts on has changed: it begins anew
 };
-using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig>;
+using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session>;
 
 /// What a person at the keyboard holds.
 struct HandLevel {
@@ -39,9 +39,9 @@ struct HandLevel {
 
 class MasterShell {
  public:
-  /// Throws AddressError or std::runtime_error when the socket cannot be had. `session`: greater at each
-  /// start.
-  MasterShell(const MasterConfig& config, std::uint64_t session);
+  /// Throws AddressError or std::runtime_error when the socket cannot be had. `seed`: of the artificial
+  /// impairment.
+  MasterShell(const MasterConfig& config, std::uint64_t seed);
 
   void tick(Time now, const LoopFigures& loop);
 

@@ -17,11 +17,6 @@
 namespace longreach {
 namespace {
 
-std::uint64_t new_session() {
-  return static_cast<std::uint64_t>(
-      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
-}
-
 /// Logs what has changed since the last call.
 class Chronicle {
  public:
@@ -33,8 +28,7 @@ class Chronicle {
     }
     if (now.touch != last_.view.touch)
       spdlog::info("touch number={} sequence={:.2f}", now.touch, now.touch_sequence);
-    if (s.side.peer_session != last_.side.peer_session)
-      spdlog::info("master session={}", s.side.peer_session);
+    if (s.side.session != last_.side.session) spdlog::info("session number={:016x}", s.side.session);
     if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
       spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
                    s.side.loop.missed_ticks);
@@ -73,7 +67,7 @@ int serve(const ProgramOptions& options) {
   auto& stop = stop_requested();
   set_up_log("slave", options.log);
   const SlaveConfig plain = to_struct(config);
-  SlaveShell shell(plain, new_session());
+  SlaveShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
   SlaveService service(shell, config);
   RpcServer rpc(plain.rpc.listen, service, "slave");
   log_start(config, shell, rpc);

@@ -112,4 +112,20 @@ std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement
 
 std::optional<Refusal> SlaveService::stop() { return post(shell_.mailbox(), SlaveCommand(SlaveStop{})); }
 
+std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
+    const proto::OpenSessionRequest& request) {
+  proto::OpenSessionResponse response;
+  if (request.session() != 0 && request.session() == snapshot().side.session) {
+    response.set_session(request.session());
+    return response;
+  }
+  const bool aes = request.aes256gcm() && has_aes256gcm();
+  const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
+  if (auto refusal = post(shell_.mailbox(), SlaveCommand(session))) return *std::move(refusal);
+  response.set_session(session.number);
+  response.set_secret(session.secret.data(), session.secret.size());
+  response.set_aes256gcm(aes);
+  return response;
+}
+
 }  // namespace longreach

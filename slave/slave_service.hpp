@@ -24,6 +24,8 @@ class SlaveService : public ControlBackend {
   std::optional<Refusal> set_scale(double scale) override;
   std::optional<Refusal> engage() override;
   std::optional<Refusal> stop() override;
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(
+      const proto::OpenSessionRequest& request) override;
 
   /// The newest picture of the loop; callable from any thread but the loop's.
   SlaveSnapshot snapshot();

@@ -1,11 +1,16 @@
 #include "slave/slave_shell.hpp"
 
 namespace longreach {
+namespace {
 
-SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t session)
+constexpr Duration kOccupied = std::chrono::seconds(1);
+
+}  // namespace
+
+SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
     : channel_(config.link.listen),
-      port_(channel_, session, config.link.impairment, Random(session).child("up")),
-      arm_(config, Random(session).child("arm")),
+      port_(channel_, config.link.impairment, Random(seed).child("up")),
+      arm_(config, Random(seed).child("arm")),
       node_(config) {}
 
 void SlaveShell::tick(Time now, const LoopFigures& loop) {
@@ -14,14 +19,13 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
 
   port_.receive(now);
   const Endpoint& endpoint = port_.endpoint();
-  channel_.answer_to(endpoint.peer_session());
   const SideFigures& side = observer_.observe(now, port_, channel_, loop);
   SlaveInput in;
   in.now = now;
   in.robot = arm_.read(now);
   in.commands = port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
-  in.peer_session_count = endpoint.peer_session() == 0 ? 0 : endpoint.peer_restarts() + 1;
+  in.peer_session_count = endpoint.sessions();
   in.stop = stop;
   in.rejected = port_.rejected_total();
   in.late_ticks = loop.ticks_late_100ms;
@@ -46,6 +50,9 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
     stop = true;
   } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
     port_.impairment().configure(*impairment, now);
+  } else if (const auto* session = std::get_if<Session>(&command)) {
+    if (occupied(now)) return LoopAnswer::kOccupied;
+    port_.follow(*session);
   } else {
     const auto& change = std::get<SlaveChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
@@ -53,6 +60,12 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
     if (change.impairment) port_.impairment().configure(change.config.link.impairment, now);
   }
   return LoopAnswer::kDone;
+}
+
+// A master that is there keeps its session: nobody else can take the robot from it.
+bool SlaveShell::occupied(Time now) const {
+  const auto heard = port_.endpoint().monitor().last_heard();
+  return node_.engaged() || (heard && now - *heard < kOccupied);
 }
 
 }  // namespace longreach

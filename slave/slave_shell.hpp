@@ -29,13 +29,13 @@ struct SlaveChange {
   bool impairment = false;       // config.link.impairment has changed
 };
 struct SlaveStop {};
-using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig>;
+using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig, Session>;
 
 class SlaveShell {
  public:
-  /// Throws AddressError or std::runtime_error when the socket cannot be had. `session`: greater at each
-  /// start.
-  SlaveShell(const SlaveConfig& config, std::uint64_t session);
+  /// Throws AddressError or std::runtime_error when the socket cannot be had. `seed`: of the artificial
+  /// impairment and of the simulated arm.
+  SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
   void tick(Time now, const LoopFigures& loop);
 
@@ -45,6 +45,7 @@ class SlaveShell {
 
  private:
   LoopAnswer obey(const SlaveCommand& command, Time now, bool& stop);
+  [[nodiscard]] bool occupied(Time now) const;
 
   UdpChannel channel_;
   SlavePort port_;

@@ -47,6 +47,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("listen", s.listen);
   visit("send_hz", s.send_hz);
   visit("impairment", s.impairment);
+  visit("slave_rpc", s.slave_rpc);
 }
 
 template <class Visitor, Is<DriveConfig> S>

@@ -37,6 +37,8 @@ class Ring {
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
 
+  bool operator==(const Ring&) const = default;  // also what lies there no longer
+
  private:
   std::vector<T> slots_;
   std::size_t first_ = 0;

@@ -22,7 +22,7 @@ struct ConfigChange {
 std::variant<ConfigChange, Refusal> plan_change(const google::protobuf::Message& before,
                                                 const Assignments& assignments);
 
-enum class LoopAnswer { kDone, kEngaged };
+enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master is there
 
 /// Hands a command to the loop. `not_while_engaged`: of the change, for the refusal.
 template <class Command>
@@ -34,6 +34,10 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
                    "the control loop did not answer within 1 s; nothing has changed, try again"};
   }
   if (*answer == LoopAnswer::kDone) return std::nullopt;
+  if (*answer == LoopAnswer::kOccupied) {
+    return Refusal{Refusal::Kind::kPrecondition,
+                   "another master is connected; end that one, or wait until it has been silent for 1 s"};
+  }
   return Refusal{Refusal::Kind::kPrecondition,
                  not_while_engaged + " may not change while the robot is engaged; stop first"};
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "proto/config.pb.h"
@@ -41,6 +42,8 @@ class ControlBackend {
   virtual std::optional<Refusal> set_scale(double scale) = 0;
   virtual std::optional<Refusal> engage() = 0;
   virtual std::optional<Refusal> stop() = 0;
+  virtual std::variant<proto::OpenSessionResponse, Refusal> open_session(
+      const proto::OpenSessionRequest& request) = 0;
 };
 
 }  // namespace longreach

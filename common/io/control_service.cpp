@@ -158,4 +158,10 @@ ControlService::Result<proto::Outcome> ControlService::stop() {
   return outcome(backend_.stop(), "stopped");
 }
 
+ControlService::Result<proto::OpenSessionResponse> ControlService::open_session(
+    const proto::OpenSessionRequest& request) {
+  const std::lock_guard lock(mutex_);
+  return backend_.open_session(request);
+}
+
 }  // namespace longreach

@@ -37,6 +37,7 @@ class ControlService {
   Result<proto::Outcome> set_scale(const proto::SetScaleRequest& request);
   Result<proto::Outcome> engage();
   Result<proto::Outcome> stop();
+  Result<proto::OpenSessionResponse> open_session(const proto::OpenSessionRequest& request);
 
  private:
   using Instant = std::chrono::steady_clock::time_point;

@@ -111,6 +111,10 @@ class GrpcControl final : public proto::Control::Service {
   grpc::Status Stop(Context* context, const proto::StopRequest*, proto::Outcome* answer) override {
     return finish(context, service_.stop(), answer);
   }
+  grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
+                           proto::OpenSessionResponse* answer) override {
+    return finish(context, service_.open_session(*request), answer);
+  }
 
   grpc::Status Watch(Context* context, const proto::WatchRequest* request,
                      grpc::ServerWriter<proto::Status>* writer) override {

@@ -1,5 +1,7 @@
 #include "common/io/side_figures.hpp"
 
+#include <limits>
+
 namespace longreach {
 namespace {
 
@@ -15,13 +17,14 @@ const SideFigures& SideObserver::observe(Time now, Port& port, const UdpChannel&
     link_due_ = now + kLinkPeriod;
   }
   // Always of this tick: whether the other side is heard is decided with it.
-  if (const auto heard = endpoint.monitor().last_heard()) figures_.link.silence_s = to_seconds(now - *heard);
+  const auto heard = endpoint.monitor().last_heard();
+  figures_.link.silence_s = heard ? to_seconds(now - *heard) : std::numeric_limits<double>::infinity();
   figures_.rejected = port.rejected();
   figures_.accepted = port.accepted_total();
   figures_.impaired = port.impairment().counts();
   figures_.loop = loop;
-  figures_.peer_session = endpoint.peer_session();
-  figures_.peer_restarts = endpoint.peer_restarts();
+  figures_.session = endpoint.session();
+  figures_.peer_restarts = endpoint.restarts();
   figures_.strangers = channel.strangers();
   figures_.unsent = channel.unsent();
   return figures_;

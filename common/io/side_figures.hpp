@@ -13,10 +13,10 @@ struct SideFigures {
   std::uint64_t accepted = 0;
   ImpairmentCounts impaired{};
   LoopFigures loop{};
-  std::uint64_t peer_session = 0;  // 0: never heard
-  std::uint32_t peer_restarts = 0;
-  std::uint64_t strangers = 0;  // datagrams from other addresses than the peer's
-  std::uint64_t unsent = 0;     // datagrams that the system refused to send
+  std::uint64_t session = 0;        // 0: none yet
+  std::uint32_t peer_restarts = 0;  // sessions after the first
+  std::uint64_t strangers = 0;      // datagrams from other addresses than the peer's
+  std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 
 /// Keeps the figures of a side. One tick costs a few copies; the figures of the link, which sort a window,

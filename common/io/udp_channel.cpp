@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <asio/buffer.hpp>
+#include <cstring>
 #include <stdexcept>
 
 #include "common/io/address.hpp"
-#include "common/link/header.hpp"
 
 namespace longreach {
 namespace {
@@ -61,10 +61,8 @@ std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
       ++strangers_;
       continue;
     }
-    if (!fixed_peer_ && size <= buffer.size()) {
-      const auto header = read_header(buffer.first(size));
-      if (const auto* valid = std::get_if<Header>(&header)) senders_.note(*valid, sender);
-    }
+    origin_ = {};
+    std::memcpy(origin_.data(), sender.data(), std::min(sender.size(), origin_.size()));
     return size;
   }
   return std::nullopt;
@@ -77,9 +75,15 @@ void UdpChannel::send(std::span<const std::byte> datagram) {
   if (error) ++unsent_;
 }
 
-void UdpChannel::answer_to(std::uint64_t session) {
+void UdpChannel::answer_to(const Origin& origin) {
   if (fixed_peer_) return;
-  if (const auto sender = senders_.find(session)) peer_ = sender;
+  if (origin == Origin{}) {
+    peer_.reset();
+    return;
+  }
+  asio::ip::udp::endpoint sender;
+  std::memcpy(sender.data(), origin.data(), std::min(sender.capacity(), origin.size()));
+  peer_ = sender;
 }
 
 std::string UdpChannel::local_address() const {

@@ -2,8 +2,8 @@
 // A channel over one UDP socket, IPv4 or IPv6. Never waits; allocates nothing after construction.
 //
 // The calling side (master) names its peer: it sends there, and what others send is dropped and counted. The
-// answering side (slave) names none: it takes what anybody sends, and answers to the address that the session
-// it follows was last heard from (`answer_to`, after each receive). Until then it sends nothing.
+// answering side (slave) names none: it takes what anybody sends, and answers to where the newest authentic
+// datagram came from (`answer_to`). Until then it sends nothing.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 
-#include "common/io/sender_book.hpp"
 #include "common/wire/channel.hpp"
 
 namespace longreach {
@@ -22,10 +21,9 @@ class UdpChannel : public Channel {
   explicit UdpChannel(const std::string& listen, const std::optional<std::string>& peer = std::nullopt);
 
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override;
+  [[nodiscard]] Origin origin() const override { return origin_; }
+  void answer_to(const Origin& origin) override;
   void send(std::span<const std::byte> datagram) override;
-
-  /// Answers from now on to where `session` was last heard from; nothing changes when that is not known.
-  void answer_to(std::uint64_t session);
 
   [[nodiscard]] std::string local_address() const;
   [[nodiscard]] std::optional<std::string> peer_address() const;
@@ -37,7 +35,7 @@ class UdpChannel : public Channel {
   asio::ip::udp::socket socket_;
   bool fixed_peer_;
   std::optional<asio::ip::udp::endpoint> peer_{};
-  SenderBook senders_{};
+  Origin origin_{};
   std::uint64_t strangers_ = 0;
   std::uint64_t unsent_ = 0;
 };

@@ -24,7 +24,7 @@ DelayMonitor::DelayMonitor() : samples_(kCapacity), scratch_(kCapacity) {}
 void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt,
                                std::size_t bytes) {
   const auto type = static_cast<std::size_t>(header.type) - 1;
-  if (type >= kTypes) return;
+  if (type >= kDatagramTypes) return;
   // Loss looks back by its window and by the time that late ones are waited for.
   while (!samples_.empty() && (samples_.full() || now - samples_.front().received > kWindow + kSettlingMax)) {
     const Sample& old = samples_.front();
@@ -126,9 +126,9 @@ double DelayMonitor::loss(std::size_t first) const {
   end = saturating_sub(end, settling(first).count());
   const std::int64_t begin = saturating_sub(end, kWindow.count());
 
-  std::array<Mark, kTypes> before = forgotten_;  // last sent before the window
-  std::array<Mark, kTypes> after{};              // first sent in it
-  std::array<Mark, kTypes> last{};               // last sent in it
+  std::array<Mark, kDatagramTypes> before = forgotten_;  // last sent before the window
+  std::array<Mark, kDatagramTypes> after{};              // first sent in it
+  std::array<Mark, kDatagramTypes> last{};               // last sent in it
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& s = samples_[i];
     const Mark mark{s.sequence, s.sent};
@@ -141,9 +141,9 @@ double DelayMonitor::loss(std::size_t first) const {
   }
 
   // Numbers up to `base` were sent before the window. In a gap across its beginning they are spread evenly.
-  std::array<std::uint64_t, kTypes> base{};
+  std::array<std::uint64_t, kDatagramTypes> base{};
   double sent = 0.0, came = 0.0;
-  for (std::size_t type = 0; type < kTypes; ++type) {
+  for (std::size_t type = 0; type < kDatagramTypes; ++type) {
     const Mark &a = before[type], &b = after[type];
     if (b.sequence == 0) continue;
     base[type] = b.sequence - 1;

@@ -45,22 +45,24 @@ class DelayMonitor {
   [[nodiscard]] std::optional<Time> last_heard() const { return last_heard_; }
   void clear();
 
- private:
-  static constexpr std::size_t kTypes = 3;
+  bool operator==(const DelayMonitor&) const = default;
 
+ private:
   struct Sample {
     Time received{};
     PeerTime sent{};
     std::int64_t rtt_ns = -1;  // -1: none
     std::uint64_t sequence = 0;
     std::uint32_t bytes = 0;
-    std::uint8_t type = 0;  // index, 0 to kTypes - 1
+    std::uint8_t type = 0;  // index, 0 to kDatagramTypes - 1
     bool late = false;      // came after a newer one of its type
+    bool operator==(const Sample&) const = default;
   };
   /// Place of a datagram in its type's numbers; sequence 0: none.
   struct Mark {
     std::uint64_t sequence = 0;
     PeerTime sent{};
+    bool operator==(const Mark&) const = default;
   };
 
   [[nodiscard]] std::size_t first_since(Time t) const;
@@ -69,8 +71,8 @@ class DelayMonitor {
 
   Ring<Sample> samples_;
   mutable std::vector<std::int64_t> scratch_;
-  std::array<std::uint64_t, kTypes> newest_{};  // highest sequence of each type
-  std::array<Mark, kTypes>
+  std::array<std::uint64_t, kDatagramTypes> newest_{};  // highest sequence of each type
+  std::array<Mark, kDatagramTypes>
       forgotten_{};  // of the samples that left the ring, the one with the highest sequence
   std::optional<Time> first_heard_{};
   std::optional<Time> last_heard_{};

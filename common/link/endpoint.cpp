@@ -10,15 +10,11 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr Duration kSessionSilence = seconds(1);
 // Longer than the longest link that can be configured (100 s each way): whatever exceeds it is not a round
 // trip.
 constexpr Duration kRttMax = seconds(200);
 
-constexpr std::optional<std::size_t> index_of(DatagramType type) {
-  const auto i = static_cast<std::size_t>(type) - 1;
-  return i < 3 ? std::optional(i) : std::nullopt;
-}
+constexpr std::size_t index_of(DatagramType type) { return static_cast<std::size_t>(type) - 1; }
 
 std::optional<Duration> round_trip(Time now, Time echo_sent, Duration held) {
   const std::int64_t age = saturating_sub(to_ns(now), to_ns(echo_sent));
@@ -31,58 +27,56 @@ std::optional<Duration> round_trip(Time now, Time echo_sent, Duration held) {
 
 }  // namespace
 
-Endpoint::Endpoint(std::uint64_t session) : session_(session) { CHECK(session != 0); }
-
-std::optional<Rejection> Endpoint::judge(Time now, const Header& header) const {
-  if (!index_of(header.type)) return Rejection::kType;
-  if (header.session == 0) return Rejection::kSession;
-  if (header.session >= peer_session_) return std::nullopt;
-  const bool silent = now - *monitor_.last_heard() >= kSessionSilence;
-  return silent ? std::nullopt : std::optional(Rejection::kSession);
+void Endpoint::follow(std::uint64_t session) {
+  CHECK(session != 0);
+  session_ = session;
+  ++sessions_;
+  sent_.fill(0);
+  for (auto& window : windows_) window.clear();
+  monitor_.clear();
 }
 
-std::variant<Endpoint::Accepted, Rejection> Endpoint::commit(Time now, const Header& header,
-                                                             const Stamp& stamp, std::size_t bytes) {
-  if (const auto rejection = judge(now, header)) return *rejection;
-  if (header.sequence == 0) return Rejection::kReplay;
-  Accepted accepted;
-  accepted.new_session = header.session != peer_session_;
-  if (accepted.new_session) follow(header.session);
+std::optional<Rejection> Endpoint::judge(const Header& header) const {
+  if (index_of(header.type) >= kDatagramTypes) return Rejection::kType;
+  if (session_ == 0 || header.session != session_) return Rejection::kSession;
+  if (!windows_[index_of(header.type)].fresh(header.sequence)) return Rejection::kReplay;
+  return std::nullopt;
+}
 
-  ReplayWindow& window = windows_[*index_of(header.type)];
-  accepted.newest = header.sequence > window.newest();
-  if (!window.accept(header.sequence)) return Rejection::kReplay;
+bool Endpoint::mark(const Header& header) {
+  ReplayWindow& window = windows_[index_of(header.type)];
+  const bool newest = header.sequence > window.newest();
+  CHECK(window.accept(header.sequence));
+  return newest;
+}
 
+std::optional<Time> Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes) {
+  std::optional<Time> echo_sent;
   std::optional<Duration> rtt;
-  // Nobody can have heard what this side has yet to send, nor does a former self's clock count.
-  if (stamp.echo.session == session_ && stamp.echo.sent_ns <= to_ns(now)) {
-    accepted.echo_sent = Time{Duration{stamp.echo.sent_ns}};
-    rtt = round_trip(now, *accepted.echo_sent, stamp.echo.held);
+  // Nobody can have heard what this side has yet to send.
+  if (stamp.echo && stamp.echo->sent_ns <= to_ns(now)) {
+    echo_sent = Time{Duration{stamp.echo->sent_ns}};
+    rtt = round_trip(now, *echo_sent, stamp.echo->held);
   }
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
   // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link
   // would look shorter than it is.
   heard_at_ = now;
   heard_sent_ = stamp.sent;
-  return accepted;
+  return echo_sent;
 }
 
-void Endpoint::follow(std::uint64_t peer_session) {
-  if (peer_session_ != 0) ++peer_restarts_;
-  peer_session_ = peer_session;
-  for (auto& window : windows_) window.clear();
-  monitor_.clear();
-}
-
-Header Endpoint::header_for(DatagramType type, std::uint64_t sequence) const {
-  return {.type = type, .session = session_, .sequence = sequence};
+std::optional<Header> Endpoint::number(DatagramType type, std::uint64_t sequence) {
+  std::uint64_t& sent = sent_[index_of(type)];
+  if (session_ == 0 || sequence <= sent || sequence == std::numeric_limits<std::uint64_t>::max())
+    return std::nullopt;
+  sent = sequence;
+  return Header{.type = type, .session = session_, .sequence = sequence};
 }
 
 Stamp Endpoint::stamp_for(Time now) const {
   Stamp stamp{.sent = PeerTime{now.time_since_epoch()}};
-  if (peer_session_ != 0) {
-    stamp.echo = {.session = peer_session_, .sent_ns = to_ns(heard_sent_), .held = now - heard_at_};
-  }
+  if (monitor_.last_heard()) stamp.echo = Echo{.sent_ns = to_ns(heard_sent_), .held = now - heard_at_};
   return stamp;
 }
 

@@ -2,12 +2,12 @@
 // One end of the link without its bytes: numbers what leaves, judges what comes (session, replay), keeps the
 // echo and the delay monitor. Pure: time comes in.
 //
-// Sessions: a receiver follows one session of its peer. A datagram of a greater session replaces it at once
-// (the peer restarted); of a smaller one only if the present session has been silent for 1 s.
+// Both ends follow one session at a time, which is handed to them; without one nothing leaves and nothing is
+// taken. A datagram passes in three steps: `judge` changes nothing; once it has proved authentic `mark` uses
+// up its number; once its values are read `learn` books what it says.
 
 #include <array>
 #include <optional>
-#include <variant>
 
 #include "common/link/delay_monitor.hpp"
 #include "common/link/envelope.hpp"
@@ -17,39 +17,34 @@ namespace longreach {
 
 class Endpoint {
  public:
-  /// `session`: this side's own, non-zero, greater at each start.
-  explicit Endpoint(std::uint64_t session);
+  /// Begins a session, not zero. Nothing of the one before it counts any more.
+  void follow(std::uint64_t session);
 
-  /// Header checks that need state. Nothing changes unless it is accepted by `commit`.
-  [[nodiscard]] std::optional<Rejection> judge(Time now, const Header& header) const;
+  /// Why a datagram with this header is not taken, or none.
+  [[nodiscard]] std::optional<Rejection> judge(const Header& header) const;
+  /// Uses up the number of a judged, authentic header. True: no newer one of its type came before.
+  bool mark(const Header& header);
+  /// Books a marked datagram. Returns when this side had sent what the peer had last heard; none: not known.
+  std::optional<Time> learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
 
-  /// Books a judged and decoded datagram. Returns what the receiver learns (echo translated to this clock),
-  /// or the rejection (replay).
-  struct Accepted {
-    std::optional<Time> echo_sent{};
-    bool new_session = false;
-    bool newest = false;  // no newer one of its type came before
-  };
-  std::variant<Accepted, Rejection> commit(Time now, const Header& header, const Stamp& stamp,
-                                           std::size_t bytes);
-
-  /// Header and stamp for the next datagram.
-  [[nodiscard]] Header header_for(DatagramType type, std::uint64_t sequence) const;
+  /// Header of the next datagram. None: there is no session, or this number or a greater one of its type has
+  /// left in this session, or the numbers are at their end. So no number leaves twice.
+  std::optional<Header> number(DatagramType type, std::uint64_t sequence);
   [[nodiscard]] Stamp stamp_for(Time now) const;
 
   [[nodiscard]] const DelayMonitor& monitor() const { return monitor_; }
-  [[nodiscard]] std::uint64_t session() const { return session_; }
-  [[nodiscard]] std::uint64_t peer_session() const { return peer_session_; }  // 0: none yet
-  /// New sessions of the peer after the first.
-  [[nodiscard]] std::uint32_t peer_restarts() const { return peer_restarts_; }
+  [[nodiscard]] std::uint64_t session() const { return session_; }    // 0: none yet
+  [[nodiscard]] std::uint32_t sessions() const { return sessions_; }  // followed so far
+  /// New sessions after the first.
+  [[nodiscard]] std::uint32_t restarts() const { return sessions_ == 0 ? 0 : sessions_ - 1; }
+
+  bool operator==(const Endpoint&) const = default;
 
  private:
-  void follow(std::uint64_t peer_session);
-
-  std::uint64_t session_;
-  std::uint64_t peer_session_ = 0;
-  std::uint32_t peer_restarts_ = 0;
-  std::array<ReplayWindow, 3> windows_;  // one a type
+  std::uint64_t session_ = 0;
+  std::uint32_t sessions_ = 0;
+  std::array<std::uint64_t, kDatagramTypes> sent_{};  // greatest number that left, one a type
+  std::array<ReplayWindow, kDatagramTypes> windows_;  // one a type
   DelayMonitor monitor_;
   Time heard_at_{};  // of the datagram that is echoed: the last one that came
   PeerTime heard_sent_{};

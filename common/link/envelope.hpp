@@ -12,26 +12,25 @@
 namespace longreach {
 
 enum class DatagramType : std::uint8_t { kMotionCommand = 1, kStiffnessReport = 2, kTelemetry = 3 };
+constexpr std::size_t kDatagramTypes = 3;
 
-/// Identifies a datagram. `session` is drawn by the sender at its start and grows from start to start;
-/// `sequence` counts from 1 in each (session, type).
+/// Identifies a datagram. `session` is common to both sides; `sequence` grows with each datagram of a type.
 struct Header {
   DatagramType type = DatagramType::kMotionCommand;
   std::uint64_t session = 0;
   std::uint64_t sequence = 0;
 };
 
-/// What the sender had last heard, so that the receiver can date it with its own clock.
+/// What the sender had last heard in this session, so that the receiver can date it with its own clock.
 struct Echo {
-  std::uint64_t session = 0;  // session of the echoed datagram; 0: nothing heard yet
-  std::int64_t sent_ns = 0;   // its send time, on the clock of the one who sent it
-  Duration held{0};           // how long it lay at the echoing side before this datagram left
+  std::int64_t sent_ns = 0;  // its send time, on the clock of the one who sent it
+  Duration held{0};          // how long it lay at the echoing side before this datagram left
 };
 
 /// The part of a datagram's body that is common to all messages.
 struct Stamp {
-  PeerTime sent{};  // sender's clock
-  Echo echo{};
+  PeerTime sent{};             // sender's clock
+  std::optional<Echo> echo{};  // none: nothing heard yet
 };
 
 /// A message with what its receiver knows about the way it came.
@@ -45,16 +44,16 @@ struct Received {
   Message message{};
 };
 
-/// Why a datagram was dropped. Order of the checks.
+/// Why a datagram was dropped. Order of the checks. Before authentication nothing changes but a counter.
 enum class Rejection : std::uint8_t {
-  kLength,    // shorter than a header or longer than 508 bytes
-  kVersion,   // other wire version
-  kType,      // not a type that this side receives
-  kChecksum,  // damaged on the way
-  kSession,   // an older session, or another peer while this one lives
-  kReplay,    // seen already, or too old to tell
-  kDecode,    // body is not the message that the header promises
-  kValue,     // a field is missing, not finite or out of range
+  kLength,          // shorter than header and tag, or longer than 508 bytes
+  kVersion,         // other wire version
+  kType,            // not a type that this side receives
+  kSession,         // not of the present session
+  kReplay,          // seen already, or too old to tell
+  kAuthentication,  // damaged, or not sealed by the other side
+  kDecode,          // body is not the message that the header promises
+  kValue,           // a field is missing, not finite or out of range
   kCount
 };
 
@@ -63,7 +62,7 @@ using RejectionCounts = std::array<std::uint64_t, kRejectionCount>;
 
 constexpr std::string_view to_string(Rejection r) {
   constexpr std::array<std::string_view, kRejectionCount> kNames = {
-      "length", "version", "type", "checksum", "session", "replay", "decode", "value"};
+      "length", "version", "type", "session", "replay", "authentication", "decode", "value"};
   return r < Rejection::kCount ? kNames[static_cast<std::size_t>(r)] : "unknown";
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// The 22 bytes in front of every datagram, big-endian:
-//   version (1) | type (1) | session (8) | sequence (8) | checksum (4)
-// The checksum is CRC-32 (IEEE 802.3, reflected, 0xEDB88320) over the first 18 bytes and the body. It finds
-// damage; it does not authenticate.
+// The 18 bytes in front of every datagram, big-endian:
+//   version (1) | type (1) | session (8) | sequence (8)
+// Behind them come the sealed body and its tag of 16 bytes (common/crypto). The header stays in clear; the
+// tag covers it.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,17 +13,15 @@
 
 namespace longreach {
 
-constexpr std::uint8_t kWireVersion = 1;
-constexpr std::size_t kHeaderBytes = 22;
-constexpr std::size_t kDatagramMaxBytes = 508;  // passes any IPv4 path unfragmented
+constexpr std::uint8_t kWireVersion = 2;
+constexpr std::size_t kHeaderBytes = 18;
+constexpr std::size_t kOverheadBytes = kHeaderBytes + 16;  // with the tag
+constexpr std::size_t kDatagramMaxBytes = 508;             // passes any IPv4 path unfragmented
 
-/// CRC-32 of `bytes`; `before` is that of what went before them, so that pieces can be chained.
-std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
-
-/// Writes the header in front of the body. `datagram` holds kHeaderBytes of room, then the body.
+/// Writes the header in front of the body. `datagram` has at least kHeaderBytes.
 void write_header(const Header& header, std::span<std::byte> datagram);
 
-/// Reads and checks length, version, type (one of the known ones) and checksum, in this order.
+/// Reads and checks length, version and type (one of the known ones), in this order.
 std::variant<Header, Rejection> read_header(std::span<const std::byte> datagram);
 
 }  // namespace longreach

@@ -21,7 +21,8 @@ Impairment::Impairment(const ImpairmentConfig& config, Random random)
                random.child("duplicate"),
                {random.child("jitter"), random.child("jitter of copies")},
                {random.child("reorder"), random.child("reorder of copies")}},
-      bytes_(kSlots * kSlotBytes) {
+      bytes_(kSlots * kSlotBytes),
+      origins_(kSlots) {
   heap_.reserve(kSlots);
   free_.reserve(kSlots);
   for (std::size_t i = kSlots; i > 0; --i) free_.push_back(static_cast<std::uint32_t>(i - 1));
@@ -34,7 +35,7 @@ void Impairment::configure(const ImpairmentConfig& config, Time now) {
   in_burst_.reset();
 }
 
-void Impairment::push(Time now, std::span<const std::byte> datagram) {
+void Impairment::push(Time now, std::span<const std::byte> datagram, const Origin& origin) {
   start_clock(now);
   ++counts_.in;
   const Fate fate = draw_fate();
@@ -55,7 +56,7 @@ void Impairment::push(Time now, std::span<const std::byte> datagram) {
     const std::optional<Time> left = leave_queue(now, datagram.size());
     const double delay_s = std::max(0.0, base_delay_s(t_s) + config_.jitter_s * fate.jitter[copy]);
     const bool let_past = fate.let_past[copy] && delay_s > 0.0;
-    if (!left || !store(later(*left, let_past ? 0.5 * delay_s : delay_s), datagram, fate)) {
+    if (!left || !store(later(*left, let_past ? 0.5 * delay_s : delay_s), datagram, origin, fate)) {
       ++counts_.queue_dropped;
     } else if (let_past) {
       ++counts_.reordered;
@@ -70,6 +71,7 @@ std::optional<std::span<const std::byte>> Impairment::pop(Time now) {
   std::pop_heap(heap_.begin(), heap_.end());
   heap_.pop_back();
   free_.push_back(parcel.slot);
+  origin_ = origins_[parcel.slot];
   ++counts_.out;
   return std::span<const std::byte>(bytes_).subspan(parcel.slot * kSlotBytes, parcel.size);
 }
@@ -135,13 +137,15 @@ std::optional<Time> Impairment::leave_queue(Time now, std::size_t bytes) {
   return queue_free_at_;
 }
 
-bool Impairment::store(Time due, std::span<const std::byte> datagram, const Fate& fate) {
+bool Impairment::store(Time due, std::span<const std::byte> datagram, const Origin& origin,
+                       const Fate& fate) {
   if (free_.empty()) return false;
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   const std::size_t size = std::min(datagram.size(), kSlotBytes);
   const auto room = std::span(bytes_).subspan(slot * kSlotBytes, size);
   std::copy_n(datagram.begin(), size, room.begin());
+  origins_[slot] = origin;
   if (fate.corrupted && size > 0) {
     const auto bit = static_cast<std::size_t>(fate.flipped * 8.0 * static_cast<double>(size));
     room[bit / 8] ^= std::byte{1} << (bit % 8);

@@ -9,7 +9,8 @@
 // Jitter is drawn for each datagram by itself, so that it changes the order, as tc netem does. Equal due
 // times keep the order of arrival. Each effect has its own random stream: switching one on does not change
 // what another draws. Bounded: 16384 datagrams under way (more count as queue_dropped), each kept up to 600
-// bytes: longer ones come out cut to 600, which every receiver refuses by its length.
+// bytes: longer ones come out cut to 600, which every receiver refuses by its length. A datagram keeps its
+// origin.
 
 #include <array>
 #include <cstddef>
@@ -20,6 +21,7 @@
 
 #include "common/core/random.hpp"
 #include "common/core/time.hpp"
+#include "common/link/origin.hpp"
 
 namespace longreach {
 
@@ -56,10 +58,12 @@ class Impairment {
   /// Takes effect for the datagrams pushed from `now` on; the clock of steps and blackouts starts anew.
   void configure(const ImpairmentConfig& config, Time now);
 
-  void push(Time now, std::span<const std::byte> datagram);
+  void push(Time now, std::span<const std::byte> datagram, const Origin& origin = {});
 
   /// The next datagram that is due, or none. Valid until the next call. Call until none.
   std::optional<std::span<const std::byte>> pop(Time now);
+  /// Where the datagram came from that pop() returned last.
+  [[nodiscard]] const Origin& origin() const { return origin_; }
 
   [[nodiscard]] const ImpairmentConfig& config() const { return config_; }
   [[nodiscard]] const ImpairmentCounts& counts() const { return counts_; }
@@ -101,7 +105,7 @@ class Impairment {
   [[nodiscard]] bool blacked_out(double t_s) const;
   [[nodiscard]] double base_delay_s(double t_s) const;
   std::optional<Time> leave_queue(Time now, std::size_t bytes);
-  bool store(Time due, std::span<const std::byte> datagram, const Fate& fate);
+  bool store(Time due, std::span<const std::byte> datagram, const Origin& origin, const Fate& fate);
 
   ImpairmentConfig config_;
   ImpairmentCounts counts_{};
@@ -110,7 +114,9 @@ class Impairment {
   std::optional<Time> set_at_{};    // when the profile took effect; none before the first push or pop
   Time queue_free_at_{};            // when the rate limit has sent all that it holds
   std::uint64_t arrivals_ = 0;
+  Origin origin_{};
   std::vector<std::byte> bytes_;     // kSlots times kSlotBytes
+  std::vector<Origin> origins_;      // one a slot
   std::vector<std::uint32_t> free_;  // slots without a parcel
   std::vector<Parcel> heap_;
 };

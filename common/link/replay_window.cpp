@@ -17,20 +17,21 @@ ReplayWindow::ReplayWindow(std::uint32_t width)
   CHECK(width > 0);
 }
 
+bool ReplayWindow::fresh(std::uint64_t sequence) const {
+  if (sequence > newest_) return true;
+  if (sequence == 0 || newest_ - sequence >= width_) return false;
+  return (bits_[sequence / kWordBits % bits_.size()] >> (sequence % kWordBits) & 1U) == 0;
+}
+
 bool ReplayWindow::accept(std::uint64_t sequence) {
-  if (sequence == 0) return false;
+  if (!fresh(sequence)) return false;
   const std::uint64_t word = sequence / kWordBits;
   if (sequence > newest_) {
     const std::uint64_t entered = std::min<std::uint64_t>(word - newest_ / kWordBits, bits_.size());
     for (std::uint64_t i = 0; i < entered; ++i) bits_[(word - i) % bits_.size()] = 0;
     newest_ = sequence;
-  } else if (newest_ - sequence >= width_) {
-    return false;
   }
-  std::uint64_t& bits = bits_[word % bits_.size()];
-  const std::uint64_t bit = std::uint64_t{1} << (sequence % kWordBits);
-  if ((bits & bit) != 0) return false;
-  bits |= bit;
+  bits_[word % bits_.size()] |= std::uint64_t{1} << (sequence % kWordBits);
   return true;
 }
 

@@ -11,11 +11,15 @@ class ReplayWindow {
  public:
   explicit ReplayWindow(std::uint32_t width = 8192);
 
-  /// True the first time a number (>= 1) within the window is seen. Zero is never accepted.
+  /// Whether a number (>= 1) lies within or above the window and was not accepted yet.
+  [[nodiscard]] bool fresh(std::uint64_t sequence) const;
+  /// True if it is fresh, and never again. Zero is never accepted.
   bool accept(std::uint64_t sequence);
 
   [[nodiscard]] std::uint64_t newest() const { return newest_; }  // 0: none yet
   void clear();
+
+  bool operator==(const ReplayWindow&) const = default;
 
  private:
   std::uint32_t width_;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "common/link/origin.hpp"
+
 namespace longreach {
 
 class Channel {
@@ -14,6 +16,11 @@ class Channel {
   /// Takes the next datagram into `buffer` and returns its true size, which may exceed the buffer's (then it
   /// was cut); none when nothing is there. Never waits.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
+  /// Where the datagram came from that receive() took last.
+  [[nodiscard]] virtual Origin origin() const { return {}; }
+  /// An authentic datagram came from there: a channel without a fixed peer sends there from now on. All zero:
+  /// it sends nowhere.
+  virtual void answer_to(const Origin&) {}
 
   /// Sends, or drops when that is not possible now. Never waits.
   virtual void send(std::span<const std::byte> datagram) = 0;

@@ -17,7 +17,7 @@
 
 namespace longreach {
 
-constexpr std::size_t kBodyMaxBytes = kDatagramMaxBytes - kHeaderBytes;
+constexpr std::size_t kBodyMaxBytes = kDatagramMaxBytes - kOverheadBytes;
 constexpr double kGoalMaxM = 1e3;            // displacement from the anchor, each component
 constexpr double kGoalMaxRad = 1e2;          // rotation vector from the anchor, each component
 constexpr double kStiffnessMaxNPerM = 1e12;  // each entry, N/m or N m/rad

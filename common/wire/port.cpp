@@ -8,12 +8,28 @@ namespace {
 // More than the impairment can hold: a bound, not a limit that is met.
 constexpr int kPopsPerReceive = 100'000;
 
+constexpr Way back(Way out) { return out == Way::kToSlave ? Way::kToMaster : Way::kToSlave; }
+
+constexpr Nonce nonce_of(const Header& header) {
+  return {.type = static_cast<std::uint8_t>(header.type), .sequence = header.sequence};
+}
+
+static_assert(kOverheadBytes == kHeaderBytes + kTagBytes);
+
 }  // namespace
 
-Port::Port(Channel& channel, std::uint64_t session, const ImpairmentConfig& impairment, Random random)
-    : channel_(channel), endpoint_(session), impairment_(impairment, random) {}
+Port::Port(Channel& channel, const ImpairmentConfig& impairment, Random random, Way out)
+    : channel_(channel), out_(out), impairment_(impairment, random) {}
 
 Port::~Port() = default;
+
+Port::Seals::Seals(const Session& session, Way way_out) : out(session, way_out), in(session, back(way_out)) {}
+
+void Port::follow(const Session& session) {
+  endpoint_.follow(session.number);
+  seals_.emplace(session, out_);
+  channel_.answer_to(Origin{});
+}
 
 void Port::receive(Time now) {
   open_inboxes();
@@ -25,7 +41,7 @@ void Port::receive(Time now) {
       count(Rejection::kLength);
       continue;
     }
-    impairment_.push(now, std::span<const std::byte>(buffer_).first(*size));
+    impairment_.push(now, std::span<const std::byte>(buffer_).first(*size), channel_.origin());
   }
   for (int i = 0; i < kPopsPerReceive; ++i) {
     const auto datagram = impairment_.pop(now);
@@ -49,50 +65,50 @@ void Port::count(std::optional<Rejection> rejection) {
 
 std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagram) {
   const auto read = read_header(datagram);
-  if (const auto* rejection = std::get_if<Rejection>(&read)) {
-    // The type is checked before the checksum, and only this side knows which types it takes.
-    const bool foreign = *rejection == Rejection::kChecksum &&
-                         !takes(DatagramType{std::to_integer<std::uint8_t>(datagram[1])});
-    return foreign ? Rejection::kType : *rejection;
-  }
+  if (const auto* rejection = std::get_if<Rejection>(&read)) return *rejection;
   const Header& header = std::get<Header>(read);
   if (!takes(header.type)) return Rejection::kType;
-  if (const auto rejection = endpoint_.judge(now, header)) return rejection;
-  return accept(now, header, datagram.subspan(kHeaderBytes), datagram.size());
+  if (const auto rejection = endpoint_.judge(header)) return rejection;
+  const auto sealed = datagram.subspan(kHeaderBytes);
+  if (!seals_->in.open(nonce_of(header), datagram.first(kHeaderBytes), sealed, body_))
+    return Rejection::kAuthentication;
+
+  const bool newest = endpoint_.mark(header);
+  if (newest) channel_.answer_to(impairment_.origin());
+  return accept(now, {header, std::span<const std::byte>(body_).first(sealed.size() - kTagBytes), newest});
 }
 
 template <class Message>
-std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time now, const Header& header,
-                                           std::span<const std::byte> body, std::size_t bytes) {
-  const auto decoded = codec_.decode<Message>(body);
+std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time now,
+                                           const Opened& datagram) {
+  const auto decoded = codec_.decode<Message>(datagram.body);
   if (const auto* rejection = std::get_if<Rejection>(&decoded)) return *rejection;
   const auto& [stamp, message] = std::get<Decoded<Message>>(decoded);
-  const auto committed = endpoint_.commit(now, header, stamp, bytes);
-  if (const auto* rejection = std::get_if<Rejection>(&committed)) return *rejection;
-  const auto& accepted = std::get<Endpoint::Accepted>(committed);
-  inbox.push({header.sequence, stamp.sent, now, accepted.echo_sent, accepted.newest, message});
+  const auto echo_sent = endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
+  inbox.push({datagram.header.sequence, stamp.sent, now, echo_sent, datagram.newest, message});
   return std::nullopt;
 }
 
 template <class Message>
 std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message) {
+  const auto header = endpoint_.number(type, sequence);
+  if (!header) return 0;
   std::array<std::byte, kDatagramMaxBytes> datagram;
   const auto body = std::span(datagram).subspan(kHeaderBytes);
-  const std::size_t size = kHeaderBytes + codec_.encode(endpoint_.stamp_for(now), message, body);
-  const auto bytes = std::span(datagram).first(size);
-  write_header(endpoint_.header_for(type, sequence), bytes);
-  channel_.send(bytes);
-  return size;
+  const std::size_t size = codec_.encode(endpoint_.stamp_for(now), message, body.first(kBodyMaxBytes));
+  write_header(*header, datagram);
+  seals_->out.close(nonce_of(*header), std::span(datagram).first(kHeaderBytes), body.first(size + kTagBytes));
+  channel_.send(std::span(datagram).first(size + kOverheadBytes));
+  return size + kOverheadBytes;
 }
 
 bool MasterPort::takes(DatagramType type) const {
   return type == DatagramType::kStiffnessReport || type == DatagramType::kTelemetry;
 }
 
-std::optional<Rejection> MasterPort::accept(Time now, const Header& header, std::span<const std::byte> body,
-                                            std::size_t bytes) {
-  return header.type == DatagramType::kStiffnessReport ? accept_into(reports_, now, header, body, bytes)
-                                                       : accept_into(telemetry_, now, header, body, bytes);
+std::optional<Rejection> MasterPort::accept(Time now, const Opened& datagram) {
+  return datagram.header.type == DatagramType::kStiffnessReport ? accept_into(reports_, now, datagram)
+                                                                : accept_into(telemetry_, now, datagram);
 }
 
 void MasterPort::open_inboxes() {
@@ -111,9 +127,8 @@ void MasterPort::send(Time now, std::uint64_t sequence, const MotionCommand& com
 
 bool SlavePort::takes(DatagramType type) const { return type == DatagramType::kMotionCommand; }
 
-std::optional<Rejection> SlavePort::accept(Time now, const Header& header, std::span<const std::byte> body,
-                                           std::size_t bytes) {
-  return accept_into(commands_, now, header, body, bytes);
+std::optional<Rejection> SlavePort::accept(Time now, const Opened& datagram) {
+  return accept_into(commands_, now, datagram);
 }
 
 void SlavePort::open_inboxes() { commands_.open(); }

@@ -1,11 +1,13 @@
 #pragma once
-// The shell between a node and a channel: impairment, header checks, session and replay, decoding, values;
-// and the way back. Both programs and the laboratory use it, so the laboratory's bytes are real bytes.
+// The shell between a node and a channel: impairment, header, session, replay, authentication, decoding,
+// values; and the way back. Both programs and the laboratory use it, so the laboratory's bytes are real
+// bytes.
 //
-// receive() drains the channel through the impairment; what was accepted stays available until the next
-// receive(). A rejected datagram changes nothing but its counter. Nothing allocates after construction.
-// Bounded: at most kDatagramsPerReceive datagrams a call; of what was accepted the newest kInboxCapacity of a
-// type.
+// Without a session (`follow`) nothing leaves and nothing is accepted. receive() drains the channel through
+// the impairment; what was accepted stays available until the next receive(). A datagram that is not
+// authentic changes nothing but a counter; an authentic one uses up its number, whatever its values. Nothing
+// allocates after construction. Bounded: at most kDatagramsPerReceive datagrams a call; of what was accepted
+// the newest kInboxCapacity of a type.
 
 #include <array>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "common/crypto/seal.hpp"
 #include "common/link/endpoint.hpp"
 #include "common/link/header.hpp"
 #include "common/link/impairment.hpp"
@@ -31,11 +34,14 @@ constexpr std::size_t kInboxCapacity = 256;
 /// What both sides' ports share.
 class Port {
  public:
-  /// `channel` must outlive the port. `session`: see Endpoint.
-  Port(Channel& channel, std::uint64_t session, const ImpairmentConfig& impairment, Random random);
+  /// `channel` must outlive the port. `out`: the way that what it sends goes.
+  Port(Channel& channel, const ImpairmentConfig& impairment, Random random, Way out);
   virtual ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
+
+  /// Takes part in a session, not number zero, and in no other any more.
+  void follow(const Session& session);
 
   void receive(Time now);
 
@@ -49,16 +55,20 @@ class Port {
  protected:
   /// Whether this side takes datagrams of this type.
   [[nodiscard]] virtual bool takes(DatagramType type) const = 0;
-  /// Decodes, commits and keeps the message of a judged datagram of `bytes` bytes.
-  virtual std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
-                                          std::size_t bytes) = 0;
+  /// An authentic datagram: header, body in clear, whether no newer one of its type came before.
+  struct Opened {
+    Header header{};
+    std::span<const std::byte> body{};
+    bool newest = false;
+  };
+  /// Decodes, books and keeps its message.
+  virtual std::optional<Rejection> accept(Time now, const Opened& datagram) = 0;
   /// Forgets what the last receive() accepted, and puts what this one accepted in order.
   virtual void open_inboxes() = 0;
   virtual void close_inboxes() = 0;
 
   template <class Message>
-  std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Header& header,
-                                       std::span<const std::byte> body, std::size_t bytes);
+  std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Opened& datagram);
   template <class Message>
   std::size_t send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
 
@@ -66,26 +76,36 @@ class Port {
   std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram);
   void count(std::optional<Rejection> rejection);
 
+  /// Keys of a session.
+  struct Seals {
+    Seals(const Session& session, Way way_out);
+    Seal out;
+    Seal in;
+  };
+
   Channel& channel_;
+  Way out_;
   Endpoint endpoint_;
+  std::optional<Seals> seals_{};
   Impairment impairment_;
   Codec codec_;
   RejectionCounts rejected_{};
   std::uint64_t accepted_ = 0;
   std::array<std::byte, kDatagramMaxBytes> buffer_{};
+  std::array<std::byte, kBodyMaxBytes> body_{};
 };
 
 class MasterPort : public Port {
  public:
-  using Port::Port;
+  MasterPort(Channel& channel, const ImpairmentConfig& impairment, Random random)
+      : Port(channel, impairment, random, Way::kToSlave) {}
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
   void send(Time now, std::uint64_t sequence, const MotionCommand& command);
 
  private:
   [[nodiscard]] bool takes(DatagramType type) const override;
-  std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
-                                  std::size_t bytes) override;
+  std::optional<Rejection> accept(Time now, const Opened& datagram) override;
   void open_inboxes() override;
   void close_inboxes() override;
 
@@ -95,16 +115,16 @@ class MasterPort : public Port {
 
 class SlavePort : public Port {
  public:
-  using Port::Port;
+  SlavePort(Channel& channel, const ImpairmentConfig& impairment, Random random)
+      : Port(channel, impairment, random, Way::kToMaster) {}
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
-  /// Returns the size of the datagram, bytes.
+  /// Returns the size of the datagram, bytes; 0: none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
 
  private:
   [[nodiscard]] bool takes(DatagramType type) const override;
-  std::optional<Rejection> accept(Time now, const Header& header, std::span<const std::byte> body,
-                                  std::size_t bytes) override;
+  std::optional<Rejection> accept(Time now, const Opened& datagram) override;
   void open_inboxes() override;
   void close_inboxes() override;
 

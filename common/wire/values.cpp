@@ -175,17 +175,18 @@ bool link_figures_possible(const proto::Telemetry& in) {
 
 void write(const Stamp& stamp, proto::Stamp& out) {
   out.set_sent_ns(stamp.sent.time_since_epoch().count());
-  out.set_echo_session(stamp.echo.session);
-  out.set_echo_sent_ns(stamp.echo.sent_ns);
-  out.set_echo_held_ns(stamp.echo.held.count());
+  out.clear_echo_sent_ns();
+  if (stamp.echo) out.set_echo_sent_ns(stamp.echo->sent_ns);
+  out.set_echo_held_ns(stamp.echo ? stamp.echo->held.count() : 0);
 }
 
 std::optional<Stamp> read_stamp(const proto::Stamp& in) {
   const auto possible = [](std::int64_t ns) { return ns >= -kInstantMaxNs && ns <= kInstantMaxNs; };
   if (!possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return std::nullopt;
   if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return std::nullopt;
-  return Stamp{PeerTime(Duration(in.sent_ns())),
-               Echo{in.echo_session(), in.echo_sent_ns(), Duration(in.echo_held_ns())}};
+  Stamp stamp{.sent = PeerTime(Duration(in.sent_ns()))};
+  if (in.has_echo_sent_ns()) stamp.echo = Echo{in.echo_sent_ns(), Duration(in.echo_held_ns())};
+  return stamp;
 }
 
 void write(const MotionCommand& command, proto::MotionCommand& out) {

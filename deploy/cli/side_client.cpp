@@ -1,6 +1,5 @@
 #include "deploy/cli/side_client.hpp"
 
-#include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
 #include <array>
@@ -10,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "common/io/rpc_channel.hpp"
 #include "common/io/rpc_server.hpp"
 #include "proto/control.grpc.pb.h"
 
@@ -23,21 +23,6 @@ constexpr auto kRetryAfter = std::chrono::milliseconds(500);
 
 const std::string& address_of(Side side, const Options& options) {
   return side == Side::kMaster ? options.master_address : options.slave_address;
-}
-
-std::shared_ptr<grpc::Channel> connect(const std::string& address) {
-  // gRPC's own log lines would stand beside the one sentence of the error.
-  gpr_set_log_function([](gpr_log_func_args*) {});
-  grpc::ChannelArguments arguments;
-  // The addresses are the user's own machines: a proxy for the web does not lead there.
-  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  // A connection over seconds of delay needs several round trips; the call's deadline is the limit.
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 90'000);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
 
 std::string down_sentence(Side side, const Options& options, bool timed_out) {
@@ -104,7 +89,7 @@ struct SideClient::State {
 };
 
 SideClient::SideClient(Side side, const Options& options)
-    : state_(new State{side, options, proto::Control::NewStub(connect(address_of(side, options)))}) {}
+    : state_(new State{side, options, proto::Control::NewStub(connect_rpc(address_of(side, options)))}) {}
 SideClient::SideClient(SideClient&&) noexcept = default;
 SideClient::~SideClient() = default;
 
@@ -167,7 +152,7 @@ struct StatusStream::State {
         options(the_options),
         rate_hz(the_rate_hz),
         silence_max(options.timeout_s + 2.0 / rate_hz),
-        stub(proto::Control::NewStub(connect(address_of(side, options)))) {}
+        stub(proto::Control::NewStub(connect_rpc(address_of(side, options)))) {}
 
   /// Reads one stream until it ends.
   void read() {

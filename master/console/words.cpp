@@ -101,6 +101,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
 }
 
 std::string happening(const ConsoleSnapshot& s) {
+  if (!s.trouble.empty()) return s.trouble;
   if (!heard(s)) return "waiting for the first news from the slave";
   switch (s.view.state) {
     case SafetyState::kIdle:

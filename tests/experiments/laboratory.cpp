@@ -6,13 +6,24 @@
 
 namespace longreach {
 
+namespace {
+
 constexpr Duration kFigures = std::chrono::milliseconds(250);
+
+/// Nobody's secret: the run is named by its seed.
+Session session_of(Random random) {
+  Session session{.number = 1};
+  for (auto& b : session.secret) b = static_cast<std::byte>(random.next());
+  return session;
+}
+
+}  // namespace
 
 Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
     : period_(from_seconds(1.0 / master.loop.rate_hz)),
       random_(seed),
-      master_port_(channels_.a(), 2, master.link.impairment, random_.child("down")),
-      slave_port_(channels_.b(), 1, slave.link.impairment, random_.child("up")),
+      master_port_(channels_.a(), master.link.impairment, random_.child("down")),
+      slave_port_(channels_.b(), slave.link.impairment, random_.child("up")),
       slave_node_(slave),
       master_node_(master),
       arm_(slave, random_.child("arm")),
@@ -24,12 +35,17 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
         "= "
         "STIFFNESS or NAIVE");
   }
+  const Session session = session_of(random_.child("session"));
+  master_port_.follow(session);
+  slave_port_.follow(session);
 }
 
 void Laboratory::step() {
   elapsed_ += period_;
   step_slave();
+  if (intruder_) intruder_(channels_);
   step_master();
+  if (intruder_) intruder_(channels_);
 }
 
 void Laboratory::step_slave() {
@@ -41,7 +57,7 @@ void Laboratory::step_slave() {
   in.robot = arm_.read(now);
   in.commands = slave_port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
-  in.peer_session_count = endpoint.peer_session() == 0 ? 0 : endpoint.peer_restarts() + 1;
+  in.peer_session_count = endpoint.sessions();
   in.rejected = slave_port_.rejected_total();
   const SlaveOutput out = slave_node_.step(in);
   arm_.write(out.joint_setpoint_rad);
@@ -50,7 +66,7 @@ void Laboratory::step_slave() {
     report_places_.push(slave_node_.view().reported_at_m);
     last_report_ = out.report_sequence;
     ++haptic_return_.datagrams;
-    haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kHeaderBytes;
+    haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kOverheadBytes;
   }
   if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
 }
@@ -80,7 +96,7 @@ void Laboratory::step_master() {
   in.requests = requests_;
   if (script.mode && !driven_) in.requests.mode = script.mode;
   in.last_heard = endpoint.monitor().last_heard();
-  in.peer_restarts = endpoint.peer_restarts();
+  in.peer_restarts = endpoint.restarts();
   // As the programs do, not every tick: it sorts what was heard in the last seconds.
   if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
   in.rtt_s = rtt_s_;

@@ -4,7 +4,9 @@
 // named by (commit, config, seed): the same name gives the same bytes.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
@@ -19,7 +21,7 @@ namespace longreach {
 /// What the slave has sent of the one haptic quantity.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
-  std::uint64_t bytes = 0;  // without header
+  std::uint64_t bytes = 0;  // without header and tag
 };
 
 class Laboratory {
@@ -51,6 +53,9 @@ class Laboratory {
   OperatorRequests& requests() { return requests_; }
   /// The person lets go of the handles for good.
   void let_go() { let_go_ = true; }
+  /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
+  /// slave).
+  void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
 
  private:
   [[nodiscard]] Time master_now() const { return Time{std::chrono::seconds(100)} + elapsed_; }
@@ -73,6 +78,7 @@ class Laboratory {
   OperatorRequests requests_{};
   std::optional<double> rtt_s_{};
   bool let_go_ = false;
+  std::function<void(MemoryChannelPair&)> intruder_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
   HapticReturn haptic_return_{};

@@ -108,7 +108,7 @@ TEST_F(Station, GarbageOverTheSocketChangesNothing) {
   for (auto& b : bytes) b = static_cast<unsigned char>(random.next());
   for (std::size_t i = 0; i < 3000; ++i) {
     const std::size_t size = i % 100 == 0 ? bytes.size() : i % 600;
-    bytes[0] = i % 2 == 0 ? 1 : bytes[1];  // half of them with the right version
+    bytes[0] = i % 2 == 0 ? 2 : bytes[1];  // half of them with the right version
     ::sendto(garbage, bytes.data() + (i % 2) * (i % 7), size - std::min<std::size_t>(size, 7), 0,
              reinterpret_cast<sockaddr*>(&address), sizeof address);
     if (i % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -125,6 +125,45 @@ TEST_F(Station, GarbageOverTheSocketChangesNothing) {
   const auto heard = master_.counter("accepted");  // the slave still answers the master
   EXPECT_TRUE(eventually([&] { return master_.counter("accepted") > heard + 20; }));
   EXPECT_EQ(master_.state(), "Engaged");
+}
+
+TEST_F(Station, ASecondMasterIsRefusedAndHarmless) {
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const auto before = slave_.status();
+  ASSERT_TRUE(before);
+  RunningProgram second(
+      "longreach-master",
+      {"--set", "link.slave=" + link_address(), "--set",
+       "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc), "--set", "link.listen=127.0.0.1:0",
+       "--set", "rpc.listen=127.0.0.1:0", "--view", "plain", "--operator", "none", "--engage"});
+  const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
+                           ": another master is connected";
+  ASSERT_TRUE(eventually([&] { return second.output().find(said) != std::string::npos; })) << second.output();
+  const auto heard = master_.counter("accepted");
+  ASSERT_TRUE(eventually([&] { return master_.counter("accepted") > heard + 50; }));
+  const auto after = slave_.status();
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->state(), "Engaged");
+  EXPECT_EQ(after->engagement(), before->engagement());
+  EXPECT_EQ(slave_.counter("peer_restarts"), 0u);
+  EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0u);
+  EXPECT_EQ(master_.state(), "Engaged");
+  // When the first one leaves, the second has its turn.
+  master_program_->signal(SIGTERM);
+  EXPECT_TRUE(eventually([&] { return slave_.counter("peer_restarts") == 1 && slave_.state() == "Engaged"; }))
+      << second.output();
+}
+
+TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {
+  start_master({"--operator", "none", "--engage"});
+  const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
+                           ": it does not answer; start longreach-slave there";
+  ASSERT_TRUE(eventually([&] { return master_program_->output().find(said) != std::string::npos; }))
+      << outputs();
+  start_slave();
+  EXPECT_TRUE(both_engaged()) << outputs();
 }
 
 TEST_F(Station, StopsFromEitherSideAndChangesWhatMayChange) {

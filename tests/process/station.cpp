@@ -89,10 +89,12 @@ void Station::start_slave(const std::vector<std::string>& more) {
 }
 
 void Station::start_master(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"--set",  "link.slave=" + link_address(),
-                                        "--set",  "link.listen=127.0.0.1:0",
-                                        "--set",  "rpc.listen=127.0.0.1:" + std::to_string(ports_.master_rpc),
-                                        "--view", "none"};
+  std::vector<std::string> arguments = {
+      "--set",  "link.slave=" + link_address(),
+      "--set",  "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc),
+      "--set",  "link.listen=127.0.0.1:0",
+      "--set",  "rpc.listen=127.0.0.1:" + std::to_string(ports_.master_rpc),
+      "--view", "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   master_program_ = std::make_unique<RunningProgram>("longreach-master", arguments);
 }

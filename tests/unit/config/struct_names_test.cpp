@@ -135,6 +135,7 @@ void expect_same(const MasterLinkConfig& s, const proto::MasterLink& m) {
   EXPECT_EQ(s.listen, m.listen());
   EXPECT_EQ(s.send_hz, m.send_hz());
   expect_same(s.impairment, m.impairment());
+  EXPECT_EQ(s.slave_rpc, m.slave_rpc());
 }
 
 TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {

@@ -96,6 +96,20 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return change("stop", [] {});
   }
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(
+      const proto::OpenSessionRequest& request) override {
+    const Inside inside(*this);
+    if (auto refusal = change("open_session", [] {})) return *std::move(refusal);
+    proto::OpenSessionResponse response;
+    response.set_session(present_session_);
+    if (request.session() != present_session_) response.set_secret(std::string(32, 's'));
+    return response;
+  }
+  /// Of the session that it opens; a caller that has it keeps it.
+  void put_session(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    present_session_ = number;
+  }
 
  private:
   class Inside {
@@ -131,6 +145,7 @@ class FakeBackend : public ControlBackend {
   proto::SlaveConfig config_;
   proto::Impairment link_;
   double scale_ = 0.5;
+  std::uint64_t present_session_ = 77;
 };
 
 }  // namespace longreach

@@ -88,19 +88,24 @@ TEST(Allocation, PlayoutAllocatesNothing) {
 }
 
 TEST(Allocation, EndpointAndMonitorAllocateNothing) {
-  Endpoint a(1), b(2);
+  Endpoint a, b;
   std::vector<std::byte> datagram(100);
   const std::size_t n = allocations_of([&](int i) {
+    if (i % 1000 == 1) {
+      a.follow(static_cast<std::uint64_t>(i));
+      b.follow(static_cast<std::uint64_t>(i));
+    }
     const auto number = static_cast<std::uint64_t>(i);
-    const Header sent = a.header_for(DatagramType::kMotionCommand, number);
-    write_header(sent, datagram);
+    write_header(*a.number(DatagramType::kMotionCommand, number), datagram);
     const auto read = read_header(datagram);
     const Header header = std::get<Header>(read);
-    if (!b.judge(at(i), header)) (void)b.commit(at(i), header, a.stamp_for(at(i)), datagram.size());
-    (void)a.commit(at(i), b.header_for(DatagramType::kTelemetry, number), b.stamp_for(at(i)), 100);
+    if (!b.judge(header) && b.mark(header)) (void)b.learn(at(i), header, a.stamp_for(at(i)), datagram.size());
+    const auto answer = b.number(DatagramType::kTelemetry, number);
+    if (a.mark(*answer)) (void)a.learn(at(i), *answer, b.stamp_for(at(i)), 100);
     if (i % 50 == 0) (void)a.monitor().figures(at(i));
   });
   EXPECT_EQ(n, 0U);
+  EXPECT_EQ(b.monitor().last_heard(), at(30000));
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <set>
 
 #include "common/core/random.hpp"
+#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {
@@ -36,24 +38,50 @@ TEST(ReplayWindow, AgreesWithASetForEveryThreeNumbersAtWidth64) {
       for (const auto c : numbers) {
         ReplayWindow window(64);
         Oracle oracle(64);
-        for (const auto n : {a, b, c, a, b, c})
-          ASSERT_EQ(window.accept(n), oracle.accept(n)) << a << ' ' << b << ' ' << c;
+        for (const auto n : {a, b, c, a, b, c}) {
+          const bool fresh = window.fresh(n);
+          ASSERT_EQ(fresh, oracle.accept(n)) << a << ' ' << b << ' ' << c;
+          ASSERT_EQ(window.accept(n), fresh) << a << ' ' << b << ' ' << c;
+        }
       }
     }
   }
 }
 
-TEST(ReplayWindow, AgreesWithASetForEveryStepBackAndForthAtWidth64) {
-  for (std::uint64_t first = 1; first <= 130; ++first) {
-    for (std::uint64_t second = 1; second <= 330; ++second) {
-      ReplayWindow window(64);
-      Oracle oracle(64);
-      ASSERT_EQ(window.accept(first), oracle.accept(first));
-      ASSERT_EQ(window.accept(second), oracle.accept(second));
-      for (std::uint64_t n = 0; n <= 330; n += 1 + (first + second) % 3) {
-        ASSERT_EQ(window.accept(n), oracle.accept(n)) << first << ' ' << second << ' ' << n;
+TEST(ReplayWindow, AgreesWithASetForEveryTwoNumbersOf12BitsAtWidth64) {
+  constexpr std::uint64_t kEnd = 1U << 12;
+  const auto stride = static_cast<std::uint64_t>(campaign(1, 16));
+  ReplayWindow window(64);
+  for (std::uint64_t first = 0; first < kEnd; first += stride) {
+    for (std::uint64_t second = 0; second < kEnd; ++second) {
+      window.clear();
+      std::set<std::uint64_t> seen;
+      std::uint64_t newest = 0;
+      for (const std::uint64_t n : {first, second, first, second}) {
+        const bool expected = n != 0 && n + 64 > newest && seen.insert(n).second;
+        newest = std::max(newest, n);
+        ASSERT_EQ(window.fresh(n), expected) << first << ' ' << second << ' ' << n;
+        ASSERT_EQ(window.accept(n), expected) << first << ' ' << second << ' ' << n;
       }
     }
+  }
+}
+
+// From every state that 12 bits of numbers lead to by steps forward, every number is tried, behind and ahead.
+TEST(ReplayWindow, AgreesWithASetForEveryNumberOf12BitsBehindASieve) {
+  constexpr std::uint64_t kEnd = 1U << 12;
+  for (std::uint64_t step = 1; step <= 130; ++step) {
+    ReplayWindow window(64);
+    Oracle oracle(64);
+    for (std::uint64_t front = 1; front < kEnd; front += step) {
+      ASSERT_EQ(window.accept(front), oracle.accept(front));
+      // All that the window can still tell apart, and beyond its edge.
+      for (std::uint64_t n = front > 70 ? front - 70 : 0; n <= front; n += 1 + step % 3) {
+        ASSERT_EQ(window.accept(n), oracle.accept(n)) << step << ' ' << front << ' ' << n;
+      }
+    }
+    for (std::uint64_t n = 0; n < kEnd; ++n)
+      ASSERT_EQ(window.accept(n), oracle.accept(n)) << step << ' ' << n;
   }
 }
 

@@ -1,23 +1,30 @@
 #pragma once
-// Datagrams to try on a port: ordinary and extreme messages, and bytes made by hand with a valid header.
+// Datagrams to try on a port: ordinary and extreme messages, and bytes sealed by hand.
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "common/crypto/seal.hpp"
 #include "common/link/header.hpp"
 #include "common/wire/codec.hpp"
 
 namespace longreach::samples {
 
-constexpr std::uint64_t kPeerSession = 1000;
+/// A session with a secret of its own for each number.
+inline Session session(std::uint64_t number = 1000, Cipher cipher = Cipher::kChaCha20Poly1305) {
+  Session s{.number = number, .cipher = cipher};
+  for (std::size_t i = 0; i < s.secret.size(); ++i) s.secret[i] = static_cast<std::byte>(7 * number + i);
+  return s;
+}
 
 inline Stamp stamp(std::int64_t sent_ns = 1'000'000) { return {PeerTime(Duration(sent_ns)), Echo{}}; }
 
 inline Stamp extreme_stamp() {
-  return {PeerTime(Duration(-kInstantMaxNs)),
-          Echo{std::numeric_limits<std::uint64_t>::max(), kInstantMaxNs, Duration(kHeldMaxNs)}};
+  return {PeerTime(Duration(-kInstantMaxNs)), Echo{kInstantMaxNs, Duration(kHeldMaxNs)}};
 }
 
 inline MotionCommand command() {
@@ -118,11 +125,20 @@ inline Telemetry extreme_telemetry() {
   return t;
 }
 
+constexpr Way way_of(DatagramType type) {
+  return type == DatagramType::kMotionCommand ? Way::kToSlave : Way::kToMaster;
+}
+
+/// The body, sealed as the sender of such a datagram does.
 template <class Bytes>
-std::vector<std::byte> with_header(const Header& header, const Bytes& body) {
-  std::vector<std::byte> out(kHeaderBytes + body.size());
+std::vector<std::byte> sealed(DatagramType type, std::uint64_t sequence, const Bytes& body,
+                              const Session& with = session()) {
+  std::vector<std::byte> out(kOverheadBytes + body.size());
   std::transform(body.begin(), body.end(), out.begin() + kHeaderBytes, [](auto c) { return std::byte(c); });
-  write_header(header, out);
+  write_header({type, with.number, sequence}, out);
+  Seal(with, way_of(type))
+      .close({static_cast<std::uint8_t>(type), sequence}, std::span(out).first(kHeaderBytes),
+             std::span(out).subspan(kHeaderBytes));
   return out;
 }
 
@@ -151,8 +167,8 @@ std::string body_of(const Message& message, const Stamp& at = stamp()) {
 
 template <class Message>
 std::vector<std::byte> datagram(const Message& message, std::uint64_t sequence,
-                                std::uint64_t session = kPeerSession) {
-  return with_header({type_of<Message>(), session, sequence}, body_of(message));
+                                const Session& with = session()) {
+  return sealed(type_of<Message>(), sequence, body_of(message), with);
 }
 
 }  // namespace longreach::samples

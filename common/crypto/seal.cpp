@@ -1,0 +1,88 @@
+#include "common/crypto/seal.hpp"
+
+#include <sodium.h>
+
+#include "common/core/check.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr char kContext[crypto_kdf_CONTEXTBYTES + 1] = "longrch2";  // 2: the wire version
+constexpr std::uint64_t kDirections = 2;
+
+using NonceBytes = std::array<unsigned char, 12>;
+
+NonceBytes bytes_of(const Nonce& nonce) {
+  NonceBytes out{nonce.type};
+  for (std::size_t i = 0; i < 8; ++i)
+    out[4 + i] = static_cast<unsigned char>(nonce.sequence >> (8 * (7 - i)));
+  return out;
+}
+
+const unsigned char* raw(std::span<const std::byte> bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+unsigned char* raw(std::span<std::byte> bytes) { return reinterpret_cast<unsigned char*>(bytes.data()); }
+
+template <std::size_t N>
+auto* state_of(std::array<unsigned char, N>& bytes) {
+  return reinterpret_cast<crypto_aead_aes256gcm_state*>(bytes.data());
+}
+template <std::size_t N>
+const auto* state_of(const std::array<unsigned char, N>& bytes) {
+  return reinterpret_cast<const crypto_aead_aes256gcm_state*>(bytes.data());
+}
+
+}  // namespace
+
+Seal::Seal(const Session& session, Way way) : cipher_(session.cipher) {
+  static_assert(
+      kSecretBytes == crypto_kdf_KEYBYTES && kTagBytes == crypto_aead_chacha20poly1305_ietf_ABYTES &&
+      kTagBytes == crypto_aead_aes256gcm_ABYTES && sizeof(NonceBytes) == crypto_aead_aes256gcm_NPUBBYTES &&
+      sizeof(NonceBytes) == crypto_aead_chacha20poly1305_ietf_NPUBBYTES &&
+      kKeyBytes == crypto_aead_chacha20poly1305_ietf_KEYBYTES &&
+      kKeyBytes == crypto_aead_aes256gcm_KEYBYTES && kAesStateBytes == sizeof(crypto_aead_aes256gcm_state));
+  CHECK(sodium_init() >= 0);
+  const std::uint64_t id =
+      kDirections * static_cast<std::uint64_t>(cipher_) + static_cast<std::uint64_t>(way);
+  CHECK(crypto_kdf_derive_from_key(key_.data(), key_.size(), id, kContext, raw(std::span(session.secret))) ==
+        0);
+  if (cipher_ == Cipher::kAes256Gcm) {
+    CHECK(has_aes256gcm() && crypto_aead_aes256gcm_beforenm(state_of(aes_), key_.data()) == 0);
+  }
+}
+
+Seal::~Seal() {
+  sodium_memzero(key_.data(), key_.size());
+  sodium_memzero(aes_.data(), aes_.size());
+}
+
+void Seal::close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const {
+  CHECK(body.size() >= kTagBytes);
+  const NonceBytes n = bytes_of(nonce);
+  unsigned char* const at = raw(body);
+  const std::size_t size = body.size() - kTagBytes;
+  if (cipher_ == Cipher::kAes256Gcm) {
+    crypto_aead_aes256gcm_encrypt_afternm(at, nullptr, at, size, raw(header), header.size(), nullptr,
+                                          n.data(), state_of(aes_));
+  } else {
+    crypto_aead_chacha20poly1305_ietf_encrypt(at, nullptr, at, size, raw(header), header.size(), nullptr,
+                                              n.data(), key_.data());
+  }
+}
+
+bool Seal::open(const Nonce& nonce, std::span<const std::byte> header, std::span<const std::byte> sealed,
+                std::span<std::byte> body) const {
+  if (sealed.size() < kTagBytes) return false;
+  CHECK(body.size() >= sealed.size() - kTagBytes);
+  const NonceBytes n = bytes_of(nonce);
+  const int opened =
+      cipher_ == Cipher::kAes256Gcm
+          ? crypto_aead_aes256gcm_decrypt_afternm(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
+                                                  raw(header), header.size(), n.data(), state_of(aes_))
+          : crypto_aead_chacha20poly1305_ietf_decrypt(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
+                                                      raw(header), header.size(), n.data(), key_.data());
+  return opened == 0;
+}
+
+}  // namespace longreach

@@ -1,0 +1,53 @@
+#pragma once
+// Authenticated encryption of the datagrams of one direction of one session (AEAD, libsodium).
+//
+//   key   = KDF(secret; cipher, direction)    BLAKE2b, crypto_kdf_derive_from_key
+//   nonce = type (1) | 0 (3) | sequence (8)   big-endian, once under each key: who seals counts
+//   (body, header) -> encrypted body | tag (16); the header is authenticated and stays in clear
+//
+// What one direction has sealed does not open in the other. Does not handle: nonces that come again, order,
+// replay (common/link). Allocates nothing.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "common/crypto/session.hpp"
+
+namespace longreach {
+
+constexpr std::size_t kTagBytes = 16;
+
+enum class Way : std::uint8_t { kToSlave = 1, kToMaster = 2 };
+
+struct Nonce {
+  std::uint8_t type = 0;
+  std::uint64_t sequence = 0;
+};
+
+class Seal {
+ public:
+  Seal(const Session& session, Way way);
+  ~Seal();  // wipes the key
+  Seal(const Seal&) = delete;
+  Seal& operator=(const Seal&) = delete;
+
+  /// Encrypts in place: `body` holds the body, then room for the tag.
+  void close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const;
+
+  /// Writes the body of `sealed` (body, then tag) to `body` and returns true if it was closed with this key,
+  /// nonce and header. If not, `body` holds nothing of it. `body` has room for all but the tag.
+  [[nodiscard]] bool open(const Nonce& nonce, std::span<const std::byte> header,
+                          std::span<const std::byte> sealed, std::span<std::byte> body) const;
+
+ private:
+  static constexpr std::size_t kKeyBytes = 32;
+  static constexpr std::size_t kAesStateBytes = 512;
+
+  Cipher cipher_;
+  std::array<unsigned char, kKeyBytes> key_{};
+  alignas(16) std::array<unsigned char, kAesStateBytes> aes_{};  // round keys; not used by ChaCha20
+};
+
+}  // namespace longreach

@@ -1,0 +1,27 @@
+#include "common/crypto/session.hpp"
+
+#include <sodium.h>
+
+#include "common/core/check.hpp"
+
+namespace longreach {
+namespace {
+
+void start_sodium() { CHECK(sodium_init() >= 0); }
+
+}  // namespace
+
+bool has_aes256gcm() {
+  start_sodium();
+  return crypto_aead_aes256gcm_is_available() == 1;
+}
+
+Session draw_session(Cipher cipher) {
+  start_sodium();
+  Session session{.cipher = cipher};
+  while (session.number == 0) randombytes_buf(&session.number, sizeof session.number);
+  randombytes_buf(session.secret.data(), session.secret.size());
+  return session;
+}
+
+}  // namespace longreach

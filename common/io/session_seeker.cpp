@@ -1,0 +1,129 @@
+#include "common/io/session_seeker.hpp"
+
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "common/io/rpc_channel.hpp"
+#include "common/io/rpc_server.hpp"
+#include "proto/control.grpc.pb.h"
+
+namespace longreach {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kSilence_s = 1.0;  // after which the slave is asked; it gives a session away no sooner
+constexpr auto kLookPeriod = milliseconds(50);
+constexpr auto kAfterAnswer = milliseconds(1000);  // the datagrams are given time to come
+constexpr auto kRetryFirst = milliseconds(100);
+constexpr auto kRetryLast = milliseconds(2000);
+// Connecting over 10 s each way, with all its round trips.
+constexpr auto kCallTimeout = std::chrono::seconds(120);
+
+std::string sentence(const std::string& address, const grpc::ClientContext& context,
+                     const grpc::Status& status) {
+  const std::string begin = "no session with the slave at " + address + ": ";
+  if (context.GetServerTrailingMetadata().contains(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size())))
+    return begin + status.error_message();
+  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
+    return begin + "it does not know this call; use programs of one version";
+  return begin +
+         "it does not answer; start longreach-slave there, or set link.slave_rpc to where its RPC server "
+         "listens";
+}
+
+}  // namespace
+
+struct SessionSeeker::Rpc {
+  std::unique_ptr<proto::Control::Stub> stub;
+};
+
+SessionSeeker::SessionSeeker(std::string address, Look look, Adopt adopt)
+    : address_(std::move(address)),
+      look_(std::move(look)),
+      adopt_(std::move(adopt)),
+      rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_))}),
+      thread_([this] { run(); }) {}
+
+SessionSeeker::~SessionSeeker() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    if (call_ != nullptr) call_->TryCancel();
+    wake_.notify_all();
+  }
+  thread_.join();
+}
+
+std::string SessionSeeker::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_;
+}
+
+void SessionSeeker::run() {
+  milliseconds retry = kRetryFirst;
+  milliseconds pause{};
+  do {
+    const Present present = look_();
+    const bool needed = present.session == 0 || present.silence_s > kSilence_s;
+    pause = kLookPeriod;
+    if (!needed) continue;
+    std::string trouble = seek(present.session);
+    const bool done = trouble.empty();
+    pause = done ? kAfterAnswer : retry;
+    retry = done ? kRetryFirst : std::min(2 * retry, kRetryLast);
+    const std::lock_guard lock(mutex_);
+    trouble_ = std::move(trouble);
+  } while (wait(pause));
+}
+
+/// Asks once. Empty: the loop has a session that the slave knows; else why not.
+std::string SessionSeeker::seek(std::uint64_t present) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
+  {
+    const std::lock_guard lock(mutex_);
+    if (ended_) return trouble_;
+    call_ = &context;
+  }
+  proto::OpenSessionRequest request;
+  request.set_session(present);
+  request.set_aes256gcm(has_aes256gcm());
+  proto::OpenSessionResponse answer;
+  const grpc::Status status = rpc_->stub->OpenSession(&context, request, &answer);
+  {
+    const std::lock_guard lock(mutex_);
+    call_ = nullptr;
+  }
+  if (!status.ok()) return sentence(address_, context, status);
+  if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
+
+  Session session{.number = answer.session(),
+                  .cipher = answer.aes256gcm() ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305};
+  const bool usable = session.number != 0 && answer.secret().size() == session.secret.size() &&
+                      (session.cipher != Cipher::kAes256Gcm || has_aes256gcm());
+  if (!usable)
+    return "no session with the slave at " + address_ +
+           ": its answer cannot be used; use programs of one version";
+  std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
+  return adopt_(session) ? ""
+                         : "no session with the slave at " + address_ + ": the control loop did not take it";
+}
+
+/// False: it is time to end.
+bool SessionSeeker::wait(milliseconds time) {
+  std::unique_lock lock(mutex_);
+  wake_.wait_for(lock, time, [this] { return ended_; });
+  return !ended_;
+}
+
+std::string slave_rpc_address(const std::string& slave, const std::string& slave_rpc) {
+  if (!slave_rpc.empty()) return slave_rpc;
+  return slave.substr(0, slave.rfind(':')) +
+         std::string(kSlaveRpcAddress.substr(kSlaveRpcAddress.rfind(':')));
+}
+
+}  // namespace longreach

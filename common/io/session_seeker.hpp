@@ -1,0 +1,65 @@
+#pragma once
+// Keeps the master in a session with its slave: asks for one at the start, and again when the slave has been
+// silent, since it may have been restarted. A thread of its own: the loop never waits for it. A session that
+// the slave still knows is kept. After a failure it asks again, after 0.1 s at first and 2 s at last, until
+// it is ended.
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "common/crypto/session.hpp"
+
+namespace grpc {
+class ClientContext;
+}
+
+namespace longreach {
+
+class SessionSeeker {
+ public:
+  /// What the loop knows.
+  struct Present {
+    std::uint64_t session = 0;  // 0: none
+    double silence_s = 0.0;     // since the slave was heard in it
+  };
+  using Look = std::function<Present()>;
+  /// Hands a session to the loop; false: it did not take it.
+  using Adopt = std::function<bool(const Session&)>;
+
+  /// `address`: of the slave's RPC server. Both functions are called in the seeker's thread.
+  SessionSeeker(std::string address, Look look, Adopt adopt);
+  ~SessionSeeker();  // ends a call that is under way
+  SessionSeeker(const SessionSeeker&) = delete;
+  SessionSeeker& operator=(const SessionSeeker&) = delete;
+
+  /// Why there is no session: one sentence that names the slave's address and what to do. Empty: there is
+  /// one, or the first answer is awaited.
+  [[nodiscard]] std::string trouble() const;
+
+ private:
+  struct Rpc;
+  void run();
+  std::string seek(std::uint64_t present);
+  bool wait(std::chrono::milliseconds time);
+
+  const std::string address_;
+  const Look look_;
+  const Adopt adopt_;
+  std::unique_ptr<Rpc> rpc_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool ended_ = false;
+  grpc::ClientContext* call_ = nullptr;  // under way
+  std::string trouble_;
+  std::thread thread_;
+};
+
+/// Where the slave's RPC server listens: `slave_rpc`, or where that is empty its usual port at the address of
+/// `slave`.
+std::string slave_rpc_address(const std::string& slave, const std::string& slave_rpc);
+
+}  // namespace longreach
