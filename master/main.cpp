@@ -183,9 +183,10 @@ int operate(const MasterOptions& options) {
   auto& stop = stop_requested();
   set_up_log("master", options.log);
   const MasterConfig plain = to_struct(config);
+  const RpcSecurity security = security_of(options, RpcRole::kMaster);
   MasterShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
   MasterService service(shell, config);
-  RpcServer rpc(plain.rpc.listen, service, "master");
+  RpcServer rpc(plain.rpc.listen, service, "master", security);
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz);
   Housekeeping housekeeping(options, plain, shell, service);
@@ -213,7 +214,7 @@ int operate(const MasterOptions& options) {
   });
   {
     const SessionSeeker seeker(
-        slave_rpc_address(plain.link.slave, plain.link.slave_rpc),
+        slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security,
         [&service]() -> SessionSeeker::Present {
           const SideFigures side = service.snapshot().side;
           return {side.session, side.link.silence_s};

@@ -67,9 +67,10 @@ int serve(const ProgramOptions& options) {
   auto& stop = stop_requested();
   set_up_log("slave", options.log);
   const SlaveConfig plain = to_struct(config);
+  const RpcSecurity security = security_of(options, RpcRole::kSlave);
   SlaveShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
   SlaveService service(shell, config);
-  RpcServer rpc(plain.rpc.listen, service, "slave");
+  RpcServer rpc(plain.rpc.listen, service, "slave", security);
   log_start(config, shell, rpc);
 
   std::atomic<bool> end{false};

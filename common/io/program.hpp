@@ -10,6 +10,7 @@
 
 #include "common/config/config.hpp"
 #include "common/io/address.hpp"
+#include "common/io/site.hpp"
 
 namespace longreach {
 
@@ -22,6 +23,8 @@ struct ProgramOptions {
   std::string profile;
   std::optional<double> seconds{};
   std::string log;
+  std::string site;
+  bool insecure = false;
   bool check = false;
 };
 
@@ -39,7 +42,25 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
       ->type_name("N");
   app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
       ->type_name("FILE");
+  app.add_option("--site", options.site,
+                 "Folder of the certificates, made when there is none ($XDG_CONFIG_HOME/longreach)")
+      ->type_name("DIR");
+  app.add_flag("--insecure", options.insecure,
+               "RPC in clear and for everybody on this machine: simulated robots only");
   app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
+}
+
+/// Throws SiteError.
+inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
+  if (options.insecure) {
+    std::fputs(
+        "INSECURE: RPC is neither encrypted nor authenticated; whoever is on this machine can take the "
+        "robot\n",
+        stderr);
+    return {};
+  }
+  return {
+      site_credentials(options.site.empty() ? default_site() : std::filesystem::path(options.site), role)};
 }
 
 inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {

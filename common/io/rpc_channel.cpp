@@ -3,9 +3,14 @@
 #include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
+#include <stdexcept>
+
 namespace longreach {
 
-std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address) {
+std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
+                                           const RpcSecurity& security) {
+  if (!security.credentials && !is_loopback(address))
+    throw std::runtime_error(address + " is not on this machine: leave out --insecure to go there");
   // gRPC's own log lines would stand beside the one sentence of the error.
   gpr_set_log_function([](gpr_log_func_args*) {});
   grpc::ChannelArguments arguments;
@@ -17,7 +22,27 @@ std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address) {
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  if (!security.credentials)
+    return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  const RpcCredentials& own = *security.credentials;
+  arguments.SetSslTargetNameOverride(std::string(name_of(side)));
+  return grpc::CreateCustomChannel(address, grpc::SslCredentials({own.authority, own.key, own.certificate}),
+                                   arguments);
+}
+
+bool other_role(const grpc::Status& status) {
+  return status.error_code() == grpc::StatusCode::UNAVAILABLE &&
+         status.error_message().find("not in peer certificate") != std::string::npos;
+}
+
+// gRPC tells these apart from a side that is down by words alone.
+bool mistrusted(const grpc::Status& status) {
+  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return false;
+  const std::string message = status.error_message();
+  if (message.starts_with("empty address list")) return true;  // the own certificate cannot be used
+  // Later on a closed socket means a side that has gone.
+  return message.starts_with("failed to connect") && (message.find("handshake failed") != std::string::npos ||
+                                                      message.find("Socket closed") != std::string::npos);
 }
 
 }  // namespace longreach

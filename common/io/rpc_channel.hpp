@@ -3,13 +3,29 @@
 // link of seconds, where connecting takes several round trips; quick to find a side that has come back.
 
 #include <grpcpp/channel.h>
+#include <grpcpp/support/status.h>
 
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include "common/io/rpc_security.hpp"
 
 namespace longreach {
 
-/// `address`: address:port. Does not wait: the first call connects.
-std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address);
+/// `address`: address:port of the RPC server of `side`. Does not wait: the first call connects. Throws
+/// std::runtime_error for a connection in clear that would leave this machine.
+std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
+                                           const RpcSecurity& security);
+
+/// Whether a call failed because what answers has another role of the same site.
+bool other_role(const grpc::Status& status);
+/// Whether a call failed because one of the two does not trust the other's certificate; kMistrust says what
+/// to do.
+bool mistrusted(const grpc::Status& status);
+inline constexpr std::string_view kMistrust =
+    "does not trust this program's certificate, or shows one of another site; use one site folder for both "
+    "(--site), "
+    "and --insecure with both or with none";
 
 }  // namespace longreach

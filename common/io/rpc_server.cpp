@@ -75,7 +75,8 @@ class GrpcControl final : public proto::Control::Service {
  public:
   using Context = grpc::ServerContext;
 
-  GrpcControl(ControlBackend& backend, std::string_view side) : service_(backend), side_(side) {}
+  GrpcControl(ControlBackend& backend, std::string_view side, bool secured)
+      : service_(backend), side_(side), secured_(secured) {}
 
   grpc::Status GetStatus(Context*, const proto::StatusRequest*, proto::Status* answer) override {
     *answer = service_.status();
@@ -113,6 +114,8 @@ class GrpcControl final : public proto::Control::Service {
   }
   grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
                            proto::OpenSessionResponse* answer) override {
+    if (secured_ && !is_from(RpcRole::kMaster, *context))
+      return {grpc::StatusCode::PERMISSION_DENIED, "only a master of this site may open a session"};
     return finish(context, service_.open_session(*request), answer);
   }
 
@@ -166,6 +169,12 @@ class GrpcControl final : public proto::Control::Service {
     return grpc::Status::OK;
   }
 
+  static bool is_from(RpcRole role, const Context& context) {
+    const auto names = context.auth_context()->FindPropertyValues(GRPC_X509_SAN_PROPERTY_NAME);
+    return std::find(names.begin(), names.end(),
+                     grpc::string_ref(name_of(role).data(), name_of(role).size())) != names.end();
+  }
+
   bool stopping() {
     const std::lock_guard lock(mutex_);
     return stopping_;
@@ -184,6 +193,7 @@ class GrpcControl final : public proto::Control::Service {
 
   ControlService service_;
   std::string side_;
+  bool secured_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool stopping_ = false;
@@ -217,24 +227,36 @@ void configure(grpc::ServerBuilder& builder) {
   builder.SetResourceQuota(grpc::ResourceQuota("longreach-control").SetMaxThreads(kThreadsMax));
 }
 
+std::shared_ptr<grpc::ServerCredentials> server_credentials(const RpcSecurity& security) {
+  if (!security.credentials) return grpc::InsecureServerCredentials();
+  grpc::SslServerCredentialsOptions options(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
+  options.pem_root_certs = security.credentials->authority;
+  options.pem_key_cert_pairs = {{security.credentials->key, security.credentials->certificate}};
+  return grpc::SslServerCredentials(options);
+}
+
 }  // namespace
 
 struct RpcServer::State {
-  State(ControlBackend& backend, std::string_view side) : control(backend, side) {}
+  State(ControlBackend& backend, std::string_view side, bool secured) : control(backend, side, secured) {}
   GrpcControl control;
   std::unique_ptr<grpc::Server> server;
   std::string address;
 };
 
-RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side)
-    : state_(std::make_unique<State>(backend, side)) {
+RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
+                     const RpcSecurity& security)
+    : state_(std::make_unique<State>(backend, side, security.credentials.has_value())) {
   const std::string address = listen_address(listen, side);
+  if (!security.credentials && !is_loopback(address))
+    throw std::runtime_error("the " + std::string(side) + " will not serve RPC on " + address +
+                             " in clear: leave out --insecure, or set rpc.listen to an address on loopback");
   // gRPC's own log lines would stand beside the one sentence of the exception.
   gpr_set_log_function([](gpr_log_func_args*) {});
   grpc::ServerBuilder builder;
   configure(builder);
   int port = 0;
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
+  builder.AddListeningPort(address, server_credentials(security), &port);
   builder.RegisterService(&state_->control);
   state_->server = builder.BuildAndStart();
   if (!state_->server || port == 0)

@@ -1,7 +1,7 @@
 #pragma once
 // Serves proto/control.proto for one side over gRPC: many clients, one backend call at a time. Needs no
-// thread of the caller. There is no authentication: the default address is on loopback, and other addresses
-// are the user's decision.
+// thread of the caller. A client has to show a certificate of the same site (mutual TLS); sessions are opened
+// for the role of the master alone. In clear it serves loopback only.
 //
 // A refusal of the backend becomes INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE, with the trailing
 // metadata kRefusedBy, by which a client tells a side that refuses from a side that cannot be reached.
@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "common/io/control_backend.hpp"
+#include "common/io/rpc_security.hpp"
 
 namespace longreach {
 
@@ -26,8 +27,9 @@ class RpcServer {
  public:
   /// Serves at once. `listen`: address:port; port 0: any free one; empty: the side's default address. `side`:
   /// "master" or "slave". `backend` must outlive the server. Throws std::runtime_error, one sentence, when it
-  /// cannot listen.
-  RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side);
+  /// cannot listen, or when it would serve others than this machine in clear.
+  RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
+            const RpcSecurity& security = {});
   ~RpcServer();
   RpcServer(const RpcServer&) = delete;
   RpcServer& operator=(const RpcServer&) = delete;

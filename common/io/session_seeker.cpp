@@ -28,8 +28,11 @@ std::string sentence(const std::string& address, const grpc::ClientContext& cont
   const std::string begin = "no session with the slave at " + address + ": ";
   if (context.GetServerTrailingMetadata().contains(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size())))
     return begin + status.error_message();
+  if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED) return begin + status.error_message();
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
     return begin + "it does not know this call; use programs of one version";
+  if (other_role(status)) return begin + "what answers there is no slave; set link.slave_rpc";
+  if (mistrusted(status)) return begin + "it " + std::string(kMistrust);
   return begin +
          "it does not answer; start longreach-slave there, or set link.slave_rpc to where its RPC server "
          "listens";
@@ -41,11 +44,11 @@ struct SessionSeeker::Rpc {
   std::unique_ptr<proto::Control::Stub> stub;
 };
 
-SessionSeeker::SessionSeeker(std::string address, Look look, Adopt adopt)
+SessionSeeker::SessionSeeker(std::string address, const RpcSecurity& security, Look look, Adopt adopt)
     : address_(std::move(address)),
       look_(std::move(look)),
       adopt_(std::move(adopt)),
-      rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_))}),
+      rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_, RpcRole::kSlave, security))}),
       thread_([this] { run(); }) {}
 
 SessionSeeker::~SessionSeeker() {

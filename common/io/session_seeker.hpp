@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "common/crypto/session.hpp"
+#include "common/io/rpc_security.hpp"
 
 namespace grpc {
 class ClientContext;
@@ -31,7 +32,7 @@ class SessionSeeker {
   using Adopt = std::function<bool(const Session&)>;
 
   /// `address`: of the slave's RPC server. Both functions are called in the seeker's thread.
-  SessionSeeker(std::string address, Look look, Adopt adopt);
+  SessionSeeker(std::string address, const RpcSecurity& security, Look look, Adopt adopt);
   ~SessionSeeker();  // ends a call that is under way
   SessionSeeker(const SessionSeeker&) = delete;
   SessionSeeker& operator=(const SessionSeeker&) = delete;

@@ -66,6 +66,8 @@ class Grammar {
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
+  std::string site_;
+  bool insecure_ = false;
 };
 
 Grammar::Grammar() {
@@ -79,6 +81,9 @@ Grammar::Grammar() {
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout, "longest wait for an answer, connecting included [3 s]")
       ->type_name("S");
+  app_.add_option("--site", site_, "folder of the certificates [$XDG_CONFIG_HOME/longreach]")
+      ->type_name("DIR");
+  app_.add_flag("--insecure", insecure_, "talk to sides that were started with --insecure");
   app_.add_flag("--json", json_, "answer in JSON, also to errors");
   declare_views();
   declare_fields();
@@ -199,7 +204,7 @@ Options Grammar::options() const {
   check_address("--slave", words_.slave);
   const double timeout_s =
       bounded("--timeout", words_.timeout, parse_seconds(words_.timeout), 0.05, 600.0, " s");
-  return {words_.master, words_.slave, timeout_s, json_};
+  return {words_.master, words_.slave, timeout_s, json_, site_, insecure_};
 }
 
 Command Grammar::command() const {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/io/rpc_security.hpp"
 #include "proto/config.pb.h"
 
 namespace longreach {
@@ -71,6 +72,8 @@ struct Options {
   std::string slave_address;
   double timeout_s = 3.0;  // for each call, connecting included
   bool json = false;
+  std::string site{};     // folder of the certificates; empty: the usual one
+  bool insecure = false;  // in clear, on this machine
 };
 
 struct Invocation {

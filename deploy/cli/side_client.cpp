@@ -11,6 +11,7 @@
 
 #include "common/io/rpc_channel.hpp"
 #include "common/io/rpc_server.hpp"
+#include "common/io/site.hpp"
 #include "proto/control.grpc.pb.h"
 
 namespace longreach {
@@ -23,6 +24,15 @@ constexpr auto kRetryAfter = std::chrono::milliseconds(500);
 
 const std::string& address_of(Side side, const Options& options) {
   return side == Side::kMaster ? options.master_address : options.slave_address;
+}
+
+std::shared_ptr<grpc::Channel> connect(Side side, const Options& options) {
+  RpcSecurity security;
+  if (!options.insecure)
+    security.credentials = site_credentials(
+        options.site.empty() ? default_site() : std::filesystem::path(options.site), RpcRole::kClient);
+  return connect_rpc(address_of(side, options), side == Side::kMaster ? RpcRole::kMaster : RpcRole::kSlave,
+                     security);
 }
 
 std::string down_sentence(Side side, const Options& options, bool timed_out) {
@@ -40,6 +50,12 @@ bool refused_by_side(const grpc::ClientContext& context) {
   return context.GetServerTrailingMetadata().contains(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size()));
 }
 
+SideError wrong_side(Side side, const Options& options, const std::string& found) {
+  const std::string name(name_of(side));
+  return {SideError::Kind::kRefused, "what answers at " + address_of(side, options) + " is the " + found +
+                                         ", not the " + name + ": correct --" + name};
+}
+
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
                   const grpc::Status& status) {
   const std::string the_side = "the " + std::string(name_of(side));
@@ -50,6 +66,11 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {SideError::Kind::kDown, down_sentence(side, options, true)};
     case grpc::StatusCode::UNAVAILABLE:
+      if (other_role(status)) return wrong_side(side, options, side == Side::kMaster ? "slave" : "master");
+      if (mistrusted(status))
+        return {SideError::Kind::kDown,
+                the_side + " at " + address_of(side, options) + " " + std::string(kMistrust)};
+      return {SideError::Kind::kDown, down_sentence(side, options, false)};
     case grpc::StatusCode::CANCELLED:
       return {SideError::Kind::kDown, down_sentence(side, options, false)};
     case grpc::StatusCode::UNIMPLEMENTED:
@@ -63,9 +84,7 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
 /// Throws when what answers is another side than the one that was meant.
 void check_side(Side side, const Options& options, const proto::Status& status) {
   if (!status.has_side() || status.side() == name_of(side)) return;
-  throw SideError(SideError::Kind::kRefused, "what answers at " + address_of(side, options) + " is the " +
-                                                 status.side() + ", not the " + std::string(name_of(side)) +
-                                                 ": correct --" + std::string(name_of(side)));
+  throw wrong_side(side, options, status.side());
 }
 
 }  // namespace
@@ -89,7 +108,7 @@ struct SideClient::State {
 };
 
 SideClient::SideClient(Side side, const Options& options)
-    : state_(new State{side, options, proto::Control::NewStub(connect_rpc(address_of(side, options)))}) {}
+    : state_(new State{side, options, proto::Control::NewStub(connect(side, options))}) {}
 SideClient::SideClient(SideClient&&) noexcept = default;
 SideClient::~SideClient() = default;
 
@@ -152,7 +171,7 @@ struct StatusStream::State {
         options(the_options),
         rate_hz(the_rate_hz),
         silence_max(options.timeout_s + 2.0 / rate_hz),
-        stub(proto::Control::NewStub(connect_rpc(address_of(side, options)))) {}
+        stub(proto::Control::NewStub(connect(side, options))) {}
 
   /// Reads one stream until it ends.
   void read() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/io/rpc_server.hpp"
+#include "tests/process/test_site.hpp"
 #include "tests/unit/io/control_fake_backend.hpp"
 
 namespace longreach {
@@ -43,8 +44,10 @@ class ClientRun {
 struct FakeStation {
   FakeBackend master{"master"};
   FakeBackend slave{"slave"};
-  std::unique_ptr<RpcServer> master_server = std::make_unique<RpcServer>("127.0.0.1:0", master, "master");
-  std::unique_ptr<RpcServer> slave_server = std::make_unique<RpcServer>("127.0.0.1:0", slave, "slave");
+  std::unique_ptr<RpcServer> master_server =
+      std::make_unique<RpcServer>("127.0.0.1:0", master, "master", test_site(RpcRole::kMaster));
+  std::unique_ptr<RpcServer> slave_server =
+      std::make_unique<RpcServer>("127.0.0.1:0", slave, "slave", test_site(RpcRole::kSlave));
   std::string master_address = master_server->address();
   std::string slave_address = slave_server->address();
 

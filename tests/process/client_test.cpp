@@ -263,7 +263,8 @@ TEST(Client, WatchSeesASideComeBack) {
   station.slave_server->stop();
   ClientRun client(station.arguments({"watch", "--hz", "20"}));
   client.read("slave does not answer");
-  station.slave_server = std::make_unique<RpcServer>(station.slave_address, station.slave, "slave");
+  station.slave_server =
+      std::make_unique<RpcServer>(station.slave_address, station.slave, "slave", test_site(RpcRole::kSlave));
   client.read("slave Engaged");
   expect_contains(client.out(), "slave Engaged");
   client.signal(SIGINT);

@@ -11,6 +11,7 @@
 
 #include "common/core/random.hpp"
 #include "tests/process/station.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
 
 namespace longreach {
 namespace {
@@ -163,6 +164,27 @@ TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {
   ASSERT_TRUE(eventually([&] { return master_program_->output().find(said) != std::string::npos; }))
       << outputs();
   start_slave();
+  EXPECT_TRUE(both_engaged()) << outputs();
+}
+
+TEST_F(Station, AMasterOfAnotherSiteGetsNothing) {
+  start_slave();
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
+  const TemporaryFolder elsewhere;
+  start_master({"--operator", "none", "--engage", "--site", (elsewhere.path() / "site").string()});
+  ASSERT_TRUE(eventually([this] {
+    return master_program_->output().find("does not trust this program's certificate") != std::string::npos;
+  })) << outputs();
+  EXPECT_EQ(slave_.state(), "Idle");
+  EXPECT_EQ(slave_.counter("accepted"), 0u);
+  // In clear it gets nothing, either.
+  start_master({"--operator", "none", "--engage", "--insecure"});
+  ASSERT_TRUE(eventually([this] {
+    return master_program_->output().find("no session") != std::string::npos;
+  })) << outputs();
+  EXPECT_NE(master_program_->output().find("INSECURE"), std::string::npos) << outputs();
+  EXPECT_EQ(slave_.state(), "Idle");
+  start_master({"--operator", "none", "--engage"});
   EXPECT_TRUE(both_engaged()) << outputs();
 }
 

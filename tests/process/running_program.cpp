@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/process/test_site.hpp"
+
 namespace longreach {
 namespace {
 
@@ -43,6 +45,7 @@ RunningProgram::RunningProgram(const std::string& name, const std::vector<std::s
   pointers.push_back(nullptr);
   const int output = ::open(file_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_APPEND | O_CLOEXEC, 0600);
   ::setenv("LONGREACH_HOME", LONGREACH_DEPLOY, 1);
+  (void)test_site(RpcRole::kClient);
   pid_ = ::fork();
   if (pid_ == 0) become(pointers.data(), output);
   ::close(output);

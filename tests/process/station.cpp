@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "common/io/rpc_channel.hpp"
+
 namespace longreach {
 namespace {
 
@@ -16,14 +18,9 @@ void limit(grpc::ClientContext& context) {
 
 }  // namespace
 
-Side::Side(int port) {
-  grpc::ChannelArguments arguments;
-  // A side that was restarted is found again at once.
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 200);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  stub_ = proto::Control::NewStub(grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(port),
-                                                            grpc::InsecureChannelCredentials(), arguments));
-}
+Side::Side(RpcRole role, int port)
+    : stub_(proto::Control::NewStub(
+          connect_rpc("127.0.0.1:" + std::to_string(port), role, test_site(RpcRole::kClient)))) {}
 
 std::optional<proto::Status> Side::status() {
   grpc::ClientContext context;

@@ -11,13 +11,15 @@
 
 #include "proto/control.grpc.pb.h"
 #include "tests/process/running_program.hpp"
+#include "tests/process/test_site.hpp"
 
 namespace longreach {
 
 /// One side's RPC service, through a client of its own.
 class Side {
  public:
-  explicit Side(int port);
+  /// Comes as a client of the test's site.
+  Side(RpcRole role, int port);
 
   std::optional<proto::Status> status();
   /// Empty when it was carried out, else the server's sentence.
@@ -51,8 +53,8 @@ class Station : public ::testing::Test {
   Ports ports_ = free_ports();
   std::unique_ptr<RunningProgram> slave_program_;
   std::unique_ptr<RunningProgram> master_program_;
-  Side slave_{ports_.slave_rpc};
-  Side master_{ports_.master_rpc};
+  Side slave_{RpcRole::kSlave, ports_.slave_rpc};
+  Side master_{RpcRole::kMaster, ports_.master_rpc};
 };
 
 }  // namespace longreach

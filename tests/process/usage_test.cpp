@@ -7,6 +7,7 @@
 
 #include "tests/process/running_program.hpp"
 #include "tests/process/station.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
 
 namespace longreach {
 namespace {
@@ -96,6 +97,24 @@ TEST_F(Station, APortThatIsTakenEndsTheSecondProgramWithStatus1) {
   const Ended third = run("longreach-slave", {"--set", "link.listen=127.0.0.1:0", "--set",
                                               "rpc.listen=127.0.0.1:" + std::to_string(ports_.slave_rpc)});
   expect_one_sentence(third, 1, "rpc", "same RPC port");
+}
+
+TEST(Usage, InsecureIsForThisMachineOnlyAndSaysWhatItIs) {
+  const Ended open = run("longreach-slave",
+                         {"--insecure", "--set", "link.listen=127.0.0.1:0", "--set", "rpc.listen=0.0.0.0:0"});
+  EXPECT_EQ(open.status, 1) << open.output;
+  EXPECT_NE(open.output.find("leave out --insecure"), std::string::npos) << open.output;
+  const Ended local = run("longreach-slave", {"--insecure", "--seconds", "0.2", "--set",
+                                              "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0"});
+  EXPECT_EQ(local.status, 0) << local.output;
+  EXPECT_NE(local.output.find("INSECURE"), std::string::npos) << local.output;
+}
+
+TEST(Usage, ASiteThatOthersMayOpenEndsTheProgramWithStatus1) {
+  const TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  for (const std::string name : {"longreach-slave", "longreach-master"})
+    expect_one_sentence(run(name, {"--site", folder.path().string()}), 1, "is open to other users", name);
 }
 
 TEST(Usage, ARunOfGivenLengthEndsByItself) {

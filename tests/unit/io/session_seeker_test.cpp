@@ -58,7 +58,8 @@ bool eventually(const std::function<bool()>& holds) {
 struct Search {
   explicit Search(const std::string& address)
       : seeker(
-            address, [this] { return loop.present(); }, [this](const Session& s) { return loop.adopt(s); }) {}
+            address, RpcSecurity{}, [this] { return loop.present(); },
+            [this](const Session& s) { return loop.adopt(s); }) {}
   FakeLoop loop;
   SessionSeeker seeker;
 };

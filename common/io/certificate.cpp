@@ -1,0 +1,150 @@
+#include "common/io/certificate.hpp"
+
+#include <openssl/bio.h>
+#include <openssl/err.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+#include <openssl/rand.h>
+#include <openssl/x509v3.h>
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+namespace longreach {
+namespace {
+
+template <auto Free>
+struct Freed {
+  template <class T>
+  void operator()(T* p) const {
+    Free(p);
+  }
+};
+using Key = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
+using X509Cert = std::unique_ptr<X509, Freed<X509_free>>;
+using Bio = std::unique_ptr<BIO, Freed<BIO_free_all>>;
+using Extension = std::unique_ptr<X509_EXTENSION, Freed<X509_EXTENSION_free>>;
+
+void require(bool done) {
+  if (done) return;
+  std::array<char, 256> text{};
+  ERR_error_string_n(ERR_get_error(), text.data(), text.size());
+  throw std::runtime_error(std::string("cannot make certificates: ") + text.data());
+}
+
+std::string text_of(BIO* bio) {
+  char* at = nullptr;
+  const long size = BIO_get_mem_data(bio, &at);
+  return {at, static_cast<std::size_t>(size)};
+}
+
+Bio memory() {
+  Bio bio(BIO_new(BIO_s_mem()));
+  require(bio != nullptr);
+  return bio;
+}
+
+Certificate to_pem(X509* certificate, EVP_PKEY* key) {
+  const Bio certificate_text = memory(), key_text = memory();
+  require(PEM_write_bio_X509(certificate_text.get(), certificate) == 1);
+  require(PEM_write_bio_PrivateKey(key_text.get(), key, nullptr, nullptr, 0, nullptr, nullptr) == 1);
+  return {text_of(certificate_text.get()), text_of(key_text.get())};
+}
+
+X509Cert read_certificate(const std::string& pem) {
+  const Bio bio(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
+  X509Cert out(PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr));
+  require(out != nullptr);
+  return out;
+}
+
+Key read_key(const std::string& pem) {
+  const Bio bio(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
+  Key out(PEM_read_bio_PrivateKey(bio.get(), nullptr, nullptr, nullptr));
+  require(out != nullptr);
+  return out;
+}
+
+void add_extension(X509* certificate, X509* issuer, int nid, const std::string& value) {
+  X509V3_CTX context;
+  X509V3_set_ctx_nodb(&context);
+  X509V3_set_ctx(&context, issuer, certificate, nullptr, nullptr, 0);
+  const Extension extension(X509V3_EXT_conf_nid(nullptr, &context, nid, value.c_str()));
+  require(extension != nullptr && X509_add_ext(certificate, extension.get(), -1) == 1);
+}
+
+void set_serial(X509* certificate) {
+  std::array<unsigned char, 16> bytes{};
+  require(RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) == 1);
+  bytes[0] = static_cast<unsigned char>((bytes[0] & 0x7F) | 0x40);  // positive, and of full length
+  BIGNUM* number = BN_bin2bn(bytes.data(), static_cast<int>(bytes.size()), nullptr);
+  const bool done =
+      number != nullptr && BN_to_ASN1_INTEGER(number, X509_get_serialNumber(certificate)) != nullptr;
+  BN_free(number);
+  require(done);
+}
+
+/// Everything but extensions and signature.
+X509Cert begin(const CertificateTerms& terms, EVP_PKEY* key) {
+  X509Cert out(X509_new());
+  require(out != nullptr && X509_set_version(out.get(), 2) == 1);  // 2 stands for version 3
+  set_serial(out.get());
+  require(ASN1_TIME_set_string_X509(X509_getm_notBefore(out.get()), terms.not_before.c_str()) == 1);
+  require(ASN1_TIME_set_string_X509(X509_getm_notAfter(out.get()), terms.not_after.c_str()) == 1);
+  require(X509_set_pubkey(out.get(), key) == 1);
+  X509_NAME* name = X509_get_subject_name(out.get());
+  require(X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_UTF8,
+                                     reinterpret_cast<const unsigned char*>(terms.name.c_str()), -1, -1,
+                                     0) == 1);
+  return out;
+}
+
+Key make_key() {
+  Key key(EVP_EC_gen("P-256"));
+  require(key != nullptr);
+  return key;
+}
+
+const char* usage_of(CertificateUse use) {
+  switch (use) {
+    case CertificateUse::kServer:
+      return "serverAuth";
+    case CertificateUse::kClient:
+      return "clientAuth";
+    case CertificateUse::kBoth:
+      break;
+  }
+  return "serverAuth,clientAuth";
+}
+
+}  // namespace
+
+Certificate make_authority(const std::string& name) {
+  const Key key = make_key();
+  const X509Cert out = begin({.name = name}, key.get());
+  require(X509_set_issuer_name(out.get(), X509_get_subject_name(out.get())) == 1);
+  add_extension(out.get(), out.get(), NID_basic_constraints, "critical,CA:TRUE,pathlen:0");
+  add_extension(out.get(), out.get(), NID_key_usage, "critical,keyCertSign,cRLSign");
+  add_extension(out.get(), out.get(), NID_subject_key_identifier, "hash");
+  require(X509_sign(out.get(), key.get(), EVP_sha256()) != 0);
+  return to_pem(out.get(), key.get());
+}
+
+Certificate issue(const Certificate& authority, const CertificateTerms& terms) {
+  const X509Cert issuer = read_certificate(authority.certificate_pem);
+  const Key issuer_key = read_key(authority.key_pem);
+  const Key key = make_key();
+  const X509Cert out = begin(terms, key.get());
+  require(X509_set_issuer_name(out.get(), X509_get_subject_name(issuer.get())) == 1);
+  add_extension(out.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE");
+  add_extension(out.get(), issuer.get(), NID_key_usage, "critical,digitalSignature");
+  add_extension(out.get(), issuer.get(), NID_ext_key_usage, usage_of(terms.use));
+  add_extension(out.get(), issuer.get(), NID_subject_alt_name, "DNS:" + terms.name);
+  add_extension(out.get(), issuer.get(), NID_subject_key_identifier, "hash");
+  add_extension(out.get(), issuer.get(), NID_authority_key_identifier, "keyid");
+  require(X509_sign(out.get(), issuer_key.get(), EVP_sha256()) != 0);
+  return to_pem(out.get(), key.get());
+}
+
+}  // namespace longreach

@@ -1,0 +1,135 @@
+// Who is let in by mutual TLS, and who is not.
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include "common/io/certificate.hpp"
+#include "common/io/rpc_channel.hpp"
+#include "common/io/rpc_server.hpp"
+#include "proto/control.grpc.pb.h"
+#include "tests/unit/io/control_fake_backend.hpp"
+
+namespace longreach {
+namespace {
+
+const std::string kAnyPort = "127.0.0.1:0";
+
+std::string name(RpcRole role) { return std::string(name_of(role)); }
+
+RpcSecurity with(const Certificate& authority, const Certificate& own) {
+  return {RpcCredentials{authority.certificate_pem, own.certificate_pem, own.key_pem}};
+}
+
+/// A site, and a slave of it that serves.
+struct Served {
+  Certificate authority = make_authority("one site");
+  Certificate other = make_authority("another site");
+  RpcSecurity slave =
+      with(authority, issue(authority, {.name = name(RpcRole::kSlave), .use = CertificateUse::kServer}));
+  FakeBackend backend{"slave"};
+  RpcServer server{kAnyPort, backend, "slave", slave};
+
+  [[nodiscard]] RpcSecurity client(const CertificateTerms& terms) const {
+    return with(authority, issue(authority, terms));
+  }
+
+  /// Code of a call that changes something, by who holds `security`.
+  grpc::StatusCode stop(const RpcSecurity& security, RpcRole side = RpcRole::kSlave) const {
+    const auto stub = proto::Control::NewStub(connect_rpc(server.address(), side, security));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
+    proto::Outcome outcome;
+    const grpc::Status status = stub->Stop(&context, {}, &outcome);
+    EXPECT_TRUE(status.ok() || mistrusted(status) || other_role(status)) << status.error_message();
+    return status.error_code();
+  }
+  grpc::StatusCode open_session(const RpcSecurity& security) const {
+    const auto stub = proto::Control::NewStub(connect_rpc(server.address(), RpcRole::kSlave, security));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
+    proto::OpenSessionResponse answer;
+    return stub->OpenSession(&context, {}, &answer).error_code();
+  }
+};
+
+TEST(RpcTls, EveryRoleOfTheSiteMayStopAndAMasterAloneOpensSessions) {
+  Served served;
+  const RpcSecurity master = served.client({.name = name(RpcRole::kMaster)});
+  const RpcSecurity client = served.client({.name = name(RpcRole::kClient), .use = CertificateUse::kClient});
+  EXPECT_EQ(served.stop(master), grpc::StatusCode::OK);
+  EXPECT_EQ(served.stop(client), grpc::StatusCode::OK);
+  EXPECT_EQ(served.open_session(client), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(served.backend.calls(), (std::vector<std::string>{"stop", "stop"}));
+  EXPECT_EQ(served.open_session(master), grpc::StatusCode::OK);
+}
+
+/// One defect each: with everything else right.
+TEST(RpcTls, AWrongCertificateIsRefusedAndHarmless) {
+  Served served;
+  const std::string client = name(RpcRole::kClient);
+  const auto of = [&](const Certificate& trusted, const Certificate& own) { return with(trusted, own); };
+  const Certificate good = issue(served.authority, {.name = client});
+  const Certificate stranger = issue(served.other, {.name = client});
+  Certificate damaged = good;
+  damaged.certificate_pem[damaged.certificate_pem.size() / 2] ^= 1;
+  // Somebody who holds a certificate plays authority with it.
+  const Certificate delegated = issue(good, {.name = name(RpcRole::kMaster)});
+  Certificate chain = delegated;
+  chain.certificate_pem += good.certificate_pem;
+  const struct {
+    const char* what;
+    RpcSecurity security;
+  } rows[] = {
+      {"another site's", of(served.authority, stranger)},
+      {"self-made authority", of(served.authority, served.other)},
+      {"expired", served.client({.name = client, .not_after = "20010101000000Z"})},
+      {"not yet valid", served.client({.name = client, .not_before = "99980101000000Z"})},
+      {"for servers only", served.client({.name = client, .use = CertificateUse::kServer})},
+      {"key of another", of(served.authority, {good.certificate_pem, stranger.key_pem})},
+      {"damaged", of(served.authority, damaged)},
+      {"issued by one that is no authority", of(served.authority, chain)},
+      {"none at all", {RpcCredentials{served.authority.certificate_pem, "", ""}}},
+      {"in clear", {}},
+  };
+  for (const auto& row : rows) EXPECT_NE(served.stop(row.security), grpc::StatusCode::OK) << row.what;
+  EXPECT_TRUE(served.backend.calls().empty());
+  EXPECT_EQ(served.stop(of(served.authority, good)), grpc::StatusCode::OK) << "and the right one still is";
+}
+
+TEST(RpcTls, AClientTalksToNobodyButTheSideThatItMeans) {
+  Served served;
+  const RpcSecurity good = served.client({.name = name(RpcRole::kClient)});
+  EXPECT_NE(served.stop(good, RpcRole::kMaster), grpc::StatusCode::OK) << "another role of the same site";
+  const Certificate own = issue(served.authority, {.name = name(RpcRole::kClient)});
+  EXPECT_NE(served.stop(with(served.other, own)), grpc::StatusCode::OK) << "a slave of another site";
+  EXPECT_TRUE(served.backend.calls().empty());
+}
+
+TEST(RpcTls, AServerWithAnOldCertificateIsNotTrusted) {
+  Served served;
+  const Certificate old =
+      issue(served.authority, {.name = name(RpcRole::kSlave), .not_after = "20010101000000Z"});
+  FakeBackend backend("slave");
+  const RpcServer server(kAnyPort, backend, "slave", with(served.authority, old));
+  const auto stub = proto::Control::NewStub(
+      connect_rpc(server.address(), RpcRole::kSlave, served.client({.name = name(RpcRole::kClient)})));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
+  proto::Outcome outcome;
+  EXPECT_FALSE(stub->Stop(&context, {}, &outcome).ok());
+  EXPECT_TRUE(backend.calls().empty());
+}
+
+TEST(RpcTls, ClearTextStaysOnThisMachine) {
+  FakeBackend backend("slave");
+  for (const std::string open : {"0.0.0.0:0", "[::]:0", "192.0.2.1:0"}) {
+    EXPECT_THROW(RpcServer(open, backend, "slave", {}), std::runtime_error) << open;
+    EXPECT_THROW(connect_rpc(open, RpcRole::kSlave, {}), std::runtime_error) << open;
+  }
+  for (const std::string local : {"127.0.0.1:1", "127.8.9.1:1", "localhost:1", "[::1]:1"})
+    EXPECT_TRUE(is_loopback(local)) << local;
+  for (const std::string far : {"robot:1", "127.0.0.1.example:1", "10.0.0.1:1", "::1", ""})
+    EXPECT_FALSE(is_loopback(far)) << far;
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,113 @@
+// The site folder: made whole, private, the same for whoever comes at the same time, and refused when it is
+// not.
+#include "common/io/site.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "tests/unit/io/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+
+mode_t mode_of(const fs::path& path) {
+  struct stat status {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
+  return status.st_mode & 0777U;
+}
+
+std::string refusal_of(const fs::path& site) {
+  try {
+    (void)site_credentials(site, RpcRole::kMaster);
+  } catch (const SiteError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Site, IsMadeAtTheFirstStartAndOpenToItsOwnerAlone) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "a" / "longreach";
+  const RpcCredentials slave = site_credentials(site, RpcRole::kSlave);
+  EXPECT_NE(slave.authority.find("BEGIN CERTIFICATE"), std::string::npos);
+  EXPECT_NE(slave.certificate.find("BEGIN CERTIFICATE"), std::string::npos);
+  EXPECT_NE(slave.key.find("PRIVATE KEY"), std::string::npos);
+  EXPECT_EQ(mode_of(site), 0700U);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(site)) {
+    EXPECT_EQ(mode_of(entry.path()), 0600U) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 8);
+  for (const auto& entry : fs::directory_iterator(site.parent_path()))
+    EXPECT_EQ(entry.path(), site) << "drafts are gone";
+}
+
+TEST(Site, StaysAsItIsAndTellsRolesApart) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "longreach";
+  const RpcCredentials slave = site_credentials(site, RpcRole::kSlave);
+  const RpcCredentials again = site_credentials(site.string() + "/", RpcRole::kSlave);
+  const RpcCredentials master = site_credentials(site, RpcRole::kMaster);
+  EXPECT_EQ(again.key, slave.key);
+  EXPECT_EQ(master.authority, slave.authority);
+  EXPECT_NE(master.certificate, slave.certificate);
+  EXPECT_NE(master.key, slave.key);
+}
+
+TEST(Site, ProgramsThatStartAtOnceMakeOne) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "longreach";
+  std::vector<std::string> authorities(8);
+  std::vector<std::thread> programs;
+  for (auto& authority : authorities)
+    programs.emplace_back([&] { authority = site_credentials(site, RpcRole::kClient).authority; });
+  for (auto& program : programs) program.join();
+  for (const auto& authority : authorities) EXPECT_EQ(authority, authorities.front());
+}
+
+TEST(Site, AnEmptyFolderOfOnesOwnIsFilled) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal_of(folder.path()), "");
+  EXPECT_TRUE(fs::exists(folder.path() / "authority.crt"));
+}
+
+TEST(Site, OneThatOthersMayOpenIsRefusedWithWhatToDo) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "longreach";
+  ASSERT_EQ(refusal_of(site), "");
+  ::chmod((site / "master.key").c_str(), 0640);
+  EXPECT_NE(refusal_of(site).find("master.key is open to other users; close it with chmod"),
+            std::string::npos)
+      << refusal_of(site);
+  ::chmod((site / "master.key").c_str(), 0600);
+  ::chmod(site.c_str(), 0755);
+  EXPECT_NE(refusal_of(site).find("longreach is open to other users"), std::string::npos) << refusal_of(site);
+}
+
+TEST(Site, WhatIsMissingIsNamedAndNothingIsMadeInItsPlace) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "longreach";
+  ASSERT_EQ(refusal_of(site), "");
+  fs::remove(site / "master.crt");
+  EXPECT_NE(refusal_of(site).find("master.crt"), std::string::npos) << refusal_of(site);
+  EXPECT_FALSE(fs::exists(site / "master.crt"));
+  std::ofstream(site / "master.crt").close();
+  ::chmod((site / "master.crt").c_str(), 0600);
+  EXPECT_NE(refusal_of(site).find("master.crt"), std::string::npos) << "an empty file";
+}
+
+TEST(Site, APlaceThatCannotBeWrittenIsNamed) {
+  EXPECT_NE(refusal_of("/proc/longreach").find("/proc/longreach"), std::string::npos)
+      << refusal_of("/proc/longreach");
+}
+
+}  // namespace
+}  // namespace longreach
