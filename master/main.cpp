@@ -29,6 +29,7 @@ struct MasterOptions : ProgramOptions {
   std::string mode;
   std::string view = "auto";
   bool engage = false;
+  bool take = false;
   std::optional<double> wall_n_per_m{};
 };
 
@@ -212,18 +213,17 @@ int operate(const MasterOptions& options) {
       stop = true;
     }
   });
-  {
-    const SessionSeeker seeker(
-        slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security,
-        [&service]() -> SessionSeeker::Present {
-          const SideFigures side = service.snapshot().side;
-          return {side.session, side.link.silence_s};
-        },
-        [&service](const Session& session) { return service.adopt(session); });
-    housekeeping.run(stop, seeker);
-  }
+  std::optional<SessionSeeker> seeker(
+      std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
+      [&service]() -> SessionSeeker::Present {
+        const SideFigures side = service.snapshot().side;
+        return {side.session, side.link.silence_s};
+      },
+      [&service](const Session& session) { return service.adopt(session); });
+  housekeeping.run(stop, *seeker);
   end = true;
   loop_thread.join();
+  seeker.reset();
   rpc.stop();
   if (failure) std::rethrow_exception(failure);
   return judge(options, summary, service.snapshot(), plain);
@@ -243,6 +243,8 @@ int main(int argc, char** argv) {
       ->type_name("KIND");
   app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")->type_name("MODE");
   app.add_flag("--engage", options.engage, "Engage when the slave is first heard (safety.engage_at_start)");
+  app.add_flag("--take", options.take,
+               "Take the robot from a master that has it; it holds until this one engages");
   app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
       ->check(CLI::IsMember({"auto", "plain", "none"}))
       ->capture_default_str();

@@ -139,8 +139,12 @@ std::optional<Refusal> MasterService::request(const OperatorRequests& requests) 
 bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }
 
 std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
-    const proto::OpenSessionRequest&) {
+    const proto::OpenSessionRequest&, const std::string&) {
   return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are opened at the slave"};
+}
+
+std::optional<Refusal> MasterService::close_session(std::uint64_t) {
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are closed at the slave"};
 }
 
 }  // namespace longreach

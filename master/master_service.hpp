@@ -22,8 +22,9 @@ class MasterService : public ControlBackend {
   std::optional<Refusal> set_scale(double scale) override;
   std::optional<Refusal> engage() override;
   std::optional<Refusal> stop() override;
-  std::variant<proto::OpenSessionResponse, Refusal> open_session(
-      const proto::OpenSessionRequest& request) override;
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
+                                                                 const std::string& caller) override;
+  std::optional<Refusal> close_session(std::uint64_t session) override;
 
   /// The newest picture of the loop; callable from any thread but the loop's.
   MasterSnapshot snapshot();

@@ -1,6 +1,7 @@
 #include "slave/slave_service.hpp"
 
 #include <google/protobuf/util/message_differencer.h>
+#include <spdlog/spdlog.h>
 
 #include "common/config/config.hpp"
 #include "common/io/status_fields.hpp"
@@ -47,6 +48,7 @@ proto::Status SlaveService::status() {
   out.set_state(std::string(to_string(view.state)));
   out.set_cause(std::string(to_string(view.cause)));
   out.set_engagement(view.engagement);
+  out.set_lease(lease());
   out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
   *out.mutable_impairment() = link();
   assign(view.X_WE.p, *out.mutable_tool_m());
@@ -113,7 +115,7 @@ std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement
 std::optional<Refusal> SlaveService::stop() { return post(shell_.mailbox(), SlaveCommand(SlaveStop{})); }
 
 std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
-    const proto::OpenSessionRequest& request) {
+    const proto::OpenSessionRequest& request, const std::string& caller) {
   proto::OpenSessionResponse response;
   if (request.session() != 0 && request.session() == snapshot().side.session) {
     response.set_session(request.session());
@@ -121,11 +123,35 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
   }
   const bool aes = request.aes256gcm() && has_aes256gcm();
   const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
-  if (auto refusal = post(shell_.mailbox(), SlaveCommand(session))) return *std::move(refusal);
+  const std::string before = lease();
+  if (auto refusal = post(shell_.mailbox(), SlaveCommand(SlaveLease{session, request.take()}))) {
+    spdlog::warn("lease refused={} holder={} because=\"{}\"", caller, before, refusal->message);
+    return *std::move(refusal);
+  }
+  spdlog::info("lease holder={} before=\"{}\" taken={}", caller, before, request.take());
+  set_lease(caller);
   response.set_session(session.number);
   response.set_secret(session.secret.data(), session.secret.size());
   response.set_aes256gcm(aes);
   return response;
+}
+
+std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
+  if (post(shell_.mailbox(), SlaveCommand(SlaveReturn{session})))
+    return Refusal{Refusal::Kind::kPrecondition, "this master does not have the robot"};
+  spdlog::info("lease returned by={}", lease());
+  set_lease("");
+  return std::nullopt;
+}
+
+std::string SlaveService::lease() const {
+  const std::lock_guard lock(leasing_);
+  return lease_;
+}
+
+void SlaveService::set_lease(const std::string& holder) {
+  const std::lock_guard lock(leasing_);
+  lease_ = holder;
 }
 
 }  // namespace longreach

@@ -24,18 +24,26 @@ class SlaveService : public ControlBackend {
   std::optional<Refusal> set_scale(double scale) override;
   std::optional<Refusal> engage() override;
   std::optional<Refusal> stop() override;
-  std::variant<proto::OpenSessionResponse, Refusal> open_session(
-      const proto::OpenSessionRequest& request) override;
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
+                                                                 const std::string& caller) override;
+  std::optional<Refusal> close_session(std::uint64_t session) override;
+
+  /// Who has the robot: the address that its session was opened from; empty: nobody.
+  [[nodiscard]] std::string lease() const;
 
   /// The newest picture of the loop; callable from any thread but the loop's.
   SlaveSnapshot snapshot();
 
  private:
+  void set_lease(const std::string& holder);
+
   SlaveShell& shell_;
   const proto::SlaveConfig start_;
   proto::SlaveConfig config_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
+  mutable std::mutex leasing_;
+  std::string lease_;
 };
 
 }  // namespace longreach

@@ -50,9 +50,14 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
     stop = true;
   } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
     port_.impairment().configure(*impairment, now);
-  } else if (const auto* session = std::get_if<Session>(&command)) {
-    if (occupied(now)) return LoopAnswer::kOccupied;
-    port_.follow(*session);
+  } else if (const auto* lease = std::get_if<SlaveLease>(&command)) {
+    // Whoever had it before is not heard from now on, so the robot holds until the new one engages.
+    if (!lease->take && occupied(now)) return LoopAnswer::kOccupied;
+    port_.follow(lease->session);
+  } else if (const auto* returned = std::get_if<SlaveReturn>(&command)) {
+    if (returned->session == 0 || returned->session != port_.endpoint().session())
+      return LoopAnswer::kOccupied;
+    port_.leave();
   } else {
     const auto& change = std::get<SlaveChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;

@@ -29,7 +29,16 @@ struct SlaveChange {
   bool impairment = false;       // config.link.impairment has changed
 };
 struct SlaveStop {};
-using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig, Session>;
+/// A master asks for the robot. `take`: also while another one has it.
+struct SlaveLease {
+  Session session{};
+  bool take = false;
+};
+/// A master gives it back.
+struct SlaveReturn {
+  std::uint64_t session = 0;
+};
+using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn>;
 
 class SlaveShell {
  public:

@@ -42,8 +42,10 @@ class ControlBackend {
   virtual std::optional<Refusal> set_scale(double scale) = 0;
   virtual std::optional<Refusal> engage() = 0;
   virtual std::optional<Refusal> stop() = 0;
+  /// `caller`: address of the master that asks.
   virtual std::variant<proto::OpenSessionResponse, Refusal> open_session(
-      const proto::OpenSessionRequest& request) = 0;
+      const proto::OpenSessionRequest& request, const std::string& caller) = 0;
+  virtual std::optional<Refusal> close_session(std::uint64_t session) = 0;
 };
 
 }  // namespace longreach

@@ -159,9 +159,15 @@ ControlService::Result<proto::Outcome> ControlService::stop() {
 }
 
 ControlService::Result<proto::OpenSessionResponse> ControlService::open_session(
-    const proto::OpenSessionRequest& request) {
+    const proto::OpenSessionRequest& request, const std::string& caller) {
   const std::lock_guard lock(mutex_);
-  return backend_.open_session(request);
+  return backend_.open_session(request, caller);
+}
+
+ControlService::Result<proto::Outcome> ControlService::close_session(
+    const proto::CloseSessionRequest& request) {
+  const std::lock_guard lock(mutex_);
+  return outcome(backend_.close_session(request.session()), "the robot is returned");
 }
 
 }  // namespace longreach

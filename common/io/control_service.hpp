@@ -37,7 +37,9 @@ class ControlService {
   Result<proto::Outcome> set_scale(const proto::SetScaleRequest& request);
   Result<proto::Outcome> engage();
   Result<proto::Outcome> stop();
-  Result<proto::OpenSessionResponse> open_session(const proto::OpenSessionRequest& request);
+  Result<proto::OpenSessionResponse> open_session(const proto::OpenSessionRequest& request,
+                                                  const std::string& caller);
+  Result<proto::Outcome> close_session(const proto::CloseSessionRequest& request);
 
  private:
   using Instant = std::chrono::steady_clock::time_point;

@@ -116,7 +116,13 @@ class GrpcControl final : public proto::Control::Service {
                            proto::OpenSessionResponse* answer) override {
     if (secured_ && !is_from(RpcRole::kMaster, *context))
       return {grpc::StatusCode::PERMISSION_DENIED, "only a master of this site may open a session"};
-    return finish(context, service_.open_session(*request), answer);
+    return finish(context, service_.open_session(*request, caller_of(*context)), answer);
+  }
+  grpc::Status CloseSession(Context* context, const proto::CloseSessionRequest* request,
+                            proto::Outcome* answer) override {
+    if (secured_ && !is_from(RpcRole::kMaster, *context))
+      return {grpc::StatusCode::PERMISSION_DENIED, "only a master of this site may close a session"};
+    return finish(context, service_.close_session(*request), answer);
   }
 
   grpc::Status Watch(Context* context, const proto::WatchRequest* request,
@@ -173,6 +179,12 @@ class GrpcControl final : public proto::Control::Service {
     const auto names = context.auth_context()->FindPropertyValues(GRPC_X509_SAN_PROPERTY_NAME);
     return std::find(names.begin(), names.end(),
                      grpc::string_ref(name_of(role).data(), name_of(role).size())) != names.end();
+  }
+
+  /// "127.0.0.1:53211" of "ipv4:127.0.0.1:53211".
+  static std::string caller_of(const Context& context) {
+    const std::string peer = context.peer();
+    return peer.substr(peer.find(':') + 1);
   }
 
   bool stopping() {

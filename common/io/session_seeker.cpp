@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 constexpr double kSilence_s = 1.0;  // after which the slave is asked; it gives a session away no sooner
 constexpr auto kLookPeriod = milliseconds(50);
 constexpr auto kAfterAnswer = milliseconds(1000);  // the datagrams are given time to come
+constexpr auto kReturnTimeout = std::chrono::seconds(2);
 constexpr auto kRetryFirst = milliseconds(100);
 constexpr auto kRetryLast = milliseconds(2000);
 // Connecting over 10 s each way, with all its round trips.
@@ -44,11 +45,13 @@ struct SessionSeeker::Rpc {
   std::unique_ptr<proto::Control::Stub> stub;
 };
 
-SessionSeeker::SessionSeeker(std::string address, const RpcSecurity& security, Look look, Adopt adopt)
+SessionSeeker::SessionSeeker(std::string address, const RpcSecurity& security, bool take, Look look,
+                             Adopt adopt)
     : address_(std::move(address)),
       look_(std::move(look)),
       adopt_(std::move(adopt)),
       rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_, RpcRole::kSlave, security))}),
+      take_(take),
       thread_([this] { run(); }) {}
 
 SessionSeeker::~SessionSeeker() {
@@ -59,6 +62,18 @@ SessionSeeker::~SessionSeeker() {
     wake_.notify_all();
   }
   thread_.join();
+  give_back();
+}
+
+void SessionSeeker::give_back() {
+  proto::CloseSessionRequest request;
+  request.set_session(look_().session);
+  if (request.session() == 0) return;
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kReturnTimeout);
+  proto::Outcome outcome;
+  // A slave that does not hear of it gives the robot to another master when this one has been silent for 1 s.
+  (void)rpc_->stub->CloseSession(&context, request, &outcome);
 }
 
 std::string SessionSeeker::trouble() const {
@@ -95,6 +110,7 @@ std::string SessionSeeker::seek(std::uint64_t present) {
   proto::OpenSessionRequest request;
   request.set_session(present);
   request.set_aes256gcm(has_aes256gcm());
+  request.set_take(take_);
   proto::OpenSessionResponse answer;
   const grpc::Status status = rpc_->stub->OpenSession(&context, request, &answer);
   {
@@ -112,6 +128,7 @@ std::string SessionSeeker::seek(std::uint64_t present) {
     return "no session with the slave at " + address_ +
            ": its answer cannot be used; use programs of one version";
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
+  take_ = false;  // whoever takes it from here later is not robbed in turn
   return adopt_(session) ? ""
                          : "no session with the slave at " + address_ + ": the control loop did not take it";
 }

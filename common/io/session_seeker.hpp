@@ -32,8 +32,10 @@ class SessionSeeker {
   using Adopt = std::function<bool(const Session&)>;
 
   /// `address`: of the slave's RPC server. Both functions are called in the seeker's thread.
-  SessionSeeker(std::string address, const RpcSecurity& security, Look look, Adopt adopt);
-  ~SessionSeeker();  // ends a call that is under way
+  /// `take`: once, the robot is taken from a master that has it.
+  SessionSeeker(std::string address, const RpcSecurity& security, bool take, Look look, Adopt adopt);
+  /// Returns the robot, which takes 2 s at most. Ends a call that is under way.
+  ~SessionSeeker();
   SessionSeeker(const SessionSeeker&) = delete;
   SessionSeeker& operator=(const SessionSeeker&) = delete;
 
@@ -45,6 +47,7 @@ class SessionSeeker {
   struct Rpc;
   void run();
   std::string seek(std::uint64_t present);
+  void give_back();
   bool wait(std::chrono::milliseconds time);
 
   const std::string address_;
@@ -54,6 +57,7 @@ class SessionSeeker {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool ended_ = false;
+  bool take_;
   grpc::ClientContext* call_ = nullptr;  // under way
   std::string trouble_;
   std::thread thread_;

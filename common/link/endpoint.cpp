@@ -29,8 +29,13 @@ std::optional<Duration> round_trip(Time now, Time echo_sent, Duration held) {
 
 void Endpoint::follow(std::uint64_t session) {
   CHECK(session != 0);
+  leave();
   session_ = session;
   ++sessions_;
+}
+
+void Endpoint::leave() {
+  session_ = 0;
   sent_.fill(0);
   for (auto& window : windows_) window.clear();
   monitor_.clear();

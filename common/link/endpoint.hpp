@@ -19,6 +19,8 @@ class Endpoint {
  public:
   /// Begins a session, not zero. Nothing of the one before it counts any more.
   void follow(std::uint64_t session);
+  /// Ends the session; nothing is heard or numbered until the next.
+  void leave();
 
   /// Why a datagram with this header is not taken, or none.
   [[nodiscard]] std::optional<Rejection> judge(const Header& header) const;

@@ -31,6 +31,12 @@ void Port::follow(const Session& session) {
   channel_.answer_to(Origin{});
 }
 
+void Port::leave() {
+  endpoint_.leave();
+  seals_.reset();
+  channel_.answer_to(Origin{});
+}
+
 void Port::receive(Time now) {
   open_inboxes();
   for (int i = 0; i < kDatagramsPerReceive; ++i) {

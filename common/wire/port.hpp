@@ -42,6 +42,8 @@ class Port {
 
   /// Takes part in a session, not number zero, and in no other any more.
   void follow(const Session& session);
+  /// Takes part in none.
+  void leave();
 
   void receive(Time now);
 

@@ -62,6 +62,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"state", state},
     {"other side, as heard", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
+    {"robot taken by", [](const Status& s) { return s.lease(); }},
     {"round trip",
      [](const Status& s) { return s.link().rtt_known() ? with_unit(s.link().rtt_s(), "s") : std::string(); }},
     {"jitter, received",

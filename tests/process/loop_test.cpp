@@ -128,33 +128,92 @@ TEST_F(Station, GarbageOverTheSocketChangesNothing) {
   EXPECT_EQ(master_.state(), "Engaged");
 }
 
-TEST_F(Station, ASecondMasterIsRefusedAndHarmless) {
+class TwoMasters : public Station {
+ protected:
+  /// As start_master, with a port of its own for RPC.
+  std::unique_ptr<RunningProgram> start_second(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {
+        "--set",      "link.slave=" + link_address(),
+        "--set",      "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc),
+        "--set",      "link.listen=127.0.0.1:0",
+        "--set",      "rpc.listen=127.0.0.1:0",
+        "--view",     "plain",
+        "--operator", "none",
+        "--engage"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return std::make_unique<RunningProgram>("longreach-master", arguments);
+  }
+  [[nodiscard]] std::string refusal() const {
+    return "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
+           ": another master has the robot";
+  }
+  std::string lease() {
+    const auto status = slave_.status();
+    return status ? status->lease() : "unreachable";
+  }
+};
+
+TEST_F(TwoMasters, TheSecondIsRefusedAndHarmless) {
   start_slave();
   start_master({"--operator", "none", "--engage"});
   ASSERT_TRUE(both_engaged()) << outputs();
   const auto before = slave_.status();
   ASSERT_TRUE(before);
-  RunningProgram second(
-      "longreach-master",
-      {"--set", "link.slave=" + link_address(), "--set",
-       "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc), "--set", "link.listen=127.0.0.1:0",
-       "--set", "rpc.listen=127.0.0.1:0", "--view", "plain", "--operator", "none", "--engage"});
-  const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
-                           ": another master is connected";
-  ASSERT_TRUE(eventually([&] { return second.output().find(said) != std::string::npos; })) << second.output();
+  EXPECT_EQ(before->lease().find("127.0.0.1:"), 0u) << before->lease();
+  const auto second = start_second();
+  ASSERT_TRUE(eventually([&] { return second->output().find(refusal()) != std::string::npos; }))
+      << second->output();
+  EXPECT_NE(slave_program_->output().find("lease refused="), std::string::npos) << outputs();
   const auto heard = master_.counter("accepted");
   ASSERT_TRUE(eventually([&] { return master_.counter("accepted") > heard + 50; }));
   const auto after = slave_.status();
   ASSERT_TRUE(after);
   EXPECT_EQ(after->state(), "Engaged");
   EXPECT_EQ(after->engagement(), before->engagement());
+  EXPECT_EQ(after->lease(), before->lease());
   EXPECT_EQ(slave_.counter("peer_restarts"), 0u);
   EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0u);
   EXPECT_EQ(master_.state(), "Engaged");
   // When the first one leaves, the second has its turn.
   master_program_->signal(SIGTERM);
   EXPECT_TRUE(eventually([&] { return slave_.counter("peer_restarts") == 1 && slave_.state() == "Engaged"; }))
-      << second.output();
+      << second->output();
+  EXPECT_NE(lease(), before->lease());
+}
+
+TEST_F(TwoMasters, TheRobotCanBeTakenAndHoldsUntilItIsEngagedAgain) {
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const auto rest = tool(slave_);
+  const auto second = std::make_unique<RunningProgram>(
+      "longreach-master",
+      std::vector<std::string>{"--set", "link.slave=" + link_address(), "--set",
+                               "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc), "--set",
+                               "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0", "--operator",
+                               "none", "--view", "none", "--take"});
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; })) << outputs() << second->output();
+  EXPECT_EQ(slave_.status()->cause(), "other side restarted");
+  ASSERT_TRUE(eventually([this] { return master_program_->output().find(refusal()) != std::string::npos; }))
+      << outputs();
+  EXPECT_EQ(slave_.state(), "Holding");
+  EXPECT_NE(master_.state(), "Engaged");
+  EXPECT_NE(master_.engage(), "");
+  EXPECT_LT(distance(tool(slave_), rest), 1e-4);
+  // Any role of the site may stop, whoever has the robot.
+  EXPECT_EQ(slave_.stop(), "");
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }));
+}
+
+TEST_F(TwoMasters, AMasterThatEndsReturnsTheRobot) {
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  master_program_->signal(SIGINT);
+  ASSERT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  EXPECT_EQ(lease(), "");
+  EXPECT_EQ(slave_.state(), "Holding");
+  EXPECT_NE(slave_program_->output().find("lease returned"), std::string::npos) << outputs();
 }
 
 TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {

@@ -96,14 +96,19 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return change("stop", [] {});
   }
-  std::variant<proto::OpenSessionResponse, Refusal> open_session(
-      const proto::OpenSessionRequest& request) override {
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
+                                                                 const std::string&) override {
     const Inside inside(*this);
-    if (auto refusal = change("open_session", [] {})) return *std::move(refusal);
+    if (auto refusal = change(request.take() ? "open_session take" : "open_session", [] {}))
+      return *std::move(refusal);
     proto::OpenSessionResponse response;
     response.set_session(present_session_);
     if (request.session() != present_session_) response.set_secret(std::string(32, 's'));
     return response;
+  }
+  std::optional<Refusal> close_session(std::uint64_t session) override {
+    const Inside inside(*this);
+    return change("close_session " + std::to_string(session), [] {});
   }
   /// Of the session that it opens; a caller that has it keeps it.
   void put_session(std::uint64_t number) {

@@ -42,6 +42,13 @@ struct Served {
     EXPECT_TRUE(status.ok() || mistrusted(status) || other_role(status)) << status.error_message();
     return status.error_code();
   }
+  grpc::StatusCode close_session(const RpcSecurity& security) const {
+    const auto stub = proto::Control::NewStub(connect_rpc(server.address(), RpcRole::kSlave, security));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
+    proto::Outcome answer;
+    return stub->CloseSession(&context, {}, &answer).error_code();
+  }
   grpc::StatusCode open_session(const RpcSecurity& security) const {
     const auto stub = proto::Control::NewStub(connect_rpc(server.address(), RpcRole::kSlave, security));
     grpc::ClientContext context;
@@ -58,6 +65,7 @@ TEST(RpcTls, EveryRoleOfTheSiteMayStopAndAMasterAloneOpensSessions) {
   EXPECT_EQ(served.stop(master), grpc::StatusCode::OK);
   EXPECT_EQ(served.stop(client), grpc::StatusCode::OK);
   EXPECT_EQ(served.open_session(client), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(served.close_session(client), grpc::StatusCode::PERMISSION_DENIED);
   EXPECT_EQ(served.backend.calls(), (std::vector<std::string>{"stop", "stop"}));
   EXPECT_EQ(served.open_session(master), grpc::StatusCode::OK);
 }

@@ -56,9 +56,9 @@ bool eventually(const std::function<bool()>& holds) {
 }
 
 struct Search {
-  explicit Search(const std::string& address)
+  explicit Search(const std::string& address, bool take = false)
       : seeker(
-            address, RpcSecurity{}, [this] { return loop.present(); },
+            address, RpcSecurity{}, take, [this] { return loop.present(); },
             [this](const Session& s) { return loop.adopt(s); }) {}
   FakeLoop loop;
   SessionSeeker seeker;
@@ -116,6 +116,20 @@ TEST(SessionSeeker, SaysWhyTheSlaveRefusesAndGoesOnAsking) {
   EXPECT_TRUE(search.loop.adopted().empty());
   backend.refuse(std::nullopt);
   EXPECT_TRUE(eventually([&] { return !search.loop.adopted().empty(); }));
+}
+
+TEST(SessionSeeker, TakesTheRobotOnceAndReturnsItAtTheEnd) {
+  FakeBackend backend("slave");
+  RpcServer server("127.0.0.1:0", backend, "slave");
+  {
+    Search search(server.address(), true);
+    ASSERT_TRUE(eventually([&] { return search.loop.adopted().size() == 1; }));
+    backend.put_session(78);
+    search.loop.fall_silent();
+    ASSERT_TRUE(eventually([&] { return search.loop.adopted().size() == 2; }));
+  }
+  EXPECT_EQ(backend.calls(),
+            (std::vector<std::string>{"open_session take", "open_session", "close_session 78"}));
 }
 
 TEST(SessionSeeker, EndsThoughItsCallIsNotAnswered) {

@@ -45,6 +45,17 @@ TEST(Endpoint, TakesAndSendsNothingWithoutASession) {
   EXPECT_EQ(endpoint.sessions(), 0U);
 }
 
+TEST(Endpoint, HearsAndNumbersNothingOnceItHasLeft) {
+  Endpoint endpoint = following(kSession);
+  ASSERT_FALSE(receive(endpoint, at(1.0), {kType, kSession, 1}).rejection);
+  endpoint.leave();
+  for (const std::uint64_t session : {std::uint64_t{0}, kSession})
+    EXPECT_EQ(endpoint.judge({kType, session, 2}), Rejection::kSession);
+  EXPECT_FALSE(endpoint.number(kType, 2));
+  EXPECT_FALSE(endpoint.monitor().last_heard());
+  EXPECT_EQ(endpoint.sessions(), 1U);
+}
+
 TEST(Endpoint, TakesItsOwnSessionOnly) {
   const Endpoint endpoint = following(kSession);
   EXPECT_FALSE(endpoint.judge({kType, kSession, 1}));

@@ -41,6 +41,18 @@ TEST(Ports, ANewSessionEndsTheOldOneAndTakesNumbersFromTheBeginning) {
   EXPECT_EQ(slave.commands().size(), 1u);
 }
 
+TEST(Ports, SayAndHearNothingOnceTheyHaveLeft) {
+  MemoryChannelPair channels;
+  SlavePort slave(channels.b(), ImpairmentConfig{}, Random(2));
+  slave.follow(samples::session());
+  slave.leave();
+  channels.a().send(datagram(samples::command(), 1));
+  channels.a().send(datagram(samples::command(), 1, samples::session(0)));
+  slave.receive(at_ms(1));
+  EXPECT_EQ(slave.rejected()[static_cast<std::size_t>(Rejection::kSession)], 2u);
+  EXPECT_EQ(slave.send(at_ms(1), 1, samples::report()), 0u);
+}
+
 TEST(Ports, NeverSealTwoDatagramsWithOneNumber) {
   MemoryChannelPair channels;
   SlavePort slave(channels.b(), ImpairmentConfig{}, Random(2));
