@@ -1,6 +1,7 @@
 #include "slave/contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace longreach {
 namespace {
@@ -9,11 +10,12 @@ constexpr double kOnsetShare = 0.25;   // of the touch threshold: the force has 
 constexpr double kSamePlaceM = 0.003;  // the surface that was met before is met again
 constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
+constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
 constexpr std::size_t kBefore = 64;       // samples before the touch that are kept
 constexpr double kValidSd = 0.5;          // fraction
 
-Identifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
-  return Identifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
+WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
+  return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
 }
 
 }  // namespace
@@ -72,65 +74,75 @@ void SlaveContact::begin(const ContactInput& input) {
   working_force_n_ = input.scale * estimator_.working_force_n;
   reported_.begin(again);
   if (!again) stiffness_.setZero();
-  reference_m_ = input.p_WE;
+  tool_m_ = input.p_WE;
+  inward_m_ = 0.0;
+  surface_m_ = -reading_.normal.dot((known_ ? known_point_m_ : onset_m_) - tool_m_);
   // As far in front of the onset as the tool is behind it.
-  const double first_m = -2.0 * reading_.normal.dot(onset_m_ - reference_m_);
+  const double first_m = -2.0 * reading_.normal.dot(onset_m_ - tool_m_);
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    const PenetrationSample s = sample(before_[i]);
-    if (s.x_m >= first_m) identifier_.step(s, 0.0);
+    const Before& at = before_[i];
+    const double x_m = -reading_.normal.dot(at.p_WE - tool_m_);
+    if (x_m >= first_m) {
+      identifier_.step({x_m, -reading_.normal.dot(at.v_WE), reading_.normal.dot(at.force_n)}, 0.0);
+    }
   }
   before_.clear();
   played_at_touch_ = input.played_sequence;
   touch_sequence_ = 0.0;
 }
 
-PenetrationSample SlaveContact::sample(const Before& at) const {
-  const Vector3& normal = reading_.normal;
-  return {-normal.dot(at.p_WE - reference_m_), -normal.dot(at.v_WE), normal.dot(at.force_n)};
+// What the tool goes against the force is depth, so that neither a slide along the surface nor its curvature
+// counts as that, which a mean direction would have a long lever for.
+PenetrationSample SlaveContact::sample(const ContactInput& input) {
+  const Vector3 outward = reading_.filtered_n.stableNormalized();
+  const double out_m = outward.dot(input.p_WE - tool_m_);
+  const bool possible = std::abs(out_m) < kStepMaxM;
+  if (possible) {
+    inward_m_ -= out_m;
+    tool_m_ = input.p_WE;
+  }
+  return {possible ? inward_m_ : std::nan(""), -outward.dot(input.v_WE), outward.dot(input.force_n)};
 }
 
 void SlaveContact::identify(const ContactInput& input) {
   const Vector3& normal = reading_.normal;
-  const PenetrationSample s = sample({input.p_WE, input.v_WE, input.force_n});
+  const PenetrationSample s = sample(input);
   identifier_.step(s, input.dt);
   answer_ = identifier_.answer();
   if (answer_.changes != changes_) working_.begin();
   changes_ = answer_.changes;
-  const double working_m = identifier_.depth_of(working_force_n_);
-  ContactAnswer told = identifier_.answer_at(working_.depth_m(working_m));
+  const double working_m = identifier_.told().depth_of(working_force_n_);
+  ContactAnswer told = identifier_.told().answer_at(working_.depth_m(working_m));
   // Another object under the tool: rather than to extrapolate far, the nearest depth that was visited.
   if (changes_ > 0 && told.valid && !well_known(told))
-    told = identifier_.answer_at(identifier_.visited(told.depth_m));
+    told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
   // A depth at which the guard holds the tool is not the operator's choice.
   if (well_known(told) && !input.guarded) {
-    working_.follow(working_m, s.x_m - told.surface.value, estimator_.depth_filter_s, input.dt);
+    working_.follow(working_m, inward_m_ - told.surface.value, estimator_.depth_filter_s, input.dt);
   }
   if (reported_.step(told, normal)) {
     stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
-    reported_at_m_ = reference_m_ - (answer_.surface.value + reported_.depth_m()) * normal;
+    reported_at_m_ = tool_m_ + (inward_m_ - answer_.surface.value - reported_.depth_m()) * normal;
   }
   if (well_known(answer_)) {
     known_ = true;
     known_normal_ = normal;
-    known_point_m_ = reference_m_ - answer_.surface.value * normal;
+    surface_m_ = answer_.surface.value;
+    known_point_m_ = surface_point();
   }
-  penetration_m_ = std::max(s.x_m - surface_m(), 0.0);
+  penetration_m_ = std::max(inward_m_ - surface_m_, 0.0);
   // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
   force_ = {true, normal, std::max(s.force_n, normal.dot(reading_.filtered_n)),
             reported_.stiffness_n_per_m()};
 }
 
 void SlaveContact::move_origin(const Vector3& by) {
-  for (Vector3* place : {&onset_m_, &known_point_m_, &reference_m_, &reported_at_m_}) *place -= by;
+  for (Vector3* place : {&onset_m_, &known_point_m_, &tool_m_, &reported_at_m_}) *place -= by;
   before_.clear();
 }
 
 bool SlaveContact::well_known(const ContactAnswer& a) const {
   return a.valid && a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
-}
-
-double SlaveContact::surface_m() const {
-  return -reading_.normal.dot((known_ ? known_point_m_ : onset_m_) - reference_m_);
 }
 
 void SlaveContact::locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence) {

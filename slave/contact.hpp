@@ -1,8 +1,7 @@
 #pragma once
 // One contact from touch to release: detection, identification, what is reported of it, and which command it
-// was met at. Distances along the inward normal are taken from where the tool was at the touch, so that a
-// slightly wrong normal has no lever. Until the fit knows the surface, it is where the force first left the
-// noise.
+// was met at. Depth counts along the tool's way, ds = -n(t)·dp, from where it was at the touch. Until the fit
+// knows the surface, it is where the force first left the noise.
 
 #include <cstdint>
 
@@ -11,8 +10,8 @@
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
 #include "slave/command/goal_limiter.hpp"
-#include "slave/estimation/identifier.hpp"
 #include "slave/estimation/reported_stiffness.hpp"
+#include "slave/estimation/watched_identifier.hpp"
 #include "slave/estimation/working_depth.hpp"
 #include "slave/sensing/contact_detector.hpp"
 
@@ -56,8 +55,8 @@ class SlaveContact {
   /// Where that is, in W.
   [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
-  /// Where the surface is, in W.
-  [[nodiscard]] Vector3 surface_point() const { return reference_m_ - surface_m() * reading_.normal; }
+  /// Of the surface, beneath the tool, in W.
+  [[nodiscard]] Vector3 surface_point() const { return tool_m_ + (inward_m_ - surface_m_) * reading_.normal; }
   [[nodiscard]] ContactForce force() const { return force_; }  // for the force guard
   [[nodiscard]] ContactEstimate estimate() const;
   [[nodiscard]] ContactStiffness report() const;
@@ -67,15 +66,14 @@ class SlaveContact {
   struct Before {  // the touch
     Vector3 p_WE, v_WE, force_n;
   };
-  [[nodiscard]] PenetrationSample sample(const Before& at) const;
+  PenetrationSample sample(const ContactInput& input);
   void identify(const ContactInput& input);
   [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
-  [[nodiscard]] double surface_m() const;
 
   SensingConfig sensing_;
   EstimatorConfig estimator_;
   ContactDetector detector_;
-  Identifier identifier_;
+  WatchedIdentifier identifier_;
   WorkingDepth working_;
   double working_force_n_ = 1.0;  // at the tool
   std::uint32_t changes_ = 0;     // of the contact, that were found
@@ -89,8 +87,10 @@ class SlaveContact {
   bool known_ = false;
   Vector3 known_normal_ = Vector3::Zero();
   Vector3 known_point_m_ = Vector3::Zero();
-  Vector3 reference_m_ = Vector3::Zero();  // tool at the touch
-  Matrix3 stiffness_ = Matrix3::Zero();    // as reported
+  Vector3 tool_m_ = Vector3::Zero();     // now, or at the last contact
+  double inward_m_ = 0.0;                // its way against the force since the touch
+  double surface_m_ = 0.0;               // where the surface is on that way
+  Matrix3 stiffness_ = Matrix3::Zero();  // as reported
   Vector3 reported_at_m_ = Vector3::Zero();
   double penetration_m_ = 0.0;
   double played_at_touch_ = 0.0;

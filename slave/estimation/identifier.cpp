@@ -207,7 +207,10 @@ void Identifier::watch(double innovation_n, double foreseen_n) {
   drift_n_ += (std::clamp(innovation_n, -clip, clip) - drift_n_) / kDriftSamples;
   const bool far =
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * variance && std::abs(drift_n_) > kDriftShare * force;
-  if (!far || config_.kind != EstimatorKind::kMaximumLikelihood || !settled()) return;
+  if (far && config_.kind == EstimatorKind::kMaximumLikelihood && settled()) renew();
+}
+
+void Identifier::renew() {
   ++changes_;
   restart();
 }
@@ -273,7 +276,7 @@ ContactAnswer Identifier::answer_at(double depth_m) const {
   judge(a.secant, kSecantSd * a.secant.value, early);
   judge(a.stiffness, kShareSd * a.stiffness.value, early);
   a.valid = std::isfinite(a.k.value) && std::isfinite(a.k.sd) && std::isfinite(a.lambda.sd) &&
-            std::isfinite(a.stiffness.sd);
+            std::isfinite(a.stiffness.sd) && a.stiffness.value > 0.0;
   return a.valid ? a : ContactAnswer{};
 }
 

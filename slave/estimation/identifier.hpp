@@ -7,8 +7,9 @@
 //   hold: resolution, bias and drift repeat themselves in each sample of a still hold, so only 25 samples
 //   within 0.05 % of a depth, or 3 sd of the position, count: nothing winds up, however long it lasts.
 //   change: the force is off by over 8 % for 20 samples and far outside its noise: another object or layer;
-//   the fit begins anew. MAXIMUM_LIKELIHOOD only: the others are off by more than that by themselves. slow
-//   touch: secant and stiffness use that a v at the greatest speed is 0.01 ± 0.01 unless the samples
+//   the fit begins anew. MAXIMUM_LIKELIHOOD only: the others are off by more than that by themselves, and are
+//   told (watched_identifier.hpp).
+//   slow touch: secant and stiffness use that a v at the greatest speed is 0.01 ± 0.01 unless the samples
 //   contradict. Until the speed has changed, nothing else tells elastic from damping force.
 //   verdict: identified is a parameter with an sd below 5 % (k, stiffness), 0.05 (n), 20 % (λ), 5 %/3
 //   (secant), after 50 ms of contact; not identifiable what 1000 samples or a hold have not told, and
@@ -73,6 +74,9 @@ class Identifier {
   void begin();
   /// In front of a surface that is known is free space. `dt` since the sample before, s.
   void step(const PenetrationSample& sample, double dt);
+  /// Another object or layer under the tool: the fit begins anew.
+  void renew();
+  [[nodiscard]] std::uint32_t changes() const { return changes_; }  // that were found
   /// At the depth of the last sample in contact. Everything up to the last sample; with an unknown surface up
   /// to the last 32.
   [[nodiscard]] ContactAnswer answer();

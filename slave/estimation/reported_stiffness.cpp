@@ -7,7 +7,7 @@ namespace longreach {
 namespace {
 
 constexpr double kWrong = 0.3;    // of the held value, and 5 sd: another object
-constexpr double kWrongSd = 0.1;  // fraction, of what replaces it
+constexpr double kWrongSd = 0.3;  // fraction, of what replaces it
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 // rendered stiffness moves the felt wall a little, so the value appears when its sd is below `first_sd`, then
 // changes only by more than max(deadband, 3 sd), or once a touch when its sd is below 1 % and it is off by
 // more than max(2 %, 3 sd), in the Frobenius norm of S n nᵀ: a direction that was learnt better is a change
-// as well. A value that is surely wrong, by over 30 % and 5 sd, gives way to one known to 10 %. A second
+// as well. A value that is surely wrong, by over 30 % and 5 sd, gives way to one known to 30 %. A second
 // touch of the same surface goes on with it.
 
 #include "common/spatial/spatial.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 // Is the tool in contact, and in which direction does the contact push?
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact begins when |f̄| > touch, ends when |f̄| < release
-//   n = Σ f̄ / |Σ f̄| over the contact: the direction of the force on the tool (outward normal of a
-//   frictionless wall)
+//   n = Σ w f̄ / |Σ w f̄| over the contact, its last 2 s: the direction of the force on the tool (outward
+//   normal of a frictionless wall)
 // A sample that is not finite is left out and counted.
 
 #include <cstdint>

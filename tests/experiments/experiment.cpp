@@ -64,6 +64,8 @@ const std::vector<Experiment> kExperiments = {
      run_singular_paths, singular_paths_plots},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
      run_impact, impact_plots},
+    {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
+     run_material_steps, material_steps_plots},
     {"docking",
      "A free-floating spacecraft is grasped, dragged and docked across the link (Fig. 20, 21); three "
      "mistakes.",

@@ -96,6 +96,8 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run);
 std::vector<Plot> singular_paths_plots();
 std::vector<Metric> run_impact(const ExperimentRun& run);
 std::vector<Plot> impact_plots();
+std::vector<Metric> run_material_steps(const ExperimentRun& run);
+std::vector<Plot> material_steps_plots();
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
 std::vector<Plot> scenes_cost_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);

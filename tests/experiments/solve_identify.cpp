@@ -6,7 +6,7 @@
 #include <optional>
 #include <ostream>
 
-#include "slave/estimation/identifier.hpp"
+#include "slave/estimation/watched_identifier.hpp"
 #include "tests/experiments/solve_json.hpp"
 
 namespace longreach {
@@ -106,7 +106,7 @@ class Recording {
 /// Turns rows into samples with a speed.
 class Feed {
  public:
-  void step(const Row& row, std::vector<Identifier>& identifiers) {
+  void step(const Row& row, std::vector<WatchedIdentifier>& identifiers) {
     if (row.v_m_per_s) {
       give({row.x_m, *row.v_m_per_s, row.f_n}, row.t_s, identifiers);
     } else if (rows_ >= 2) {
@@ -121,10 +121,10 @@ class Feed {
   }
 
  private:
-  void give(const PenetrationSample& sample, double t_s, std::vector<Identifier>& identifiers) {
+  void give(const PenetrationSample& sample, double t_s, std::vector<WatchedIdentifier>& identifiers) {
     const double dt = given_ ? t_s - *given_ : 0.0;
     given_ = t_s;
-    for (Identifier& identifier : identifiers) identifier.step(sample, dt);
+    for (WatchedIdentifier& identifier : identifiers) identifier.step(sample, dt);
   }
 
   Row first_, before_;
@@ -194,7 +194,7 @@ std::vector<std::string> identify_estimators() {
 int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostream& out,
                    std::ostream& errors) {
   const std::vector<EstimatorKind> chosen = kinds(options.estimator);
-  std::vector<Identifier> identifiers;
+  std::vector<WatchedIdentifier> identifiers;
   for (const EstimatorKind kind : chosen)
     identifiers.emplace_back(
         IdentifierConfig{kind, options.exponent, 1.0, options.force_noise_n, options.position_noise_m});

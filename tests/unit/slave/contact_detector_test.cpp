@@ -60,6 +60,14 @@ TEST(ContactDetector, AveragesTheNormalOverTheContact) {
   EXPECT_LT((reading.normal - normal).norm(), 0.006);  // 4 sd of the mean of 2000 samples
 }
 
+TEST(ContactDetector, NormalFollowsAnEdgeThatIsSlidOver) {
+  ContactDetector detector(SensingConfig{});
+  ContactReading reading;
+  for (int i = 0; i < 20000; ++i) reading = detector.step(Vector3(-1, 0, 0), kDt);
+  for (int i = 0; i < 10000; ++i) reading = detector.step(Vector3(0, -1, 0), kDt);
+  EXPECT_LT((reading.normal - Vector3(0, -1, 0)).norm(), 0.01);  // e^-5
+}
+
 TEST(ContactDetector, LeavesOutWhatIsNotFinite) {
   ContactDetector detector(SensingConfig{});
   settle(detector, Vector3(-1, 0, 0));

@@ -1,0 +1,42 @@
+#pragma once
+// An identifier that notices another object or layer under the tool, whatever its estimator. An estimator
+// whose law does not fit is off by itself, and by more the deeper it goes: that says nothing. So a maximum
+// likelihood fit, which takes the contact for no law in particular, judges beside it: when that one is
+// contradicted by the force, the estimate begins anew as well.
+
+#include "slave/estimation/identifier.hpp"
+
+namespace longreach {
+
+class WatchedIdentifier {
+ public:
+  explicit WatchedIdentifier(const IdentifierConfig& config)
+      : judges_itself_(config.kind == EstimatorKind::kMaximumLikelihood),
+        told_(config),
+        judge_(by_likelihood(config)) {}
+
+  void begin() {
+    told_.begin();
+    judge_.begin();
+  }
+  void step(const PenetrationSample& sample, double dt) {
+    told_.step(sample, dt);
+    if (judges_itself_) return;
+    const std::uint32_t before = judge_.changes();
+    judge_.step(sample, dt);
+    if (judge_.changes() != before) told_.renew();
+  }
+  [[nodiscard]] ContactAnswer answer() { return told_.answer(); }
+  [[nodiscard]] const Identifier& told() const { return told_; }
+
+ private:
+  static IdentifierConfig by_likelihood(IdentifierConfig config) {
+    config.kind = EstimatorKind::kMaximumLikelihood;
+    return config;
+  }
+
+  bool judges_itself_;
+  Identifier told_, judge_;
+};
+
+}  // namespace longreach
