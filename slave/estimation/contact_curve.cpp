@@ -17,7 +17,8 @@ constexpr double kFarthest = 1e3;   // depth, over the way that was seen
 constexpr int kTrials = 3;          // of a step, before the samples to come are waited for
 constexpr double kDampingLeast = 1e-6, kDampingMost = 1e6;
 constexpr int kShareUnused = 32;
-constexpr int kUnusedMax = 32;
+constexpr int kUnusedMost = 128;  // at a long memory
+constexpr int kUnusedLeast = 32;
 constexpr int kSamplesMin = 6;
 constexpr double kPlaced = 0.2;  // of the depth, sd of the surface: until then it is looked for anew
 
@@ -64,7 +65,9 @@ struct ContactCurve::Fitted {
 ContactCurve::ContactCurve(const Law& law)
     : law_(law),
       prior_n_(law.exponent > 0.0 ? law.exponent : kPriorN),
-      prior_n_sd_(law.exponent > 0.0 ? kGivenNSd : kPriorNSd) {
+      prior_n_sd_(law.exponent > 0.0 ? kGivenNSd : kPriorNSd),
+      memory_(static_cast<int>(std::clamp(1.0 / (1.0 - law.forgetting), double{kShareUnused * kUnusedLeast},
+                                          double{kShareUnused * kUnusedMost}))) {
   place_.n = prior_n_;
 }
 
@@ -126,7 +129,7 @@ double ContactCurve::step(const PenetrationSample& sample, double force_variance
   shallowest_m_ = std::min(shallowest_m_, sample.x_m);
   deepest_m_ = std::max(deepest_m_, sample.x_m);
   bins_.add(sample, law_.forgetting);
-  samples_ = std::min(samples_ + 1, kShareUnused * kUnusedMax);
+  samples_ = std::min(samples_ + 1, memory_);
   if (++unused_ * kShareUnused >= samples_ && samples_ >= kSamplesMin) refresh(force_variance_n2);
   return innovation;
 }

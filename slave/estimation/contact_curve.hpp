@@ -8,7 +8,7 @@
 // n 1.5 ± 0.5, a 0 ± 3 s/m (known materials have less than 1; against ± 10 s/m a free n is known in 0.8
 // instead of 1.3 s in 9 of 10 touches, first values off by 7 % at most instead of 46 %; at constant speed a
 // material of 10 s/m is then off by more than its sd says). The fit is brought up to date when the samples
-// have grown by 1/32, at least every 32. Not handled: noise of the position.
+// have grown by 1/32, at least every 128. Not handled: noise of the position.
 
 #include "slave/estimation/depth_bins.hpp"
 
@@ -42,6 +42,7 @@ class ContactCurve {
 
   Law law_;
   double prior_n_, prior_n_sd_;
+  int memory_;  // samples, as far as it matters how often the fit is brought up to date
   DepthBins bins_;
   double shallowest_m_ = 0.0, deepest_m_ = 0.0;
   bool sought_ = false;  // a first place was found

@@ -78,7 +78,7 @@ class Identifier {
   void renew();
   [[nodiscard]] std::uint32_t changes() const { return changes_; }  // that were found
   /// At the depth of the last sample in contact. Everything up to the last sample; with an unknown surface up
-  /// to the last 32.
+  /// to the last 128.
   [[nodiscard]] ContactAnswer answer();
   /// The same of another depth, > 0.
   [[nodiscard]] ContactAnswer answer_at(double depth_m) const;
