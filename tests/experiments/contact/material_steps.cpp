@@ -200,6 +200,7 @@ void write(const ExperimentRun& run, const std::string& name, const std::vector<
   trace.close();
 }
 
+// Force, way and true stiffness are those of the first estimator: what the hand feels decides where it goes.
 Plot plot_of(const std::string& name, const std::string& title, const Panel& place) {
   return {.name = name,
           .csv = name,
@@ -207,7 +208,7 @@ Plot plot_of(const std::string& name, const std::string& title, const Panel& pla
           .x_column = "t_s",
           .x_label = "time (s)",
           .panels = {{"stiffness (N/mm)",
-                      {{"true_n_per_m", "true", 1e-3},
+                      {{"true_n_per_m", "true (fixed exponent)", 1e-3},
                        {"fixed_exponent_n_per_m", "fixed exponent", 1e-3},
                        {"two_stage_n_per_m", "two-stage", 1e-3},
                        {"log_linear_n_per_m", "log-linear", 1e-3},
