@@ -2,6 +2,7 @@
 
 #include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <charconv>
@@ -239,6 +240,15 @@ void configure(grpc::ServerBuilder& builder) {
   builder.SetResourceQuota(grpc::ResourceQuota("longreach-control").SetMaxThreads(kThreadsMax));
 }
 
+/// gRPC 1.51 never answers again once connections have used up the descriptors, of which 1024 are usual.
+void raise_descriptor_limit() {
+  constexpr rlim_t kDescriptors = 65'536;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= kDescriptors) return;
+  limit.rlim_cur = std::min(limit.rlim_max, kDescriptors);
+  (void)::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 std::shared_ptr<grpc::ServerCredentials> server_credentials(const RpcSecurity& security) {
   if (!security.credentials) return grpc::InsecureServerCredentials();
   grpc::SslServerCredentialsOptions options(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
@@ -263,6 +273,7 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
   if (!security.credentials && !is_loopback(address))
     throw std::runtime_error("the " + std::string(side) + " will not serve RPC on " + address +
                              " in clear: leave out --insecure, or set rpc.listen to an address on loopback");
+  raise_descriptor_limit();
   // gRPC's own log lines would stand beside the one sentence of the exception.
   gpr_set_log_function([](gpr_log_func_args*) {});
   grpc::ServerBuilder builder;

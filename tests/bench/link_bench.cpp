@@ -3,6 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <utility>
+
 #include "common/wire/port.hpp"
 #include "tests/unit/wire/samples.hpp"
 

@@ -2,9 +2,11 @@
 // itself.
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <thread>
@@ -245,6 +247,34 @@ TEST_F(Station, AMasterOfAnotherSiteGetsNothing) {
   EXPECT_EQ(slave_.state(), "Idle");
   start_master({"--operator", "none", "--engage"});
   EXPECT_TRUE(both_engaged()) << outputs();
+}
+
+TEST_F(Station, ElevenHundredIdleConnectionsDisturbNothing) {
+  // The programs begin with the usual 1024 descriptors, the test has more.
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const rlimit usual{std::min<rlim_t>(1024, limit.rlim_max), limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  limit.rlim_cur = limit.rlim_max;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(ports_.slave_rpc));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  std::vector<int> idle;
+  for (int i = 0; i < 1100; ++i) {
+    idle.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    ASSERT_EQ(::connect(idle.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0) << i;
+  }
+  // Known connections and new ones are served.
+  EXPECT_EQ(slave_.state(), "Engaged");
+  EXPECT_TRUE(eventually([this] { return Side(RpcRole::kSlave, ports_.slave_rpc).state() == "Engaged"; }));
+  for (const int one : idle) ::close(one);
+  EXPECT_EQ(slave_.counter("false_holds") + slave_.counter("limit_violations"), 0u);
+  EXPECT_EQ(master_.state(), "Engaged");
 }
 
 TEST_F(Station, StopsFromEitherSideAndChangesWhatMayChange) {
