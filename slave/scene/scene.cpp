@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "slave/scene/path.hpp"
+
 namespace longreach {
 namespace {
 
@@ -79,7 +81,8 @@ NeedsConfig needs(const SceneConfig& scene) {
 
 Scene::Scene(const SceneConfig& config, const Pose& X_WE_start)
     : tool_radius_m_(config.tool_radius_m), q_start_(X_WE_start.q) {
-  std::map<std::string, std::size_t> known;  // bodies by name
+  if (config.path) static_cast<void>(Path(*config.path, X_WE_start.p));  // refuses one that is none
+  std::map<std::string, std::size_t> known;                              // bodies by name
   for (std::size_t i = 0; i < config.surface.size(); ++i) {
     const SurfaceConfig& surface = config.surface[i];
     const int index = static_cast<int>(i);

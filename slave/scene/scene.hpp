@@ -44,8 +44,8 @@ struct SceneMean {
 
 class Scene {
  public:
-  /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or a direction is
-  /// none.
+  /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or a direction or
+  /// the path (path.hpp) is none.
   Scene(const SceneConfig& config, const Pose& X_WE_start);
 
   [[nodiscard]] bool empty() const { return bodies_.empty() && hinges_.empty(); }

@@ -68,6 +68,11 @@ TEST(Scene, RefusesWhatItCannotBuild) {
   config = wall(1000.0, 1.0, 0.0);
   config.surface[0].plane->normal.setZero();
   EXPECT_THROW(Scene(config, Pose{}), std::invalid_argument);
+  config = wall(1000.0, 1.0, 0.0);
+  config.path = PathConfig{.waypoint = {{{0, 0, 0}}, {{0.1, 0, 0}}, {{0.1, 0.1, 0}}}, .turn_radius_m = 0.11};
+  EXPECT_THROW(Scene(config, Pose{}), std::invalid_argument);
+  config.path->turn_radius_m = 0.1;
+  EXPECT_NO_THROW(Scene(config, Pose{}));
 }
 
 TEST(Scene, FeelsNothingWhereThereIsNoNumber) {
