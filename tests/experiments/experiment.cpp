@@ -3,7 +3,9 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "commit.hpp"
 #include "common/config/config.hpp"
@@ -14,62 +16,112 @@ namespace {
 
 const std::vector<Experiment> kExperiments = {
     {"touch", "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
-     run_touch, touch_plots},
+     run_touch, touch_plots, "",
+     "{displayed_stiffness_n_per_m} N/m in the hand where the wall has {reference_stiffness_n_per_m}, "
+     "{rtt_s} s away; found again within {wall_registration_error_m*1e6} µm"},
     {"first-touch", "A wall met at 50 mm/s, 3 s away: what the hand feels then and at the second touch.",
-     run_first_touch, first_touch_plots},
+     run_first_touch, first_touch_plots, "",
+     "felt {felt_after_round_trip_s} s after the round trip of {round_trip_s} s, largest step "
+     "{force_step_max_n} N, wall registered within {registration_error_m*1e6} µm, without the touch sequence "
+     "{registration_error_without_touch_sequence_m*1e3} mm; the tool's force is at most "
+     "{guard_peak_over_guard_max} of its guard, without the guard {guard_peak_over_guard_max_without_guard}"},
     {"spike", "In contact the delay steps from 0.8 to 12 s: force, energy, and the way back to work.",
-     run_spike, spike_plots},
+     run_spike, spike_plots, "",
+     "{stiffness_left_after_time_constant} of the stiffness is left after one time constant; force rises by "
+     "at most {force_rise_max_n} N; {engagements} engagements, pressed again: {pressed_again}"},
     {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
-     run_rate_contact, rate_contact_plots},
+     run_rate_contact, rate_contact_plots, "",
+     "the hand feels {felt_over_tool_force} of the tool's force of {tool_force_n} N"},
     {"six-dof-contact", "An oblique plane, a corner and a torque, from stiffness tensors alone.",
-     run_six_dof_contact, six_dof_contact_plots},
+     run_six_dof_contact, six_dof_contact_plots, "",
+     "off by {oblique_displayed_error*100} % on an oblique plane, {corner_displayed_error_x*100} and "
+     "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},
     {"hostile-updates", "A million hostile stiffness reports in four hands: passive, limited, without steps?",
-     run_hostile_updates, hostile_updates_plots},
-    {"home-rotation", "The rotational handle returns home on a spring (Fig. 9, 10): damping and stiffness.",
-     run_home_rotation, home_rotation_plots},
-    {"home-translation", "The translational handle returns home (Fig. 17): on a spring, and gliding.",
-     run_home_translation, home_translation_plots},
-    {"wall-rotation", "Turning into a virtual wall (Fig. 12).", run_wall_rotation, wall_rotation_plots},
+     run_hostile_updates, hostile_updates_plots, "",
+     "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy {port_energy_min_j*1e3} mJ, "
+     "without the rules {naive_port_energy_min_j} J"},
+    {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.",
+     run_home_rotation, home_rotation_plots, "Fig. 9, 10",
+     "settling within {settling_difference_max*100} % of the closed form; overshoot {overshoot_at_0.5*100} % "
+     "at a damping ratio of {zeta_at_0.5}, none at 1"},
+    {"home-translation", "The translational handle returns home: on a spring, and gliding.",
+     run_home_translation, home_translation_plots, "Fig. 17",
+     "settling within {settling_difference_max*100} % of the closed form; {left_gliding*1e3} mm left after "
+     "gliding home"},
+    {"wall-rotation", "Turning into a virtual wall.", run_wall_rotation, wall_rotation_plots,
+     "Fig. 11, 12", "at 20 mN m depth {depth_at_20} degrees, expected {depth_expected_at_20}"},
     {"wall-translation",
-     "The stiffest stable virtual wall (Fig. 18) against sample time, hand, delay, encoders and friction.",
-     run_wall_translation, wall_translation_plots},
-    {"gravity", "Torques that carry the translational device, and where it goes when let go (Fig. 15, 16).",
-     run_gravity, gravity_plots},
-    {"rate-mapping", "Rate control (Fig. 13, 14): deflection and speed of the robot, both laws, dead zone.",
-     run_rate_mapping, rate_mapping_plots},
+     "The stiffest stable virtual wall against sample time, hand, delay, encoders and friction.",
+     run_wall_translation, wall_translation_plots, "Fig. 18",
+     "stability limit within {limit_difference_max*100} % of the sampled model; 5 N/mm at 1 kHz is stable, "
+     "limit {paper_wall_limit_light*1e-3}, {paper_wall_limit_firm*1e-3}, {paper_wall_limit_released*1e-3} "
+     "N/mm (light, firm, released)"},
+    {"gravity", "Torques that carry the translational device, and where it goes when let go.",
+     run_gravity, gravity_plots, "Fig. 15, 16",
+     "{torque_home_1} mN m at home, {torque_paper_home_1} to {torque_paper_home_3} in the paper; drift "
+     "{drift_real_max*1e6} µm, without compensation {drift_without_compensation*1e3} mm"},
+    {"rate-mapping", "Rate control: deflection and speed of the robot, both laws, dead zone.",
+     run_rate_mapping, rate_mapping_plots, "Fig. 13, 14",
+     "at the edge of the dead zone the speed steps by {speed_step_translation_continuous*1e3} mm/s, with the "
+     "literal law by {speed_step_translation_literal*1e3} mm/s"},
     {"scale-steps", "The buttons step the scale in motion: do goal and force step, is friction f / k_scale?",
-     run_scale_steps, scale_steps_plots},
+     run_scale_steps, scale_steps_plots, "",
+     "{scale_steps} steps of the scale: the goal steps by {goal_step_max_m} m, the force by "
+     "{force_step_max_n} N; friction within {friction_error_max*100} % of f / k_scale"},
     {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
-     run_fk_network, fk_network_plots},
+     run_fk_network, fk_network_plots, "",
+     "largest error: tracking {tracking_error_max_rad} rad, network {network_error_max_rad} rad, network and "
+     "one step {network_newton_error_max_rad} rad"},
     {"identify",
      "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
      "to steel",
-     run_identify, identify_plots},
+     run_identify, identify_plots, "",
+     "worst error of the stiffness while probing: maximum likelihood "
+     "{stiffness_error_worst_maximum_likelihood_probe} %, batch fit {stiffness_error_worst_batch_probe} %, "
+     "two-stage {stiffness_error_worst_two_stage_probe} %, log-linear "
+     "{stiffness_error_worst_log_linear_probe} %"},
     {"synthesis",
      "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?",
-     run_synthesis, synthesis_plots},
+     run_synthesis, synthesis_plots, "",
+     "worst conditioning in a 60 mm cube {a_conditioning}, the reconstructed device has "
+     "{catalog_conditioning}"},
     {"delay-sweep",
      "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
      "limits.",
-     run_delay_sweep, delay_sweep_plots},
+     run_delay_sweep, delay_sweep_plots, "",
+     "{stiffness_within_5_percent} of {stiffness_cases} cases within 5 %; direct force displays at most "
+     "{direct_limit_at_3*1e-3} N/mm at 3 s, wave variables {wave_limit_at_3*1e-3} N/mm"},
     {"press-wall",
      "One wall across one link: each textbook law over time, or the one that rendering.law names.",
-     run_press_wall, press_wall_plots},
+     run_press_wall, press_wall_plots, "",
+     "{wall_n_per_m} N/m across {rtt_s} s: direct force gives the hand {direct_port_energy_min_j*-1} J; "
+     "passivity observer {tdpa_displayed_n_per_m} N/m, position-position "
+     "{position_position_displayed_n_per_m} N/m"},
     {"delay-seeds", "The worst of many seeds, over every round trip and every named link that has no outage.",
-     run_delay_seeds, delay_seeds_plots},
+     run_delay_seeds, delay_seeds_plots, "",
+     "{held_within_5_percent} of {held_runs} runs within 5 %, worst {displayed_error_max*100} %; limit "
+     "cycles {held_limit_cycles}, of a handle let go {released_limit_cycles} of {released_runs}"},
     {"singular-paths",
      "The tool straight through the wrist, elbow and shoulder singularities of a PUMA 560: its error, the "
      "joints' "
      "speeds.",
-     run_singular_paths, singular_paths_plots},
+     run_singular_paths, singular_paths_plots, "",
+     "off the goal by at most {wrist_off_goal_max_m*1e3} (wrist), {elbow_off_goal_max_m*1e3} (elbow), "
+     "{shoulder_off_goal_max_m*1e3} mm (shoulder)"},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
-     run_impact, impact_plots},
+     run_impact, impact_plots, "",
+     "{impacts} impacts; restitution right in {discrete_gradient_right} % by the discrete gradient (error "
+     "{discrete_gradient_error_max}), {rk4_right} % by Runge-Kutta, {semi_implicit_euler_right} % by "
+     "semi-implicit Euler"},
     {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
      run_material_steps, material_steps_plots},
     {"docking",
-     "A free-floating spacecraft is grasped, dragged and docked across the link (Fig. 20, 21); three "
+     "A free-floating spacecraft is grasped, dragged and docked across the link; three "
      "mistakes.",
-     run_docking, docking_plots},
+     run_docking, docking_plots, "Fig. 20, 21",
+     "{docked} of {seeds} docked, felt as a force of at least {felt_least_n} N that rises and vanishes; "
+     "{mistakes_felt} of {mistakes} mistakes felt, {mistakes_safe} safe; the tool's force at most "
+     "{tool_force_max_n} N"},
     {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", run_scenes_cost,
      scenes_cost_plots},
 };
@@ -128,6 +180,20 @@ std::string config_hash(const proto::LabConfig& config) {
 
 std::string_view commit() { return kCommit; }
 
+std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
+                                   const std::function<void(const std::string&)>& trouble) {
+  if (!run.out.empty()) std::filesystem::create_directories(run.out);
+  std::vector<Metric> metrics = experiment.run(run);
+  if (run.out.empty()) return metrics;
+  std::ofstream file(run.out / "metrics.json", std::ios::trunc);
+  file << metrics_json(experiment.name, run, metrics);
+  if (!file.flush()) throw std::runtime_error("cannot write " + (run.out / "metrics.json").string());
+  for (const Plot& plot : experiment.plots()) {
+    if (const std::string why = draw(run.out, plot); !why.empty()) trouble(why);
+  }
+  return metrics;
+}
+
 std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
                          const std::vector<Metric>& metrics) {
   nlohmann::ordered_json json;
@@ -136,7 +202,10 @@ std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
   json["seed"] = run.seed;
   json["config_hash"] = config_hash(run.config);
   json["metrics"] = nlohmann::ordered_json::object();
-  for (const Metric& m : metrics) json["metrics"][m.name] = {{"value", m.value}, {"unit", m.unit}};
+  for (const Metric& m : metrics) {
+    json["metrics"][m.name] = {{"value", m.value}, {"unit", m.unit}};
+    if (m.of_machine) json["metrics"][m.name]["of_machine"] = true;
+  }
   return json.dump(2) + "\n";
 }
 

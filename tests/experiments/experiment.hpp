@@ -17,7 +17,8 @@ namespace longreach {
 struct Metric {
   std::string name;
   double value = 0.0;
-  std::string unit;  // "" for a pure number
+  std::string unit;         // "" for a pure number
+  bool of_machine = false;  // a time, or a ratio of times: not the same in every run
 };
 
 struct ExperimentRun {
@@ -32,6 +33,8 @@ struct Experiment {
   std::string_view summary;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
+  std::string_view figure{};  // of the source paper (Liu et al. 2019) that it repeats; empty: none
+  std::string_view answer{};  // sentence of the report: {NAME} stands for a metric, {NAME*1e3} for a multiple
 };
 
 /// All experiments, in the order in which `longreach-lab list` shows them.
@@ -48,6 +51,11 @@ std::string config_hash(const proto::LabConfig& config);
 
 /// Commit that the program was built from, with "-dirty" if the tree differed.
 std::string_view commit();
+
+/// Runs it. Into `run.out`, unless that is empty, go the traces, metrics.json and the plots; `trouble` is
+/// told of plots that could not be drawn. Throws std::runtime_error when a file cannot be written.
+std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
+                                   const std::function<void(const std::string&)>& trouble);
 
 std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
                          const std::vector<Metric>& metrics);

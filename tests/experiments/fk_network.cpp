@@ -224,17 +224,17 @@ std::vector<Metric> run_fk_network(const ExperimentRun& run) {
     metrics.push_back({name + "_error_rms_rad", cost.error_rms_rad, "rad"});
     metrics.push_back({name + "_failed", cost.failed, ""});
     if (cost.iterations > 0.0) metrics.push_back({name + "_iterations", cost.iterations, ""});
-    metrics.push_back({name + "_ns", cost.ns, "ns"});
+    metrics.push_back({name + "_ns", cost.ns, "ns", true});
   }
   const auto ns = [&](std::string_view name) {
     return std::find_if(variants.begin(), variants.end(), [&](const Variant& v) { return v.name == name; })
         ->cost.ns;
   };
-  metrics.push_back({"tracking_to_network_ratio", ns("tracking") / ns("network"), ""});
-  metrics.push_back({"newton_step_to_network_ratio", ns("newton_step") / ns("network"), ""});
-  metrics.push_back({"tracking_to_network_newton_ratio", ns("tracking") / ns("network_newton"), ""});
+  metrics.push_back({"tracking_to_network_ratio", ns("tracking") / ns("network"), "", true});
+  metrics.push_back({"newton_step_to_network_ratio", ns("newton_step") / ns("network"), "", true});
+  metrics.push_back({"tracking_to_network_newton_ratio", ns("tracking") / ns("network_newton"), "", true});
   metrics.push_back({"newton_from_rough_to_network_with_rough_ratio",
-                     ns("newton_from_rough") / ns("network_with_rough"), ""});
+                     ns("newton_from_rough") / ns("network_with_rough"), "", true});
   return metrics;
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/report/report.hpp"
 #include "tests/experiments/solve.hpp"
 #include "tests/experiments/solve_identify.hpp"
 #include "tests/experiments/train.hpp"
@@ -31,7 +32,8 @@ struct RunOptions {
 
 int list() {
   for (const Experiment& e : experiments()) {
-    std::printf("%-16s %s\n", std::string(e.name).c_str(), std::string(e.summary).c_str());
+    const std::string figure = e.figure.empty() ? "" : " (" + std::string(e.figure) + ")";
+    std::printf("%-16s %s%s\n", std::string(e.name).c_str(), std::string(e.summary).c_str(), figure.c_str());
   }
   return kDone;
 }
@@ -69,24 +71,12 @@ int run(const RunOptions& o) {
     return kBadUsage;
   }
   r.seed = o.seed;
-  if (!o.out.empty()) {
-    r.out = o.out;
-    std::filesystem::create_directories(r.out);
-  }
+  r.out = o.out;
   r.progress = progress_line(o, r.config.duration_s());
   const auto began = std::chrono::steady_clock::now();
-  const std::vector<Metric> metrics = experiment->run(r);
+  const auto complain = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
+  const std::vector<Metric> metrics = run_experiment(*experiment, r, complain);
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const std::string json = metrics_json(o.name, r, metrics);
-  if (!r.out.empty()) {
-    std::ofstream file(r.out / "metrics.json", std::ios::trunc);
-    file << json;
-    for (const Plot& plot : experiment->plots()) {
-      if (const std::string trouble = draw(r.out, plot); !trouble.empty())
-        std::fprintf(stderr, "%s\n", trouble.c_str());
-    }
-    if (!file.flush()) throw std::runtime_error("cannot write " + (r.out / "metrics.json").string());
-  }
   if (o.quiet) return kDone;
   for (const Metric& m : metrics) {
     std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
@@ -97,6 +87,17 @@ int run(const RunOptions& o) {
               config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
               r.out.empty() ? "" : "; written to ", r.out.c_str());
   return kDone;
+}
+
+void add_report(CLI::App& app, ReportOptions& o) {
+  CLI::App* report = app.add_subcommand(
+      "report",
+      "Run all experiments, one after the other, into DIR/NAME, and write DIR/index.html, one page that "
+      "needs no other file");
+  report->add_option("--out", o.out, "Folder; made if missing")->type_name("DIR")->required();
+  report->add_flag("--quick", o.quick, "Small campaigns: minutes instead of hours");
+  report->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
+  report->add_option("--only", o.only, "Only these experiments")->type_name("NAME...");
 }
 
 void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
@@ -140,6 +141,8 @@ int main(int argc, char** argv) {
   std::string kind;
   longreach::IdentifyOptions identify;
   longreach::add_solve(app, kind, identify);
+  longreach::ReportOptions report;
+  longreach::add_report(app, report);
   std::uint64_t train_seed = 1;
   std::string train_out = "spherical_network.txtpb";
   CLI::App* train = app.add_subcommand(
@@ -173,10 +176,15 @@ int main(int argc, char** argv) {
       longreach::train(kind, train_seed, train_out);
       return longreach::kDone;
     }
+    if (app.got_subcommand("report"))
+      return longreach::write_report(report) == 0 ? longreach::kDone : longreach::kFailed;
     if (app.got_subcommand("solve") && kind == "identify")
       return longreach::solve_identify(identify, std::cin, std::cout, std::cerr);
     if (app.got_subcommand("solve")) return longreach::solve(kind, std::cin, std::cout);
     return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
+  } catch (const longreach::ConfigError& e) {
+    std::fprintf(stderr, "longreach-lab: %s\n", e.what());
+    return longreach::kBadUsage;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "longreach-lab: %s\n", e.what());
     return longreach::kFailed;

@@ -125,18 +125,20 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     message.set_scene_file("scenes/" + name + ".txtpb");
     resolve_files(message, find_deploy_folder());
     const SlaveConfig config = to_struct(message);
-    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node"});
+    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node", true});
     if (config.scene.bodies) {
       const Vector3 docking_m{0.441, -0.45, 0.05};  // of scene dock: the striker presses the keeper
       metrics.push_back(
-          {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "bodies alone"});
-      metrics.push_back({name + "_held_us", bodies_us(config.scene, Vector3::Zero(), true), "bodies alone"});
-      metrics.push_back({name + "_pressing_us", bodies_us(config.scene, docking_m, true), "bodies alone"});
+          {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "bodies alone", true});
+      metrics.push_back(
+          {name + "_held_us", bodies_us(config.scene, Vector3::Zero(), true), "bodies alone", true});
+      metrics.push_back(
+          {name + "_pressing_us", bodies_us(config.scene, docking_m, true), "bodies alone", true});
       continue;
     }
     const Pose start = SimulatedArm(config, Random(1)).start_pose();
     const ContactCost cost = contact_cost(Scene(config.scene, start), start.p + Vector3(0.12, 0, 0), 0.05);
-    metrics.push_back({name + "_contact_us", cost.us, "contact alone"});
+    metrics.push_back({name + "_contact_us", cost.us, "contact alone", true});
     metrics.push_back({name + "_touching", 100.0 * cost.touching, "% of these places"});
   }
   Trace trace(run.out, "scenes_cost",
@@ -145,8 +147,8 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     const ContactCost resting = contact_cost(many(count, false), Vector3::Zero(), 1.0);
     const ContactCost moving = contact_cost(many(count, true), Vector3::Zero(), 1.0);
     trace.row({static_cast<double>(count), resting.us, moving.us, resting.asked, moving.asked});
-    metrics.push_back({std::to_string(count) + "_resting_us", resting.us, "contact alone"});
-    metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone"});
+    metrics.push_back({std::to_string(count) + "_resting_us", resting.us, "contact alone", true});
+    metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone", true});
   }
   trace.close();
   return metrics;
