@@ -38,7 +38,8 @@ const std::vector<Experiment> kExperiments = {
      "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},
     {"hostile-updates", "A million hostile stiffness reports in four hands: passive, limited, without steps?",
      run_hostile_updates, hostile_updates_plots, "",
-     "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy {port_energy_min_j*1e3} mJ, "
+     "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy "
+     "{port_energy_min_j*1e3} mJ, "
      "without the rules {naive_port_energy_min_j} J"},
     {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.",
      run_home_rotation, home_rotation_plots, "Fig. 9, 10",
@@ -48,16 +49,16 @@ const std::vector<Experiment> kExperiments = {
      run_home_translation, home_translation_plots, "Fig. 17",
      "settling within {settling_difference_max*100} % of the closed form; {left_gliding*1e3} mm left after "
      "gliding home"},
-    {"wall-rotation", "Turning into a virtual wall.", run_wall_rotation, wall_rotation_plots,
-     "Fig. 11, 12", "at 20 mN m depth {depth_at_20} degrees, expected {depth_expected_at_20}"},
+    {"wall-rotation", "Turning into a virtual wall.", run_wall_rotation, wall_rotation_plots, "Fig. 11, 12",
+     "at 20 mN m depth {depth_at_20} degrees, expected {depth_expected_at_20}"},
     {"wall-translation",
      "The stiffest stable virtual wall against sample time, hand, delay, encoders and friction.",
      run_wall_translation, wall_translation_plots, "Fig. 18",
      "stability limit within {limit_difference_max*100} % of the sampled model; 5 N/mm at 1 kHz is stable, "
      "limit {paper_wall_limit_light*1e-3}, {paper_wall_limit_firm*1e-3}, {paper_wall_limit_released*1e-3} "
      "N/mm (light, firm, released)"},
-    {"gravity", "Torques that carry the translational device, and where it goes when let go.",
-     run_gravity, gravity_plots, "Fig. 15, 16",
+    {"gravity", "Torques that carry the translational device, and where it goes when let go.", run_gravity,
+     gravity_plots, "Fig. 15, 16",
      "{torque_home_1} mN m at home, {torque_paper_home_1} to {torque_paper_home_3} in the paper; drift "
      "{drift_real_max*1e6} µm, without compensation {drift_without_compensation*1e3} mm"},
     {"rate-mapping", "Rate control: deflection and speed of the robot, both laws, dead zone.",
