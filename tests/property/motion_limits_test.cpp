@@ -152,7 +152,7 @@ TEST(MotionRules, AreEachNeededOnSomePath) {
   for (const Path& path : {Path{kSingular, kPuma, 107, true}, Path{kSingular, kSpaceArm, 146, true},
                            Path{kSingular, kSpaceArm, 42, true}, Path{kLimits, kUr10, 12, true},
                            Path{kLimits, kPuma, 114, false}, Path{kLimits, kPuma, 525, false},
-                           Path{kLimits, kUr10, 368, false}}) {
+                           Path{kLimits, kUr10, 178, true}, Path{kLimits, kUr10, 368, false}}) {
     Summary summary;
     expect_path(path.kind, arms[path.arm], path.number, summary);
     EXPECT_EQ(summary.prompt, path.arrives ? 1 : 0) << kNames[path.kind] << ' ' << path.number;
