@@ -115,7 +115,13 @@ const std::vector<Experiment> kExperiments = {
      "{discrete_gradient_error_max}), {rk4_right} % by Runge-Kutta, {semi_implicit_euler_right} % by "
      "semi-implicit Euler"},
     {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
-     run_material_steps, material_steps_plots},
+     run_material_steps, material_steps_plots, "",
+     "fixed exponent: {layers_fixed_exponent_followed} of {layers_fixed_exponent_changes} layers told within "
+     "{layers_fixed_exponent_slowest_s} s and {layers_fixed_exponent_farthest_m*1e3} mm, the hard tile "
+     "within "
+     "{soft_to_hard_fixed_exponent_slowest_s} s, the soft one within {hard_to_soft_fixed_exponent_slowest_s} "
+     "s, "
+     "pressed"},
     {"docking",
      "A free-floating spacecraft is grasped, dragged and docked across the link; three "
      "mistakes.",
