@@ -175,7 +175,7 @@ NumericResult NumericInverse::solve(const Rigid& X_WE_goal, const JointVector& s
       Eigen::Index nearest;
       miss.minCoeff(&nearest);
       miss[nearest] = kTried;
-      number = (nearest + 1) % (kKnownStarts + 1);
+      number = (static_cast<std::uint32_t>(nearest) + 1) % (kKnownStarts + 1);
     }
     const NumericResult next = search_once(X_WE_goal, number == 0 ? start_rad : start(number), tolerance);
     iterations += next.iterations;

@@ -130,7 +130,9 @@ TEST(ToolCompensation, ZeroesTheBiasWhileTheToolMoves) {
   compensation.zero();
   Wrench left;
   for (int n = 0; n < 202; ++n) {
-    if (n != 200) EXPECT_EQ(compensation.ready(), n > 200) << n;  // 200 ms are 200 samples but for rounding
+    if (n != 200) {  // 200 ms are 200 samples but for rounding
+      EXPECT_EQ(compensation.ready(), n > 200) << n;
+    }
     const double t = 1e-3 * n;
     left = compensation.step(reading.at(t, {}, bias), pose(t).q, velocity(t), 1e-3);
   }
