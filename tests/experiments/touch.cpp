@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "common/config/config.hpp"
 #include "common/core/regression.hpp"
@@ -43,6 +44,13 @@ struct Watch {
 };
 
 /// Signed depth of the handle behind the true surface, m of the handle; position mode.
+// Into the wall, where the scene has one.
+std::optional<Vector3> inward_of(const SlaveConfig& slave) {
+  const auto& surface = slave.scene.surface;
+  if (surface.empty() || !surface.front().plane) return std::nullopt;
+  return Vector3(-surface.front().plane->normal.normalized());
+}
+
 double true_handle_depth(const Laboratory& lab, const Vector3& point_m, const Vector3& inward) {
   const MasterView& m = lab.master();
   const double offset_m = inward.dot(point_m - lab.slave().X_WE_anchor.p);
@@ -68,7 +76,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   if (phase == ScriptPhase::kPress && w.phase == ScriptPhase::kReturn && w.registration_m < 0.0 &&
       !slave.scene.surface.empty() && slave.scene.surface.front().plane) {
     const PlaneConfig& plane = *slave.scene.surface.front().plane;
-    const Vector3 inward = -plane.normal.normalized();
+    const Vector3 inward = *inward_of(slave);
     const Vector3 point =
         plane.point_m + (plane.from_tool_start ? lab.arm().start_pose().p : Vector3::Zero().eval());
     const double registered = m.inward.dot(m.p_MH) - m.surface_m;
@@ -134,16 +142,19 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"duration_s", lab.now_s(), "s"}};
 }
 
-void trace_row(Trace& trace, const Laboratory& lab) {
+// Along the wall's normal; what the hand feels along another one is left out.
+void trace_row(Trace& trace, const Laboratory& lab, const std::optional<Vector3>& wall) {
+  constexpr double kAlong = 0.9;  // cosine
   const MasterView& m = lab.master();
   const SlaveView& s = lab.slave();
-  const double hand = m.inward.dot(m.p_MH);
-  trace.row({lab.now_s(), hand, m.surface_known ? m.surface_m : NAN, m.inward.dot(m.goal_m),
-             s.engagement > 0 ? m.inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN, -m.inward.dot(m.F_H_M.force),
-             m.spring_force_n.norm(), lab.arm().true_wrench().force.norm(), m.stiffness_n_per_m,
-             s.reported_stiffness_n_per_m, lab.arm().true_penetration_m(), m.port_energy_j, m.stored_energy_j,
-             m.tank_j, m.scale, static_cast<double>(m.mode), static_cast<double>(m.state),
-             static_cast<double>(lab.script().phase())});
+  const Vector3 inward = wall.value_or(m.inward);
+  const bool along = m.inward.dot(inward) > kAlong;
+  trace.row({lab.now_s(), inward.dot(m.p_MH), along && m.surface_known ? m.surface_m : NAN,
+             inward.dot(m.goal_m), s.engagement > 0 ? inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN,
+             -inward.dot(m.F_H_M.force), m.spring_force_n.norm(), lab.arm().true_wrench().force.norm(),
+             along ? m.stiffness_n_per_m : NAN, s.reported_stiffness_n_per_m, lab.arm().true_penetration_m(),
+             m.port_energy_j, m.stored_energy_j, m.tank_j, m.scale, static_cast<double>(m.mode),
+             static_cast<double>(m.state), static_cast<double>(lab.script().phase())});
 }
 
 }  // namespace
@@ -177,12 +188,13 @@ std::vector<Metric> run_touch(const ExperimentRun& run) {
                "tool_force_n", "stiffness_n_per_m", "reported_n_per_m", "penetration_m", "port_energy_j",
                "stored_energy_j", "tank_j", "scale", "mode", "state", "phase"});
   Watch watch;
+  const std::optional<Vector3> wall = inward_of(slave);
   const auto ticks = static_cast<std::int64_t>(run.config.duration_s() / lab.period_s());
   const auto rows = std::max<std::int64_t>(1, std::llround(1.0 / (run.config.trace_hz() * lab.period_s())));
   for (std::int64_t i = 0; i < ticks; ++i) {
     lab.step();
     watch_tick(watch, lab, slave, master.rendering.ke);
-    if (i % rows == 0) trace_row(trace, lab);
+    if (i % rows == 0) trace_row(trace, lab, wall);
     if (run.progress && i % 1000 == 0) run.progress(static_cast<double>(i) / static_cast<double>(ticks));
     if (lab.script().cycles() > 0 && lab.script().phase() == ScriptPhase::kRest) break;
   }
