@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPriorN = 1.5, kPriorNSd = 0.5;
 constexpr double kGivenNSd = 1e-6;
-constexpr double kPriorASd = 3.0;  // s/m
+constexpr double kPriorASd = 2.5;  // s/m
 constexpr double kLowestN = 0.5, kHighestN = 3.5;
 constexpr double kStepN = 0.5;      // at most
 constexpr double kStepDepth = 0.5;  // of the depth, at most

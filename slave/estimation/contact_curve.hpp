@@ -5,10 +5,11 @@
 // and x0 the law is linear in (f, f a), so these are projected out (Golub and Pereyra 1973) and n and x0 are
 // found by damped Gauss-Newton steps on the samples' bins (depth_bins.hpp). Samples from before the touch
 // belong to it: that there was no force yet tells where the surface is not. n is free, or given. Weak priors:
-// n 1.5 ± 0.5, a 0 ± 3 s/m (known materials have less than 1; against ± 10 s/m a free n is known in 0.8
-// instead of 1.3 s in 9 of 10 touches, first values off by 7 % at most instead of 46 %; at constant speed a
-// material of 10 s/m is then off by more than its sd says). The fit is brought up to date when the samples
-// have grown by 1/32, at least every 128. Not handled: noise of the position.
+// n 1.5 ± 0.5, a 0 ± 2.5 s/m (known materials have less than 1). At constant speed nothing else tells a from
+// k: against ± 10 s/m a free n is known in 0.8 instead of 1.3 s in 9 of 10 touches and first values are off
+// by 7 % at most instead of 46 %; with ± 3 s/m one of 3600 touches displayed a wall 5.8 % off; a material of
+// 10 s/m is then off by more than its sd says. The fit is brought up to date when the samples have grown by
+// 1/32, at least every 128. Not handled: noise of the position.
 
 #include "slave/estimation/depth_bins.hpp"
 

@@ -113,7 +113,7 @@ double honesty(const EstimatorConfig& config, double n, double a_sd, int ticks) 
   return std::sqrt(squares / kSeeds);
 }
 
-// a is presumed to be 0 ± 3 s/m. Of materials that are more viscous than that it holds once the speed has
+// a is presumed to be 0 ± 2.5 s/m. Of materials that are more viscous than that it holds once the speed has
 // changed.
 TEST(SlaveContact, ItsStandardDeviationIsHonest) {
   for (const double n : {1.0, 1.5}) {
