@@ -41,7 +41,8 @@ inline Vector3 rotation_between(const Matrix3& from, const Matrix3& to) {
 }
 
 /// The same with the length 2 sin(θ/2) instead of the angle θ: its square is half that of the difference of
-/// the matrices (Frobenius), and it takes no arc tangent.
+/// the matrices (Frobenius), and it takes no arc tangent. Within 1e-7 beside half a turn, to rounding
+/// elsewhere.
 inline Vector3 chord_between(const Matrix3& from, const Matrix3& to) {
   const Vector3 w =
       0.5 * (from.col(0).cross(to.col(0)) + from.col(1).cross(to.col(1)) + from.col(2).cross(to.col(2)));

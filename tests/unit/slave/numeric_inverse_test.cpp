@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "common/core/random.hpp"
@@ -102,9 +103,24 @@ TEST(NumericInverse, LeavesTheJointsForAGoalThatIsNotFinite) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Pose goal = inverse.kinematics().forward(test::start_joints());
     goal.p.y() = bad;
-    const NumericResult result = inverse.solve(to_rigid(goal), test::start_joints(), {});
-    EXPECT_FALSE(result.found);
-    EXPECT_EQ(result.joint_rad, test::start_joints());
+    for (const std::uint32_t restarts : {0U, 200U}) {
+      const NumericResult result = inverse.solve(to_rigid(goal), test::start_joints(), {1e-10, 20, restarts});
+      EXPECT_FALSE(result.found);
+      EXPECT_EQ(result.joint_rad, test::start_joints());
+    }
+  }
+}
+
+// At rest, beside it, and up to half a turn, where the sine of the angle says nothing.
+TEST(Rigid, TheChordIsTwiceTheSineOfHalfTheAngle) {
+  constexpr double kHalfTurn = 3.14159265358979323846;
+  const Vector3 axis = Vector3(1.0, -2.0, 0.5).normalized();
+  const Matrix3 from = exp_rotation({0.3, 0.2, -0.7}).toRotationMatrix();
+  for (const double angle : {0.0, 1e-12, 1e-4, 1.0, 3.0, kHalfTurn - 1e-4, kHalfTurn - 1e-7, kHalfTurn}) {
+    const Matrix3 to = Eigen::AngleAxisd(angle, axis).toRotationMatrix() * from;
+    const Vector3 chord = chord_between(from, to);
+    EXPECT_NEAR(chord.norm(), 2.0 * std::sin(0.5 * angle), 1e-7) << angle;
+    EXPECT_NEAR(std::abs(chord.dot(axis)), chord.norm(), 1e-7) << angle;
   }
 }
 
