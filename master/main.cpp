@@ -112,6 +112,7 @@ class Housekeeping {
       std::this_thread::sleep_for(kPollPeriod);
       const MasterSnapshot s = service_.snapshot();
       const std::string trouble = seeker.trouble();
+      service_.put_trouble(trouble, seeker.taken_by());
       chronicle_.write(s, trouble);
       ConsoleSnapshot shown = picture(s, config_);
       shown.trouble = trouble;
@@ -215,6 +216,7 @@ int operate(const MasterOptions& options) {
   });
   std::optional<SessionSeeker> seeker(
       std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
+      sent_hz(plain.link),
       [&service]() -> SessionSeeker::Present {
         const SideFigures side = service.snapshot().side;
         return {side.session, side.link.silence_s};

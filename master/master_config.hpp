@@ -2,6 +2,8 @@
 // Every parameter of the master as plain values. Meaning, unit, default and range: proto/config.proto; the
 // same names.
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include "common/core/loop_config.hpp"
@@ -18,12 +20,24 @@ struct MasterLinkConfig {
   double send_hz = 200.0;
   ImpairmentConfig impairment{};
   std::string slave_rpc;
+  double budget_kbit_per_s = 0.0;
 };
+
+/// Commands a second that leave: as many as are wanted and the budget pays for, at 128 bytes with all
+/// headers.
+inline double sent_hz(const MasterLinkConfig& link) {
+  constexpr double kbit = 1e-3 * 8.0 * 128.0;
+  return link.budget_kbit_per_s > 0.0 ? std::min(link.send_hz, link.budget_kbit_per_s / kbit) : link.send_hz;
+}
+
+enum class Presence : std::uint8_t { kIgnore, kHold };
 
 struct MasterSafetyConfig {
   double silence_s = 0.5;
   double resume_s = 1.0;
   bool engage_at_start = false;
+  Presence presence = Presence::kIgnore;
+  double presence_s = 0.3;
 };
 
 struct MasterConfig {

@@ -56,6 +56,7 @@ struct MasterNode::State {
     view.scale = c.mapping.scale;
   }
 
+  void decide(const MasterInput& input);
   void take_handle(const HandleState& h);
   void take_requests(const OperatorRequests& r);
   void take_buttons(const Buttons& now);
@@ -171,24 +172,33 @@ MotionCommand MasterNode::State::command() {
   return c;
 }
 
+void MasterNode::State::decide(const MasterInput& input) {
+  const std::uint32_t engagement = safety.engagement();
+  const bool begun = safety.step({.now = input.now,
+                                  .last_heard = input.last_heard,
+                                  .peer_restarts = input.peer_restarts,
+                                  .taken = input.taken,
+                                  .device_ok = handle.ok,
+                                  .held = handle.held,
+                                  .engage = input.requests.engage,
+                                  .hold = input.requests.hold,
+                                  .stop = input.requests.stop,
+                                  .rtt_s = input.rtt_s});
+  // The goals of an engagement begin with the first command that asks for it.
+  if (safety.engagement() != engagement || begun) {
+    mapping.reset(handle);
+    history.clear();
+  }
+  if (begun) renderer.reset(handle);
+}
+
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
   s.take_handle(input.handle);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
   s.take_requests(input.requests);
   s.take_buttons(s.handle.buttons);
-  const bool begun = s.safety.step({.now = input.now,
-                                    .last_heard = input.last_heard,
-                                    .peer_restarts = input.peer_restarts,
-                                    .device_ok = s.handle.ok,
-                                    .engage = input.requests.engage,
-                                    .hold = input.requests.hold,
-                                    .stop = input.requests.stop});
-  if (begun) {
-    s.mapping.reset(s.handle);
-    s.renderer.reset(s.handle);
-    s.history.clear();
-  }
+  s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
   // Letting go moves the goal by nothing, wherever the handle goes then.
   const bool frozen = !engaged || s.view.clutched || !s.handle.held;
@@ -200,7 +210,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   out.F_H_M = s.renderer.step(at, s.mapping);
 
   s.send_phase += s.config.link.send_hz * s.period_s;
-  if (s.send_phase >= 1.0) {
+  if (s.send_phase >= 1.0 && input.may_send) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
     out.sequence = ++s.sequence;
     out.command = s.command();
@@ -216,6 +226,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.cause = safety.cause();
   view.far_state = safety.far_state();
   view.engagement = safety.engagement();
+  view.hand_missing = safety.hand_missing();
   view.p_MH = handle.p_MH;
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = mapping.goal().rotation_rad;

@@ -38,7 +38,9 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
+  bool taken = false;             // another master has the robot: a level
   std::optional<double> rtt_s{};  // of the link, once known
+  bool may_send = true;           // within the budget of the link
 };
 
 /// Everything that eyes, status and log need to know, once a tick.
@@ -47,6 +49,7 @@ struct MasterView {
   HoldCause cause = HoldCause::kNone;
   SafetyState far_state = SafetyState::kIdle;
   std::uint32_t engagement = 0;
+  bool hand_missing = false;  // safety.presence = HOLD, and no hand is on the handle: no engagement
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;

@@ -1,8 +1,66 @@
 #include "master/master_safety.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace longreach {
+
+enum class MasterSafety::Demand : std::uint8_t {
+  kDeviceFault,
+  kStop,
+  kEngage,
+  kSlaveStopped,
+  kSlaveFault,
+  kTaken,
+  kRestarted,
+  kHold,
+  kLetGo,
+  kSilent,
+  kSlaveHolds,
+  kSlaveEngaged,
+  kUnanswered,
+  kHeard
+};
+
+namespace {
+
+using State = SafetyState;
+using Cause = HoldCause;
+
+constexpr double kAnswer_s = 3.0;        // of a slave, besides the round trip
+constexpr double kUnknownTrip_s = 60.0;  // as long as the round trip is not known
+
+constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
+constexpr unsigned kAny = ~0U;
+constexpr unsigned kFollowed = in(State::kEngaged) | in(State::kHolding);
+constexpr unsigned kFollowing = in(State::kObserving) | in(State::kEngaged) | in(State::kHolding);
+
+}  // namespace
+
+struct MasterSafety::Rule {
+  unsigned from;
+  bool active;  // only while an engagement is requested
+  Demand demand;
+  State to;
+  HoldCause cause;
+  Request request;
+};
+
+const MasterSafety::Rule MasterSafety::kTable[] = {
+    {kAny, false, Demand::kDeviceFault, State::kFault, Cause::kDeviceFault, Request::kHold},
+    {kAny & ~in(State::kFault), false, Demand::kStop, State::kStopped, Cause::kOperator, Request::kStop},
+    {kAny, false, Demand::kEngage, State::kObserving, Cause::kNone, Request::kEngage},
+    {kFollowing, true, Demand::kSlaveStopped, State::kStopped, Cause::kPeerHolds, Request::kHold},
+    {kFollowing, true, Demand::kSlaveFault, State::kHolding, Cause::kRobotFault, Request::kHold},
+    {kFollowed, false, Demand::kTaken, State::kHolding, Cause::kTaken, Request::kHold},
+    {kFollowing, true, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
+    {kFollowing, true, Demand::kHold, State::kHolding, Cause::kOperator, Request::kHold},
+    {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
+    {kFollowing, true, Demand::kSilent, State::kHolding, Cause::kLinkSilent, Request::kEngage},
+    {in(State::kEngaged), true, Demand::kSlaveHolds, State::kHolding, Cause::kPeerHolds, Request::kEngage},
+    {kFollowing, true, Demand::kSlaveEngaged, State::kEngaged, Cause::kNone, Request::kEngage},
+    {in(State::kObserving), true, Demand::kUnanswered, State::kObserving, Cause::kUnanswered, Request::kHold},
+    {in(State::kIdle), false, Demand::kHeard, State::kObserving, Cause::kNone, Request::kHold}};
 
 void MasterSafety::on_report(const StiffnessReport& report) {
   far_state_ = report.state;
@@ -10,97 +68,113 @@ void MasterSafety::on_report(const StiffnessReport& report) {
   far_engagement_ = report.engagement;
 }
 
-void MasterSafety::leave(SafetyState state, HoldCause cause, Time now) {
-  if (state_ == SafetyState::kEngaged || state_ == SafetyState::kObserving) {
-    cause_ = cause;
-    left_at_ = now;
+bool MasterSafety::step(const MasterSafetyInput& input) {
+  observe(input);
+  const auto applies = [&](const Rule& rule) {
+    return (rule.from & in(state_)) != 0 && (!rule.active || active()) && demanded(rule.demand, input);
+  };
+  const Rule* rule = std::ranges::find_if(kTable, applies);
+  const bool begun = rule != std::end(kTable) && enter(*rule, input);
+  if (input.stop) request_ = Request::kStop;
+  if (state_ == State::kHolding && active()) {
+    const bool late = to_seconds(input.now - left_at_) > config_.resume_s;
+    request_ = late ? Request::kHold : let_go_ ? Request::kLetGo : Request::kEngage;
   }
-  state_ = state;
-}
-
-bool MasterSafety::step(const MasterSafetyInput& in) {
-  const bool heard = in.last_heard.has_value();
-  stale_ = heard && to_seconds(in.now - *in.last_heard) > config_.silence_s;
-  const bool restarted = in.peer_restarts != peer_restarts_;
-  peer_restarts_ = in.peer_restarts;
-  if (restarted) {
-    far_state_ = SafetyState::kObserving;
-    far_engagement_ = 0;
-  }
-  if (state_ == SafetyState::kIdle && heard) state_ = SafetyState::kObserving;
-
-  bool engage = in.engage;
-  if (config_.engage_at_start && !engaged_once_ && heard && !stale_) engage = true;
-
-  // The most severe demand first.
-  if (!in.device_ok) {
-    if (state_ != SafetyState::kFault) leave(SafetyState::kFault, HoldCause::kDeviceFault, in.now);
-    request_ = Request::kHold;
-    return false;
-  }
-  if (in.stop) {
-    leave(SafetyState::kStopped, HoldCause::kOperator, in.now);
-    request_ = Request::kStop;
-    return false;
-  }
-  if (engage && heard && !stale_) {
-    engagement_ =
-        std::max(engagement_, far_engagement_) + 1;  // the slave may remember another master's numbers
-    engaged_once_ = true;
-    confirmed_ = false;
-    state_ = SafetyState::kObserving;
-    cause_ = HoldCause::kNone;
-    request_ = Request::kEngage;
-    return false;
-  }
-  const bool active = state_ == SafetyState::kEngaged || state_ == SafetyState::kHolding ||
-                      (state_ == SafetyState::kObserving && request_ == Request::kEngage);
-  if (active && restarted) {
-    leave(SafetyState::kHolding, HoldCause::kPeerRestarted, in.now);
-    request_ = Request::kHold;
-    return false;
-  }
-  if (active && in.hold) {
-    leave(SafetyState::kHolding, HoldCause::kOperator, in.now);
-    request_ = Request::kHold;
-    return false;
-  }
-  if (active && stale_) {
-    if (state_ != SafetyState::kHolding) leave(SafetyState::kHolding, HoldCause::kLinkSilent, in.now);
-    if (to_seconds(in.now - left_at_) > config_.resume_s) request_ = Request::kHold;
-    return false;
-  }
-  if (!active || request_ != Request::kEngage || far_engagement_ != engagement_) return false;
-  const SafetyState before = state_;
-  follow_slave(in.now);
-  const bool begun = state_ == SafetyState::kEngaged && !confirmed_;
-  if (begun) confirmed_ = true;
-  if (before == SafetyState::kHolding && state_ == SafetyState::kEngaged) ++false_holds_;
   return begun;
 }
 
-/// The slave's word on the present engagement decides, as long as the link lives.
-void MasterSafety::follow_slave(Time now) {
-  switch (far_state_) {
-    case SafetyState::kEngaged:
-      state_ = SafetyState::kEngaged;
-      cause_ = HoldCause::kNone;
-      break;
-    case SafetyState::kHolding:
-      if (state_ == SafetyState::kEngaged) leave(SafetyState::kHolding, HoldCause::kPeerHolds, now);
-      break;
-    case SafetyState::kStopped:
-      leave(SafetyState::kStopped, HoldCause::kPeerHolds, now);
-      request_ = Request::kHold;
-      break;
-    case SafetyState::kFault:
-      leave(SafetyState::kHolding, HoldCause::kRobotFault, now);
-      request_ = Request::kHold;
-      break;
-    case SafetyState::kIdle:
-    case SafetyState::kObserving:
-      break;
+bool MasterSafety::active() const { return request_ == Request::kEngage || request_ == Request::kLetGo; }
+
+void MasterSafety::observe(const MasterSafetyInput& in) {
+  stale_ = in.last_heard && to_seconds(in.now - *in.last_heard) > config_.silence_s;
+  restarted_ = in.peer_restarts != peer_restarts_;
+  peer_restarts_ = in.peer_restarts;
+  if (restarted_) {
+    far_state_ = State::kObserving;
+    far_engagement_ = 0;
   }
+  if (in.held) held_at_ = in.now;
+  hand_missing_ = config_.presence == Presence::kHold && !in.held;
+  let_go_ = hand_missing_ && to_seconds(in.now - held_at_) > config_.presence_s;
+  told_ = told_ || in.hold || in.stop;
+}
+
+bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
+  switch (demand) {
+    case Demand::kDeviceFault:
+      return !in.device_ok;
+    case Demand::kStop:
+      return in.stop;
+    case Demand::kEngage:
+      return engages(in);
+    case Demand::kSlaveStopped:
+      return says(State::kStopped);
+    case Demand::kSlaveFault:
+      return says(State::kFault);
+    case Demand::kTaken:
+      return in.taken;
+    case Demand::kRestarted:
+      return restarted_;
+    case Demand::kHold:
+      return in.hold;
+    case Demand::kLetGo:
+      return let_go_;
+    case Demand::kSilent:
+      return stale_;
+    case Demand::kSlaveHolds:
+      return says(State::kHolding);
+    case Demand::kSlaveEngaged:
+      return says(State::kEngaged);
+    case Demand::kUnanswered:
+      return unanswered(in);
+    case Demand::kHeard:
+      return in.last_heard.has_value();
+  }
+  return true;
+}
+
+bool MasterSafety::engages(const MasterSafetyInput& in) const {
+  const bool rests = state_ == State::kIdle || state_ == State::kObserving;
+  const bool by_itself = config_.engage_at_start && !told_ && rests && !active();
+  return (in.engage || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.taken && !in.stop;
+}
+
+// Of the present engagement.
+bool MasterSafety::says(SafetyState state) const {
+  return far_engagement_ == engagement_ && far_state_ == state;
+}
+
+bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
+  return to_seconds(in.now - asked_at_) > in.rtt_s.value_or(kUnknownTrip_s) + kAnswer_s;
+}
+
+bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
+  const bool was_holding = state_ == State::kHolding;
+  const bool false_hold = was_holding && cause_ != HoldCause::kHandleLetGo;
+  if (rule.to == State::kFault) {
+    if (state_ != State::kFault) cause_ = rule.cause;
+  } else if (rule.demand == Demand::kEngage || rule.to == State::kEngaged) {
+    cause_ = HoldCause::kNone;
+  } else if (cause_ == HoldCause::kNone ||
+             (rule.demand == Demand::kTaken && cause_ == HoldCause::kLinkSilent)) {
+    cause_ = rule.demand == Demand::kSlaveFault && far_cause_ != HoldCause::kNone ? far_cause_ : rule.cause;
+  }
+  if (rule.to == State::kHolding && !was_holding) left_at_ = in.now;
+  state_ = rule.to;
+  if (request_ != Request::kStop || rule.demand == Demand::kEngage) request_ = rule.request;
+  if (rule.demand == Demand::kEngage) begin(in);
+  if (state_ != State::kEngaged) return false;
+  if (false_hold && confirmed_) ++false_holds_;
+  told_ = true;
+  return !std::exchange(confirmed_, true);
+}
+
+// A number greater than any that the slave may remember of another master.
+void MasterSafety::begin(const MasterSafetyInput& in) {
+  engagement_ = std::max(engagement_, far_engagement_) + 1;
+  asked_at_ = in.now;
+  confirmed_ = false;
+  told_ = told_ || in.engage;
 }
 
 }  // namespace longreach

@@ -1,14 +1,29 @@
 #pragma once
-// The master's safety machine: which state it is in, why, and which level it requests from the slave.
+// The master's safety machine: which state it is in, why, and which level it requests from the slave. One
+// table; the first row that applies is taken, so the most severe demand wins:
 //
-//   Idle       nothing heard yet
-//   Observing  the slave is heard; engage() asks for a new engagement and waits for its confirmation
-//   Engaged    the slave has confirmed this engagement's number
-//   Holding    goals are frozen; ends by itself within resume_s, else by a new engagement
-//   Stopped    latched until a new engagement is asked for
-//   Fault      device fault; latched until a new engagement is asked for
+//   state             condition                                     next       cause                 request
+//   any               the device has failed                         Fault      device fault          hold
+//   any but Fault     the operator asks for a stop                  Stopped    operator              stop
+//   any               the operator asks to engage, and may          Observing  -                     engage
+//   active            the slave says that it has stopped            Stopped    other side holds      hold
+//   active            the slave says that it has a fault            Holding    as the slave says     hold
+//   Engaged, Holding  another master has taken the robot            Holding    taken                 hold
+//   active            the slave began a new session                 Holding    other side restarted  hold
+//   active            the operator asks for a hold                  Holding    operator              hold
+//   active            no hand for presence_s (presence = HOLD)      Holding    handle let go         let go
+//   active            silence > silence_s                           Holding    link silent           engage
+//   Engaged           the slave says that it holds                  Holding    other side holds      engage
+//   active            the slave says that it is engaged             Engaged    -                     engage
+//   active Observing  no answer for a round trip and 3 s            Observing  slave did not answer  hold
+//   Idle              the slave is heard                            Observing  -                     hold
 //
-// The most severe demand wins; the first cause is kept.
+// Active: in Observing, Engaged or Holding, while an engagement is requested. A hold for longer than resume_s
+// requests hold and so is active no more: only a new engagement goes on. The operator may engage when the
+// slave is heard and, with presence = HOLD, a hand is on the handle; whatever state it was, this is the only
+// way out of Stopped and Fault. What the slave says counts if it says it of this engagement's number. A stop
+// is requested in Fault, too, and until the next engagement. The cause is the first since Engaged, but that a
+// robot was taken explains a silence; a fault has its own.
 
 #include <cstdint>
 #include <optional>
@@ -24,10 +39,13 @@ struct MasterSafetyInput {
   Time now{};
   std::optional<Time> last_heard{};  // any valid datagram of the slave
   std::uint32_t peer_restarts = 0;   // sessions of the slave after its first
+  bool taken = false;                // another master has the robot: a level
   bool device_ok = true;
+  bool held = true;     // a hand is on the handle
   bool engage = false;  // asked for in this tick
   bool hold = false;
   bool stop = false;
+  std::optional<double> rtt_s{};  // of the link, once known
 };
 
 class MasterSafety {
@@ -46,12 +64,23 @@ class MasterSafety {
   [[nodiscard]] SafetyState far_state() const { return far_state_; }
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }
   [[nodiscard]] Request request() const { return request_; }
-  [[nodiscard]] bool stale() const { return stale_; }  // nothing heard for silence_s
+  [[nodiscard]] bool stale() const { return stale_; }                // nothing heard for silence_s
+  [[nodiscard]] bool hand_missing() const { return hand_missing_; }  // no engagement without it
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
 
  private:
-  void leave(SafetyState state, HoldCause cause, Time now);
-  void follow_slave(Time now);
+  enum class Demand : std::uint8_t;
+  struct Rule;
+  static const Rule kTable[];
+
+  void observe(const MasterSafetyInput& in);
+  [[nodiscard]] bool active() const;
+  [[nodiscard]] bool demanded(Demand demand, const MasterSafetyInput& in) const;
+  [[nodiscard]] bool engages(const MasterSafetyInput& in) const;
+  [[nodiscard]] bool says(SafetyState state) const;
+  [[nodiscard]] bool unanswered(const MasterSafetyInput& in) const;
+  void begin(const MasterSafetyInput& in);
+  bool enter(const Rule& rule, const MasterSafetyInput& in);
 
   MasterSafetyConfig config_;
   SafetyState state_ = SafetyState::kIdle;
@@ -62,10 +91,15 @@ class MasterSafety {
   HoldCause far_cause_ = HoldCause::kNone;
   std::uint32_t far_engagement_ = 0;
   std::uint32_t peer_restarts_ = 0;
+  bool restarted_ = false;  // in this tick
   bool stale_ = false;
-  bool engaged_once_ = false;  // engage_at_start has been used
-  bool confirmed_ = false;     // the present engagement was confirmed
-  Time left_at_{};             // when Engaged was left
+  bool hand_missing_ = false;
+  bool let_go_ = false;     // for longer than presence_s
+  Time held_at_{};          // last
+  bool told_ = false;       // the operator has engaged, held or stopped, or engage_at_start was answered
+  bool confirmed_ = false;  // the present engagement was confirmed
+  Time asked_at_{};         // for the present engagement
+  Time left_at_{};          // when Engaged, or asking for it, was left
   std::uint64_t false_holds_ = 0;
 };
 

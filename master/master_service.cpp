@@ -70,6 +70,9 @@ proto::Status MasterService::status() {
   add_view(out, s.view);
   fill(out, s.side);
   add_view_counts(out, s.view);
+  const std::lock_guard lock(troubling_);
+  out.set_trouble(trouble_);
+  out.set_lease(taken_by_);
   return out;
 }
 
@@ -114,12 +117,21 @@ std::optional<Refusal> MasterService::set_scale(double scale) {
 }
 
 std::optional<Refusal> MasterService::engage() {
+  {
+    const std::lock_guard lock(troubling_);
+    if (!trouble_.empty()) return Refusal{Refusal::Kind::kPrecondition, trouble_};
+  }
   const double silence_s = snapshot().side.link.silence_s;
   if (!(silence_s <= config_.safety().silence_s())) {
     return Refusal{Refusal::Kind::kPrecondition,
                    "the slave is not heard; check that longreach-slave runs and that link.slave and "
                    "link.slave_rpc lead to "
                    "it; the master's log says more"};
+  }
+  if (snapshot().view.hand_missing) {
+    return Refusal{
+        Refusal::Kind::kPrecondition,
+        "no hand is on the handle; take hold of it and engage then, or set safety.presence to IGNORE"};
   }
   OperatorRequests requests;
   requests.engage = true;
@@ -134,6 +146,17 @@ std::optional<Refusal> MasterService::stop() {
 
 std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
   return post(shell_.mailbox(), MasterCommand(requests));
+}
+
+void MasterService::put_trouble(const std::string& trouble, const std::string& taken_by) {
+  const bool robbed = !taken_by.empty();
+  {
+    const std::lock_guard lock(troubling_);
+    if (trouble == trouble_ && taken_by == taken_by_) return;
+    trouble_ = trouble;
+    taken_by_ = taken_by;
+  }
+  if (robbed) (void)post(shell_.mailbox(), MasterCommand(MasterRobbed{}));
 }
 
 bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }

@@ -32,12 +32,16 @@ class MasterService : public ControlBackend {
   std::optional<Refusal> request(const OperatorRequests& requests);
   /// Hands a session to the loop; false: it did not answer. Callable from any thread but the loop's.
   bool adopt(const Session& session);
+  /// Why there is no session, and who has taken the robot (its address); empty: there is one, nobody has.
+  void put_trouble(const std::string& trouble, const std::string& taken_by);
 
  private:
   MasterShell& shell_;
   proto::MasterConfig config_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
+  std::mutex troubling_;
+  std::string trouble_, taken_by_;
 };
 
 }  // namespace longreach

@@ -14,7 +14,9 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       devices_(config.device),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
-      node_(config) {}
+      node_(config) {
+  port_.limit(config.link.budget_kbit_per_s);
+}
 
 void MasterShell::tick(Time now, const LoopFigures& loop) {
   OperatorRequests requests;
@@ -31,7 +33,9 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.requests = requests;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.restarts();
+  in.taken = robbed_;
   in.rtt_s = snapshot_.side.link.rtt_s;
+  in.may_send = port_.may_send(now);
 
   const MasterOutput out = node_.step(in);
   devices_.write(out.F_H_M);
@@ -50,6 +54,9 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
     port_.impairment().configure(*impairment, now);
   } else if (const auto* session = std::get_if<Session>(&command)) {
     port_.follow(*session);
+    robbed_ = false;
+  } else if (std::holds_alternative<MasterRobbed>(command)) {
+    robbed_ = true;
   } else {
     const auto& change = std::get<MasterChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;

@@ -29,7 +29,9 @@ struct MasterChange {
   bool impairment = false;       // config.link.impairment has changed
   bool script = false;           // what the script acts on has changed: it begins anew
 };
-using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session>;
+/// Another master has the robot now: that is why the slave is silent.
+struct MasterRobbed {};
+using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterRobbed>;
 
 /// What a person at the keyboard holds.
 struct HandLevel {
@@ -68,6 +70,7 @@ class MasterShell {
   MasterNode node_;
   Vector3 held_m_ = Vector3::Zero();  // where the hand at the keyboard is
   SideObserver observer_;
+  bool robbed_ = false;  // until the next session
   MasterSnapshot snapshot_{};
   Mailbox<MasterCommand, LoopAnswer> mailbox_;
   LatestValue<MasterSnapshot> snapshots_;

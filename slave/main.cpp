@@ -1,11 +1,14 @@
 // longreach-slave: the robot's side. Follows an engaged master, acts alone when it must.
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <exception>
 #include <thread>
 
 #include "common/io/log.hpp"
+#include "common/io/pairing_desk.hpp"
+#include "common/io/pairing_rpc.hpp"
 #include "common/io/program.hpp"
 #include "common/io/real_time_loop.hpp"
 #include "common/io/rpc_server.hpp"
@@ -56,7 +59,23 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
     spdlog::info("left out=\"{}\" because=\"the scene {} needs none\"", left_out, config.scene().name());
 }
 
-int serve(const ProgramOptions& options) {
+struct SlaveOptions : ProgramOptions {
+  bool pair = false;
+  std::string pair_listen{kPairingAddress};
+};
+
+/// The log goes to a file in the site folder unless told otherwise: it stays, and the person reads the rest.
+int pair(const SlaveOptions& options) {
+  const auto& stop = stop_requested();
+  const std::filesystem::path site = site_of(options);
+  (void)site_authority(site);
+  ::umask(077);
+  set_up_log("slave", options.log.empty() ? (site / "pairing.log").string() : options.log);
+  return run_pairing_desk(site, options.pair_listen, stop) ? 0 : kExitFailed;
+}
+
+int serve(const SlaveOptions& options) {
+  if (options.pair) return pair(options);
   const auto config = load_config<proto::SlaveConfig>(
       options, &proto::LinkProfile::up,
       [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
@@ -111,7 +130,14 @@ int serve(const ProgramOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app{"The robot's side of longreach: follows an engaged master, and acts alone when it must.",
                "longreach-slave"};
-  longreach::ProgramOptions options;
+  longreach::SlaveOptions options;
   longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
+  app.add_flag(
+      "--pair", options.pair,
+      "Do not drive the robot: print a token by which another host becomes master and client of this "
+      "site, and wait for it (log: pairing.log in the site folder)");
+  app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
+      ->type_name("ADDRESS:PORT")
+      ->capture_default_str();
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::serve(options); });
 }

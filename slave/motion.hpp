@@ -40,6 +40,7 @@ class SlaveMotion {
   [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joints_.setpoint_rad(); }
   [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
+  [[nodiscard]] bool at_rest() const { return joints_.settled(); }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 

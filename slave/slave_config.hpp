@@ -2,6 +2,7 @@
 // Every parameter of the slave as plain values. Meaning, unit, default and range: proto/config.proto; the
 // same names.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -22,13 +23,19 @@ struct SlaveLinkConfig {
   double heartbeat_contact_hz = 4.0;
   double heartbeat_free_hz = 2.0;
   ImpairmentConfig impairment{};
+  double budget_kbit_per_s = 0.0;
 };
 
 struct SlaveSafetyConfig {
-  double gap_s = 0.15;
+  double gap_s = 0.0;
   double age_max_s = 30.0;
   double resume_s = 1.0;
 };
+
+/// The gap timer for a master that sends `send_hz` times a second.
+inline double gap_s(const SlaveSafetyConfig& c, double send_hz) {
+  return c.gap_s > 0.0 ? c.gap_s : std::clamp(30.0 / send_hz, 0.1, 2.0);
+}
 
 struct SlaveConfig {
   SlaveLinkConfig link{};

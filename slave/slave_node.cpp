@@ -7,7 +7,10 @@
 #include "slave/command/servo_lag.hpp"
 #include "slave/contact.hpp"
 #include "slave/motion.hpp"
+#include "slave/plausible.hpp"
+#include "slave/robot_watch.hpp"
 #include "slave/sensing/tool_load.hpp"
+#include "slave/slave_reports.hpp"
 #include "slave/slave_safety.hpp"
 
 namespace longreach {
@@ -16,46 +19,17 @@ namespace {
 constexpr double kDtMax = 0.02;            // a later tick moves no further than this
 constexpr double kReachedM = 1e-3;         // a goal counts as reached
 constexpr double kSetpointLostRad = 0.05;  // more than any servo lag: the joints are elsewhere
-constexpr double kGoalMaxM = 1e3;          // a goal beyond is an impossible value
-constexpr double kGoalMaxRad = 100.0;
-
-bool finite(const RobotState& robot) {
-  return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite() && robot.F_F_W.force.allFinite() &&
-         robot.F_F_W.moment.allFinite();
-}
-
-bool possible(const MotionCommand& command) {
-  return command.position_m.allFinite() && command.rotation_rad.allFinite() &&
-         command.position_m.stableNorm() <= kGoalMaxM && command.rotation_rad.stableNorm() <= kGoalMaxRad;
-}
-
-void merge(Clamps& all, const Clamps& one) {
-  all.tool_speed = all.tool_speed || one.tool_speed;
-  all.joint_speed = all.joint_speed || one.joint_speed;
-  all.joint_position = all.joint_position || one.joint_position;
-  all.workspace = all.workspace || one.workspace;
-  all.force_guard = all.force_guard || one.force_guard;
-  all.singularity = all.singularity || one.singularity;
-  all.unreachable = all.unreachable || one.unreachable;
-}
-
-// Due at a steady pace; late calls do not shift it, a long pause does not pile up.
-bool due(std::optional<Time>& next, Time now, double rate_hz) {
-  if (next && now < *next) return false;
-  const Duration period = from_seconds(1.0 / rate_hz);
-  next = next && now < *next + period ? *next + period : now + period;
-  return true;
-}
 
 }  // namespace
 
 struct SlaveNode::State {
   explicit State(const SlaveConfig& config)
-      : link(config.link),
+      : reports(config.link),
         loop_hz(config.loop.rate_hz),
         needs(longreach::needs(config.scene)),
         safety(config.safety),
         motion(config.command, config.robot),
+        watch(config.robot),
         servo(config.robot.servo_hz),
         sensor(config.sensing),
         contact(config.sensing, config.estimator),
@@ -64,6 +38,7 @@ struct SlaveNode::State {
         turn_playout(config.playout) {}
 
   double tick(Time now);
+  void watch_robot(const RobotState& robot);
   bool decide(const SlaveInput& input);
   void begin_engagement(const RobotState& robot);
   void take_goals(std::span<const Received<MotionCommand>> commands);
@@ -71,15 +46,14 @@ struct SlaveNode::State {
   void feel(const RobotState& robot, double dt);
   [[nodiscard]] ContactForce pressed() const;
   void book_reached();
-  void report(Time now, SlaveOutput& output);
-  void send_telemetry(const SlaveInput& input, SlaveOutput& output);
   void show(const Clamps& clamps, std::uint64_t rejected_values);
 
-  SlaveLinkConfig link;
+  SlaveReports reports;
   double loop_hz;
   NeedsConfig needs;  // what is not needed of contact, sensor and estimator is not there
   SlaveSafety safety;
   SlaveMotion motion;
+  RobotWatch watch;
   ServoLag servo;
   Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
   ToolCompensation sensor;
@@ -100,13 +74,6 @@ struct SlaveNode::State {
   double played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
 
-  std::optional<Time> report_due{};
-  std::uint64_t report_sequence = 0;
-  StiffnessReport reported{};
-  double reported_n_per_m = 0.0, reported_nm_per_rad = 0.0;
-  std::optional<Time> telemetry_due{};
-  std::uint64_t telemetry_sequence = 0;
-  Clamps clamps_since_telemetry{};
   std::uint64_t rejected_values = 0;
 };
 
@@ -118,7 +85,7 @@ bool SlaveNode::engaged() const { return state_->safety.state() == SafetyState::
 
 void SlaveNode::configure(const SlaveConfig& config) {
   State& s = *state_;
-  s.link = config.link;
+  s.reports.configure(config.link);
   s.safety.configure(config.safety);
   s.motion.configure(config.command);
   s.sensor.configure(config.sensing);
@@ -137,6 +104,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
     s.sensor.zero();
     s.robot_seen = true;
   }
+  s.watch_robot(input.robot);
   if (s.decide(input)) s.begin_engagement(input.robot);
   s.take_goals(input.commands);
 
@@ -157,8 +125,10 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   SlaveOutput output;
   output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.grip;
-  s.report(input.now, output);
-  s.send_telemetry(input, output);
+  s.reports.report(input, s.view, s.reached_sequence,
+                   {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
+                   s.contact, s.turn_contact, output);
+  s.reports.telemetry(input, s.view, s.robot_ok, s.contact.penetration_m(), output);
   s.view.touch_sequence = s.contact.touch_sequence();
   return output;
 }
@@ -175,8 +145,12 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.now = input.now;
   in.last_heard = input.last_heard;
   in.peer_session_count = input.peer_session_count;
+  in.taken = input.taken;
   in.robot_ok = robot_ok;
+  in.robot_restless = watch.restless();
+  in.robot_astray = watch.astray();
   in.stop = input.stop;
+  in.send_hz = input.send_hz;
   for (const Received<MotionCommand>& received : input.commands) {
     const MotionCommand& command = received.message;
     const bool valid = possible(command);
@@ -188,7 +162,20 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
     in.request = command.request;
     in.echo_sent = received.echo_sent;
   }
-  return safety.step(in);
+  const SafetyState before = safety.state();
+  const bool begins = safety.step(in);
+  // A robot that went its own way stays where it is: nothing calls it back.
+  if (safety.state() == SafetyState::kFault && before != SafetyState::kFault && robot_ok)
+    motion.reset(input.robot.joint_rad);
+  return begins;
+}
+
+// From the second tick on: the setpoint before has been written, and this is what became of it.
+void SlaveNode::State::watch_robot(const RobotState& robot) {
+  const SafetyState state = safety.state();
+  const bool commanded =
+      state == SafetyState::kEngaged || state == SafetyState::kHolding || state == SafetyState::kStopped;
+  if (robot_ok) watch.step(robot, motion.joint_setpoint_rad(), commanded, motion.at_rest(), 1.0 / loop_hz);
 }
 
 void SlaveNode::State::begin_engagement(const RobotState& robot) {
@@ -285,60 +272,6 @@ void SlaveNode::State::book_reached() {
   }
   if ((view.X_WE.p - view.X_WE_goal.p).norm() > kReachedM) return;
   reached_sequence = std::max(reached_sequence, static_cast<std::uint64_t>(played_sequence));
-}
-
-void SlaveNode::State::report(Time now, SlaveOutput& output) {
-  const bool changed = safety.state() != reported.state || safety.engagement() != reported.engagement ||
-                       safety.cause() != reported.cause || contact.touch() != reported.translation.touch ||
-                       contact.in_contact() != reported.translation.in_contact ||
-                       contact.reported_n_per_m() != reported_n_per_m ||
-                       turn_contact.touch() != reported.rotation.touch ||
-                       turn_contact.in_contact() != reported.rotation.in_contact ||
-                       turn_contact.reported_n_per_m() != reported_nm_per_rad;
-  const bool touching = contact.in_contact() || turn_contact.in_contact();
-  const double rate_hz = touching ? link.heartbeat_contact_hz : link.heartbeat_free_hz;
-  if (changed) report_due.reset();
-  if (!due(report_due, now, rate_hz)) return;
-  contact.locate_touch(playout, X_WE_anchor.p, played_sequence);
-  turn_contact.locate_touch(turn_playout, Vector3::Zero(), played_turn_sequence);
-  reported.engagement = safety.engagement();
-  reported.state = safety.state();
-  reported.cause = safety.cause();
-  reported.translation = contact.report();
-  reported.rotation = turn_contact.report();
-  reported.reached_sequence = reached_sequence;
-  reported_n_per_m = contact.reported_n_per_m();
-  reported_nm_per_rad = turn_contact.reported_n_per_m();
-  output.report = reported;
-  output.report_sequence = ++report_sequence;
-}
-
-void SlaveNode::State::send_telemetry(const SlaveInput& input, SlaveOutput& output) {
-  merge(clamps_since_telemetry, view.clamps);
-  if (!due(telemetry_due, input.now, link.telemetry_hz)) return;
-  Telemetry t;
-  t.state = view.state;
-  t.cause = view.cause;
-  t.engagement = view.engagement;
-  t.X_WE = view.X_WE;
-  t.X_WE_goal = view.X_WE_goal;
-  if (robot_ok) {
-    for (int i = 0; i < kMaxJoints; ++i) t.joint_rad[static_cast<std::size_t>(i)] = input.robot.joint_rad[i];
-  }
-  t.F_E_W = view.F_E_W;
-  t.estimate = view.estimate;
-  t.penetration_m = contact.penetration_m();
-  t.clamps = clamps_since_telemetry;
-  t.up_loss = input.up_loss;
-  t.up_jitter_s = input.up_jitter_s;
-  t.playout_delay_s = view.playout_delay_s;
-  t.rejected = input.rejected;
-  t.limit_violations = view.limit_violations;
-  t.late_ticks = input.late_ticks;
-  t.load = input.robot.load;
-  clamps_since_telemetry = {};
-  output.telemetry = t;
-  output.telemetry_sequence = ++telemetry_sequence;
 }
 
 void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {

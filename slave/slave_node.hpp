@@ -23,11 +23,14 @@ struct SlaveInput {
   std::span<const Received<MotionCommand>> commands{};
   std::optional<Time> last_heard{};      // of any valid datagram
   std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
+  bool taken = false;                    // the newest of them by taking the robot from another master
   bool stop = false;                     // asked for by RPC on this side
+  double send_hz = 200.0;                // of the master, as it said when it opened the session
   std::uint64_t rejected = 0;            // datagrams dropped so far, for telemetry
   std::uint64_t late_ticks = 0;          // likewise
   double up_loss = 0.0;                  // link figures, for telemetry
   double up_jitter_s = 0.0;
+  bool may_send = true;  // within the budget of the link
 };
 
 /// Everything that status, log and laboratory need to know, once a tick.

@@ -4,101 +4,160 @@
 
 namespace longreach {
 
-bool SlaveSafety::step(const SlaveSafetyInput& in) {
-  observe_session(in);
+enum class SlaveSafety::Demand : std::uint8_t {
+  kRobotFault,
+  kRobotRestless,
+  kRobotAstray,
+  kStop,
+  kEngagement,
+  kTaken,
+  kRestarted,
+  kSilent,
+  kStale,
+  kHold,
+  kLetGo,
+  kGoOn,
+  kHeard,
+  kGone
+};
+
+namespace {
+
+using State = SafetyState;
+using Cause = HoldCause;
+
+constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
+constexpr unsigned kAny = ~0U;
+constexpr unsigned kMoved = in(State::kEngaged) | in(State::kHolding) | in(State::kStopped);
+constexpr unsigned kAtRest = in(State::kHolding) | in(State::kStopped) | in(State::kFault);
+
+}  // namespace
+
+struct SlaveSafety::Rule {
+  unsigned from;
+  Demand demand;
+  State to;
+  HoldCause cause;
+};
+
+const SlaveSafety::Rule SlaveSafety::kTable[] = {
+    {kAny, Demand::kRobotFault, State::kFault, Cause::kRobotFault},
+    {kAtRest, Demand::kRobotRestless, State::kFault, Cause::kRobotRestless},
+    {kMoved, Demand::kRobotAstray, State::kFault, Cause::kRobotAstray},
+    {kAny & ~in(State::kFault), Demand::kStop, State::kStopped, Cause::kOperator},
+    {kAny, Demand::kEngagement, State::kEngaged, Cause::kNone},
+    {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kTaken},
+    {in(State::kEngaged), Demand::kRestarted, State::kHolding, Cause::kPeerRestarted},
+    {in(State::kEngaged), Demand::kSilent, State::kHolding, Cause::kLinkSilent},
+    {in(State::kEngaged), Demand::kStale, State::kHolding, Cause::kLinkStale},
+    {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kOperator},
+    {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleLetGo},
+    {in(State::kHolding), Demand::kGoOn, State::kEngaged, Cause::kNone},
+    {in(State::kIdle), Demand::kHeard, State::kObserving, Cause::kNone},
+    {in(State::kObserving), Demand::kGone, State::kIdle, Cause::kNone}};
+
+bool SlaveSafety::step(const SlaveSafetyInput& input) {
+  observe(input);
+  const auto applies = [&](const Rule& rule) {
+    return (rule.from & in(state_)) != 0 && demanded(rule.demand, input);
+  };
+  const Rule* rule = std::ranges::find_if(kTable, applies);
+  if (demanded(Demand::kStop, input) && input.commanded) used_ = std::max(used_, input.engagement);
+  if (rule == std::end(kTable)) return false;
+  enter(*rule, input);
+  return rule->demand == Demand::kEngagement;
+}
+
+bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
+  switch (demand) {
+    case Demand::kRobotFault:
+      return !in.robot_ok;
+    case Demand::kRobotRestless:
+      return in.robot_restless;
+    case Demand::kRobotAstray:
+      return in.robot_astray;
+    case Demand::kStop:
+      return in.stop || (in.commanded && in.request == Request::kStop);
+    case Demand::kEngagement:
+      return accepts(in);
+    case Demand::kTaken:
+      return taken_;
+    case Demand::kRestarted:
+      return restarted_;
+    case Demand::kSilent:
+      return silent(in);
+    case Demand::kStale:
+      return !echo_sent_ || to_seconds(in.now - *echo_sent_) > config_.age_max_s;
+    case Demand::kHold:
+      return requested_ != engagement_ || (request_ != Request::kEngage && request_ != Request::kLetGo);
+    case Demand::kLetGo:
+      return request_ == Request::kLetGo;
+    case Demand::kGoOn:
+      return goes_on(in);
+    case Demand::kHeard:
+      return !silent(in);
+    case Demand::kGone:
+      return silent(in, config_.resume_s);
+  }
+  return true;
+}
+
+// What the master says, until it says something else.
+void SlaveSafety::observe(const SlaveSafetyInput& in) {
+  if (in.peer_session_count != sessions_) {
+    restarted_ = sessions_ != 0;
+    taken_ = restarted_ && in.taken;
+    sessions_ = in.peer_session_count;
+    used_ = 0;
+    requested_ = 0;
+    request_ = Request::kHold;
+    echo_sent_.reset();
+  }
   if (in.commanded) {
     request_ = in.request;
     requested_ = in.engagement;
     if (in.echo_sent) echo_sent_ = in.echo_sent;
   }
-  if (!in.robot_ok) {
-    leave(SafetyState::kFault, HoldCause::kRobotFault, in.now);
-    return false;
-  }
-  const bool stop_asked = in.stop || (in.commanded && in.request == Request::kStop);
-  if (stop_asked) {
-    if (in.commanded) used_ = std::max(used_, in.engagement);
-    if (state_ != SafetyState::kFault) leave(SafetyState::kStopped, HoldCause::kOperator, in.now);
-    return false;
-  }
-  if (accepts(in)) {
-    state_ = SafetyState::kEngaged;
-    cause_ = HoldCause::kNone;
-    engagement_ = used_ = in.engagement;
-    restarted_ = false;
-    return true;
-  }
-  switch (state_) {
-    case SafetyState::kIdle:
-      if (in.last_heard && to_seconds(in.now - *in.last_heard) <= config_.gap_s)
-        state_ = SafetyState::kObserving;
-      break;
-    case SafetyState::kObserving:
-      if (!in.last_heard || to_seconds(in.now - *in.last_heard) > config_.gap_s + config_.resume_s) {
-        state_ = SafetyState::kIdle;
-      }
-      break;
-    case SafetyState::kEngaged:
-      if (const HoldCause cause = demand(in); cause != HoldCause::kNone) {
-        leave(SafetyState::kHolding, cause, in.now);
-      }
-      break;
-    case SafetyState::kHolding:
-      resume(in);
-      break;
-    case SafetyState::kStopped:
-    case SafetyState::kFault:
-      break;
-  }
-  return false;
+  if (state_ == State::kHolding) expire(in);
 }
 
-void SlaveSafety::observe_session(const SlaveSafetyInput& in) {
-  if (in.peer_session_count == sessions_) return;
-  restarted_ = sessions_ != 0;
-  sessions_ = in.peer_session_count;
-  used_ = 0;
-  requested_ = 0;
-  request_ = Request::kHold;
-  echo_sent_.reset();
+bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
+  return !in.last_heard || to_seconds(in.now - *in.last_heard) > gap_s(config_, in.send_hz) + longer_s;
 }
 
 bool SlaveSafety::accepts(const SlaveSafetyInput& in) const {
   if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent)
     return false;
-  const bool fresh = in.last_heard && to_seconds(in.now - *in.last_heard) <= config_.gap_s;
-  return fresh && to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
+  return !in.stop && !silent(in) && !in.robot_restless &&
+         to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
 }
 
-// Why following must end; kNone: it need not.
-HoldCause SlaveSafety::demand(const SlaveSafetyInput& in) const {
-  if (restarted_) return HoldCause::kPeerRestarted;
-  if (!in.last_heard || to_seconds(in.now - *in.last_heard) > config_.gap_s) return HoldCause::kLinkSilent;
-  if (!echo_sent_ || to_seconds(in.now - *echo_sent_) > config_.age_max_s) return HoldCause::kLinkStale;
-  if (request_ != Request::kEngage || requested_ != engagement_) return HoldCause::kOperator;
-  return HoldCause::kNone;
+void SlaveSafety::expire(const SlaveSafetyInput& in) {
+  const bool passing = cause_ == HoldCause::kLinkSilent || cause_ == HoldCause::kHandleLetGo;
+  const bool more = restarted_ || demanded(Demand::kStale, in) || demanded(Demand::kHold, in);
+  if (!passing || more || to_seconds(in.now - left_at_) > config_.resume_s) expired_ = true;
 }
 
-void SlaveSafety::resume(const SlaveSafetyInput& in) {
-  const HoldCause cause = demand(in);
-  const bool late = to_seconds(in.now - left_at_) > config_.resume_s;
-  if (cause_ != HoldCause::kLinkSilent || late ||
-      (cause != HoldCause::kNone && cause != HoldCause::kLinkSilent)) {
-    expired_ = true;
+bool SlaveSafety::goes_on(const SlaveSafetyInput& in) const {
+  return !expired_ && !silent(in) && request_ == Request::kEngage;
+}
+
+void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
+  if (rule.to == State::kEngaged) {
+    if (rule.demand == Demand::kEngagement) engagement_ = used_ = in.engagement;
+    if (rule.demand == Demand::kGoOn && cause_ == HoldCause::kLinkSilent) ++false_holds_;
+    restarted_ = taken_ = false;
+    cause_ = HoldCause::kNone;
+  } else if (rule.to == State::kFault) {
+    if (state_ != State::kFault) cause_ = rule.cause;
+  } else if (cause_ == HoldCause::kNone) {
+    cause_ = rule.cause;
   }
-  if (expired_ || cause != HoldCause::kNone) return;
-  state_ = SafetyState::kEngaged;
-  cause_ = HoldCause::kNone;
-  ++false_holds_;
-}
-
-void SlaveSafety::leave(SafetyState state, HoldCause cause, Time now) {
-  if (state_ == SafetyState::kEngaged || cause_ == HoldCause::kNone) {
-    cause_ = cause;
-    left_at_ = now;
+  if (state_ == State::kEngaged && rule.to != State::kEngaged) {
+    left_at_ = in.now;
     expired_ = false;
   }
-  state_ = state;
+  state_ = rule.to;
 }
 
 }  // namespace longreach

@@ -1,21 +1,30 @@
 #pragma once
-// The slave's safety machine: may the robot follow goals? It acts alone, on what this side knows.
+// The slave's safety machine: may the robot follow goals? It acts alone, on what this side knows. One table;
+// the first row that applies is taken, so the most severe demand wins:
 //
-//   state      leaves to     when
-//   any        Fault         the robot is not ok
-//   any        Stopped       stop is asked for, from either side
-//   Idle       Observing     the master is heard
-//   Observing  Idle          silence of gap_s + resume_s
-//   any but Idle  Engaged    a new engagement is accepted (see below)
-//   Engaged    Holding       hold asked for, peer restarted, silence > gap_s, age > age_max_s
-//   Holding    Engaged       the hold was by silence, at most resume_s long, and the same engagement is still
-//   asked for
+//   state                      condition                                 next       cause
+//   any                        the robot is not ok                       Fault      robot fault
+//   Holding, Stopped, Fault    the robot moves on, its setpoint does not Fault      robot does not rest
+//   Engaged, Holding, Stopped  the robot is not where its setpoints lead Fault      robot does not follow
+//   any but Fault              a stop is asked for, on either side       Stopped    operator
+//   any                        a new engagement is asked for             Engaged    -
+//   Engaged                    another master has taken the robot        Holding    taken by another master
+//   Engaged                    the master began a new session            Holding    other side restarted
+//   Engaged                    silence > gap timer                       Holding    link silent
+//   Engaged                    age > age_max_s                           Holding    link stale
+//   Engaged                    a hold or another number is asked for     Holding    operator
+//   Engaged                    no hand is on the handle                  Holding    handle let go
+//   Holding                    none of these, and it may end             Engaged    -
+//   Idle                       the master is heard                       Observing  -
+//   Observing                  silence > gap timer + resume_s            Idle       -
 //
-// An engagement is accepted when the newest command asks for a number greater than any used in this session
-// of the peer, and carries an echo: the master has heard this slave. It is the only way out of Stopped, and,
-// once the robot is ok again, of Fault. Age = now - when this side had sent what the master last heard: no
-// clocks are compared. The most severe demand wins; the first cause of leaving Engaged is kept until the next
-// engagement.
+// A new engagement has a number greater than any used or stopped in this session of the master, comes
+// in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests and nobody
+// on this side who asks for a stop. It is the only way out of Stopped and Fault. A hold may end by itself
+// only if silence or a released handle was its cause, within resume_s, and if nothing else asked for a hold
+// meanwhile; the same engagement then goes on. Gap timer: gap_s, or of a master that sends f times a second
+// max(0.1 s, 30/f). Age = now - when this side had sent what the master last heard: no clocks are compared.
+// The cause is the first since Engaged; a fault has its own, the first of its kind.
 
 #include <cstdint>
 #include <optional>
@@ -31,8 +40,12 @@ struct SlaveSafetyInput {
   Time now{};
   std::optional<Time> last_heard{};      // any valid datagram
   std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
+  bool taken = false;                    // the newest of them by taking the robot from another master
   bool robot_ok = true;                  // it says so and its state is finite
+  bool robot_restless = false;           // it moves on though its setpoint rests
+  bool robot_astray = false;             // it is not where its setpoints lead
   bool stop = false;                     // asked for on this side
+  double send_hz = 200.0;                // of the master
 
   // The newest command, if one came in this tick.
   bool commanded = false;
@@ -55,11 +68,17 @@ class SlaveSafety {
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
 
  private:
-  void observe_session(const SlaveSafetyInput& in);
+  enum class Demand : std::uint8_t;
+  struct Rule;
+  static const Rule kTable[];
+
+  void observe(const SlaveSafetyInput& in);
+  [[nodiscard]] bool demanded(Demand demand, const SlaveSafetyInput& in) const;
   [[nodiscard]] bool accepts(const SlaveSafetyInput& in) const;
-  [[nodiscard]] HoldCause demand(const SlaveSafetyInput& in) const;
-  void leave(SafetyState state, HoldCause cause, Time now);
-  void resume(const SlaveSafetyInput& in);
+  [[nodiscard]] bool goes_on(const SlaveSafetyInput& in) const;
+  [[nodiscard]] bool silent(const SlaveSafetyInput& in, double longer_s = 0.0) const;
+  void expire(const SlaveSafetyInput& in);
+  void enter(const Rule& rule, const SlaveSafetyInput& in);
 
   SlaveSafetyConfig config_;
   SafetyState state_ = SafetyState::kIdle;
@@ -67,7 +86,8 @@ class SlaveSafety {
   std::uint32_t engagement_ = 0;
   std::uint32_t used_ = 0;  // greatest number accepted or stopped in this session of the peer
   std::uint32_t sessions_ = 0;
-  bool restarted_ = false;
+  bool restarted_ = false;            // since the engagement began
+  bool taken_ = false;                // likewise
   Request request_ = Request::kHold;  // of the newest command
   std::uint32_t requested_ = 0;
   std::optional<Time> echo_sent_{};

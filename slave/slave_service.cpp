@@ -4,8 +4,10 @@
 #include <spdlog/spdlog.h>
 
 #include "common/config/config.hpp"
+#include "common/config/number_text.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/link/estimate_words.hpp"
+#include "slave/ceiling.hpp"
 
 namespace longreach {
 namespace {
@@ -16,17 +18,16 @@ Refusal at_the_master(const std::string& what) {
   return {Refusal::Kind::kPrecondition, what + " is decided at the master; the slave only follows"};
 }
 
-/// Which limit of the robot's motion `after` would loosen beyond the local file's, or none.
-std::optional<std::string> loosened(const proto::Command& start, const proto::Command& after) {
-  const auto* reflection = after.GetReflection();
-  for (const char* name : {"speed_max_m_per_s", "acceleration_max_m_per_s2", "speed_max_rad_per_s",
-                           "acceleration_max_rad_per_s2", "force_guard_n", "workspace_m"}) {
-    const auto* field = after.GetDescriptor()->FindFieldByName(name);
-    if (reflection->GetDouble(after, field) > reflection->GetDouble(start, field)) return name;
-  }
-  // The guard brakes the earlier, the stiffer the surface that it reckons with.
-  if (after.guard_stiffness_n_per_m() < start.guard_stiffness_n_per_m()) return "guard_stiffness_n_per_m";
-  return std::nullopt;
+/// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
+std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
+  constexpr double kPeriods = 3.0;
+  const double least_s = kPeriods / send_hz;
+  if (!(safety.gap_s() > 0.0) || safety.gap_s() >= least_s) return "";
+  return "safety.gap_s = " + format_number(safety.gap_s()) +
+         " is less than three send periods of a master with "
+         "link.send_hz = " +
+         format_number(send_hz) + ": set it to " + format_number(least_s) +
+         " or more at the slave, or link.send_hz higher at the master";
 }
 
 }  // namespace
@@ -85,13 +86,16 @@ std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) 
   if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
   const auto& change = std::get<ConfigChange>(planned);
   const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
-  if (const auto field = loosened(start_.command(), after.command())) {
+  const SlaveConfig plain = to_struct(after);
+  if (const auto path = loosened(to_struct(start_), plain)) {
     return Refusal{Refusal::Kind::kPrecondition,
-                   "command." + *field +
+                   std::string(*path) +
                        " can only be tightened from what the slave was started with; to loosen it, "
                        "edit the slave's own file and restart"};
   }
-  SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
+  if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
+    return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
+  SlaveChange command{plain, !change.not_while_engaged.empty(),
                       !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment())};
   auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
   if (!refusal) config_ = after;
@@ -121,12 +125,18 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
     response.set_session(request.session());
     return response;
   }
+  const double send_hz = request.send_hz();
+  if (!(send_hz >= 50.0 && send_hz <= 4000.0)) {
+    return Refusal{Refusal::Kind::kInvalid, "a master sends 50 to 4000 times a second, not " +
+                                                format_number(send_hz) + "; use programs of one version"};
+  }
+  if (std::string why = too_short(config_.safety(), send_hz); !why.empty())
+    return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
   const bool aes = request.aes256gcm() && has_aes256gcm();
   const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
   const std::string before = lease();
-  if (auto refusal = post(shell_.mailbox(), SlaveCommand(SlaveLease{session, request.take()}))) {
-    spdlog::warn("lease refused={} holder={} because=\"{}\"", caller, before, refusal->message);
-    return *std::move(refusal);
+  if (auto refusal = post(shell_.mailbox(), SlaveCommand(SlaveLease{session, request.take(), send_hz}))) {
+    return refusal->kind == Refusal::Kind::kPrecondition ? occupied(caller) : *std::move(refusal);
   }
   spdlog::info("lease holder={} before=\"{}\" taken={}", caller, before, request.take());
   set_lease(caller);
@@ -134,6 +144,18 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
   response.set_secret(session.secret.data(), session.secret.size());
   response.set_aes256gcm(aes);
   return response;
+}
+
+Refusal SlaveService::occupied(const std::string& caller) {
+  const std::string holder = lease();
+  const std::lock_guard lock(leasing_);
+  // Who is refused asks again every 2 s.
+  if (caller != refused_) spdlog::warn("lease refused={} holder={}", caller, holder);
+  refused_ = caller;
+  return {Refusal::Kind::kPrecondition,
+          "another master has the robot (" + holder +
+              "); end that one, wait until it has been silent for 1 s, or start this one with --take",
+          holder};
 }
 
 std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {

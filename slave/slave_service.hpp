@@ -35,6 +35,7 @@ class SlaveService : public ControlBackend {
   SlaveSnapshot snapshot();
 
  private:
+  Refusal occupied(const std::string& caller);
   void set_lease(const std::string& holder);
 
   SlaveShell& shell_;
@@ -44,6 +45,7 @@ class SlaveService : public ControlBackend {
   std::mutex reading_;  // among those who read snapshots
   mutable std::mutex leasing_;
   std::string lease_;
+  std::string refused_;  // who was refused last
 };
 
 }  // namespace longreach

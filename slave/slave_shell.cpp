@@ -11,11 +11,13 @@ SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
     : channel_(config.link.listen),
       port_(channel_, config.link.impairment, Random(seed).child("up")),
       arm_(config, Random(seed).child("arm")),
-      node_(config) {}
+      node_(config) {
+  port_.limit(config.link.budget_kbit_per_s);
+}
 
 void SlaveShell::tick(Time now, const LoopFigures& loop) {
-  bool stop = false;
-  if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, stop));
+  Asked asked;
+  if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, asked));
 
   port_.receive(now);
   const Endpoint& endpoint = port_.endpoint();
@@ -26,11 +28,14 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   in.commands = port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
-  in.stop = stop;
+  in.taken = asked.taken;
+  in.stop = asked.stop;
+  in.send_hz = snapshot_.send_hz;
   in.rejected = port_.rejected_total();
   in.late_ticks = loop.ticks_late_100ms;
   in.up_loss = side.link.loss;
   in.up_jitter_s = side.link.jitter_s;
+  in.may_send = port_.may_send(now);
 
   const SlaveOutput out = node_.step(in);
   arm_.write(out.joint_setpoint_rad);
@@ -45,15 +50,17 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   snapshots_.write(snapshot_);
 }
 
-LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
+LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, Asked& asked) {
   if (std::holds_alternative<SlaveStop>(command)) {
-    stop = true;
+    asked.stop = true;
   } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
     port_.impairment().configure(*impairment, now);
   } else if (const auto* lease = std::get_if<SlaveLease>(&command)) {
     // Whoever had it before is not heard from now on, so the robot holds until the new one engages.
-    if (!lease->take && occupied(now)) return LoopAnswer::kOccupied;
+    asked.taken = occupied(now);
+    if (!lease->take && asked.taken) return LoopAnswer::kOccupied;
     port_.follow(lease->session);
+    snapshot_.send_hz = lease->send_hz;
   } else if (const auto* returned = std::get_if<SlaveReturn>(&command)) {
     if (returned->session == 0 || returned->session != port_.endpoint().session())
       return LoopAnswer::kOccupied;
@@ -62,6 +69,7 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& stop) {
     const auto& change = std::get<SlaveChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
     node_.configure(change.config);
+    port_.limit(change.config.link.budget_kbit_per_s);
     if (change.impairment) port_.impairment().configure(change.config.link.impairment, now);
   }
   return LoopAnswer::kDone;

@@ -21,6 +21,7 @@ struct SlaveSnapshot {
   SlaveView view{};
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
+  double send_hz = 200.0;  // of the master, as it said
 };
 
 struct SlaveChange {
@@ -33,6 +34,7 @@ struct SlaveStop {};
 struct SlaveLease {
   Session session{};
   bool take = false;
+  double send_hz = 200.0;
 };
 /// A master gives it back.
 struct SlaveReturn {
@@ -53,7 +55,12 @@ class SlaveShell {
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
-  LoopAnswer obey(const SlaveCommand& command, Time now, bool& stop);
+  /// What commands bring about in this tick.
+  struct Asked {
+    bool stop = false;
+    bool taken = false;
+  };
+  LoopAnswer obey(const SlaveCommand& command, Time now, Asked& asked);
   [[nodiscard]] bool occupied(Time now) const;
 
   UdpChannel channel_;

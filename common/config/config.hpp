@@ -16,16 +16,20 @@
 
 namespace longreach {
 
-/// One sentence that says which file and line or field, which value, why not, and what is allowed.
+/// One sentence that says which file and line or field, which value, why not, and what is allowed. Control
+/// characters of a quoted text are escaped.
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ConfigError(const std::string& sentence);
 };
 
 /// Parses a protobuf text file into `message` and validates it. Throws ConfigError "FILE:LINE:COLUMN: ..."
 /// (from 1; a tab advances to the next multiple of 8; no position for a file that cannot be read), and then
 /// `message` is unchanged.
 void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
+
+/// The same for a text that is at hand; errors call it `name`.
+void load_text(const std::string& name, const std::string& text, google::protobuf::Message& message);
 
 /// Checks every field that is set: range, finiteness, count, known enum value, known field; then the fields
 /// that must agree with each other: joint limits and start in order, release below touch, dead zone below

@@ -225,6 +225,25 @@ Finding check_mapping(const proto::Mapping& mapping) {
                   {"radius_max_rad", mapping.radius_max_rad()});
 }
 
+Finding check_safety(const proto::SlaveSafety& safety) {
+  constexpr double kLeast_s = 0.02;
+  if (safety.gap_s() == 0.0 || safety.gap_s() >= kLeast_s) return std::nullopt;
+  return at(safety, "gap_s",
+            " = " + format_number(safety.gap_s()) +
+                " is neither 0 (by the send rate of the master) nor from 0.02 to 2");
+}
+
+// Fewer than 50 commands a second are too few for any gap timer.
+template <class Link>
+Finding check_budget(const Link& link) {
+  constexpr double kLeast_kbit_per_s = 52.0;
+  const double budget = link.budget_kbit_per_s();
+  if (budget == 0.0 || budget >= kLeast_kbit_per_s) return std::nullopt;
+  return at(link, "budget_kbit_per_s",
+            " = " + format_number(budget) + " is neither 0 (no limit) nor at least " +
+                format_number(kLeast_kbit_per_s));
+}
+
 Finding within(const PathStep& step, Finding finding) {
   if (finding) finding->path.insert(finding->path.begin(), step);
   return finding;
@@ -240,9 +259,15 @@ Finding check_guarded(const proto::SlaveConfig& config) {
                               " = " + format_number(range_n) +
                                   " is not above command.force_guard_n = " + format_number(guard_n)));
   }
+  const PathStep section{config.GetDescriptor()->FindFieldByName("command"), -1};
+  const double hold_n = config.command().hold_force_n(), touch_n = config.sensing().touch_n();
+  if (hold_n > 0.0 && hold_n <= touch_n) {
+    return within(section, at(config.command(), "hold_force_n",
+                              " = " + format_number(hold_n) + " is not above sensing.touch_n = " +
+                                  format_number(touch_n) + ": a hold would lose the contact"));
+  }
   const std::string why = unguarded(config);
   if (why.empty()) return std::nullopt;
-  const PathStep section{config.GetDescriptor()->FindFieldByName("command"), -1};
   return within(section, at(config.command(), "force_guard_n", why));
 }
 
@@ -266,6 +291,9 @@ Finding check_message(const Message& message) {
   if (const auto* script = dynamic_cast<const proto::Operator*>(&message)) {
     return is_direction(*script, "direction", script->direction());
   }
+  if (const auto* link = dynamic_cast<const proto::MasterLink*>(&message)) return check_budget(*link);
+  if (const auto* link = dynamic_cast<const proto::SlaveLink*>(&message)) return check_budget(*link);
+  if (const auto* safety = dynamic_cast<const proto::SlaveSafety*>(&message)) return check_safety(*safety);
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
     auto wrong = in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});

@@ -24,7 +24,10 @@ bool is_deploy_folder(const fs::path& folder) {
 
 std::optional<fs::path> nearest_above(const fs::path& start) {
   for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
-    if (is_deploy_folder(folder / "deploy")) return folder / "deploy";
+    // In the source tree, and installed.
+    for (const char* name : {"deploy", "share/longreach"}) {
+      if (is_deploy_folder(folder / name)) return folder / name;
+    }
     if (folder == folder.parent_path()) break;
   }
   return std::nullopt;

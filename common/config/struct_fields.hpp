@@ -48,6 +48,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("send_hz", s.send_hz);
   visit("impairment", s.impairment);
   visit("slave_rpc", s.slave_rpc);
+  visit("budget_kbit_per_s", s.budget_kbit_per_s);
 }
 
 template <class Visitor, Is<DriveConfig> S>
@@ -192,6 +193,8 @@ void visit_fields(Visitor& visit, S& s) {
   visit("silence_s", s.silence_s);
   visit("resume_s", s.resume_s);
   visit("engage_at_start", s.engage_at_start);
+  visit("presence", s.presence);
+  visit("presence_s", s.presence_s);
 }
 
 template <class Visitor, Is<MasterConfig> S>
@@ -215,6 +218,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("heartbeat_contact_hz", s.heartbeat_contact_hz);
   visit("heartbeat_free_hz", s.heartbeat_free_hz);
   visit("impairment", s.impairment);
+  visit("budget_kbit_per_s", s.budget_kbit_per_s);
 }
 
 template <class Visitor, Is<PlayoutConfig> S>
@@ -236,6 +240,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("workspace_m", s.workspace_m);
   visit("tolerance_m", s.tolerance_m);
   visit("iterations_max", s.iterations_max);
+  visit("hold_force_n", s.hold_force_n);
 }
 
 template <class Visitor, Is<JointConfig> S>

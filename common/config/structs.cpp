@@ -53,6 +53,9 @@ static_assert(same(EstimatorKind::kFixedExponent, proto::Estimator::FIXED_EXPONE
               same(EstimatorKind::kKelvinVoigt, proto::Estimator::KELVIN_VOIGT) &&
               same(EstimatorKind::kMaximumLikelihood, proto::Estimator::MAXIMUM_LIKELIHOOD) &&
               proto::Estimator::Kind_ARRAYSIZE == 5);
+static_assert(same(Presence::kIgnore, proto::MasterSafety::IGNORE) &&
+              same(Presence::kHold, proto::MasterSafety::HOLD) &&
+              proto::MasterSafety::Presence_ARRAYSIZE == 2);
 static_assert(same(Grip::kLight, proto::Hand::LIGHT) && same(Grip::kFirm, proto::Hand::FIRM) &&
               same(Grip::kReleased, proto::Hand::RELEASED) && proto::Hand::Grip_ARRAYSIZE == 3);
 static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&

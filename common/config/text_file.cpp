@@ -33,7 +33,7 @@ class FirstError : public google::protobuf::io::ErrorCollector {
   std::optional<ParseError> error;
 };
 
-std::string read_text(const fs::path& file) {
+std::string read_file(const fs::path& file) {
   std::error_code status_error;
   const fs::file_status status = fs::status(file, status_error);
   if (status.type() == fs::file_type::not_found) throw ConfigError(file.string() + ": there is no such file");
@@ -53,16 +53,11 @@ std::string read_text(const fs::path& file) {
   if (failed) {
     throw ConfigError(file.string() + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
   }
-  if (text.size() > kMaxBytes)
-    throw ConfigError(file.string() + ": is longer than 1 MiB; no configuration is");
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw ConfigError(file.string() + ": is empty; a file of defaults has at least a comment");
-  }
   return text;
 }
 
-[[noreturn]] void fail(const fs::path& file, TextPosition position, const std::string& text) {
-  throw ConfigError(file.string() + ":" + std::to_string(position.line + 1) + ":" +
+[[noreturn]] void fail(const std::string& name, TextPosition position, const std::string& text) {
+  throw ConfigError(name + ":" + std::to_string(position.line + 1) + ":" +
                     std::to_string(position.column + 1) + ": " + text);
 }
 
@@ -88,7 +83,13 @@ TextPosition locate(const TextFormat::ParseInfoTree& root, const FieldPath& path
 }  // namespace
 
 void load_text_file(const fs::path& file, Message& message) {
-  const std::string text = read_text(file);
+  load_text(file.string(), read_file(file), message);
+}
+
+void load_text(const std::string& name, const std::string& text, Message& message) {
+  if (text.size() > kMaxBytes) throw ConfigError(name + ": is longer than 1 MiB; no configuration is");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw ConfigError(name + ": is empty; a file of defaults has at least a comment");
   const std::unique_ptr<Message> loaded(message.New());
   TextFormat::Parser parser;
   TextFormat::ParseInfoTree locations;
@@ -98,11 +99,11 @@ void load_text_file(const fs::path& file, Message& message) {
   const bool parsed = parser.ParseFromString(text, loaded.get());
   if (first.error) {
     const ParseError error = reword(*first.error, text, *message.GetDescriptor());
-    fail(file, error.position, error.text);
+    fail(name, error.position, error.text);
   }
-  if (!parsed) throw ConfigError(file.string() + ": is not protobuf text format");
+  if (!parsed) throw ConfigError(name + ": is not protobuf text format");
   if (const auto violation = find_any_violation(*loaded)) {
-    fail(file, locate(locations, violation->path), sentence(*loaded, *violation));
+    fail(name, locate(locations, violation->path), sentence(*loaded, *violation));
   }
   message.GetReflection()->Swap(&message, loaded.get());
 }

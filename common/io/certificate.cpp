@@ -8,8 +8,10 @@
 #include <openssl/x509v3.h>
 
 #include <array>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 namespace longreach {
 namespace {
@@ -24,13 +26,16 @@ struct Freed {
 using Key = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
 using X509Cert = std::unique_ptr<X509, Freed<X509_free>>;
 using Bio = std::unique_ptr<BIO, Freed<BIO_free_all>>;
+using X509Request = std::unique_ptr<X509_REQ, Freed<X509_REQ_free>>;
+using Store = std::unique_ptr<X509_STORE, Freed<X509_STORE_free>>;
+using StoreContext = std::unique_ptr<X509_STORE_CTX, Freed<X509_STORE_CTX_free>>;
 using Extension = std::unique_ptr<X509_EXTENSION, Freed<X509_EXTENSION_free>>;
 
 void require(bool done) {
   if (done) return;
   std::array<char, 256> text{};
   ERR_error_string_n(ERR_get_error(), text.data(), text.size());
-  throw std::runtime_error(std::string("cannot make certificates: ") + text.data());
+  throw std::runtime_error(std::string("cannot make or read certificates: ") + text.data());
 }
 
 std::string text_of(BIO* bio) {
@@ -43,13 +48,6 @@ Bio memory() {
   Bio bio(BIO_new(BIO_s_mem()));
   require(bio != nullptr);
   return bio;
-}
-
-Certificate to_pem(X509* certificate, EVP_PKEY* key) {
-  const Bio certificate_text = memory(), key_text = memory();
-  require(PEM_write_bio_X509(certificate_text.get(), certificate) == 1);
-  require(PEM_write_bio_PrivateKey(key_text.get(), key, nullptr, nullptr, 0, nullptr, nullptr) == 1);
-  return {text_of(certificate_text.get()), text_of(key_text.get())};
 }
 
 X509Cert read_certificate(const std::string& pem) {
@@ -118,6 +116,33 @@ const char* usage_of(CertificateUse use) {
   return "serverAuth,clientAuth";
 }
 
+std::string certificate_text(X509* certificate) {
+  const Bio text = memory();
+  require(PEM_write_bio_X509(text.get(), certificate) == 1);
+  return text_of(text.get());
+}
+
+std::string key_text(EVP_PKEY* key) {
+  const Bio text = memory();
+  require(PEM_write_bio_PrivateKey(text.get(), key, nullptr, nullptr, 0, nullptr, nullptr) == 1);
+  return text_of(text.get());
+}
+
+std::string sign(const Certificate& authority, EVP_PKEY* key, const CertificateTerms& terms) {
+  const X509Cert issuer = read_certificate(authority.certificate_pem);
+  const Key issuer_key = read_key(authority.key_pem);
+  const X509Cert out = begin(terms, key);
+  require(X509_set_issuer_name(out.get(), X509_get_subject_name(issuer.get())) == 1);
+  add_extension(out.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE");
+  add_extension(out.get(), issuer.get(), NID_key_usage, "critical,digitalSignature");
+  add_extension(out.get(), issuer.get(), NID_ext_key_usage, usage_of(terms.use));
+  add_extension(out.get(), issuer.get(), NID_subject_alt_name, "DNS:" + terms.name);
+  add_extension(out.get(), issuer.get(), NID_subject_key_identifier, "hash");
+  add_extension(out.get(), issuer.get(), NID_authority_key_identifier, "keyid");
+  require(X509_sign(out.get(), issuer_key.get(), EVP_sha256()) != 0);
+  return certificate_text(out.get());
+}
+
 }  // namespace
 
 Certificate make_authority(const std::string& name) {
@@ -128,23 +153,79 @@ Certificate make_authority(const std::string& name) {
   add_extension(out.get(), out.get(), NID_key_usage, "critical,keyCertSign,cRLSign");
   add_extension(out.get(), out.get(), NID_subject_key_identifier, "hash");
   require(X509_sign(out.get(), key.get(), EVP_sha256()) != 0);
-  return to_pem(out.get(), key.get());
+  return {certificate_text(out.get()), key_text(key.get())};
 }
 
 Certificate issue(const Certificate& authority, const CertificateTerms& terms) {
-  const X509Cert issuer = read_certificate(authority.certificate_pem);
-  const Key issuer_key = read_key(authority.key_pem);
   const Key key = make_key();
-  const X509Cert out = begin(terms, key.get());
-  require(X509_set_issuer_name(out.get(), X509_get_subject_name(issuer.get())) == 1);
-  add_extension(out.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE");
-  add_extension(out.get(), issuer.get(), NID_key_usage, "critical,digitalSignature");
-  add_extension(out.get(), issuer.get(), NID_ext_key_usage, usage_of(terms.use));
-  add_extension(out.get(), issuer.get(), NID_subject_alt_name, "DNS:" + terms.name);
-  add_extension(out.get(), issuer.get(), NID_subject_key_identifier, "hash");
-  add_extension(out.get(), issuer.get(), NID_authority_key_identifier, "keyid");
-  require(X509_sign(out.get(), issuer_key.get(), EVP_sha256()) != 0);
-  return to_pem(out.get(), key.get());
+  return {sign(authority, key.get(), terms), key_text(key.get())};
+}
+
+CertificateRequest make_request() {
+  const Key key = make_key();
+  const X509Request request(X509_REQ_new());
+  require(request != nullptr && X509_REQ_set_pubkey(request.get(), key.get()) == 1);
+  require(X509_REQ_sign(request.get(), key.get(), EVP_sha256()) != 0);
+  const Bio text = memory();
+  require(PEM_write_bio_X509_REQ(text.get(), request.get()) == 1);
+  return {text_of(text.get()), key_text(key.get())};
+}
+
+std::string certify(const Certificate& authority, const std::string& request_pem,
+                    const CertificateTerms& terms) {
+  const Bio text(BIO_new_mem_buf(request_pem.data(), static_cast<int>(request_pem.size())));
+  const X509Request request(PEM_read_bio_X509_REQ(text.get(), nullptr, nullptr, nullptr));
+  require(request != nullptr);
+  EVP_PKEY* key = X509_REQ_get0_pubkey(request.get());
+  std::array<char, 32> group{};
+  const bool ours = key != nullptr && EVP_PKEY_is_a(key, "EC") == 1 &&
+                    EVP_PKEY_get_group_name(key, group.data(), group.size(), nullptr) == 1 &&
+                    std::string_view(group.data()) == "prime256v1";
+  require(ours && X509_REQ_verify(request.get(), key) == 1);
+  return sign(authority, key, terms);
+}
+
+std::string fingerprint(const std::string& certificate_pem) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
+  unsigned size = 0;
+  require(X509_digest(read_certificate(certificate_pem).get(), EVP_sha256(), bytes.data(), &size) == 1);
+  std::string out = "SHA256:";
+  for (unsigned i = 0; i < size; ++i) {
+    constexpr std::string_view kHex = "0123456789abcdef";
+    out += kHex[bytes[i] >> 4U];
+    out += kHex[bytes[i] & 15U];
+  }
+  return out;
+}
+
+std::string valid_until(const std::string& certificate_pem) {
+  std::tm time{};
+  require(ASN1_TIME_to_tm(X509_get0_notAfter(read_certificate(certificate_pem).get()), &time) == 1);
+  std::array<char, 16> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d", &time)};
+}
+
+std::string certificate_trouble(const std::string& authority_pem, const std::string& certificate_pem,
+                                const std::string& key_pem, const std::string& name) {
+  try {
+    const X509Cert authority = read_certificate(authority_pem),
+                   certificate = read_certificate(certificate_pem);
+    if (!key_pem.empty() && X509_check_private_key(certificate.get(), read_key(key_pem).get()) != 1)
+      return "it does not belong to its key";
+    const Store store(X509_STORE_new());
+    const StoreContext context(X509_STORE_CTX_new());
+    require(store != nullptr && context != nullptr &&
+            X509_STORE_add_cert(store.get(), authority.get()) == 1 &&
+            X509_STORE_CTX_init(context.get(), store.get(), certificate.get(), nullptr) == 1);
+    if (X509_verify_cert(context.get()) != 1)
+      return std::string("it is not good for this site: ") +
+             X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()));
+    if (!name.empty() && X509_check_host(certificate.get(), name.data(), name.size(), 0, nullptr) != 1)
+      return "it is not made out to " + name;
+    return "";
+  } catch (const std::runtime_error&) {
+    return "it cannot be read";
+  }
 }
 
 }  // namespace longreach

@@ -28,4 +28,28 @@ Certificate make_authority(const std::string& name);
 /// A new key, certified by the authority. Throws std::runtime_error when OpenSSL cannot.
 Certificate issue(const Certificate& authority, const CertificateTerms& terms);
 
+/// A new key, and the wish to have it certified by an authority elsewhere (PKCS #10), as PEM text.
+struct CertificateRequest {
+  std::string request_pem;
+  std::string key_pem;
+};
+CertificateRequest make_request();
+
+/// A certificate for the key of the request, whose holder must have signed it. The terms are ours: nothing
+/// else is taken from the request. Throws std::runtime_error when it is not a signed request of a P-256 key.
+std::string certify(const Certificate& authority, const std::string& request_pem,
+                    const CertificateTerms& terms);
+
+/// "SHA256:5f0c...", as `openssl x509 -fingerprint -sha256` says it. Throws std::runtime_error when this is
+/// no certificate.
+std::string fingerprint(const std::string& certificate_pem);
+
+/// "9999-12-31". Throws std::runtime_error when this is no certificate.
+std::string valid_until(const std::string& certificate_pem);
+
+/// What is wrong with a certificate in the hands of somebody who trusts the authority: one clause, as "it is
+/// not signed by the authority". Empty: nothing. `key_pem`: empty, or the private key that must fit.
+std::string certificate_trouble(const std::string& authority_pem, const std::string& certificate_pem,
+                                const std::string& key_pem, const std::string& name);
+
 }  // namespace longreach

@@ -35,10 +35,7 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
   }
   if (*answer == LoopAnswer::kDone) return std::nullopt;
   if (*answer == LoopAnswer::kOccupied) {
-    return Refusal{
-        Refusal::Kind::kPrecondition,
-        "another master has the robot; end that one, wait until it has been silent for 1 s, or take it "
-        "with longreach-master --take"};
+    return Refusal{Refusal::Kind::kPrecondition, "another master has the robot"};
   }
   return Refusal{Refusal::Kind::kPrecondition,
                  not_while_engaged + " may not change while the robot is engaged; stop first"};

@@ -22,7 +22,8 @@ struct Refusal {
     kUnavailable
   };  // bad value; not now or not here; no answer in time
   Kind kind = Kind::kInvalid;
-  std::string message;  // one sentence: which field, why, what to do
+  std::string message;   // one sentence: which field, why, what to do
+  std::string holder{};  // address of the master that has the robot, where that is why
 };
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;  // field path, value as text

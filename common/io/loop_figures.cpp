@@ -29,6 +29,12 @@ void LoopFigures::book(Duration late, Duration busy) {
   busy_max = std::max(busy_max, busy);
 }
 
+std::array<std::uint64_t, (LoopFigures::kBuckets + 3) / 4 + 1> LoopFigures::lateness_octaves() const {
+  std::array<std::uint64_t, (kBuckets + 3) / 4 + 1> out{};
+  for (std::size_t i = 0; i < kBuckets; ++i) out[(i + 3) / 4] += lateness[i];
+  return out;
+}
+
 double LoopFigures::lateness_quantile_s(double quantile) const {
   if (ticks == 0) return 0.0;
   const double wanted = quantile * static_cast<double>(ticks);

@@ -21,6 +21,8 @@ struct LoopFigures {
   std::array<std::uint32_t, kBuckets> lateness{};  // ticks by lateness; the last one is open
 
   void book(Duration late, Duration busy);
+  /// Ticks by lateness in octaves: up to 1, 2, 4, ... us; the last one is open.
+  [[nodiscard]] std::array<std::uint64_t, (kBuckets + 3) / 4 + 1> lateness_octaves() const;
   /// Upper edge of the bucket that holds the quantile (0 to 1), s; at most the maximum. 0 before the first
   /// tick.
   [[nodiscard]] double lateness_quantile_s(double quantile) const;

@@ -51,6 +51,11 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
 }
 
 /// Throws SiteError.
+inline std::filesystem::path site_of(const ProgramOptions& options) {
+  return options.site.empty() ? default_site() : std::filesystem::path(options.site);
+}
+
+/// Throws SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (options.insecure) {
     std::fputs(
@@ -59,8 +64,7 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
         stderr);
     return {};
   }
-  return {
-      site_credentials(options.site.empty() ? default_site() : std::filesystem::path(options.site), role)};
+  return {site_credentials(site_of(options), role)};
 }
 
 inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {

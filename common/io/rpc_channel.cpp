@@ -1,29 +1,44 @@
 #include "common/io/rpc_channel.hpp"
 
-#include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
 #include <stdexcept>
 
+#include "common/io/rpc_refusals.hpp"
+
 namespace longreach {
+
+namespace {
+
+/// Patient, and straight to the address.
+grpc::ChannelArguments patient() {
+  grpc::ChannelArguments arguments;
+  // The addresses are the user's own machines: a proxy for the web does not lead there.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  // The least time that connecting is given; the call's deadline is the limit.
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 240'000);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  // Also how long sent bytes may stay unacknowledged: a segment that is lost twice, 5 s away.
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 60'000);
+  return arguments;
+}
+
+}  // namespace
+
+std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address) {
+  take_rpc_log();
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), patient());
+}
 
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security) {
   if (!security.credentials && !is_loopback(address))
     throw std::runtime_error(address + " is not on this machine: leave out --insecure to go there");
-  // gRPC's own log lines would stand beside the one sentence of the error.
-  gpr_set_log_function([](gpr_log_func_args*) {});
-  grpc::ChannelArguments arguments;
-  // The addresses are the user's own machines: a proxy for the web does not lead there.
-  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  // The least time that connecting is given; the call's deadline is the limit.
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 90'000);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
-  if (!security.credentials)
-    return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  if (!security.credentials) return connect_in_clear(address);
+  take_rpc_log();
+  grpc::ChannelArguments arguments = patient();
   const RpcCredentials& own = *security.credentials;
   arguments.SetSslTargetNameOverride(std::string(name_of(side)));
   return grpc::CreateCustomChannel(address, grpc::SslCredentials({own.authority, own.key, own.certificate}),

@@ -18,6 +18,9 @@ namespace longreach {
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security);
 
+/// To wherever, in clear: for pairing alone, which protects itself.
+std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
+
 /// Whether a call failed because what answers has another role of the same site.
 bool other_role(const grpc::Status& status);
 /// Whether a call failed because one of the two does not trust the other's certificate; kMistrust says what

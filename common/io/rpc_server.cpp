@@ -1,6 +1,5 @@
 #include "common/io/rpc_server.hpp"
 
-#include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 #include <sys/resource.h>
 
@@ -14,6 +13,9 @@
 #include <variant>
 
 #include "common/io/control_service.hpp"
+#include "common/io/pace.hpp"
+#include "common/io/rpc_refusals.hpp"
+#include "common/io/status_fields.hpp"
 #include "proto/control.grpc.pb.h"
 
 namespace longreach {
@@ -47,24 +49,6 @@ std::string cut(std::string text) {
   return text.substr(0, end) + "...";
 }
 
-/// Absolute deadlines of a row of ticks; ticks that a slow reader missed are left out.
-class Pace {
- public:
-  explicit Pace(double rate_hz)
-      : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate_hz))),
-        due_(Clock::now()) {}
-  [[nodiscard]] Clock::time_point due() const { return due_; }
-  void advance() {
-    due_ += period_;
-    const auto now = Clock::now();
-    if (now > due_) due_ += (now - due_) / period_ * period_;
-  }
-
- private:
-  Clock::duration period_;
-  Clock::time_point due_;
-};
-
 double watch_rate_hz(const proto::WatchRequest& request) {
   if (!request.has_rate_hz()) return kWatchHzDefault;
   if (!(request.rate_hz() > kWatchHzMin)) return kWatchHzMin;  // also what is not a number
@@ -80,7 +64,7 @@ class GrpcControl final : public proto::Control::Service {
       : service_(backend), side_(side), secured_(secured) {}
 
   grpc::Status GetStatus(Context*, const proto::StatusRequest*, proto::Status* answer) override {
-    *answer = service_.status();
+    *answer = status();
     return grpc::Status::OK;
   }
   grpc::Status GetConfig(Context* context, const proto::GetConfigRequest* request,
@@ -115,14 +99,12 @@ class GrpcControl final : public proto::Control::Service {
   }
   grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
                            proto::OpenSessionResponse* answer) override {
-    if (secured_ && !is_from(RpcRole::kMaster, *context))
-      return {grpc::StatusCode::PERMISSION_DENIED, "only a master of this site may open a session"};
+    if (!is_master(*context)) return denied(*context, "only a master of this site may open a session");
     return finish(context, service_.open_session(*request, caller_of(*context)), answer);
   }
   grpc::Status CloseSession(Context* context, const proto::CloseSessionRequest* request,
                             proto::Outcome* answer) override {
-    if (secured_ && !is_from(RpcRole::kMaster, *context))
-      return {grpc::StatusCode::PERMISSION_DENIED, "only a master of this site may close a session"};
+    if (!is_master(*context)) return denied(*context, "only a master of this site may close a session");
     return finish(context, service_.close_session(*request), answer);
   }
 
@@ -133,7 +115,7 @@ class GrpcControl final : public proto::Control::Service {
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
               std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: end one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
-      if (!writer->Write(service_.status())) break;
+      if (!writer->Write(status())) break;
     return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " ends")
                       : grpc::Status::OK;
   }
@@ -170,16 +152,29 @@ class GrpcControl final : public proto::Control::Service {
   grpc::Status finish(Context* context, ControlService::Result<Answer> result, Answer* answer) {
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       context->AddTrailingMetadata(std::string(kRefusedBy), side_);
+      if (!refusal->holder.empty()) context->AddTrailingMetadata(std::string(kHeldBy), refusal->holder);
       return {code_of(refusal->kind), cut(refusal->message)};
     }
     *answer = std::get<Answer>(std::move(result));
     return grpc::Status::OK;
   }
 
-  static bool is_from(RpcRole role, const Context& context) {
+  proto::Status status() {
+    proto::Status out = service_.status();
+    add_count(out, "rpc_refused", rpc_refusals());
+    return out;
+  }
+
+  bool is_master(const Context& context) const {
+    if (!secured_) return true;
+    const std::string_view wanted = name_of(RpcRole::kMaster);
     const auto names = context.auth_context()->FindPropertyValues(GRPC_X509_SAN_PROPERTY_NAME);
-    return std::find(names.begin(), names.end(),
-                     grpc::string_ref(name_of(role).data(), name_of(role).size())) != names.end();
+    return std::find(names.begin(), names.end(), grpc::string_ref(wanted.data(), wanted.size())) !=
+           names.end();
+  }
+  static grpc::Status denied(const Context& context, const char* why) {
+    note_rpc_refusal(caller_of(context), why);
+    return {grpc::StatusCode::PERMISSION_DENIED, why};
   }
 
   /// "127.0.0.1:53211" of "ipv4:127.0.0.1:53211".
@@ -234,7 +229,7 @@ void configure(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // Generous: a client may itself be many seconds away.
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 30'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 60'000);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
   builder.SetResourceQuota(grpc::ResourceQuota("longreach-control").SetMaxThreads(kThreadsMax));
@@ -274,8 +269,7 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
     throw std::runtime_error("the " + std::string(side) + " will not serve RPC on " + address +
                              " in clear: leave out --insecure, or set rpc.listen to an address on loopback");
   raise_descriptor_limit();
-  // gRPC's own log lines would stand beside the one sentence of the exception.
-  gpr_set_log_function([](gpr_log_func_args*) {});
+  take_rpc_log();
   grpc::ServerBuilder builder;
   configure(builder);
   int port = 0;

@@ -19,8 +19,9 @@ namespace longreach {
 inline constexpr std::string_view kMasterRpcAddress = "127.0.0.1:47010";
 inline constexpr std::string_view kSlaveRpcAddress = "127.0.0.1:47020";
 inline constexpr std::string_view kRefusedBy = "longreach-refused-by";
-inline constexpr int kWatchersMax = 64;     // more are refused with RESOURCE_EXHAUSTED
-inline constexpr double kWatchHzMin = 0.1;  // rates beyond are taken as the nearest
+inline constexpr std::string_view kHeldBy = "longreach-held-by";  // Refusal::holder
+inline constexpr int kWatchersMax = 64;                           // more are refused with RESOURCE_EXHAUSTED
+inline constexpr double kWatchHzMin = 0.1;                        // rates beyond are taken as the nearest
 inline constexpr double kWatchHzMax = 60.0;
 inline constexpr double kWatchHzDefault = 4.0;
 

@@ -24,6 +24,13 @@ constexpr auto kRetryLast = milliseconds(2000);
 // Connecting over 10 s each way, with all its round trips.
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 
+/// The master that has the robot, as the slave says.
+std::string holder_of(const grpc::ClientContext& context) {
+  const auto& metadata = context.GetServerTrailingMetadata();
+  const auto found = metadata.find(grpc::string_ref(kHeldBy.data(), kHeldBy.size()));
+  return found == metadata.end() ? "" : std::string(found->second.data(), found->second.size());
+}
+
 std::string sentence(const std::string& address, const grpc::ClientContext& context,
                      const grpc::Status& status) {
   const std::string begin = "no session with the slave at " + address + ": ";
@@ -45,13 +52,14 @@ struct SessionSeeker::Rpc {
   std::unique_ptr<proto::Control::Stub> stub;
 };
 
-SessionSeeker::SessionSeeker(std::string address, const RpcSecurity& security, bool take, Look look,
-                             Adopt adopt)
+SessionSeeker::SessionSeeker(std::string address, const RpcSecurity& security, bool take, double send_hz,
+                             Look look, Adopt adopt)
     : address_(std::move(address)),
       look_(std::move(look)),
       adopt_(std::move(adopt)),
       rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_, RpcRole::kSlave, security))}),
       take_(take),
+      send_hz_(send_hz),
       thread_([this] { run(); }) {}
 
 SessionSeeker::~SessionSeeker() {
@@ -76,6 +84,11 @@ void SessionSeeker::give_back() {
   (void)rpc_->stub->CloseSession(&context, request, &outcome);
 }
 
+std::string SessionSeeker::taken_by() const {
+  const std::lock_guard lock(mutex_);
+  return taken_by_;
+}
+
 std::string SessionSeeker::trouble() const {
   const std::lock_guard lock(mutex_);
   return trouble_;
@@ -88,7 +101,12 @@ void SessionSeeker::run() {
     const Present present = look_();
     const bool needed = present.session == 0 || present.silence_s > kSilence_s;
     pause = kLookPeriod;
-    if (!needed) continue;
+    if (!needed) {
+      const std::lock_guard lock(mutex_);
+      trouble_.clear();
+      taken_by_.clear();
+      continue;
+    }
     std::string trouble = seek(present.session);
     const bool done = trouble.empty();
     pause = done ? kAfterAnswer : retry;
@@ -111,12 +129,22 @@ std::string SessionSeeker::seek(std::uint64_t present) {
   request.set_session(present);
   request.set_aes256gcm(has_aes256gcm());
   request.set_take(take_);
+  request.set_send_hz(send_hz_);
   proto::OpenSessionResponse answer;
   const grpc::Status status = rpc_->stub->OpenSession(&context, request, &answer);
   {
     const std::lock_guard lock(mutex_);
     call_ = nullptr;
   }
+  const std::string holder = holder_of(context);
+  {
+    const std::lock_guard lock(mutex_);
+    if (status.ok()) taken_by_.clear();
+    if (!holder.empty() && present != 0) taken_by_ = holder;
+  }
+  if (!holder.empty() && present != 0)
+    return "another master (" + holder +
+           ") has taken the robot from this one; end that one, or start this one anew with --take";
   if (!status.ok()) return sentence(address_, context, status);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 

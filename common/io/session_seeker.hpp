@@ -2,7 +2,7 @@
 // Keeps the master in a session with its slave: asks for one at the start, and again when the slave has been
 // silent, since it may have been restarted. A thread of its own: the loop never waits for it. A session that
 // the slave still knows is kept. After a failure it asks again, after 0.1 s at first and 2 s at last, until
-// it is ended.
+// it is ended. A robot that was taken from it is never taken back: it waits until that one returns it.
 
 #include <condition_variable>
 #include <functional>
@@ -32,8 +32,9 @@ class SessionSeeker {
   using Adopt = std::function<bool(const Session&)>;
 
   /// `address`: of the slave's RPC server. Both functions are called in the seeker's thread.
-  /// `take`: once, the robot is taken from a master that has it.
-  SessionSeeker(std::string address, const RpcSecurity& security, bool take, Look look, Adopt adopt);
+  /// `take`: once, the robot is taken from a master that has it. `send_hz`: of this master.
+  SessionSeeker(std::string address, const RpcSecurity& security, bool take, double send_hz, Look look,
+                Adopt adopt);
   /// Returns the robot, which takes 2 s at most. Ends a call that is under way.
   ~SessionSeeker();
   SessionSeeker(const SessionSeeker&) = delete;
@@ -42,6 +43,8 @@ class SessionSeeker {
   /// Why there is no session: one sentence that names the slave's address and what to do. Empty: there is
   /// one, or the first answer is awaited.
   [[nodiscard]] std::string trouble() const;
+  /// Address of the master that has taken the robot from this one. Empty: it has it, or never had.
+  [[nodiscard]] std::string taken_by() const;
 
  private:
   struct Rpc;
@@ -58,8 +61,10 @@ class SessionSeeker {
   std::condition_variable wake_;
   bool ended_ = false;
   bool take_;
+  const double send_hz_;
   grpc::ClientContext* call_ = nullptr;  // under way
   std::string trouble_;
+  std::string taken_by_;
   std::thread thread_;
 };
 

@@ -12,20 +12,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/io/certificate.hpp"
-
 namespace longreach {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::array kRoles = {RpcRole::kSlave, RpcRole::kMaster, RpcRole::kClient};
-
-/// "slave" of "slave.longreach".
-std::string file_stem(RpcRole role) {
-  const std::string_view name = name_of(role);
-  return std::string(name.substr(0, name.find('.')));
-}
 
 CertificateUse use_of(RpcRole role) {
   switch (role) {
@@ -50,34 +42,47 @@ void write(const fs::path& file, const std::string& text) {
                     "; make its folder writable, or choose another with --site DIR");
 }
 
-void fill(const fs::path& folder) {
+SiteFiles new_site() {
   const Certificate authority = make_authority("longreach site");
-  write(folder / "authority.crt", authority.certificate_pem);
-  write(folder / "authority.key", authority.key_pem);
+  SiteFiles out{{"authority.crt", authority.certificate_pem}, {"authority.key", authority.key_pem}};
   for (const RpcRole role : kRoles) {
     const Certificate one = issue(authority, {.name = std::string(name_of(role)), .use = use_of(role)});
-    write(folder / (file_stem(role) + ".crt"), one.certificate_pem);
-    write(folder / (file_stem(role) + ".key"), one.key_pem);
+    out[file_stem(role) + ".crt"] = one.certificate_pem;
+    out[file_stem(role) + ".key"] = one.key_pem;
   }
+  return out;
+}
+
+/// A complete folder beside `site` that is to become it.
+fs::path draft(const fs::path& site, const SiteFiles& files) {
+  std::error_code error;
+  fs::create_directories(site.parent_path(), error);
+  std::string folder = site.string() + ".XXXXXX";
+  if (::mkdtemp(folder.data()) == nullptr)
+    throw SiteError("cannot make " + site.string() + ": " + std::strerror(errno) +
+                    "; choose another place with --site DIR");
+  try {
+    for (const auto& [name, text] : files) write(fs::path(folder) / name, text);
+  } catch (...) {
+    fs::remove_all(folder, error);
+    throw;
+  }
+  return folder;
 }
 
 /// Under another name first: the folder appears as a whole or not at all.
 void make(const fs::path& site) {
+  const fs::path whole = draft(site, new_site());
   std::error_code error;
-  fs::create_directories(site.parent_path(), error);
-  std::string draft = site.string() + ".XXXXXX";
-  if (::mkdtemp(draft.data()) == nullptr)
-    throw SiteError("cannot make " + site.string() + ": " + std::strerror(errno) +
-                    "; choose another place with --site DIR");
-  try {
-    fill(draft);
-  } catch (...) {
-    fs::remove_all(draft, error);
-    throw;
-  }
-  fs::rename(draft, site, error);
+  fs::rename(whole, site, error);
   // Somebody else was faster: theirs counts.
-  if (error) fs::remove_all(draft, error);
+  if (error) fs::remove_all(whole, error);
+}
+
+/// DIR/ is DIR.
+fs::path plain(const fs::path& site) {
+  const fs::path folder = fs::absolute(site).lexically_normal();
+  return folder.has_filename() ? folder : folder.parent_path();
 }
 
 /// Others must not be able to read, change or replace anything.
@@ -94,14 +99,23 @@ void require_private(const fs::path& path) {
                     (fs::is_directory(path) ? path : path.parent_path()).string());
 }
 
-std::string read(const fs::path& file) {
-  require_private(file);
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || text.str().empty())
-    throw SiteError("cannot read " + file.string() + "; restore it, or remove its folder");
-  return text.str();
+fs::path made(const fs::path& site) {
+  const fs::path folder = plain(site);
+  if (!site_exists(folder)) {
+    if (fs::exists(folder)) require_private(folder);
+    make(folder);
+  }
+  require_private(folder);
+  return folder;
+}
+
+/// A host that was paired has what belongs to an operator, and nothing else.
+void require_origin(const fs::path& folder) {
+  if (fs::exists(folder / "authority.key") || !fs::exists(folder / "master.key")) return;
+  throw SiteError(
+      folder.string() +
+      " was made by pairing, for a master and its client; a slave runs, and pairs others, on the host "
+      "whose slave gave the token; choose another folder with --site DIR");
 }
 
 }  // namespace
@@ -120,16 +134,57 @@ fs::path default_site() {
       "neither XDG_CONFIG_HOME nor HOME is set; say with --site DIR where the certificates are kept");
 }
 
+std::string file_stem(RpcRole role) {
+  const std::string_view name = name_of(role);
+  return std::string(name.substr(0, name.find('.')));
+}
+
+std::string read_site_file(const fs::path& file) {
+  require_private(file);
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in || text.str().empty())
+    throw SiteError("cannot read " + file.string() + "; restore it, or remove its folder");
+  return text.str();
+}
+
 RpcCredentials site_credentials(const fs::path& site, RpcRole role) {
-  fs::path folder = fs::absolute(site).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();  // DIR/ is DIR
-  std::error_code error;
-  const bool empty = fs::is_directory(folder, error) && fs::is_empty(folder, error);
-  if (empty) require_private(folder);
-  if (empty || !fs::exists(folder)) make(folder);
-  require_private(folder);
+  const fs::path folder = made(site);
+  if (role == RpcRole::kSlave) require_origin(folder);
   const std::string stem = file_stem(role);
-  return {read(folder / "authority.crt"), read(folder / (stem + ".crt")), read(folder / (stem + ".key"))};
+  return {read_site_file(folder / "authority.crt"), read_site_file(folder / (stem + ".crt")),
+          read_site_file(folder / (stem + ".key"))};
+}
+
+Certificate site_authority(const fs::path& site) {
+  const fs::path folder = made(site);
+  require_origin(folder);
+  return {read_site_file(folder / "authority.crt"), read_site_file(folder / "authority.key")};
+}
+
+bool site_exists(const fs::path& site) {
+  std::error_code error;
+  const fs::path folder = plain(site);
+  return fs::exists(fs::symlink_status(folder, error)) &&
+         !(fs::is_directory(folder, error) && fs::is_empty(folder, error));
+}
+
+fs::path write_site(const fs::path& site, const SiteFiles& files) {
+  const fs::path folder = plain(site);
+  const fs::path whole = draft(folder, files);
+  std::error_code error;
+  fs::path aside;
+  if (site_exists(folder)) {
+    for (int i = 1; aside.empty() || fs::exists(aside); ++i)
+      aside = folder.string() + ".before-" + std::to_string(i);
+    fs::rename(folder, aside, error);
+  }
+  if (!error) fs::rename(whole, folder, error);
+  if (!error) return aside;
+  const std::string why = error.message();
+  fs::remove_all(whole, error);
+  throw SiteError("cannot make " + folder.string() + ": " + why + "; choose another place with --site DIR");
 }
 
 }  // namespace longreach

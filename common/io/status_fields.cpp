@@ -42,6 +42,18 @@ std::string_view to_string(HoldCause cause) {
       return "robot fault";
     case HoldCause::kDeviceFault:
       return "device fault";
+    case HoldCause::kHandleLetGo:
+      return "handle let go";
+    case HoldCause::kTaken:
+      return "taken by another master";
+    case HoldCause::kRobotRestless:
+      return "robot does not rest";
+    case HoldCause::kRobotAstray:
+      return "robot does not follow";
+    case HoldCause::kUnanswered:
+      return "slave did not answer";
+    case HoldCause::kCount:
+      break;
   }
   return "unknown";
 }
@@ -67,6 +79,10 @@ void add_counts(proto::Status& status, const LoopFigures& loop) {
   add_count(status, "lateness_p99_us", microseconds(loop.lateness_quantile_s(0.99)));
   add_count(status, "lateness_max_us", microseconds(to_seconds(loop.lateness_max)));
   add_count(status, "busy_max_us", microseconds(to_seconds(loop.busy_max)));
+  const auto octaves = loop.lateness_octaves();
+  std::size_t used = octaves.size();
+  while (used > 0 && octaves[used - 1] == 0) --used;
+  status.mutable_lateness()->Assign(octaves.begin(), octaves.begin() + static_cast<std::ptrdiff_t>(used));
 }
 
 void add_counts(proto::Status& status, const ImpairmentCounts& counts) {
@@ -109,6 +125,7 @@ proto::Figures to_message(const LinkFigures& figures) {
   out.set_jitter_s(figures.jitter_s);
   out.set_loss(figures.loss);
   out.set_reorder(figures.reorder);
+  if (figures.age_s) out.set_age_s(*figures.age_s);
   out.set_silence_s(std::isfinite(figures.silence_s) ? figures.silence_s : -1.0);
   out.set_rate_hz(figures.rate_hz);
   out.set_bytes_per_s(figures.bytes_per_s);

@@ -48,6 +48,8 @@ LinkFigures DelayMonitor::figures(Time now) const {
   LinkFigures f;
   f.silence_s =
       last_heard_ ? std::max(0.0, to_seconds(now - *last_heard_)) : std::numeric_limits<double>::infinity();
+  if (echoed_)
+    f.age_s = std::max(0.0, 1e-9 * static_cast<double>(saturating_sub(to_ns(now), to_ns(*echoed_))));
   const std::size_t first = first_since(now - kWindow);
   const std::size_t count = samples_.size() - first;
   if (count == 0) return f;
@@ -91,6 +93,7 @@ void DelayMonitor::clear() {
   forgotten_.fill({});
   first_heard_.reset();
   last_heard_.reset();
+  echoed_.reset();
 }
 
 std::size_t DelayMonitor::first_since(Time t) const {

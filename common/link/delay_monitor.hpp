@@ -10,6 +10,7 @@
 // earlier (up to 1 s) as the overtaken were late. Does not count what was sent before the first datagram of a
 // session.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,9 +29,11 @@ struct LinkFigures {
   double jitter_s = 0.0;          // standard deviation of the one-way time over the window
   double loss = 0.0;              // fraction of the datagrams of the window that never came
   double reorder = 0.0;           // fraction that came after a newer one of its type
-  double silence_s = 0.0;         // since the last accepted datagram (infinite before the first)
-  double rate_hz = 0.0;           // accepted datagrams a second
-  double bytes_per_s = 0.0;       // accepted bytes a second, without UDP and IP headers
+  std::optional<double>
+      age_s{};               // since this side sent what the peer had last heard; none until an echo came
+  double silence_s = 0.0;    // since the last accepted datagram (infinite before the first)
+  double rate_hz = 0.0;      // accepted datagrams a second
+  double bytes_per_s = 0.0;  // accepted bytes a second, without UDP and IP headers
 };
 
 class DelayMonitor {
@@ -40,6 +43,9 @@ class DelayMonitor {
   /// Books an accepted datagram. `rtt` where its echo allowed to compute one.
   void on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt,
                    std::size_t bytes);
+
+  /// Books when this side had sent what the peer had last heard.
+  void on_echo(Time sent) { echoed_ = std::max(echoed_.value_or(sent), sent); }
 
   [[nodiscard]] LinkFigures figures(Time now) const;
   [[nodiscard]] std::optional<Time> last_heard() const { return last_heard_; }
@@ -76,6 +82,7 @@ class DelayMonitor {
       forgotten_{};  // of the samples that left the ring, the one with the highest sequence
   std::optional<Time> first_heard_{};
   std::optional<Time> last_heard_{};
+  std::optional<Time> echoed_{};  // when this side had sent the newest that came back
 };
 
 }  // namespace longreach

@@ -62,6 +62,7 @@ std::optional<Time> Endpoint::learn(Time now, const Header& header, const Stamp&
   if (stamp.echo && stamp.echo->sent_ns <= to_ns(now)) {
     echo_sent = Time{Duration{stamp.echo->sent_ns}};
     rtt = round_trip(now, *echo_sent, stamp.echo->held);
+    monitor_.on_echo(*echo_sent);
   }
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
   // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link

@@ -9,7 +9,13 @@
 
 namespace longreach {
 
-enum class Request : std::uint8_t { kHold = 0, kEngage = 1, kStop = 2 };  // a level, in every datagram
+/// A level, in every datagram.
+enum class Request : std::uint8_t {
+  kHold = 0,
+  kEngage = 1,
+  kStop = 2,
+  kLetGo = 3  // hold, since no hand is on the handle; kEngage of the same number soon after goes on
+};
 enum class MotionMode : std::uint8_t { kRate = 0, kPosition = 1 };
 enum class GoalKind : std::uint8_t { kPosition = 0, kOrientation = 1 };
 

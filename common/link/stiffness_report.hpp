@@ -20,7 +20,13 @@ enum class HoldCause : std::uint8_t {
   kPeerRestarted,  // the other side began a new session
   kPeerHolds,      // the other side holds or stopped
   kRobotFault,
-  kDeviceFault
+  kDeviceFault,
+  kHandleLetGo,    // no hand on the handle
+  kTaken,          // another master has taken the robot
+  kRobotRestless,  // the robot moves where it should rest
+  kRobotAstray,    // the robot does not follow its setpoints
+  kUnanswered,     // the slave did not confirm an engagement
+  kCount
 };
 
 /// One contact, in translation or in rotation.

@@ -105,6 +105,7 @@ std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequen
   write_header(*header, datagram);
   seals_->out.close(nonce_of(*header), std::span(datagram).first(kHeaderBytes), body.first(size + kTagBytes));
   channel_.send(std::span(datagram).first(size + kOverheadBytes));
+  budget_.spend(now, size + kOverheadBytes);
   return size + kOverheadBytes;
 }
 

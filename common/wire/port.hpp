@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/crypto/seal.hpp"
+#include "common/link/byte_budget.hpp"
 #include "common/link/endpoint.hpp"
 #include "common/link/header.hpp"
 #include "common/link/impairment.hpp"
@@ -46,6 +47,10 @@ class Port {
   void leave();
 
   void receive(Time now);
+
+  /// Most that leaves, kbit/s; 0: no limit. Whoever sends asks before whether it may.
+  void limit(double kbit_per_s) { budget_.configure(kbit_per_s); }
+  [[nodiscard]] bool may_send(Time now) const { return budget_.allows(now); }
 
   [[nodiscard]] const Endpoint& endpoint() const { return endpoint_; }
   [[nodiscard]] const RejectionCounts& rejected() const { return rejected_; }
@@ -91,6 +96,7 @@ class Port {
   std::optional<Seals> seals_{};
   Impairment impairment_;
   Codec codec_;
+  ByteBudget budget_;
   RejectionCounts rejected_{};
   std::uint64_t accepted_ = 0;
   std::array<std::byte, kDatagramMaxBytes> buffer_{};

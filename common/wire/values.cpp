@@ -205,7 +205,7 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
 }
 
 std::optional<MotionCommand> read(const proto::MotionCommand& in) {
-  const auto request = to_enum(in.request(), Request::kStop);
+  const auto request = to_enum(in.request(), Request::kLetGo);
   const auto mode = to_enum(in.mode(), MotionMode::kPosition);
   if (!request || !mode) return std::nullopt;
   if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return std::nullopt;
@@ -241,7 +241,7 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
 
 std::optional<StiffnessReport> read(const proto::StiffnessReport& in) {
   const auto state = to_enum(in.state(), SafetyState::kFault);
-  const auto cause = to_enum(in.cause(), HoldCause::kDeviceFault);
+  const auto cause = to_enum(in.cause(), HoldCause::kUnanswered);
   const auto translation = read_contact(in.translation());
   const auto rotation = read_contact(in.rotation());
   if (!state || !cause || !translation || !rotation) return std::nullopt;
@@ -271,7 +271,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
 
 std::optional<Telemetry> read(const proto::Telemetry& in) {
   const auto state = to_enum(in.state(), SafetyState::kFault);
-  const auto cause = to_enum(in.cause(), HoldCause::kDeviceFault);
+  const auto cause = to_enum(in.cause(), HoldCause::kUnanswered);
   const auto tool = read_pose(in.tool());
   const auto goal = read_pose(in.goal());
   const auto estimate = read_estimate(in);

@@ -16,12 +16,14 @@ namespace {
 
 /// Texts as they were typed, before they are judged.
 struct Words {
-  std::string master{kMasterRpcAddress}, slave{kSlaveRpcAddress}, timeout = "3";
+  std::string master{kMasterRpcAddress}, slave{kSlaveRpcAddress}, timeout{};
   std::string hz = "4", count{};
   std::string side{}, path{};
   std::vector<std::string> assignments{};
   std::string profile{}, direction = "both", duration{};
   std::string mode{}, scale{};
+  std::string token{};
+  std::string seconds = "2";
 };
 
 double bounded(const char* what, const std::string& text, std::optional<double> value, double min, double max,
@@ -51,12 +53,14 @@ class Grammar {
   void declare_fields();
   void declare_link();
   void declare_motion();
+  void declare_site();
   CLI::App* declare(CLI::App& parent, const char* name, const std::string& help, const char* more);
   CLI::Option* declare_direction(CLI::App& command);
 
   [[nodiscard]] Options options() const;
   [[nodiscard]] Command command() const;
   [[nodiscard]] SetCommand set_command() const;
+  [[nodiscard]] PairCommand pair_command() const;
   [[nodiscard]] LinkSetCommand link_command() const;
   [[nodiscard]] Side side() const { return words_.side == "slave" ? Side::kSlave : Side::kMaster; }
   [[nodiscard]] bool parsed(const char* name) const { return app_.get_subcommand(name)->parsed(); }
@@ -67,7 +71,7 @@ class Grammar {
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
   std::string site_;
-  bool insecure_ = false;
+  bool insecure_ = false, replace_ = false;
 };
 
 Grammar::Grammar() {
@@ -79,7 +83,8 @@ Grammar::Grammar() {
       ->type_name("HOST:PORT");
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
-  app_.add_option("--timeout", words_.timeout, "longest wait for an answer, connecting included [3 s]")
+  app_.add_option("--timeout", words_.timeout,
+                  "longest wait for an answer, connecting included [3 s; doctor 20, pair 120]")
       ->type_name("S");
   app_.add_option("--site", site_, "folder of the certificates [$XDG_CONFIG_HOME/longreach]")
       ->type_name("DIR");
@@ -89,6 +94,7 @@ Grammar::Grammar() {
   declare_fields();
   declare_link();
   declare_motion();
+  declare_site();
 }
 
 CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string& help, const char* more) {
@@ -99,12 +105,7 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 }
 
 void Grammar::declare_views() {
-  declare(
-      app_, "status", "show both sides once",
-      "Shows the state of both sides, the link between them (round trip; jitter and loss as each side "
-      "receives),\n"
-      "motion, contact, force and all counts that are not zero. Exit status 1 if a side does not answer.\n"
-      "Example: longreach status --json");
+  declare(app_, "status", "show both sides once", kStatusMore);
   CLI::App* watch =
       declare(app_, "watch", "show both sides live",
               "Redraws on a terminal; writes one line an update elsewhere. Ctrl-C ends it, with status "
@@ -121,10 +122,7 @@ void Grammar::declare_fields() {
   get->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
   get->add_option("PATH", words_.path, "field or group; all when left out");
   CLI::App* set =
-      declare(app_, "set", "change fields of a side's configuration, all of them or none",
-              "Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only\n"
-              "at start; the refusal says so.\n"
-              "Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%");
+      declare(app_, "set", "change fields of a side's configuration, all of them or none", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
   set->add_option("PATH VALUE", words_.assignments, "field and its new value, as often as wanted")
       ->required();
@@ -177,6 +175,15 @@ void Grammar::declare_motion() {
           "Asks both sides, and is done when one of them has answered.\nExample: longreach stop");
 }
 
+void Grammar::declare_site() {
+  CLI::App* pair = declare(app_, "pair", "join the site of a slave on another host", kPairMore);
+  pair->add_option("TOKEN", words_.token, "as it was printed; dashes and case do not matter")->required();
+  CLI::App* doctor = declare(app_, "doctor", "look for what is wrong, and say what to do", kDoctorMore);
+  doctor->add_option("--seconds", words_.seconds, "how long sides and loop are watched, 0.2 to 60 [2]")
+      ->type_name("N");
+  pair->add_flag("--replace", replace_, "put a site folder that is here already aside");
+}
+
 std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* argv) {
   try {
     app_.parse(argc, argv);
@@ -202,8 +209,9 @@ std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* a
 Options Grammar::options() const {
   check_address("--master", words_.master);
   check_address("--slave", words_.slave);
-  const double timeout_s =
-      bounded("--timeout", words_.timeout, parse_seconds(words_.timeout), 0.05, 600.0, " s");
+  double timeout_s = parsed("pair") ? 120.0 : parsed("doctor") ? 20.0 : 3.0;
+  if (!words_.timeout.empty())
+    timeout_s = bounded("--timeout", words_.timeout, parse_seconds(words_.timeout), 0.05, 600.0, " s");
   return {words_.master, words_.slave, timeout_s, json_, site_, insecure_};
 }
 
@@ -232,7 +240,17 @@ Command Grammar::command() const {
         bounded("scale", words_.scale, parse_number(words_.scale), 0.05, 1.0, ", up or down")};
   }
   if (parsed("engage")) return EngageCommand{};
+  if (parsed("pair")) return pair_command();
+  if (parsed("doctor"))
+    return DoctorCommand{
+        bounded("--seconds", words_.seconds, parse_seconds(words_.seconds), 0.2, 60.0, " s")};
   return StopCommand{};
+}
+
+PairCommand Grammar::pair_command() const {
+  if (app_.count("--slave") == 0)
+    throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
+  return {words_.token, replace_};
 }
 
 SetCommand Grammar::set_command() const {

@@ -13,6 +13,8 @@ ExitStatus run(const Invocation& invocation);
 
 // One file each.
 ExitStatus run_watch(const Options& options, const WatchCommand& command);
+ExitStatus run_doctor(const Options& options, const DoctorCommand& command);
+ExitStatus run_pair(const Options& options, const PairCommand& command);
 ExitStatus run_link_show(const Options& options);
 /// Both directions, or none: a direction that was changed is put back when the other one refuses.
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);

@@ -24,6 +24,27 @@ Both directions change, or none. TIME is 650ms, 1.3s, 20us or plain seconds; FRA
 --delay is the one-way delay of each direction that it is applied to: 650ms in both make a round trip of 1.3 s.
 Example: longreach link set --delay 650ms --loss 2%)";
 
+inline constexpr const char* kStatusMore =
+    R"(Shows the state of both sides, the link between them (round trip; jitter and loss as each side receives),
+motion, contact, force and all counts that are not zero. Exit status 1 if a side does not answer.
+Example: longreach status --json)";
+
+inline constexpr const char* kPairMore =
+    R"(Makes this host's site folder: the keys of a master and its client, which that slave's site certifies.
+longreach-slave --pair prints the token there, and the whole command.
+Example: longreach pair --slave 192.0.2.7:47021 7KQ2-M8XH-3FZP-W0TR-9VNC-D4AB)";
+
+inline constexpr const char* kDoctorMore =
+    R"(Looks at this host's site folder and certificates, at both sides (ports, version, loop, link, round trips) and
+at this machine (clock, real-time rights, a bare loop). Changes nothing, whether something runs or not.
+Exit status 1 when something failed; warnings are no failures.
+Example: longreach doctor --slave 192.0.2.7:47020)";
+
+inline constexpr const char* kSetMore =
+    R"(Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only
+at start; the refusal says so.
+Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";
+
 /// Options of `link set` with the fields that they set.
 struct FieldOption {
   const char* name;

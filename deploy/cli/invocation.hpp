@@ -63,9 +63,20 @@ struct ScaleCommand {
 };
 struct EngageCommand {};
 struct StopCommand {};
+/// This host joins the site of the slave whose token this is.
+struct PairCommand {
+  std::string token;
+  bool replace = false;  // a site that is here already is put aside
+};
 
-using Command = std::variant<StatusCommand, WatchCommand, GetCommand, SetCommand, LinkShowCommand,
-                             LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand>;
+/// `seconds`: how long sides and loop are watched.
+struct DoctorCommand {
+  double seconds = 2.0;
+};
+
+using Command =
+    std::variant<StatusCommand, WatchCommand, GetCommand, SetCommand, LinkShowCommand, LinkSetCommand,
+                 ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand, DoctorCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

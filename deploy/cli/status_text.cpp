@@ -62,7 +62,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"state", state},
     {"other side, as heard", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
-    {"robot taken by", [](const Status& s) { return s.lease(); }},
+    {"robot is with", [](const Status& s) { return s.lease(); }},
     {"round trip",
      [](const Status& s) { return s.link().rtt_known() ? with_unit(s.link().rtt_s(), "s") : std::string(); }},
     {"jitter, received",
@@ -71,6 +71,10 @@ constexpr auto kRows = std::to_array<Row>({
      }},
     {"loss, received",
      [](const Status& s) { return s.link().has_loss() ? percent(s.link().loss()) : std::string(); }},
+    {"reordered, received",
+     [](const Status& s) { return s.link().has_reorder() ? percent(s.link().reorder()) : std::string(); }},
+    {"age of what it acts on",
+     [](const Status& s) { return s.link().has_age_s() ? with_unit(s.link().age_s(), "s") : std::string(); }},
     {"rate, received",
      [](const Status& s) {
        return s.link().has_rate_hz() ? print("%.4g datagrams/s", s.link().rate_hz()) : std::string();
@@ -227,6 +231,8 @@ std::string status_table(const BothReports& reports) {
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
+  if (reports.master.status && !reports.master.status->trouble().empty())
+    text += "The master says: " + reports.master.status->trouble() + "\n";
   return text;
 }
 

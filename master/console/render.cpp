@@ -117,9 +117,14 @@ std::string state_line(const ConsoleSnapshot& s) {
 
 std::string link_line(const LinkFigures& link) {
   const std::string rtt = link.rtt_s ? text("RTT %.3f s", *link.rtt_s) : "RTT unknown";
+  const std::string age = link.age_s ? text("  age %.2f s", *link.age_s) : "";
   const std::string silence =
-      std::isfinite(link.silence_s) ? text("silent %.2f s", link.silence_s) : "never heard";
-  return rtt + text("  jitter %.1f ms  loss %.1f %%  ", link.jitter_s * 1e3, link.loss * 100.0) + silence;
+      std::isfinite(link.silence_s) ? text("  silent %.2f s", link.silence_s) : "  never heard";
+  return rtt + age + text("  jitter %.1f ms", link.jitter_s * 1e3) + silence;
+}
+
+std::string datagrams_line(const LinkFigures& link) {
+  return text("%.1f %% lost, %.1f %% reordered", link.loss * 100.0, link.reorder * 100.0);
 }
 
 std::string tool_line(const ConsoleSnapshot& s) {
@@ -196,6 +201,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.whole("");
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.cause == HoldCause::kLinkSilent ? Tone::kWarn : Tone::kPlain);
+  page.line("datagrams", datagrams_line(s.link));
   page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
                          s.view.clutched ? ", clutched" : "", s.view.load ? ", gripper loaded" : ""));
   page.whole("");

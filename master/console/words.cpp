@@ -51,6 +51,8 @@ std::string holding(const ConsoleSnapshot& s) {
   switch (s.view.cause) {
     case HoldCause::kLinkSilent:
       return text("holding: nothing has come from the slave for %.1f s", s.link.silence_s);
+    case HoldCause::kHandleLetGo:
+      return s.view.hand_missing ? "holding: no hand is on the handle" : "holding: engage to go on";
     case HoldCause::kNone:
     case HoldCause::kOperator:
       return "holding: engage to go on";
@@ -68,7 +70,7 @@ std::string_view state_in_words(SafetyState state) {
 }
 
 std::string_view cause_in_words(HoldCause cause) {
-  static constexpr std::array<std::string_view, 8> kNames = {
+  static constexpr std::array<std::string_view, static_cast<std::size_t>(HoldCause::kCount)> kNames = {
       "",
       "asked for by the operator",
       "the link is silent",
@@ -76,7 +78,12 @@ std::string_view cause_in_words(HoldCause cause) {
       "the other side has restarted",
       "the other side holds",
       "the robot reports a fault",
-      "the haptic device reports a fault"};
+      "the haptic device reports a fault",
+      "no hand is on the handle",
+      "another master has taken the robot",
+      "the robot moves though it should rest",
+      "the robot does not follow",
+      "the slave did not answer"};
   return name_of(cause, kNames);
 }
 
@@ -106,6 +113,9 @@ std::string happening(const ConsoleSnapshot& s) {
   switch (s.view.state) {
     case SafetyState::kIdle:
     case SafetyState::kObserving:
+      if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
+      if (s.view.cause != HoldCause::kNone)
+        return "observing: " + std::string(cause_in_words(s.view.cause)) + "; engage to try again";
       return "observing: the robot is at rest; engage to take it";
     case SafetyState::kEngaged:
       return following(s);

@@ -51,6 +51,8 @@ class PortGuard {
   /// Force on the hand: with injected damping, ramp and limits. Never non-finite.
   Vector3 apply(const PortForce& force, double dt_s);
 
+  /// Share of `rendered` that the hand was given in the last tick.
+  [[nodiscard]] double gain() const { return gain_; }
   [[nodiscard]] double port_energy_j() const { return port_energy_j_; }
   [[nodiscard]] double deficit_max_j() const { return deficit_max_j_; }  // largest fall of E_port - E_stored
   [[nodiscard]] bool injecting() const { return injecting_; }

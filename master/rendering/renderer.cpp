@@ -140,10 +140,10 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
   x_last_ = in.handle.p_MH;
   const Vector3 contact = contact_force(translation_, translation_handle(in, mapping), mapping, in.stale);
   if (config_.law == RenderingLaw::kStiffness) {
-    translation_.account(
-        entered_j,
-        translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j() + in.translation.stored_j,
-        in.translation.supplied_j);
+    // A spring that is ramped away stores as much less: the hand does not load what it does not feel.
+    const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
+    translation_.account(entered_j, translation_.guard.gain() * felt_j + in.translation.stored_j,
+                         in.translation.supplied_j);
   }
   return translation_.guard.apply(
       {resistance + contact, in.translation.force, in.handle.velocity_m_per_s, in.live}, device_.period_s);
@@ -157,9 +157,9 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
   const Vector3 contact =
       rate.transpose() * contact_force(rotation_, rotation_handle(in, mapping, phi, rate), mapping, in.stale);
   if (config_.law == RenderingLaw::kStiffness) {
-    rotation_.account(
-        entered_j, rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j() + in.rotation.stored_j,
-        in.rotation.supplied_j);
+    const double felt_j = rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j();
+    rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,
+                      in.rotation.supplied_j);
   }
   return rotation_.guard.apply(
       {resistance + contact, in.rotation.force, in.handle.angular_rad_per_s, in.live}, device_.period_s);

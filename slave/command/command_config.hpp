@@ -1,6 +1,7 @@
 #pragma once
 // Limits on what the robot is asked for. Meaning, unit and range: proto/config.proto; the same names.
 
+#include <algorithm>
 #include <cstdint>
 
 namespace longreach {
@@ -15,6 +16,12 @@ struct CommandConfig {
   double workspace_m = 3.0;
   double tolerance_m = 1e-10;
   std::uint32_t iterations_max = 20;
+  double hold_force_n = 0.0;
 };
+
+/// Force in contact that a hold comes down to.
+inline double hold_limit_n(const CommandConfig& c) {
+  return c.hold_force_n > 0.0 ? std::min(c.hold_force_n, c.force_guard_n) : 0.5 * c.force_guard_n;
+}
 
 }  // namespace longreach

@@ -6,8 +6,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kBleed_s = 0.2;    // τ: of a servo's lag and a loop's delay many times
-constexpr double kHoldShare = 0.5;  // of the guard, that stays in a hold
+constexpr double kBleed_s = 0.2;         // τ: of a servo's lag and a loop's delay many times
+constexpr double kHoldAim = 0.95;        // of the hold limit, so that it is met within five τ
+constexpr double kSeen_n = 0.5;          // of force, that sensor noise does not make
+constexpr double kSofter = 0.1;          // of a known stiffness, that a contact may seem to have
+constexpr double kSoft_n_per_m = 100.0;  // likewise of an unknown one
 
 bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
 
@@ -45,6 +48,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
     out.X_WE = X_WE_;
     return out;
   }
+  bleed_.reset();
   const Pose goal = inside(*input.X_WE_goal, out);
   observe_goal(goal, input.dt);
 
@@ -67,7 +71,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
 }
 
 void GoalLimiter::brake(const ContactForce& contact, double dt) {
-  const Vector3 back = bleed_off(contact, kHoldShare * config_.force_guard_n) * contact.reaction;
+  const Vector3 back = hold_off(contact) * contact.reaction;
   V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
   V_WE_.angular -= clamp_norm(V_WE_.angular, config_.acceleration_max_rad_per_s2 * dt);
   X_WE_.p += V_WE_.linear * dt;
@@ -99,6 +103,24 @@ double GoalLimiter::bleed_off(const ContactForce& contact, double limit_n) const
   const double k =
       contact.stiffness_n_per_m > 0.0 ? contact.stiffness_n_per_m : config_.guard_stiffness_n_per_m;
   return std::min((contact.force_n - limit_n) / (k * kBleed_s), config_.speed_max_m_per_s);
+}
+
+// Likewise in a hold, by the stiffness that the force shows as the tool goes back: not known at a first
+// touch, and less than the surface's where the robot gives way, too.
+double GoalLimiter::hold_off(const ContactForce& contact) {
+  const double limit_n = hold_limit_n(config_), aim_n = kHoldAim * limit_n;
+  if (!contact.in_contact || contact.force_n <= aim_n) bleed_.reset();
+  if (!contact.in_contact) return 0.0;
+  const double out_m = contact.reaction.dot(X_WE_.p) + contact.lead_m;  // the tool, on its way out
+  if (!bleed_ && contact.force_n > limit_n) bleed_ = Bleed{contact.force_n, out_m};
+  if (!bleed_) return 0.0;
+  if (out_m < bleed_->from_m) *bleed_ = {contact.force_n, out_m};
+  const bool known = contact.stiffness_n_per_m > 0.0;
+  double k = known ? contact.stiffness_n_per_m : config_.guard_stiffness_n_per_m;
+  const double least = known ? kSofter * k : std::min(k, kSoft_n_per_m);
+  const double seen = (bleed_->from_n - contact.force_n + kSeen_n) / std::max(out_m - bleed_->from_m, 1e-9);
+  k = std::clamp(seen, least, k);
+  return std::clamp((contact.force_n - aim_n) / (k * kBleed_s), 0.0, config_.speed_max_m_per_s);
 }
 
 VelocityCap GoalLimiter::guard(const ContactForce& contact) const {

@@ -6,7 +6,8 @@
 //   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
 //   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
-//   the contact is not lost. Without a goal, so in a hold, it does so down to G/2.
+//   the contact is not lost. Without a goal, so in a hold, it does so down to the hold limit, within 1 s as
+//   far as speed and acceleration allow; k is then what is seen on that way.
 // A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
 // Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
 
@@ -66,6 +67,7 @@ class GoalLimiter {
  private:
   void brake(const ContactForce& contact, double dt);
   [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
+  [[nodiscard]] double hold_off(const ContactForce& contact);
   Pose inside(const Pose& goal, LimiterOutput& out) const;
   void observe_goal(const Pose& goal, double dt);
   VelocityCap guard(const ContactForce& contact) const;
@@ -77,7 +79,11 @@ class GoalLimiter {
   Pose X_WE_before_{};               // one step ago
   Twist V_WE_{};                     // of the setpoint
   std::optional<Pose> X_WE_goal_{};  // of the step before
-  Twist V_WE_goal_{};                // as far as the limits allow to believe it
+  struct Bleed {
+    double from_n, from_m;  // force and place on the way out where it began
+  };
+  std::optional<Bleed> bleed_{};  // in a hold
+  Twist V_WE_goal_{};             // as far as the limits allow to believe it
 };
 
 }  // namespace longreach

@@ -21,6 +21,7 @@ Session session_of(Random random) {
 
 Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
     : period_(from_seconds(1.0 / master.loop.rate_hz)),
+      send_hz_(sent_hz(master.link)),
       random_(seed),
       master_port_(channels_.a(), master.link.impairment, random_.child("down")),
       slave_port_(channels_.b(), slave.link.impairment, random_.child("up")),
@@ -35,6 +36,8 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
         "= "
         "STIFFNESS or NAIVE");
   }
+  master_port_.limit(master.link.budget_kbit_per_s);
+  slave_port_.limit(slave.link.budget_kbit_per_s);
   const Session session = session_of(random_.child("session"));
   master_port_.follow(session);
   slave_port_.follow(session);
@@ -50,6 +53,10 @@ void Laboratory::step() {
 
 void Laboratory::step_slave() {
   const Time now = slave_now();
+  if (!slave_lives_) {
+    arm_.read(now);
+    return;
+  }
   slave_port_.receive(now);
   const Endpoint& endpoint = slave_port_.endpoint();
   SlaveInput in;
@@ -58,7 +65,9 @@ void Laboratory::step_slave() {
   in.commands = slave_port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
+  in.send_hz = send_hz_;
   in.rejected = slave_port_.rejected_total();
+  in.may_send = slave_port_.may_send(now);
   const SlaveOutput out = slave_node_.step(in);
   arm_.write(out.joint_setpoint_rad);
   arm_.grip(out.grip);
@@ -72,6 +81,7 @@ void Laboratory::step_slave() {
 }
 
 void Laboratory::step_master() {
+  if (!master_lives_) return;
   const Time now = master_now();
   master_port_.receive(now);
   const Endpoint& endpoint = master_port_.endpoint();
@@ -100,6 +110,7 @@ void Laboratory::step_master() {
   // As the programs do, not every tick: it sorts what was heard in the last seconds.
   if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
   in.rtt_s = rtt_s_;
+  in.may_send = master_port_.may_send(now);
   const MasterOutput out = master_node_.step(in);
   devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);

@@ -51,8 +51,11 @@ class Laboratory {
   void drive(const HandTarget& target) { driven_ = target; }
   /// Asked for in the next tick, besides what the script does.
   OperatorRequests& requests() { return requests_; }
-  /// The person lets go of the handles for good.
-  void let_go() { let_go_ = true; }
+  /// The person lets go of the handles, for good unless the hand returns.
+  void let_go(bool away = true) { let_go_ = away; }
+  /// One side ends from now on, as a program does that is killed; robot and devices go on by themselves.
+  void kill_slave() { slave_lives_ = false; }
+  void kill_master() { master_lives_ = false; }
   /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
   /// slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
@@ -64,6 +67,7 @@ class Laboratory {
   void step_master();
 
   Duration period_;
+  double send_hz_;
   Duration elapsed_{0};
   MemoryChannelPair channels_;
   Random random_;
@@ -78,6 +82,7 @@ class Laboratory {
   OperatorRequests requests_{};
   std::optional<double> rtt_s_{};
   bool let_go_ = false;
+  bool slave_lives_ = true, master_lives_ = true;
   std::function<void(MemoryChannelPair&)> intruder_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;

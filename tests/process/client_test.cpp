@@ -112,9 +112,9 @@ class SilentPort {
 TEST(Client, DoesNotWaitLongerThanItsTimeout) {
   const FakeStation station;
   const SilentPort silent;
-  const auto with = [&](std::vector<std::string> command) {
+  const auto with = [&](std::vector<std::string> command, const std::string& timeout = "300ms") {
     const std::vector<std::string> front{"--master",  silent.address(), "--slave", station.slave_address,
-                                         "--timeout", "300ms"};
+                                         "--timeout", timeout};
     command.insert(command.begin(), front.begin(), front.end());
     return run(command);
   };
@@ -124,7 +124,8 @@ TEST(Client, DoesNotWaitLongerThanItsTimeout) {
   const Ended watch = with({"watch", "--hz", "20", "--count", "2"});
   EXPECT_EQ(watch.status, 1);
   expect_contains(watch.out, "master does not answer");
-  EXPECT_EQ(with({"stop"}).status, 0);
+  // Here the slave must answer in time, on a busy machine too.
+  EXPECT_EQ(with({"stop"}, "3s").status, 0);
   EXPECT_EQ(station.slave.calls(), std::vector<std::string>{"stop"});
 }
 

@@ -38,7 +38,7 @@ RunningProgram::RunningProgram(const std::string& name, const std::vector<std::s
   static std::atomic<int> count{0};
   file_ = std::filesystem::temp_directory_path() /
           ("longreach-" + std::to_string(getpid()) + "-" + std::to_string(++count) + ".txt");
-  std::vector<std::string> words = {std::string(LONGREACH_BIN) + "/" + name};
+  std::vector<std::string> words = {(std::filesystem::path(LONGREACH_BIN) / name).string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());

@@ -14,7 +14,7 @@ namespace longreach {
 
 class RunningProgram {
  public:
-  /// `name`: of one of the programs in the build's bin folder.
+  /// `name`: of one of the programs in the build's bin folder, or an absolute path.
   RunningProgram(const std::string& name, const std::vector<std::string>& arguments);
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;

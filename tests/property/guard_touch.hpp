@@ -29,7 +29,8 @@ struct GuardCase {
   double speed_m_per_s = 0.05;
   double wall_n_per_m = 5000.0;
   bool guarded = true;
-  Then then = Then::kGoOn;  // a second after the touch
+  Then then = Then::kGoOn;
+  double then_s = 1.0;  // after the touch
   std::uint64_t seed = 1;
 };
 
@@ -161,7 +162,7 @@ inline GuardTouch guard_touch(const GuardCase& c) {
     SlaveInput in;
     in.now = Time{std::chrono::milliseconds(i)};
     in.robot = arm.read(in.now);
-    commands.step(in, node.engaged(), seen.touched_s >= 0.0 && t_s > seen.touched_s + 1.0);
+    commands.step(in, node.engaged(), seen.touched_s >= 0.0 && t_s > seen.touched_s + c.then_s);
     way.push_back(node.step(in).joint_setpoint_rad);
     arm.write(way.front());
     way.pop_front();

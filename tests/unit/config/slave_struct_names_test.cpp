@@ -22,6 +22,7 @@ void expect_same(const CommandConfig& s, const proto::Command& m) {
   EXPECT_EQ(s.workspace_m, m.workspace_m());
   EXPECT_EQ(s.tolerance_m, m.tolerance_m());
   EXPECT_EQ(s.iterations_max, m.iterations_max());
+  EXPECT_EQ(s.hold_force_n, m.hold_force_n());
 }
 
 void expect_same(const JointConfig& s, const proto::Joint& m) {
@@ -108,6 +109,7 @@ void expect_same(const SlaveLinkConfig& s, const proto::SlaveLink& m) {
   EXPECT_EQ(s.heartbeat_contact_hz, m.heartbeat_contact_hz());
   EXPECT_EQ(s.heartbeat_free_hz, m.heartbeat_free_hz());
   expect_same(s.impairment, m.impairment());
+  EXPECT_EQ(s.budget_kbit_per_s, m.budget_kbit_per_s());
 }
 
 void expect_same(const SphereConfig& s, const proto::Sphere& m) {

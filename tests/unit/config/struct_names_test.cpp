@@ -128,6 +128,8 @@ void expect_same(const MasterSafetyConfig& s, const proto::MasterSafety& m) {
   EXPECT_EQ(s.silence_s, m.silence_s());
   EXPECT_EQ(s.resume_s, m.resume_s());
   EXPECT_EQ(s.engage_at_start, m.engage_at_start());
+  EXPECT_EQ(static_cast<int>(s.presence), static_cast<int>(m.presence()));
+  EXPECT_EQ(s.presence_s, m.presence_s());
 }
 
 void expect_same(const MasterLinkConfig& s, const proto::MasterLink& m) {
@@ -136,6 +138,7 @@ void expect_same(const MasterLinkConfig& s, const proto::MasterLink& m) {
   EXPECT_EQ(s.send_hz, m.send_hz());
   expect_same(s.impairment, m.impairment());
   EXPECT_EQ(s.slave_rpc, m.slave_rpc());
+  EXPECT_EQ(s.budget_kbit_per_s, m.budget_kbit_per_s());
 }
 
 TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {

@@ -68,7 +68,16 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
   EXPECT_EQ(load_error("maping { }"),
             ":1:1: unknown field \"maping\" in MasterConfig; did you mean \"mapping\"?");
   EXPECT_EQ(load_error("safety { colour: 1 }"),
-            ":1:10: unknown field \"colour\" in MasterSafety; it has: silence_s, resume_s, engage_at_start");
+            ":1:10: unknown field \"colour\" in MasterSafety; it has: silence_s, resume_s, engage_at_start, "
+            "presence, presence_s");
+}
+
+TEST(TextFile, RefusesAGapTimerThatIsTooShortForAnyMasterAndAHoldThatWouldLoseTheContact) {
+  EXPECT_EQ(load_error<proto::SlaveConfig>("safety { gap_s: 0.01 }"),
+            ":1:10: safety.gap_s = 0.01 is neither 0 (by the send rate of the master) nor from 0.02 to 2");
+  EXPECT_EQ(
+      load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
+      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");
 }
 
 TEST(TextFile, ListsTheValuesOfAnEnum) {

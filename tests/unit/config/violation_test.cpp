@@ -179,6 +179,15 @@ TEST(Validation, WantsTheNeedsOfASceneToCoverItsSurfaces) {
   EXPECT_EQ(validation_error(scene), "needs leaves out rotation, which the surface \"front\" needs");
 }
 
+TEST(Validation, WantsABudgetThatFiftyCommandsASecondFitIn) {
+  proto::MasterConfig master;
+  master.mutable_link()->set_budget_kbit_per_s(51.9);
+  EXPECT_EQ(validation_error(master),
+            "link.budget_kbit_per_s = 51.9 is neither 0 (no limit) nor at least 52");
+  master.mutable_link()->set_budget_kbit_per_s(52.0);
+  EXPECT_EQ(validation_error(master), "no error");
+}
+
 TEST(Validation, WantsAWayToHaveTwoEnds) {
   proto::Scene scene = one_wall();
   scene.mutable_path()->add_waypoint();

@@ -39,6 +39,7 @@ ConsoleSnapshot touching() {
   s.link.rtt_s = 2.602;
   s.link.jitter_s = 0.0101;
   s.link.loss = 0.012;
+  s.link.age_s = 2.62;
   s.link.silence_s = 0.021;
   return s;
 }
@@ -66,7 +67,8 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "touching: the wall gives 0.98 N/mm\n"
       "\n"
       "state     Engaged, slave Engaged\n"
-      "link      RTT 2.602 s  jitter 10.1 ms  loss 1.2 %  silent 0.02 s\n"
+      "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent 0.02 s\n"
+      "datagrams 1.2 % lost, 0.0 % reordered\n"
       "mode      position, scale 0.80\n"
       "\n"
       "hand at   x   +12.30  y    -0.50  z    +0.00 mm\n"
@@ -185,7 +187,7 @@ TEST(Words, NameEveryStateAndCauseDifferently) {
   for (int i = 0; i <= static_cast<int>(SafetyState::kFault); ++i) {
     seen.push_back(state_in_words(static_cast<SafetyState>(i)));
   }
-  for (int i = 0; i <= static_cast<int>(HoldCause::kDeviceFault); ++i) {
+  for (int i = 0; i < static_cast<int>(HoldCause::kCount); ++i) {
     seen.push_back(cause_in_words(static_cast<HoldCause>(i)));
   }
   std::sort(seen.begin(), seen.end());

@@ -2,11 +2,15 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "common/io/certificate.hpp"
 #include "common/io/rpc_channel.hpp"
+#include "common/io/rpc_refusals.hpp"
 #include "common/io/rpc_server.hpp"
 #include "proto/control.grpc.pb.h"
 #include "tests/unit/io/control_fake_backend.hpp"
+#include "tests/unit/io/wrong_certificates.hpp"
 
 namespace longreach {
 namespace {
@@ -70,37 +74,22 @@ TEST(RpcTls, EveryRoleOfTheSiteMayStopAndAMasterAloneOpensSessions) {
   EXPECT_EQ(served.open_session(master), grpc::StatusCode::OK);
 }
 
-/// One defect each: with everything else right.
-TEST(RpcTls, AWrongCertificateIsRefusedAndHarmless) {
+TEST(RpcTls, AWrongCertificateIsRefusedCountedAndHarmless) {
   Served served;
   const std::string client = name(RpcRole::kClient);
-  const auto of = [&](const Certificate& trusted, const Certificate& own) { return with(trusted, own); };
-  const Certificate good = issue(served.authority, {.name = client});
-  const Certificate stranger = issue(served.other, {.name = client});
-  Certificate damaged = good;
-  damaged.certificate_pem[damaged.certificate_pem.size() / 2] ^= 1;
-  // Somebody who holds a certificate plays authority with it.
-  const Certificate delegated = issue(good, {.name = name(RpcRole::kMaster)});
-  Certificate chain = delegated;
-  chain.certificate_pem += good.certificate_pem;
-  const struct {
-    const char* what;
-    RpcSecurity security;
-  } rows[] = {
-      {"another site's", of(served.authority, stranger)},
-      {"self-made authority", of(served.authority, served.other)},
-      {"expired", served.client({.name = client, .not_after = "20010101000000Z"})},
-      {"not yet valid", served.client({.name = client, .not_before = "99980101000000Z"})},
-      {"for servers only", served.client({.name = client, .use = CertificateUse::kServer})},
-      {"key of another", of(served.authority, {good.certificate_pem, stranger.key_pem})},
-      {"damaged", of(served.authority, damaged)},
-      {"issued by one that is no authority", of(served.authority, chain)},
-      {"none at all", {RpcCredentials{served.authority.certificate_pem, "", ""}}},
-      {"in clear", {}},
-  };
-  for (const auto& row : rows) EXPECT_NE(served.stop(row.security), grpc::StatusCode::OK) << row.what;
+  for (const auto& [kind, security] : wrong_certificates(served.authority, client)) {
+    const std::uint64_t before = rpc_refusals();
+    EXPECT_NE(served.stop(security), grpc::StatusCode::OK) << kind;
+    // The server notes it in a thread of its own.
+    for (int i = 0; i < 1000 && rpc_refusals() == before; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_GT(rpc_refusals(), before) << kind << ": the server has seen and refused it";
+  }
   EXPECT_TRUE(served.backend.calls().empty());
-  EXPECT_EQ(served.stop(of(served.authority, good)), grpc::StatusCode::OK) << "and the right one still is";
+  const std::uint64_t before = rpc_refusals();
+  EXPECT_EQ(served.stop(served.client({.name = client})), grpc::StatusCode::OK)
+      << "and the right one still is";
+  EXPECT_EQ(rpc_refusals(), before);
 }
 
 TEST(RpcTls, AClientTalksToNobodyButTheSideThatItMeans) {

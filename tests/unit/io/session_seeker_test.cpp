@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <chrono>
@@ -31,6 +32,10 @@ class FakeLoop {
     silence_s_ = 0.0;
     return true;
   }
+  void speak_again() {
+    const std::lock_guard lock(mutex_);
+    silence_s_ = 0.0;
+  }
   void fall_silent() {
     const std::lock_guard lock(mutex_);
     silence_s_ = 1.5;
@@ -58,7 +63,7 @@ bool eventually(const std::function<bool()>& holds) {
 struct Search {
   explicit Search(const std::string& address, bool take = false)
       : seeker(
-            address, RpcSecurity{}, take, [this] { return loop.present(); },
+            address, RpcSecurity{}, take, 400.0, [this] { return loop.present(); },
             [this](const Session& s) { return loop.adopt(s); }) {}
   FakeLoop loop;
   SessionSeeker seeker;
@@ -116,6 +121,38 @@ TEST(SessionSeeker, SaysWhyTheSlaveRefusesAndGoesOnAsking) {
   EXPECT_TRUE(search.loop.adopted().empty());
   backend.refuse(std::nullopt);
   EXPECT_TRUE(eventually([&] { return !search.loop.adopted().empty(); }));
+}
+
+TEST(SessionSeeker, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
+  FakeBackend backend("slave");
+  RpcServer server("127.0.0.1:0", backend, "slave");
+  Search search(server.address(), true);
+  ASSERT_TRUE(eventually([&] { return search.loop.adopted().size() == 1; }));
+  EXPECT_EQ(search.seeker.taken_by(), "");
+  backend.put_session(78);
+  backend.refuse(Refusal{Refusal::Kind::kPrecondition, "another master has the robot", "192.0.2.9:4711"});
+  search.loop.fall_silent();
+  ASSERT_TRUE(eventually([&] { return search.seeker.taken_by() == "192.0.2.9:4711"; }));
+  EXPECT_NE(search.seeker.trouble().find("another master (192.0.2.9:4711) has taken the robot"),
+            std::string::npos);
+  ASSERT_TRUE(eventually([&] { return backend.calls().size() >= 4; }));
+  const auto calls = backend.calls();
+  EXPECT_EQ(std::count(calls.begin(), calls.end(), "open_session take"), 1) << "at the start alone";
+  backend.refuse(std::nullopt);
+  EXPECT_TRUE(
+      eventually([&] { return search.loop.adopted().size() == 2 && search.seeker.taken_by().empty(); }));
+}
+
+TEST(SessionSeeker, ForgetsItsTroubleWhenTheSlaveIsHeardAgain) {
+  FakeBackend backend("slave");
+  RpcServer server("127.0.0.1:0", backend, "slave");
+  Search search(server.address());
+  ASSERT_TRUE(eventually([&] { return search.loop.adopted().size() == 1; }));
+  backend.refuse(Refusal{Refusal::Kind::kUnavailable, "not now"});
+  search.loop.fall_silent();
+  ASSERT_TRUE(eventually([&] { return !search.seeker.trouble().empty(); }));
+  search.loop.speak_again();
+  EXPECT_TRUE(eventually([&] { return search.seeker.trouble().empty(); }));
 }
 
 TEST(SessionSeeker, TakesTheRobotOnceAndReturnsItAtTheEnd) {

@@ -95,6 +95,17 @@ TEST(DelayMonitor, RoundTripIsTheMedianAndTheLeastOfTheWindow) {
   EXPECT_DOUBLE_EQ(monitor.figures(at(3.5)).rtt_min_s, 4.0) << "the window has passed";
 }
 
+TEST(DelayMonitor, AgeCountsFromWhenThisSideSentTheNewestThatCameBack) {
+  DelayMonitor monitor;
+  EXPECT_FALSE(monitor.figures(at(1.0)).age_s);
+  monitor.on_echo(at(0.4));
+  EXPECT_DOUBLE_EQ(monitor.figures(at(1.0)).age_s.value(), 0.6);
+  monitor.on_echo(at(0.1));  // overtaken
+  EXPECT_DOUBLE_EQ(monitor.figures(at(60.0)).age_s.value(), 59.6) << "it grows in silence";
+  monitor.clear();
+  EXPECT_FALSE(monitor.figures(at(60.0)).age_s);
+}
+
 TEST(DelayMonitor, JitterIsTheDeviationOfTheOneWayTime) {
   for (const double sd_s : {0.002, 0.1}) {
     Random random(1);

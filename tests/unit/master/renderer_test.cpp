@@ -29,5 +29,35 @@ TEST(Renderer, ResistsAHandAndNotAHandleThatIsLetGo) {
   EXPECT_EQ(step().moment, Vector3::Zero());
 }
 
+TEST(Renderer, AHandThatIsStoppedLoadsNoSpringAndLeaksNothing) {
+  Renderer renderer(RenderingConfig{}, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  RendererInput in;
+  in.mode = MotionMode::kRate;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  // Into the springs of rate mode, in both motions; stopped half way, and on.
+  const auto push_to = [&](int first, int last) {
+    for (int i = first; i <= last; ++i) {
+      in.handle.p_MH = {1e-4 * i, 0.0, 0.0};
+      in.handle.velocity_m_per_s = {0.1, 0.0, 0.0};
+      in.handle.q_MH = Eigen::AngleAxisd(1e-3 * i, Vector3::UnitY());
+      in.handle.angular_rad_per_s = {0.0, 1.0, 0.0};
+      mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+      (void)renderer.step(in, mapping);
+    }
+  };
+  in.live = true;
+  push_to(1, 300);
+  EXPECT_GT(renderer.port_energy_j(), 0.0);
+  in.live = false;
+  push_to(301, 600);
+  EXPECT_LT(renderer.translation().guard.deficit_max_j(), 1e-6);
+  EXPECT_LT(renderer.rotation().guard.deficit_max_j(), 1e-6);
+  const double then_j = renderer.port_energy_j();
+  push_to(601, 700);
+  EXPECT_EQ(renderer.port_energy_j(), then_j);
+}
+
 }  // namespace
 }  // namespace longreach

@@ -108,7 +108,7 @@ TEST(Codec, RefusesScalesOutsideTheirRangeButForgivesRounding) {
 
 TEST(Codec, RefusesUnknownEnumerators) {
   auto command = wire_of<proto::MotionCommand>(samples::command());
-  command.set_request(3);
+  command.set_request(4);
   EXPECT_EQ(rejection_of<MotionCommand>(command.SerializeAsString()), Rejection::kValue);
   command.set_request(0);
   command.set_mode(2);
@@ -117,7 +117,7 @@ TEST(Codec, RefusesUnknownEnumerators) {
   report.set_state(6);
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   report.set_state(5);
-  report.set_cause(8);
+  report.set_cause(static_cast<std::uint32_t>(HoldCause::kCount));
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   auto telemetry = wire_of<proto::Telemetry>(samples::telemetry());
   telemetry.set_clamps(1u << 7);

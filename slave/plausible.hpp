@@ -1,0 +1,21 @@
+#pragma once
+// What the slave's node believes: a robot's state of finite numbers, and goals that somebody could have
+// meant.
+
+#include "common/link/motion_command.hpp"
+#include "slave/robot/robot.hpp"
+
+namespace longreach {
+
+inline bool finite(const RobotState& robot) {
+  return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite() && robot.F_F_W.force.allFinite() &&
+         robot.F_F_W.moment.allFinite();
+}
+
+inline bool possible(const MotionCommand& command) {
+  constexpr double kGoalMaxM = 1e3, kGoalMaxRad = 100.0;
+  return command.position_m.allFinite() && command.rotation_rad.allFinite() &&
+         command.position_m.stableNorm() <= kGoalMaxM && command.rotation_rad.stableNorm() <= kGoalMaxRad;
+}
+
+}  // namespace longreach

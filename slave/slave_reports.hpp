@@ -1,0 +1,55 @@
+#pragma once
+// What the slave tells, and when: reports on change, else as a heartbeat; telemetry at its own rate. What the
+// link has no budget for waits.
+
+#include <optional>
+
+#include "common/link/playout.hpp"
+#include "slave/contact.hpp"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+/// A steady pace: late calls do not shift it, a long pause does not pile up.
+class Pace {
+ public:
+  bool due(Time now, double rate_hz);
+  void hurry() { next_.reset(); }
+
+ private:
+  std::optional<Time> next_{};
+};
+
+/// The goals that a touch is looked for among.
+struct PlayedGoals {
+  const Playout& positions;
+  const Playout& turns;
+  Vector3 anchor_m;
+  double sequence, turn_sequence;  // as played
+};
+
+class SlaveReports {
+ public:
+  explicit SlaveReports(const SlaveLinkConfig& link) : link_(link) {}
+  void configure(const SlaveLinkConfig& link) { link_ = link; }
+
+  /// The one haptic message, if it is due. Of `view`: state, cause, engagement.
+  void report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
+              const PlayedGoals& goals, SlaveContact& contact, SlaveContact& turn_contact,
+              SlaveOutput& output);
+  /// For the eyes and the log, if it is due.
+  void telemetry(const SlaveInput& input, const SlaveView& view, bool robot_ok, double penetration_m,
+                 SlaveOutput& output);
+
+ private:
+  SlaveLinkConfig link_;
+  Pace reports_;
+  std::uint64_t report_sequence_ = 0;
+  StiffnessReport reported_{};
+  double reported_n_per_m_ = 0.0, reported_nm_per_rad_ = 0.0;
+  Pace telemetry_;
+  std::uint64_t telemetry_sequence_ = 0;
+  Clamps clamps_{};  // since the last telemetry
+};
+
+}  // namespace longreach

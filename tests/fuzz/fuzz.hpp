@@ -1,0 +1,50 @@
+#pragma once
+// What the fuzz targets share. A target takes any bytes and returns 0; it aborts when a rule is broken.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/config/config.hpp"
+
+namespace longreach::fuzz {
+
+inline void require(bool holds, const char* rule) {
+  if (holds) return;
+  std::fprintf(stderr, "broken: %s\n", rule);
+  std::abort();
+}
+
+/// An error that a person reads: it begins with the name of the text, is one line, and cannot steer a
+/// terminal.
+inline void require_readable(const ConfigError& error, std::string_view name) {
+  const std::string_view what = error.what();
+  require(what.starts_with(name), "an error names its file");
+  for (const char c : what)
+    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "an error is one line of text");
+}
+
+/// Length of a record, little-endian in its first two bytes.
+inline std::size_t length_of(std::span<const std::byte> bytes) {
+  return std::to_integer<std::size_t>(bytes[0]) | std::to_integer<std::size_t>(bytes[1]) << 8;
+}
+
+/// What the text says, or nothing: then it was refused with a readable error and `message` is as before.
+template <class Message>
+bool load(const std::string& text, Message& message) {
+  try {
+    load_text("text", text, message);
+    return true;
+  } catch (const ConfigError& error) {
+    require_readable(error, "text");
+    return false;
+  }
+}
+
+}  // namespace longreach::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);

@@ -1,0 +1,96 @@
+#pragma once
+// Stands between master and slave on loopback: passes every datagram on, keeps a copy, and plays to either
+// side what it is given, from the address that this side knows as the other one's. Bounded by what was
+// recorded.
+
+#include <asio/io_context.hpp>
+#include <asio/ip/udp.hpp>
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace longreach {
+
+enum class Toward { kSlave, kMaster };
+
+class DatagramTap {
+ public:
+  using Datagram = std::vector<unsigned char>;
+
+  explicit DatagramTap(int slave_port)
+      : slave_(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(slave_port)) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~DatagramTap() {
+    ended_ = true;
+    thread_.join();
+  }
+  DatagramTap(const DatagramTap&) = delete;
+  DatagramTap& operator=(const DatagramTap&) = delete;
+
+  /// Where the master sends to.
+  [[nodiscard]] std::string address() const {
+    return "127.0.0.1:" + std::to_string(near_.local_endpoint().port());
+  }
+
+  /// Genuine ones so far.
+  [[nodiscard]] std::vector<Datagram> recorded(Toward way) const {
+    const std::lock_guard lock(mutex_);
+    return way == Toward::kSlave ? up_ : down_;
+  }
+
+  void play(Toward way, const Datagram& datagram) {
+    const std::lock_guard lock(mutex_);
+    pass(way, datagram);
+  }
+
+ private:
+  void pass(Toward way, const Datagram& datagram) {
+    asio::error_code ignored;
+    if (way == Toward::kSlave) {
+      far_.send_to(asio::buffer(datagram), slave_, 0, ignored);
+    } else {
+      near_.send_to(asio::buffer(datagram), master_, 0, ignored);
+    }
+  }
+
+  void take(asio::ip::udp::socket& from, Toward way) {
+    Datagram datagram(2048);
+    asio::ip::udp::endpoint sender;
+    asio::error_code error;
+    const std::lock_guard lock(mutex_);
+    datagram.resize(from.receive_from(asio::buffer(datagram), sender, 0, error));
+    if (error) return;
+    if (way == Toward::kSlave) master_ = sender;
+    (way == Toward::kSlave ? up_ : down_).push_back(datagram);
+    pass(way, datagram);
+  }
+
+  void run() {
+    near_.non_blocking(true);
+    far_.non_blocking(true);
+    while (!ended_) {
+      bool idle = true;
+      for (auto [socket, way] : {std::pair(&near_, Toward::kSlave), std::pair(&far_, Toward::kMaster)}) {
+        if (socket->available() == 0) continue;
+        take(*socket, way);
+        idle = false;
+      }
+      if (idle) std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  }
+
+  asio::io_context context_;
+  asio::ip::udp::socket near_{context_, {asio::ip::address_v4::loopback(), 0}};  // to the master
+  asio::ip::udp::socket far_{context_, {asio::ip::address_v4::loopback(), 0}};   // to the slave
+  const asio::ip::udp::endpoint slave_;
+  asio::ip::udp::endpoint master_;
+  mutable std::mutex mutex_;
+  std::vector<Datagram> up_, down_;
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
+
+}  // namespace longreach

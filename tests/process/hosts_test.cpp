@@ -1,0 +1,158 @@
+// Slave and master on two hosts (network namespaces), with the delay and the losses that longreach-wire makes
+// of real packets: of datagrams and of TCP alike.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "tests/process/hosts_run.hpp"
+
+namespace longreach {
+namespace {
+
+using std::chrono::seconds;
+
+std::vector<double> numbers_in(const std::string& text, const std::string& pattern) {
+  std::smatch found;
+  std::vector<double> numbers;
+  if (!std::regex_search(text, found, std::regex(pattern))) return numbers;
+  for (std::size_t i = 1; i < found.size(); ++i) numbers.push_back(std::stod(found[i]));
+  return numbers;
+}
+
+TEST(Hosts, ConnectEngageTouchAndStopAcrossThreeSecondsAndFivePercentLossOfDatagramsAndTcp) {
+  HostsRun hosts({"--delay", "3s", "--loss", "5%", "--seconds", "300"});
+  ASSERT_TRUE(hosts.up()) << hosts.all();
+  const auto status = hosts.client({"status", "--json"});
+  ASSERT_TRUE(hosts.shows(" Engaged ", seconds(150))) << hosts.all();
+  // The displayed stiffness counts from a round trip after the touch.
+  ASSERT_TRUE(hosts.shows("touching: the wall gives", seconds(60), 9)) << hosts.all();
+  ASSERT_EQ(status->wait(seconds(120)), 0) << status->output();
+  EXPECT_NE(status->output().find("\"side\":\"slave\""), std::string::npos) << status->output();
+
+  const auto stop = hosts.client({"stop"});
+  ASSERT_TRUE(hosts.shows(" Stopped ", seconds(60))) << hosts.all();
+  EXPECT_EQ(stop->wait(seconds(120)), 0) << stop->output();
+  EXPECT_NE(hosts.log().find("to=Stopped"), std::string::npos) << hosts.log();
+  hosts.script().signal(SIGTERM);
+  EXPECT_EQ(hosts.script().wait(seconds(30)), 0) << hosts.all();
+
+  EXPECT_NE(hosts.output().find("verdict: all checks hold"), std::string::npos) << hosts.output();
+  const auto stiffness =
+      numbers_in(hosts.output(), R"(displayed stiffness ([0-9.]+) N/mm, the wall ([0-9.]+) N/mm)");
+  ASSERT_EQ(stiffness.size(), 2u) << hosts.output();
+  EXPECT_NEAR(stiffness[0] / stiffness[1], 1.0, 0.05);
+  const auto trip = numbers_in(hosts.output(), R"(round trip ([0-9.]+) s)");
+  ASSERT_EQ(trip.size(), 1u);
+  EXPECT_GE(trip[0], 6.0);
+  const auto wire = numbers_in(hosts.log(), R"(longreach-wire: packets=(\d+) dropped=(\d+))");
+  ASSERT_EQ(wire.size(), 2u) << hosts.log();
+  EXPECT_GT(wire[1], 0.0);
+}
+
+TEST(Hosts, FivePointFiveSecondsAwayTheyStillConnect) {
+  HostsRun hosts({"--delay", "5.5s", "--loss", "5%", "--seconds", "300"});
+  ASSERT_TRUE(hosts.up()) << hosts.all();
+  const auto status = hosts.client({"status", "--json"});
+  // RPC with mutual TLS hands over the session; with it the datagrams go both ways.
+  ASSERT_TRUE(hosts.shows("session number=", seconds(240))) << hosts.all();
+  EXPECT_TRUE(hosts.shows(" Observing ", seconds(60))) << hosts.all();
+  EXPECT_NE(hosts.log().find("to=Observing"), std::string::npos) << hosts.log();
+  EXPECT_EQ(status->wait(seconds(120)), 0) << status->output();
+  EXPECT_NE(status->output().find("\"side\":\"slave\""), std::string::npos) << status->output();
+}
+
+/// Means over windows of the monitors' 2 s.
+struct Seen {
+  double rtt_s = 0.0;
+  double loss_up = 0.0;
+  double loss_down = 0.0;
+};
+
+Seen look(HostsRun& hosts) {
+  constexpr int kWindows = 6;
+  Seen seen;
+  std::this_thread::sleep_for(seconds(4));
+  for (int i = 0; i < kWindows; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+    const auto client = hosts.client({"status", "--json"});
+    EXPECT_EQ(client->wait(seconds(60)), 0) << client->output();
+    const auto both = nlohmann::json::parse(client->output(), nullptr, false);
+    if (both.is_discarded()) return {};
+    seen.rtt_s += both["master"]["link"]["rtt_s"].get<double>() / kWindows;
+    seen.loss_up += both["slave"]["link"]["loss"].get<double>() / kWindows;
+    seen.loss_down += both["master"]["link"]["loss"].get<double>() / kWindows;
+  }
+  return seen;
+}
+
+TEST(Hosts, OurImpairmentMakesTheFiguresThatARealLinkMakes) {
+  HostsRun real({"--delay", "150ms", "--loss", "10%", "--seconds", "120"});
+  HostsRun ours({"--seconds", "120"});
+  ASSERT_TRUE(real.up() && ours.up()) << real.all() << ours.all();
+  ASSERT_TRUE(real.shows(" Engaged ", seconds(60)) && ours.shows(" Engaged ", seconds(60)))
+      << real.all() << ours.all();
+  const auto set = ours.client({"link", "set", "--delay", "150ms", "--loss", "10%"});
+  ASSERT_EQ(set->wait(seconds(30)), 0) << set->output();
+
+  auto other = std::async(std::launch::async, [&real] { return look(real); });
+  const Seen b = look(ours);
+  const Seen a = other.get();
+  // A delay cannot come out shorter; both ticks and a busy machine add some.
+  EXPECT_GE(a.rtt_s, 0.3);
+  EXPECT_GE(b.rtt_s, 0.3);
+  EXPECT_NEAR(a.rtt_s, b.rtt_s, 0.02);
+  // 5 standard deviations of 6 windows: 400 datagrams each on the way up, at least 64 down.
+  EXPECT_NEAR(a.loss_up, 0.1, 0.031);
+  EXPECT_NEAR(b.loss_up, 0.1, 0.031);
+  EXPECT_NEAR(a.loss_down, 0.1, 0.077);
+  EXPECT_NEAR(b.loss_down, 0.1, 0.077);
+}
+
+bool gone(int id, seconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  while (::kill(id, 0) == 0) {
+    if (std::chrono::steady_clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
+}
+
+TEST(Hosts, LeaveNothingBehindWhenTheyAreKilledOutright) {
+  HostsRun hosts({"--delay", "10ms"});
+  ASSERT_TRUE(hosts.up()) << hosts.all();
+  const int holder = hosts.holder();
+  ASSERT_GT(holder, 1);
+  ASSERT_EQ(::kill(holder, 0), 0);
+  hosts.script().signal(SIGKILL);
+  EXPECT_TRUE(gone(holder, seconds(30)));
+}
+
+TEST(Hosts, SayWhatIsWrongWithAnOptionAndWithoutTheRightToMakeNamespaces) {
+  const auto refused = [](const std::string& program, std::vector<std::string> words,
+                          const std::string& about) {
+    RunningProgram run(program, words);
+    EXPECT_EQ(run.wait(seconds(30)), 2) << run.output();
+    const std::string said = run.output();
+    EXPECT_NE(said.find(about), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  };
+  const std::string hosts = std::string(LONGREACH_DEPLOY) + "/hosts";
+  refused(hosts, {"--delay", "soon"}, "--delay wants a time");
+  refused(hosts, {"--loss", "much"}, "--loss wants a fraction");
+  refused(hosts, {"--operator", "ghost"}, "--operator wants script or keyboard");
+  refused(hosts, {"--operator", "keyboard"}, "needs a terminal");
+  refused(hosts, {"--bin", LONGREACH_DEPLOY}, "has no longreach-master");
+  refused(hosts, {"--seconds"}, "--seconds wants a value");
+  refused("/usr/bin/unshare",
+          {"--user", hosts, "--bin", LONGREACH_BIN},  // nobody in particular, without a single right
+          "does not let this user make network namespaces");
+}
+
+}  // namespace
+}  // namespace longreach

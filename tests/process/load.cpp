@@ -1,0 +1,186 @@
+#include "tests/process/load.hpp"
+
+#include <arpa/inet.h>
+#include <grpcpp/grpcpp.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "common/core/random.hpp"
+#include "common/io/real_time_loop.hpp"
+#include "common/io/rpc_channel.hpp"
+#include "common/link/header.hpp"
+#include "proto/control.grpc.pb.h"
+#include "tests/process/test_site.hpp"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+sockaddr_in loopback(int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+double seconds_since(Clock::time_point began) {
+  return std::chrono::duration<double>(Clock::now() - began).count();
+}
+
+/// How many of a steady row should have been begun by now.
+std::uint64_t due(Clock::time_point began, double rate_hz) {
+  return static_cast<std::uint64_t>(rate_hz * seconds_since(began));
+}
+
+/// One channel and its calls, in one thread.
+class Caller {
+ public:
+  Caller(RpcRole role, int port, std::size_t width)
+      : stub_(proto::Control::NewStub(
+            connect_rpc("127.0.0.1:" + std::to_string(port), role, test_site(RpcRole::kClient)))),
+        width_(width) {}
+
+  LoadCounts run(double rate_hz, std::chrono::seconds time) {
+    const auto began = Clock::now();
+    LoadCounts counts;
+    std::size_t open = 0;
+    while (Clock::now() - began < time || open > 0) {
+      const bool more = Clock::now() - began < time;
+      while (more && open < width_ && counts.done + counts.failed + open < due(began, rate_hz)) {
+        begin();
+        ++open;
+      }
+      void* tag = nullptr;
+      bool answered = false;
+      const auto until = std::chrono::system_clock::now() + std::chrono::milliseconds(1);
+      if (queue_.AsyncNext(&tag, &answered, until) != grpc::CompletionQueue::GOT_EVENT) continue;
+      const std::unique_ptr<Call> call(static_cast<Call*>(tag));
+      ++(call->status.ok() ? counts.done : counts.failed);
+      --open;
+    }
+    counts.seconds = seconds_since(began);
+    return counts;
+  }
+
+ private:
+  struct Call {
+    grpc::ClientContext context;
+    grpc::Status status;
+    proto::Status answer;
+    std::unique_ptr<grpc::ClientAsyncResponseReader<proto::Status>> reader;
+  };
+
+  void begin() {
+    auto call = std::make_unique<Call>();
+    call->context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(5));
+    call->reader = stub_->AsyncGetStatus(&call->context, {}, &queue_);
+    Call* raw = call.release();  // comes back as the tag
+    raw->reader->Finish(&raw->answer, &raw->status, raw);
+  }
+
+  std::unique_ptr<proto::Control::Stub> stub_;
+  std::size_t width_;
+  grpc::CompletionQueue queue_;
+};
+
+}  // namespace
+
+IdleConnections::IdleConnections(int port, int count) {
+  const sockaddr_in address = loopback(port);
+  for (int i = 0; i < count; ++i) {
+    const int one = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (one < 0) return;
+    if (::connect(one, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+      ::close(one);
+      return;
+    }
+    sockets_.push_back(one);
+  }
+}
+
+IdleConnections::~IdleConnections() {
+  for (const int one : sockets_) ::close(one);
+}
+
+LoadCounts request_status(RpcRole role, int port, double rate_hz, std::chrono::seconds time) {
+  constexpr std::size_t kCallers = 4;
+  constexpr std::size_t kCallsAtOnce = 16;
+  std::array<LoadCounts, kCallers> counts{};
+  std::vector<std::thread> threads;
+  for (LoadCounts& own : counts) {
+    threads.emplace_back([&] { own = Caller(role, port, kCallsAtOnce).run(rate_hz / kCallers, time); });
+  }
+  LoadCounts sum;
+  for (std::size_t i = 0; i < kCallers; ++i) {
+    threads[i].join();
+    sum.done += counts[i].done;
+    sum.failed += counts[i].failed;
+    sum.seconds = std::max(sum.seconds, counts[i].seconds);
+  }
+  return sum;
+}
+
+LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::seconds time) {
+  constexpr std::size_t kBatch = 64;
+  constexpr std::size_t kBytes = 95;  // of a command
+  Random random(session);
+  std::array<std::array<std::byte, kBytes>, kBatch> datagrams{};
+  std::array<iovec, kBatch> parts{};
+  std::array<mmsghdr, kBatch> messages{};
+  sockaddr_in address = loopback(port);
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    parts[i] = {datagrams[i].data(), kBytes};
+    messages[i].msg_hdr.msg_name = &address;
+    messages[i].msg_hdr.msg_namelen = sizeof address;
+    messages[i].msg_hdr.msg_iov = &parts[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+    for (auto& byte : datagrams[i]) byte = static_cast<std::byte>(random.next());
+  }
+  const int own = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  LoadCounts counts;
+  const auto began = Clock::now();
+  while (Clock::now() - began < time) {
+    if (counts.done >= due(began, rate_hz)) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      continue;
+    }
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      if (i % 4 == 0) continue;
+      const std::uint64_t ahead = i % 4 == 1 ? counts.done + i : i % 4 == 2 ? i : random.next() >> 8U;
+      write_header({DatagramType::kMotionCommand, session, ahead}, datagrams[i]);
+      datagrams[i][kHeaderBytes] = static_cast<std::byte>(random.next());
+    }
+    const int sent = ::sendmmsg(own, messages.data(), kBatch, 0);
+    counts.done += static_cast<std::uint64_t>(std::max(sent, 0));
+    counts.failed += kBatch - static_cast<std::uint64_t>(std::max(sent, 0));
+  }
+  counts.seconds = seconds_since(began);
+  ::close(own);
+  return counts;
+}
+
+BareLoop::BareLoop()
+    : thread_([this] {
+        const LoopConfig config{};
+        (void)ask_for_real_time(config);
+        RealTimeLoop loop(1000.0);
+        loop.run(ended_, [](Time, const LoopFigures&) {});
+        figures_ = loop.figures();
+      }) {}
+
+BareLoop::~BareLoop() { (void)end(); }
+
+LoopFigures BareLoop::end() {
+  ended_ = true;
+  if (thread_.joinable()) thread_.join();
+  return figures_;
+}
+
+}  // namespace longreach

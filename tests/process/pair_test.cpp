@@ -1,0 +1,109 @@
+// Two hosts, played by two site folders on loopback: paired by the token that the slave prints.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/io/site.hpp"
+#include "tests/process/station.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+class Pairing : public Station {
+ protected:
+  /// What the slave's host printed for the other one: `longreach pair --slave ADDRESS TOKEN`.
+  struct Offer {
+    std::string address, token;
+  };
+
+  Offer open_desk() {
+    desk_ = std::make_unique<RunningProgram>(
+        "longreach-slave", std::vector<std::string>{"--pair", "--pair-listen", "127.0.0.1:0"});
+    const std::string command = "longreach pair --slave ";
+    EXPECT_TRUE(eventually([&] { return desk_->output().find("Waiting") != std::string::npos; }))
+        << desk_->output();
+    const std::string said = desk_->output();
+    std::istringstream words(said.substr(std::min(said.find(command), said.size() - 1) + command.size()));
+    Offer offer;
+    words >> offer.address >> offer.token;
+    return offer;
+  }
+  /// The exit status and output of `longreach` on the host that joins.
+  std::pair<int, std::string> there(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--site", site_});
+    RunningProgram program("longreach", words);
+    const int status = program.wait(std::chrono::seconds(60)).value_or(-1);
+    return {status, program.output()};
+  }
+  static std::string log() {
+    std::ifstream in(default_site() / "pairing.log");
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  TemporaryFolder elsewhere_;
+  std::string site_ = (elsewhere_.path() / "site").string();
+  std::unique_ptr<RunningProgram> desk_;
+};
+
+TEST_F(Pairing, APairedHostIsMasterAndClientAndNotASlave) {
+  const Offer offer = open_desk();
+  const auto [status, said] = there({"pair", "--slave", offer.address, offer.token});
+  ASSERT_EQ(status, 0) << said;
+  EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 0) << desk_->output();
+  EXPECT_NE(log().find("pairing paired=127.0.0.1:"), std::string::npos) << log();
+  EXPECT_EQ(log().find(offer.token), std::string::npos) << "the token stays out of the log";
+
+  start_slave();
+  start_master({"--operator", "none", "--engage", "--site", site_});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const std::string rpc = "127.0.0.1:" + std::to_string(ports_.slave_rpc);
+  const std::string master_rpc = "127.0.0.1:" + std::to_string(ports_.master_rpc);
+  const auto [stopped, answer] = there({"--slave", rpc, "--master", master_rpc, "stop"});
+  EXPECT_EQ(stopped, 0) << answer;
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; })) << outputs();
+
+  RunningProgram false_slave("longreach-slave", {"--site", site_, "--set", "rpc.listen=127.0.0.1:0"});
+  EXPECT_EQ(false_slave.wait(std::chrono::seconds(30)), 1);
+  EXPECT_NE(false_slave.output().find("was made by pairing"), std::string::npos) << false_slave.output();
+}
+
+TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
+  const Offer offer = open_desk();
+  const std::string before = site_credentials(site_, RpcRole::kClient).authority;
+  const auto [refused, why] = there({"pair", "--slave", offer.address, offer.token});
+  EXPECT_EQ(refused, 1);
+  EXPECT_NE(why.find("--replace"), std::string::npos) << why;
+  EXPECT_EQ(site_credentials(site_, RpcRole::kClient).authority, before);
+  const auto [wrong, sentence] =
+      there({"pair", "--replace", "--slave", offer.address, "0000-0000-0000-0000-0000-0000"});
+  EXPECT_EQ(wrong, 2);
+  EXPECT_NE(sentence.find("mistyped"), std::string::npos) << sentence;
+  const auto [done, said] = there({"pair", "--replace", "--slave", offer.address, offer.token});
+  EXPECT_EQ(done, 0) << said;
+  EXPECT_EQ(site_credentials(site_, RpcRole::kClient).authority,
+            site_credentials(default_site(), RpcRole::kClient).authority);
+  EXPECT_EQ(site_credentials(site_ + ".before-1", RpcRole::kClient).authority, before);
+  const auto [again, nobody] = there({"pair", "--replace", "--slave", offer.address, offer.token});
+  EXPECT_EQ(again, 1);
+  EXPECT_NE(nobody.find("nobody pairs at " + offer.address), std::string::npos) << nobody;
+}
+
+TEST_F(Pairing, WhatIsNoSlaveThatPairsIsSaidToBeNone) {
+  start_slave();
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
+  const Offer offer = open_desk();
+  const auto [status, said] =
+      there({"pair", "--slave", "127.0.0.1:" + std::to_string(ports_.slave_rpc), offer.token});
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(said.find("is no longreach slave that pairs"), std::string::npos) << said;
+  desk_->signal(SIGINT);
+  EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 1) << desk_->output();
+  EXPECT_NE(desk_->output().find("the token is void"), std::string::npos) << desk_->output();
+}
+
+}  // namespace
+}  // namespace longreach
