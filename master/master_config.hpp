@@ -17,7 +17,7 @@ namespace longreach {
 struct MasterLinkConfig {
   std::string slave = "127.0.0.1:47001";
   std::string listen = "0.0.0.0:0";
-  double send_hz = 200.0;
+  double send_hz = 300.0;
   ImpairmentConfig impairment{};
   std::string slave_rpc;
   double budget_kbit_per_s = 0.0;
@@ -51,6 +51,7 @@ struct MasterConfig {
   RenderingConfig rendering{};
   MasterSafetyConfig safety{};
   RpcServerConfig rpc{};
+  Accuracy accuracy = Accuracy::kBalanced;
 };
 
 }  // namespace longreach

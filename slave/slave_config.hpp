@@ -50,6 +50,7 @@ struct SlaveConfig {
   EstimatorConfig estimator{};
   SlaveSafetyConfig safety{};
   RpcServerConfig rpc{};
+  Accuracy accuracy = Accuracy::kBalanced;
 };
 
 }  // namespace longreach

@@ -45,7 +45,7 @@ struct SlaveSafetyInput {
   bool robot_restless = false;           // it moves on though its setpoint rests
   bool robot_astray = false;             // it is not where its setpoints lead
   bool stop = false;                     // asked for on this side
-  double send_hz = 200.0;                // of the master
+  double send_hz = 300.0;                // of the master
 
   // The newest command, if one came in this tick.
   bool commanded = false;

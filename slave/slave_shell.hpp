@@ -21,7 +21,7 @@ struct SlaveSnapshot {
   SlaveView view{};
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
-  double send_hz = 200.0;  // of the master, as it said
+  double send_hz = 300.0;  // of the master, as it said
 };
 
 struct SlaveChange {
@@ -34,7 +34,7 @@ struct SlaveStop {};
 struct SlaveLease {
   Session session{};
   bool take = false;
-  double send_hz = 200.0;
+  double send_hz = 300.0;
 };
 /// A master gives it back.
 struct SlaveReturn {

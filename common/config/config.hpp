@@ -51,7 +51,7 @@ std::string get_field(const google::protobuf::Message& message, std::string_view
 
 /// A setting "path=value" for a laboratory run: as set_field, but `master.` or `slave.` may be left out where
 /// only one of them (or the LabConfig itself) has the path. What both sides have and must agree on,
-/// loop.rate_hz, sets both. Throws ConfigError; any other ambiguous path names both.
+/// loop.rate_hz and accuracy, sets both. Throws ConfigError; any other ambiguous path names both.
 void set_lab_field(proto::LabConfig& config, std::string_view setting);
 
 /// Paths of the fields whose effective values differ between two messages of one type and that may not change
@@ -66,11 +66,12 @@ std::filesystem::path find_deploy_folder();
 /// Reads robots/ and scenes/ files that a slave configuration names into its `robot` and `scene`. A robot in
 /// place that has joints is taken as it is, the fields of one without go over those of its file; a scene in
 /// place is taken as it is (an empty one is free space). Then validates all, and that there are six joints.
-/// Throws ConfigError, and then `config` is unchanged.
+/// What `accuracy` chooses is set where it is not. Throws ConfigError, and then `config` is unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
 /// Reads the devices/ file that a master configuration names under what its `device` says; none for an empty
-/// name. Then validates all. Throws ConfigError, and then `config` is unchanged.
+/// name, and what `accuracy` chooses where it is not set. Then validates all. Throws ConfigError, and then
+/// `config` is unchanged.
 void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
 
 /// deploy/links/NAME.txtpb; its `name` where the file gives none. Throws ConfigError that lists the known

@@ -1,5 +1,6 @@
 // What both sides keep in files of their own: the devices of a master, robot and scene of a slave.
 
+#include "common/config/accuracy.hpp"
 #include "common/config/config.hpp"
 #include "common/config/scene_files.hpp"
 #include "common/config/violation.hpp"
@@ -50,6 +51,7 @@ void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
     device.MergeFrom(config.device());
     resolved.mutable_device()->Swap(&device);
   }
+  apply_accuracy(resolved);
   validate(resolved);
   config.Swap(&resolved);
 }
@@ -65,6 +67,7 @@ void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
   const std::string& made_for = resolved.scene().robot_file();
   if (!resolved.has_robot_file() && !made_for.empty()) resolved.set_robot_file(made_for);
   resolve_robot(resolved, deploy_folder);
+  apply_accuracy(resolved);
   validate(resolved);
   config.Swap(&resolved);
 }

@@ -209,6 +209,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("rendering", s.rendering);
   visit("safety", s.safety);
   visit("rpc", s.rpc);
+  visit("accuracy", s.accuracy);
 }
 
 template <class Visitor, Is<SlaveLinkConfig> S>
@@ -343,6 +344,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("estimator", s.estimator);
   visit("safety", s.safety);
   visit("rpc", s.rpc);
+  visit("accuracy", s.accuracy);
 }
 
 }  // namespace longreach

@@ -28,6 +28,8 @@ template <Enum E>
 constexpr bool same(E ours, int theirs) {
   return static_cast<int>(ours) == theirs;
 }
+static_assert(same(Accuracy::kFast, proto::FAST) && same(Accuracy::kBalanced, proto::BALANCED) &&
+              same(Accuracy::kExact, proto::EXACT) && proto::Accuracy_ARRAYSIZE == 3);
 static_assert(same(MotionMode::kRate, proto::Mapping::RATE) &&
               same(MotionMode::kPosition, proto::Mapping::POSITION) && proto::Mapping::Mode_ARRAYSIZE == 2);
 static_assert(same(RateLaw::kContinuous, proto::Mapping::CONTINUOUS) &&

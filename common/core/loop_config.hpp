@@ -6,6 +6,9 @@
 
 namespace longreach {
 
+/// Speed against accuracy. It is resolved when a configuration is read (common/config/accuracy.cpp).
+enum class Accuracy : std::uint8_t { kFast, kBalanced, kExact };
+
 struct LoopConfig {
   double rate_hz = 1000.0;
   std::uint32_t priority = 50;

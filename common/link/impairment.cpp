@@ -16,6 +16,7 @@ Time later(Time t, double s) { return Time{Duration{saturating_add(to_ns(t), fro
 
 Impairment::Impairment(const ImpairmentConfig& config, Random random)
     : config_(config),
+      clear_(config == ImpairmentConfig{}),
       streams_{random.child("loss"),
                random.child("corrupt"),
                random.child("duplicate"),
@@ -30,6 +31,7 @@ Impairment::Impairment(const ImpairmentConfig& config, Random random)
 
 void Impairment::configure(const ImpairmentConfig& config, Time now) {
   config_ = config;
+  clear_ = config == ImpairmentConfig{};
   set_at_ = now;
   queue_free_at_ = now;
   in_burst_.reset();

@@ -43,6 +43,8 @@ struct ImpairmentConfig {
   double blackout_start_s = 0.0;     // first loss of signal, after the profile was set
   double blackout_duration_s = 0.0;  // 0: none
   double blackout_period_s = 0.0;    // repeat; 0: once
+
+  bool operator==(const ImpairmentConfig&) const = default;
 };
 
 /// What happened to the datagrams that were pushed.
@@ -59,6 +61,11 @@ class Impairment {
   void configure(const ImpairmentConfig& config, Time now);
 
   void push(Time now, std::span<const std::byte> datagram, const Origin& origin = {});
+
+  /// Whether a datagram that is pushed now would come out at once and as it is; then pass() may count it
+  /// instead.
+  [[nodiscard]] bool clear() const { return clear_ && heap_.empty(); }
+  void pass() { ++counts_.in, ++counts_.out; }
 
   /// The next datagram that is due, or none. Valid until the next call. Call until none.
   std::optional<std::span<const std::byte>> pop(Time now);
@@ -108,6 +115,7 @@ class Impairment {
   bool store(Time due, std::span<const std::byte> datagram, const Origin& origin, const Fate& fate);
 
   ImpairmentConfig config_;
+  bool clear_ = false;  // it does nothing
   ImpairmentCounts counts_{};
   Streams streams_;
   std::optional<bool> in_burst_{};  // Gilbert-Elliott state; none before the first draw

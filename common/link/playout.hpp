@@ -23,7 +23,7 @@ namespace longreach {
 struct PlayoutConfig {
   bool adaptive = true;         // choose the delay from the lateness seen
   double fixed_delay_s = 0.02;  // used when not adaptive, 0 to 2
-  double quantile = 0.99;       // of lateness, when adaptive
+  double quantile = 0.9;        // of lateness, when adaptive
   double delay_max_s = 0.5;     // adaptive delay never exceeds this
 };
 

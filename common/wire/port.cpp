@@ -47,12 +47,18 @@ void Port::receive(Time now) {
       count(Rejection::kLength);
       continue;
     }
-    impairment_.push(now, std::span<const std::byte>(buffer_).first(*size), channel_.origin());
+    const auto datagram = std::span<const std::byte>(buffer_).first(*size);
+    if (impairment_.clear()) {
+      impairment_.pass();
+      count(judge(now, datagram, channel_.origin()));
+    } else {
+      impairment_.push(now, datagram, channel_.origin());
+    }
   }
   for (int i = 0; i < kPopsPerReceive; ++i) {
     const auto datagram = impairment_.pop(now);
     if (!datagram) break;
-    count(judge(now, *datagram));
+    count(judge(now, *datagram, impairment_.origin()));
   }
   close_inboxes();
 }
@@ -69,7 +75,7 @@ void Port::count(std::optional<Rejection> rejection) {
   }
 }
 
-std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagram) {
+std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagram, const Origin& origin) {
   const auto read = read_header(datagram);
   if (const auto* rejection = std::get_if<Rejection>(&read)) return *rejection;
   const Header& header = std::get<Header>(read);
@@ -80,7 +86,7 @@ std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagr
     return Rejection::kAuthentication;
 
   const bool newest = endpoint_.mark(header);
-  if (newest) channel_.answer_to(impairment_.origin());
+  if (newest) channel_.answer_to(origin);
   return accept(now, {header, std::span<const std::byte>(body_).first(sealed.size() - kTagBytes), newest});
 }
 

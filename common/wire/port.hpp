@@ -80,7 +80,7 @@ class Port {
   std::size_t send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
 
  private:
-  std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram);
+  std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram, const Origin& origin);
   void count(std::optional<Rejection> rejection);
 
   /// Keys of a session.

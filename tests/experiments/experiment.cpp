@@ -131,6 +131,15 @@ const std::vector<Experiment> kExperiments = {
      "{tool_force_max_n} N"},
     {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", run_scenes_cost,
      scenes_cost_plots},
+    {"trade",
+     "What each way to do a stage costs against how far off it is: fronts, and where the defaults are on "
+     "them.",
+     run_trade, trade_plots, "",
+     "presets FAST, BALANCED, EXACT: walls of 500 to 4000 N/m feel {accuracy_stiffness_fast_error}, "
+     "{accuracy_stiffness_balanced_error}, {accuracy_stiffness_exact_error} % wrong, the tool is off by "
+     "{accuracy_tracking_fast_error}, {accuracy_tracking_balanced_error}, {accuracy_tracking_exact_error} mm "
+     "(rms); inverse of the arm within {arm_inverse_closed_form_error} of its reach, restitution within "
+     "{contact_discrete_gradient_1000us_error}"},
 };
 
 }  // namespace
@@ -146,14 +155,15 @@ const Experiment* find_experiment(std::string_view name) {
 
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder) {
-  const auto names_file = [](std::string_view setting) {
+  // What chooses other fields comes before them.
+  const auto chooses = [](std::string_view setting) {
     const std::string_view path = setting.substr(0, setting.find('='));
-    return path == "profile" || path.ends_with("device_file") || path.ends_with("robot_file") ||
-           path.ends_with("scene_file");
+    return path == "profile" || path.ends_with("accuracy") || path.ends_with("device_file") ||
+           path.ends_with("robot_file") || path.ends_with("scene_file");
   };
   proto::LabConfig config;
   for (const std::string& setting : settings) {
-    if (names_file(setting)) set_lab_field(config, setting);
+    if (chooses(setting)) set_lab_field(config, setting);
   }
   const proto::LinkProfile profile = load_link_profile(deploy_folder, config.profile());
   *config.mutable_slave()->mutable_link()->mutable_impairment() = profile.up();
@@ -162,7 +172,7 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
   resolve_files(*config.mutable_master(), deploy_folder);
   resolve_files(*config.mutable_slave(), deploy_folder);
   for (const std::string& setting : settings) {
-    if (!names_file(setting)) set_lab_field(config, setting);
+    if (!chooses(setting)) set_lab_field(config, setting);
   }
   resolve_files(*config.mutable_slave(), deploy_folder);  // once more for what the settings changed
   validate(config);

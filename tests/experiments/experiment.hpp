@@ -42,7 +42,8 @@ const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
 /// A complete configuration from settings "path=value": first those that name files (profile, robot_file,
-/// scene_file), then what the files say, then the other settings in their order. Throws ConfigError.
+/// scene_file) or choose others (accuracy), then what the files say, then the other settings in their order.
+/// Throws ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder);
 
@@ -108,6 +109,8 @@ std::vector<Metric> run_material_steps(const ExperimentRun& run);
 std::vector<Plot> material_steps_plots();
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
 std::vector<Plot> scenes_cost_plots();
+std::vector<Metric> run_trade(const ExperimentRun& run);
+std::vector<Plot> trade_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);
 std::vector<Plot> docking_plots();
 

@@ -108,6 +108,15 @@ struct NewtonStep {
   }
 };
 
+struct NewtonTwoSteps {
+  const SphericalNetwork& net;
+  SphericalEstimate estimate{};
+  void start(const Quaternion& q) { estimate = {SolutionStatus::kFound, q}; }
+  SphericalEstimate step(const Vector3& theta, const Quaternion&) {
+    return estimate = net.refined(theta, net.refined(theta, estimate));
+  }
+};
+
 struct NewtonFromRough {
   const SphericalKinematics& k;
   const SphericalNetwork& net;
@@ -158,6 +167,7 @@ std::vector<Variant> measure_all(const Motion& m, const SphericalKinematics& k, 
                                  const std::function<void(double)>& progress) {
   std::vector<Variant> variants = {variant("tracking", m, Tracking{k}),
                                    variant("newton_step", m, NewtonStep{net}),
+                                   variant("newton_two_steps", m, NewtonTwoSteps{net}),
                                    variant("newton_from_rough", m, NewtonFromRough{k, net}),
                                    variant("newton_from_home", m, NewtonFromHome{k}),
                                    variant("network_with_rough", m, Network<true, false>{net}),
@@ -176,12 +186,12 @@ std::vector<Variant> measure_all(const Motion& m, const SphericalKinematics& k, 
 void write(const ExperimentRun& run, const std::vector<Variant>& variants) {
   Trace trace(
       run.out, "fk-network",
-      {"cost_ns", "tracking", "newton_step", "newton_from_rough", "newton_from_home", "network_with_rough",
-       "network", "network_with_rough_newton", "network_newton", "all_solutions"});
+      {"cost_ns", "tracking", "newton_step", "newton_two_steps", "newton_from_rough", "newton_from_home",
+       "network_with_rough", "network", "network_with_rough_newton", "network_newton", "all_solutions"});
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const auto error = [&](std::size_t column) { return column == i ? variants[i].cost.error_max_rad : NAN; };
     trace.row({variants[i].cost.ns, error(0), error(1), error(2), error(3), error(4), error(5), error(6),
-               error(7), error(8)});
+               error(7), error(8), error(9)});
   }
   trace.close();
 }
@@ -201,8 +211,8 @@ std::vector<Plot> fk_network_plots() {
        .panels =
            {{"largest error (rad)",
              {mark("tracking", "tracking (b)", 7), mark("network", "network", 5),
-              mark("newton_step", "one Newton step", 9), mark("network_newton", "network, step", 11),
-              mark("network_with_rough", "rough, network", 4),
+              mark("newton_step", "one Newton step", 9), mark("newton_two_steps", "two Newton steps", 8),
+              mark("network_newton", "network, step", 11), mark("network_with_rough", "rough, network", 4),
               mark("network_with_rough_newton", "rough, network, step", 10),
               mark("newton_from_rough", "rough, Newton", 6), mark("newton_from_home", "home, Newton", 12),
               mark("all_solutions", "all solutions (a)", 13)},

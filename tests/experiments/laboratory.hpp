@@ -44,6 +44,8 @@ class Laboratory {
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
+  /// What the slave hears of the master.
+  [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
   /// Where the stiffness which the master renders now belongs to, in W; zero before the first.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }

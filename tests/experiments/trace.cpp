@@ -9,7 +9,7 @@
 namespace longreach {
 
 Trace::Trace(const std::filesystem::path& folder, std::string_view name,
-             std::initializer_list<std::string_view> columns)
+             const std::vector<std::string_view>& columns)
     : columns_(columns.size()) {
   if (folder.empty()) return;
   file_ = folder / (std::string(name) + ".csv");
@@ -22,7 +22,7 @@ Trace::Trace(const std::filesystem::path& folder, std::string_view name,
   stream_ << line_ << '\n';
 }
 
-void Trace::row(std::initializer_list<double> values) {
+void Trace::row(const std::vector<double>& values) {
   CHECK(values.size() == columns_);
   if (file_.empty()) return;
   line_.clear();

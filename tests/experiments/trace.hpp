@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace longreach {
 
@@ -14,9 +14,9 @@ class Trace {
  public:
   /// An empty folder: rows go nowhere.
   Trace(const std::filesystem::path& folder, std::string_view name,
-        std::initializer_list<std::string_view> columns);
+        const std::vector<std::string_view>& columns);
 
-  void row(std::initializer_list<double> values);
+  void row(const std::vector<double>& values);
   /// Flushes; throws if anything could not be written.
   void close();
 

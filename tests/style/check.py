@@ -18,7 +18,7 @@ import source  # noqa: E402
 TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
 TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'LICENSE', 'NOTICE',
              '.clang-format', '.clang-tidy', '.gitignore', '.gitattributes'}
-IGNORED = {'.git', 'build', 'out', '__pycache__'}   # what builds and runs leave behind
+IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # what builds, runs and fuzzers leave behind
 GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build
 CPP = ('.hpp', '.cpp')
 FUNCTION_LINES, FILE_LINES, FILE_LINES_WISHED = 60, 400, 300

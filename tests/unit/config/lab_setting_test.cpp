@@ -53,6 +53,13 @@ TEST(LabSetting, SetsTheLoopRateOnBothSidesOrOnNone) {
   EXPECT_EQ(lab_error(config, "loop.rate_hz=100"), "master.loop.rate_hz = 100 is outside 250 to 8000");
 }
 
+TEST(LabSetting, SetsTheAccuracyOfBothSides) {
+  proto::LabConfig config;
+  set_lab_field(config, "accuracy=EXACT");
+  EXPECT_EQ(config.master().accuracy(), proto::EXACT);
+  EXPECT_EQ(config.slave().accuracy(), proto::EXACT);
+}
+
 TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
   EXPECT_TRUE(lab_error({}, "mapping.scle=1")
                   .starts_with("master.mapping has no field \"scle\"; did you mean \"scale\"?"));
@@ -68,7 +75,7 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
             "are: profile, "
             "duration_s, trace_hz, master, slave, link, loop, device_file, device, hand, operator, mapping, "
             "rendering, "
-            "safety, rpc, "
+            "safety, rpc, accuracy, "
             "playout, command, robot_file, robot, scene_file, scene, sensing, estimator");
   EXPECT_EQ(lab_error({}, "mapping.scale"), "\"mapping.scale\" is not a setting; write PATH=VALUE");
   EXPECT_EQ(lab_error({}, "=1"), "\"=1\" is not a setting; write PATH=VALUE");

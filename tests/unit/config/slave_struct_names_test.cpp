@@ -214,6 +214,7 @@ TEST(Structs, CarryEachFieldOfTheSlaveUnderItsName) {
   expect_same(s.estimator, m.estimator());
   expect_same(s.safety, m.safety());
   expect_same(s.rpc, m.rpc());
+  EXPECT_EQ(static_cast<int>(s.accuracy), m.accuracy());
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {
   expect_same(s.rendering, m.rendering());
   expect_same(s.safety, m.safety());
   expect_same(s.rpc, m.rpc());
+  EXPECT_EQ(static_cast<int>(s.accuracy), m.accuracy());
 }
 
 }  // namespace

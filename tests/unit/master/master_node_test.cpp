@@ -69,7 +69,7 @@ TEST(MasterNode, SendsAtItsRateWithSequencesFromOne) {
       EXPECT_EQ(out.sequence, ++expected);
     }
   }
-  EXPECT_NEAR(static_cast<double>(expected), 200.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(expected), 300.0, 1.0);
 }
 
 TEST(MasterNode, CommandsNothingBeforeTheSlaveConfirms) {

@@ -1,0 +1,63 @@
+// Speed against accuracy: what the experiment `trade` rests on, and what the defaults promise there.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/experiments/trade/cost.hpp"
+#include "tests/experiments/trade/trade.hpp"
+
+namespace longreach {
+namespace {
+
+TradePoint point(double cost, double error) { return {"a", "", cost, error}; }
+
+TEST(Trade, AFrontIsWhatNothingElseBeats) {
+  const std::vector<TradePoint> points{point(1, 5), point(2, 3), point(3, 3),
+                                       point(4, 1), point(2, 3), point(5, 2)};
+  const std::vector<bool> expected{true, true, false, true, true, false};
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(on_front(points, i), expected[i]) << i;
+}
+
+TEST(Trade, InstructionsDecideWhereBothHaveThem) {
+  std::vector<TradePoint> points{point(1, 1), point(2, 1)};
+  points[0].instructions = 200;
+  EXPECT_TRUE(on_front(points, 0));
+  points[1].instructions = 100;
+  EXPECT_FALSE(on_front(points, 0));
+  EXPECT_TRUE(on_front(points, 1));
+}
+
+TEST(Trade, InstructionsAreCountedExactly) {
+  volatile double sum = 0.0;
+  const auto add = [&sum](int times) {
+    return [&sum, times](int) {
+      for (int i = 0; i < times; ++i) sum = sum + 1.0;
+    };
+  };
+  const double few = instructions(4, add(100));
+  if (std::isnan(few)) GTEST_SKIP() << "ptrace is forbidden here";
+  EXPECT_EQ(instructions(4, add(100)), few);
+  const double more = instructions(4, add(1100)) - few;
+  EXPECT_GE(more, 3000.0);  // at least load, add and store in each turn
+  EXPECT_LE(more, 20000.0);
+  EXPECT_EQ(std::fmod(more, 1000.0), 0.0) << more;
+}
+
+/// The default of a stage.
+TradePoint standard(const TradeStage& stage) {
+  ExperimentRun run;
+  for (const TradePoint& p : stage.measure(run))
+    if (p.standard) return p;
+  ADD_FAILURE() << stage.name << " has no default";
+  return {};
+}
+
+TEST(Trade, TheDefaultsAreAsAccurateAsADoubleIs) {
+  EXPECT_LE(standard(trade_delta_forward()).error, 1e-15 * 4.0);
+  EXPECT_LE(standard(trade_arm_inverse()).error, 1e-14);
+  EXPECT_LE(standard(trade_contact()).error, 1e-11);
+}
+
+}  // namespace
+}  // namespace longreach
