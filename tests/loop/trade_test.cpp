@@ -36,8 +36,12 @@ TEST(Trade, InstructionsAreCountedExactly) {
     };
   };
   const double few = instructions(4, add(100));
-  if (std::isnan(few)) GTEST_SKIP() << "ptrace is forbidden here";
-  EXPECT_EQ(instructions(4, add(100)), few);
+  const double again = instructions(4, add(100));
+  if (std::isnan(few)) {
+    EXPECT_TRUE(std::isnan(again));  // the system forbids it
+    return;
+  }
+  EXPECT_EQ(again, few);
   const double more = instructions(4, add(1100)) - few;
   EXPECT_GE(more, 3000.0);  // at least load, add and store in each turn
   EXPECT_LE(more, 20000.0);

@@ -60,8 +60,8 @@ TradeStage stage(std::string_view name, std::string_view title, std::string_view
 }  // namespace
 
 TradeStage trade_accuracy_tracking() {
-  return stage("accuracy_tracking", "The preset of accuracy: the tool behind the hand", "error of the tool's way, rms",
-               "mm", measure_tracking);
+  return stage("accuracy_tracking", "The preset of accuracy: the tool behind the hand",
+               "error of the tool's way, rms", "mm", measure_tracking);
 }
 
 TradeStage trade_accuracy_stiffness() {
