@@ -12,6 +12,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/parse_error.hpp"
+#include "common/config/text_place.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -56,9 +57,12 @@ std::string read_file(const fs::path& file) {
   return text;
 }
 
+std::string place(const std::string& name, TextPosition position) {
+  return name + ":" + std::to_string(position.line + 1) + ":" + std::to_string(position.column + 1);
+}
+
 [[noreturn]] void fail(const std::string& name, TextPosition position, const std::string& text) {
-  throw ConfigError(name + ":" + std::to_string(position.line + 1) + ":" +
-                    std::to_string(position.column + 1) + ": " + text);
+  throw ConfigError(place(name, position) + ": " + text);
 }
 
 // Where the field stands in the text, or the nearest thing around it that does.
@@ -81,6 +85,21 @@ TextPosition locate(const TextFormat::ParseInfoTree& root, const FieldPath& path
 }
 
 }  // namespace
+
+std::string place_in_file(const fs::path& file, const Message& message, const FieldPath& path) {
+  const std::unique_ptr<Message> again(message.New());
+  TextFormat::Parser parser;
+  TextFormat::ParseInfoTree locations;
+  FirstError ignored;
+  parser.RecordErrorsTo(&ignored);
+  parser.WriteLocationsTo(&locations);
+  try {
+    if (!parser.ParseFromString(read_file(file), again.get())) return file.string();
+  } catch (const ConfigError&) {
+    return file.string();
+  }
+  return place(file.string(), locate(locations, path));
+}
 
 void load_text_file(const fs::path& file, Message& message) {
   load_text(file.string(), read_file(file), message);

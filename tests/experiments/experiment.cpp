@@ -9,6 +9,7 @@
 
 #include "commit.hpp"
 #include "common/config/config.hpp"
+#include "tests/experiments/name_hash.hpp"
 
 namespace longreach {
 
@@ -187,12 +188,7 @@ std::string config_hash(const proto::LabConfig& config) {
     coded.SetSerializationDeterministic(true);
     config.SerializeToCodedStream(&coded);
   }
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t i = 0; i < 16; ++i) text[15 - i] = kDigits[(hash >> (4 * i)) & 15];
-  return text;
+  return name_hash(bytes);
 }
 
 std::string_view commit() { return kCommit; }

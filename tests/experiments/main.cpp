@@ -1,16 +1,15 @@
-// longreach-lab: experiments in deterministic virtual time.
-
-#include <unistd.h>
+// longreach-lab: experiments in deterministic virtual time. The command line; each subcommand is a function
+// of its folder.
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 
 #include "common/config/config.hpp"
+#include "tests/experiments/campaign/sweep.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/report/report.hpp"
+#include "tests/experiments/run.hpp"
 #include "tests/experiments/solve.hpp"
 #include "tests/experiments/solve_identify.hpp"
 #include "tests/experiments/train.hpp"
@@ -22,71 +21,71 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-struct RunOptions {
-  std::string name;
-  std::uint64_t seed = 1;
-  std::vector<std::string> settings;
-  std::string out;
-  bool quiet = false;
+/// What the command line says, of all subcommands.
+struct Options {
+  RunOptions run;
+  SweepOptions sweep;
+  MergeOptions merge;
+  ReportOptions report;
+  std::string kind;  // of question, of device
+  IdentifyOptions identify;
+  std::uint64_t train_seed = 1;
+  std::string train_out = "spherical_network.txtpb";
 };
 
-int list() {
-  for (const Experiment& e : experiments()) {
-    const std::string figure = e.figure.empty() ? "" : " (" + std::string(e.figure) + ")";
-    std::printf("%-16s %s%s\n", std::string(e.name).c_str(), std::string(e.summary).c_str(), figure.c_str());
-  }
-  return kDone;
+void add_run(CLI::App& app, RunOptions& o) {
+  CLI::App* run =
+      app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
+  run->add_option("name", o.name, "Experiment")->required();
+  run->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
+  run->add_option("--set", o.settings,
+                  "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
+                  "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; made if missing")
+      ->type_name("DIR");
+  run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+void add_sweep(CLI::App& app, SweepOptions& o) {
+  CLI::App* sweep = app.add_subcommand(
+      "sweep",
+      "Run a campaign: every experiment with every combination of settings and every seed of a grid, on all "
+      "processors. Start it again, after whatever happened, and it goes on where it was.\n\n"
+      "FILE says what the grid is, e.g.\n"
+      "  experiment: \"touch\"\n"
+      "  setting { path: \"profile\" value: \"moon\" value: \"lab\" }\n"
+      "  setting { path: \"scene.material.wall.stiffness_n_per_m\" value: \"500\" value: \"5000\" }\n"
+      "  seeds { from: 1 to: 20 }\n"
+      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. DIR/results.csv "
+      "has "
+      "a row a cell, DIR/results.times.csv what depends on the machine.\n\n"
+      "Exit status: 0 all cells are done, 1 some failed (start it again to try them again), 2 the grid or an "
+      "option is wrong and nothing was run, 128 and more: stopped by a signal.");
+  sweep->add_option("file", o.file, "The grid")->type_name("FILE")->required();
+  sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ and the name of FILE")
+      ->type_name("DIR");
+  sweep->add_option("--jobs", o.jobs, "Cells at a time; 0: one a processor")->capture_default_str();
+  sweep
+      ->add_option("--shard", o.shard,
+                   "Only every N-th cell, from the I-th on: N hosts that run 1/N to N/N share a campaign, "
+                   "in one folder or in several; `merge` then writes the results")
+      ->type_name("I/N")
+      ->capture_default_str();
+  sweep->add_flag("--quiet", o.quiet, "Print failures only");
 }
 
-/// Progress on a terminal only, rewritten in place.
-std::function<void(double)> progress_line(const RunOptions& o, double virtual_s) {
-  if (o.quiet || !isatty(STDERR_FILENO)) return {};
-  const auto began = std::chrono::steady_clock::now();
-  return [began, virtual_s, name = o.name](double done) {
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    std::fprintf(stderr, "\r%s: %3.0f %% of at most %g s, %.0f times faster than real time ", name.c_str(),
-                 100.0 * done, virtual_s, done * virtual_s / std::max(spent, 1e-9));
-    if (done >= 1.0) std::fprintf(stderr, "\r\033[K");
-  };
-}
-
-int run(const RunOptions& o) {
-  const Experiment* experiment = find_experiment(o.name);
-  if (!experiment) {
-    std::fprintf(stderr, "longreach-lab: there is no experiment '%s'; `longreach-lab list` shows them\n",
-                 o.name.c_str());
-    return kBadUsage;
-  }
-  ExperimentRun r;
-  try {
-    r.config = configure(o.settings, find_deploy_folder());
-  } catch (const ConfigError& e) {
-    std::fprintf(stderr, "longreach-lab: %s\n", e.what());
-    return kBadUsage;
-  }
-  r.seed = o.seed;
-  r.out = o.out;
-  r.progress = progress_line(o, r.config.duration_s());
-  const auto began = std::chrono::steady_clock::now();
-  const auto complain = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
-  const std::vector<Metric> metrics = run_experiment(*experiment, r, complain);
-  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  if (o.quiet) return kDone;
-  for (const Metric& m : metrics) {
-    std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
-    if (m.name == "duration_s")
-      std::printf("%-32s %14s\n", "times_faster_than_real_time", number(m.value / spent).c_str());
-  }
-  std::printf("commit %s, config %s, seed %llu%s%s\n", std::string(commit()).c_str(),
-              config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
-              r.out.empty() ? "" : "; written to ", r.out.c_str());
-  return kDone;
+void add_merge(CLI::App& app, MergeOptions& o) {
+  CLI::App* merge = app.add_subcommand(
+      "merge",
+      "Write the results of a campaign whose shards are in one folder or in several; they are those of "
+      "one run, byte for byte. Exit status 1 names cells that are missing.");
+  merge->add_option("folders", o.folders, "Folders of `longreach-lab sweep`")
+      ->type_name("DIR...")
+      ->required();
+  merge->add_option("--out", o.out, "Default: results.csv in the first folder; times go to NAME.times.csv")
+      ->type_name("FILE.csv");
 }
 
 void add_report(CLI::App& app, ReportOptions& o) {
@@ -129,59 +128,54 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
   });
 }
 
-}  // namespace
-}  // namespace longreach
-
-int main(int argc, char** argv) {
-  using longreach::RunOptions;
-  CLI::App app{"Experiments with both nodes of longreach in deterministic virtual time."};
-  app.set_version_flag("--version", std::string(longreach::commit()));
-  app.require_subcommand(1);
-  app.add_subcommand("list", "Show the experiments");
-  std::string kind;
-  longreach::IdentifyOptions identify;
-  longreach::add_solve(app, kind, identify);
-  longreach::ReportOptions report;
-  longreach::add_report(app, report);
-  std::uint64_t train_seed = 1;
-  std::string train_out = "spherical_network.txtpb";
+void add_train(CLI::App& app, Options& o) {
   CLI::App* train = app.add_subcommand(
       "train",
       "Train the networks of a haptic device's forward kinematics (Levenberg-Marquardt by Ceres Solver, one "
       "thread, a few minutes); the same seed writes the same bytes. deploy/devices/ holds those of seed 1");
-  train->add_option("kind", kind, "Device")->required()->check(CLI::IsMember(longreach::train_kinds()));
-  train->add_option("--seed", train_seed, "Seed of samples and first weights")->capture_default_str();
-  train->add_option("--out", train_out, "File that is written")->type_name("FILE")->capture_default_str();
-  RunOptions o;
-  CLI::App* run =
-      app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
-  run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
-  run->add_option("--set", o.settings,
-                  "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
-                  "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; made if missing")
-      ->type_name("DIR");
-  run->add_flag("--quiet", o.quiet, "Print nothing");
+  train->add_option("kind", o.kind, "Device")->required()->check(CLI::IsMember(train_kinds()));
+  train->add_option("--seed", o.train_seed, "Seed of samples and first weights")->capture_default_str();
+  train->add_option("--out", o.train_out, "File that is written")->type_name("FILE")->capture_default_str();
+}
+
+int run_subcommand(const CLI::App& app, const Options& o) {
+  if (app.got_subcommand("sweep")) return sweep(o.sweep);
+  if (app.got_subcommand("merge")) return merge(o.merge);
+  if (app.got_subcommand("report")) return write_report(o.report) == 0 ? kDone : kFailed;
+  if (app.got_subcommand("solve") && o.kind == "identify")
+    return solve_identify(o.identify, std::cin, std::cout, std::cerr);
+  if (app.got_subcommand("solve")) return solve(o.kind, std::cin, std::cout);
+  if (app.got_subcommand("train")) train(o.kind, o.train_seed, o.train_out);
+  if (app.got_subcommand("list")) list_experiments();
+  if (app.got_subcommand("run")) run(o.run);
+  return kDone;
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  CLI::App app{"Experiments with both nodes of longreach in deterministic virtual time."};
+  app.set_version_flag("--version", std::string(longreach::commit()));
+  app.require_subcommand(1);
+  app.add_subcommand("list", "Show the experiments");
+  longreach::Options options;
+  longreach::add_run(app, options.run);
+  longreach::add_sweep(app, options.sweep);
+  longreach::add_merge(app, options.merge);
+  longreach::add_report(app, options.report);
+  longreach::add_solve(app, options.kind, options.identify);
+  longreach::add_train(app, options);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    const int status = app.exit(e);
-    return status == 0 ? 0 : longreach::kBadUsage;
+    std::fprintf(stderr, "longreach-lab: %s; --help shows the options\n", e.what());
+    return longreach::kBadUsage;
   }
   try {
-    if (app.got_subcommand("train")) {
-      longreach::train(kind, train_seed, train_out);
-      return longreach::kDone;
-    }
-    if (app.got_subcommand("report"))
-      return longreach::write_report(report) == 0 ? longreach::kDone : longreach::kFailed;
-    if (app.got_subcommand("solve") && kind == "identify")
-      return longreach::solve_identify(identify, std::cin, std::cout, std::cerr);
-    if (app.got_subcommand("solve")) return longreach::solve(kind, std::cin, std::cout);
-    return app.got_subcommand("list") ? longreach::list() : longreach::run(o);
+    return longreach::run_subcommand(app, options);
   } catch (const longreach::ConfigError& e) {
     std::fprintf(stderr, "longreach-lab: %s\n", e.what());
     return longreach::kBadUsage;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/config/field_text.hpp"
+#include "proto/campaign.pb.h"
 #include "proto/network.pb.h"
 #include "tests/unit/config/temporary_folder.hpp"
 
@@ -23,6 +24,7 @@ std::unique_ptr<Message> message_for(const fs::path& file) {
   if (folder == "devices") return std::make_unique<proto::Device>();
   if (folder == "robots") return std::make_unique<proto::Robot>();
   if (folder == "scenes") return std::make_unique<proto::Scene>();
+  if (folder == "cluster") return std::make_unique<proto::Campaign>();
   if (folder != "config") return nullptr;
   const std::string name = file.stem().string();
   if (name.starts_with("master")) return std::make_unique<proto::MasterConfig>();

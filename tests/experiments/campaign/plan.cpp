@@ -1,0 +1,135 @@
+#include "tests/experiments/campaign/plan.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "common/config/config.hpp"
+#include "common/config/nearest_name.hpp"
+#include "common/config/text_place.hpp"
+#include "tests/experiments/experiment.hpp"
+#include "tests/experiments/name_hash.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+using google::protobuf::Message;
+
+/// What is wrong at one place of the file.
+class Checker {
+ public:
+  Checker(const fs::path& file, const proto::Campaign& campaign) : file_(file), campaign_(campaign) {}
+
+  void experiments() const {
+    if (campaign_.experiment().empty()) throw ConfigError(file_.string() + ": there is no experiment to run");
+    Names known;
+    for (const Experiment& e : longreach::experiments()) known.emplace_back(e.name);
+    std::set<std::string> names;
+    for (int i = 0; i < campaign_.experiment_size(); ++i) {
+      const std::string& name = campaign_.experiment(i);
+      if (find_experiment(name) == nullptr)
+        refuse({step(campaign_, "experiment", i)},
+               "there is no experiment \"" + name + "\"" + instead_of(name, known, "there are"));
+      if (!names.insert(name).second)
+        refuse({step(campaign_, "experiment", i)}, "experiment \"" + name + "\" is there twice");
+    }
+  }
+
+  void settings() const {
+    std::set<std::string> paths;
+    for (int i = 0; i < campaign_.setting_size(); ++i) {
+      const auto& setting = campaign_.setting(i);
+      const PathStep at = step(campaign_, "setting", i);
+      if (setting.path().empty()) refuse({at}, "setting has no path");
+      if (!paths.insert(setting.path()).second)
+        refuse({at, step(setting, "path", -1)}, "setting \"" + setting.path() + "\" is there twice");
+      if (setting.value().empty())
+        refuse({at}, "setting \"" + setting.path() + "\" has no value; without one the grid is empty");
+      std::set<std::string> values;
+      for (int v = 0; v < setting.value_size(); ++v) {
+        if (!values.insert(setting.value(v)).second)
+          refuse({at, step(setting, "value", v)},
+                 "setting \"" + setting.path() + "\" has the value \"" + setting.value(v) + "\" twice");
+      }
+    }
+  }
+
+  void seeds() const {
+    const auto& seeds = campaign_.seeds();
+    if (seeds.from() > seeds.to())
+      refuse({step(campaign_, "seeds", -1)}, "seeds.from = " + std::to_string(seeds.from()) +
+                                                 " is above seeds.to = " + std::to_string(seeds.to()) +
+                                                 "; the grid is empty");
+  }
+
+  /// The error of a whole cell, at the first setting with which it is there.
+  [[noreturn]] void refuse_cell(const Grid& grid, const Cell& cell, const fs::path& deploy) const {
+    const std::vector<std::string> all = grid.settings(cell);
+    for (std::size_t n = 0; n <= all.size(); ++n) {
+      try {
+        static_cast<void>(configure({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)}, deploy));
+      } catch (const ConfigError& e) {
+        if (n == 0) throw;
+        const PathStep setting = step(campaign_, "setting", static_cast<int>(n) - 1);
+        const auto value = static_cast<int>(cell.value[n - 1]);
+        refuse({setting, step(campaign_.setting(setting.index), "value", value)}, e.what());
+      }
+    }
+    throw ConfigError(file_.string() + ": the files in " + deploy.string() + " are being changed");
+  }
+
+ private:
+  static PathStep step(const Message& message, const char* field, int index) {
+    return {message.GetDescriptor()->FindFieldByName(field), index};
+  }
+  [[noreturn]] void refuse(const FieldPath& path, const std::string& why) const {
+    throw ConfigError(place_in_file(file_, campaign_, path) + ": " + why);
+  }
+
+  const fs::path& file_;
+  const proto::Campaign& campaign_;
+};
+
+}  // namespace
+
+Plan load_plan(const fs::path& file, const fs::path& deploy_folder) {
+  proto::Campaign campaign;
+  load_text_file(file, campaign);
+  const Checker check(file, campaign);
+  check.experiments();
+  check.settings();
+  check.seeds();
+  Plan plan{Grid(campaign), {}, {}};
+  if (plan.grid.size() > Grid::kCellsMax)
+    throw ConfigError(file.string() + ": the grid has more than " + std::to_string(Grid::kCellsMax) +
+                      " cells; make several campaigns of it");
+  std::string configs;
+  for (std::size_t i = 0; i < plan.grid.combinations(); ++i) {
+    const std::size_t seeds = campaign.seeds().to() - campaign.seeds().from() + std::size_t{1};
+    const Cell cell = plan.grid.cell(i * seeds);
+    try {
+      plan.configs.push_back(config_hash(configure(plan.grid.settings(cell), deploy_folder)));
+    } catch (const ConfigError&) {
+      check.refuse_cell(plan.grid, cell, deploy_folder);
+    }
+    configs += plan.configs.back();
+  }
+  plan.record.set_commit(program_name());
+  plan.record.set_full(full_size());
+  plan.record.set_configs(name_hash(configs));
+  *plan.record.mutable_campaign() = campaign;
+  return plan;
+}
+
+std::string program_name() {
+  std::string name(commit());
+  if (!name.ends_with("-dirty") && name != "unknown") return name;
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  return name + "-" + name_hash(std::string(std::istreambuf_iterator<char>(program), {}));
+}
+
+bool full_size() { return std::getenv("LONGREACH_FULL") != nullptr; }
+
+}  // namespace longreach

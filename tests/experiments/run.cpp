@@ -1,0 +1,66 @@
+#include "tests/experiments/run.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "common/config/config.hpp"
+#include "tests/experiments/experiment.hpp"
+
+namespace longreach {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// Progress on a terminal only, rewritten in place.
+std::function<void(double)> progress_line(const RunOptions& o, double virtual_s) {
+  if (o.quiet || !isatty(STDERR_FILENO)) return {};
+  const auto began = std::chrono::steady_clock::now();
+  return [began, virtual_s, name = o.name](double done) {
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    std::fprintf(stderr, "\r%s: %3.0f %% of at most %g s, %.0f times faster than real time ", name.c_str(),
+                 100.0 * done, virtual_s, done * virtual_s / std::max(spent, 1e-9));
+    if (done >= 1.0) std::fprintf(stderr, "\r\033[K");
+  };
+}
+
+}  // namespace
+
+void list_experiments() {
+  for (const Experiment& e : experiments()) {
+    const std::string figure = e.figure.empty() ? "" : " (" + std::string(e.figure) + ")";
+    std::printf("%-16s %s%s\n", std::string(e.name).c_str(), std::string(e.summary).c_str(), figure.c_str());
+  }
+}
+
+void run(const RunOptions& o) {
+  const Experiment* experiment = find_experiment(o.name);
+  if (!experiment)
+    throw ConfigError("there is no experiment '" + o.name + "'; `longreach-lab list` shows them");
+  ExperimentRun r;
+  r.config = configure(o.settings, find_deploy_folder());
+  r.seed = o.seed;
+  r.out = o.out;
+  r.progress = progress_line(o, r.config.duration_s());
+  const auto began = std::chrono::steady_clock::now();
+  const auto complain = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
+  const std::vector<Metric> metrics = run_experiment(*experiment, r, complain);
+  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  if (o.quiet) return;
+  for (const Metric& m : metrics) {
+    std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
+    if (m.name == "duration_s")
+      std::printf("%-32s %14s\n", "times_faster_than_real_time", number(m.value / spent).c_str());
+  }
+  std::printf("commit %s, config %s, seed %llu%s%s\n", std::string(commit()).c_str(),
+              config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
+              r.out.empty() ? "" : "; written to ", r.out.c_str());
+}
+
+}  // namespace longreach

@@ -1,0 +1,181 @@
+// Campaigns of the laboratory: killed and started again, in shards, with cells that fail, and with mistakes.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "tests/process/running_program.hpp"
+#include "tests/unit/config/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+struct Ended {
+  std::optional<int> status{};
+  std::string output;
+};
+
+Ended lab(const std::vector<std::string>& arguments) {
+  RunningProgram program("longreach-lab", arguments);
+  const auto status = program.wait(std::chrono::minutes(2));
+  return {status, program.output()};
+}
+
+std::string text_of(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Cells that are done, with the inodes of their files: a file that is written again is another one.
+std::map<std::string, ino_t> cells_in(const fs::path& folder) {
+  std::map<std::string, ino_t> cells;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "cells", none)) {
+    struct stat status {};
+    if (entry.path().extension() == ".txtpb" && ::stat(entry.path().c_str(), &status) == 0)
+      cells[entry.path().filename()] = status.st_ino;
+  }
+  return cells;
+}
+
+/// Half a second of virtual time a cell.
+class Sweep : public testing::Test {
+ protected:
+  fs::path write_grid(const std::string& more) const {
+    return folder_.write("grid.txtpb",
+                         "experiment: 'touch'\nsetting { path: 'duration_s' value: '2' }\n" + more);
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// Starts a campaign and sends it a signal when it has done `count` cells.
+  std::optional<int> interrupt(const std::string& grid, const std::string& out, std::size_t count, int signal,
+                               std::string* said = nullptr) const {
+    RunningProgram program("longreach-lab", {"sweep", grid, "--out", out, "--jobs", "2"});
+    while (program.running() && cells_in(out).size() < count) std::this_thread::sleep_for(milliseconds(1));
+    program.signal(signal);
+    const auto status = program.wait(std::chrono::minutes(1));
+    if (said) *said = program.output();
+    return status;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Sweep, KilledAgainAndAgainItGoesOnAndGivesTheSameBytes) {
+  const std::string grid =
+      write_grid("setting { path: 'profile' value: ['lab', 'moon'] }\nseeds { from: 1 to: 8 }");
+  const Ended whole = lab({"sweep", grid, "--out", path("whole"), "--jobs", "1"});
+  ASSERT_EQ(whole.status, 0) << whole.output;
+  std::map<std::string, ino_t> done;
+  for (const std::size_t count : {1u, 4u, 9u}) {
+    interrupt(grid, path("killed"), count, SIGKILL);
+    const auto now = cells_in(path("killed"));
+    EXPECT_TRUE(std::ranges::includes(now, done)) << "a cell that was done was done again";
+    done = now;
+  }
+  const Ended rest = lab({"sweep", grid, "--out", path("killed"), "--jobs", "2"});
+  EXPECT_EQ(rest.status, 0) << rest.output;
+  EXPECT_TRUE(std::ranges::includes(cells_in(path("killed")), done)) << "a cell that was done was done again";
+  EXPECT_EQ(text_of(path("killed/results.csv")), text_of(path("whole/results.csv")));
+  EXPECT_EQ(std::ranges::count(text_of(path("whole/results.csv")), '\n'), 17);
+}
+
+TEST_F(Sweep, ShardsMergedAreOneRunByteForByte) {
+  const std::string grid =
+      write_grid("setting { path: 'profile' value: ['lab', 'moon'] }\nseeds { from: 1 to: 3 }");
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("one")}).status, 0);
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("a"), "--shard", "1/2"}).status, 0);
+  EXPECT_EQ(cells_in(path("a")).size(), 3u);
+  const Ended half = lab({"merge", path("a"), "--out", path("half.csv")});
+  EXPECT_EQ(half.status, 1) << half.output;
+  for (const char* missing :
+       {"cell 1 has no result: touch duration_s=2 profile=lab seed=2\n",
+        "cell 3 has no result: touch duration_s=2 profile=moon seed=1\n",
+        "cell 5 has no result: touch duration_s=2 profile=moon seed=3\n", "3 of 6 cells"})
+    EXPECT_NE(half.output.find(missing), std::string::npos) << half.output;
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("b"), "--shard", "2/2"}).status, 0);
+  const Ended merged = lab({"merge", "--out", path("merged.csv"), path("b"), path("a")});
+  EXPECT_EQ(merged.status, 0) << merged.output;
+  EXPECT_EQ(text_of(path("merged.csv")), text_of(path("one/results.csv")));
+  EXPECT_GT(text_of(path("merged.csv")).size(), 1000u);
+}
+
+TEST_F(Sweep, FoldersOfOtherGridsOrCommitsAreNotMixed) {
+  const std::string grid = write_grid("seeds { from: 1 to: 2 }");
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("a")}).status, 0);
+  const std::string other = folder_.write("other.txtpb", "experiment: 'touch' seeds { from: 1 to: 3 }");
+  const Ended mixed = lab({"sweep", other, "--out", path("a")});
+  EXPECT_EQ(mixed.status, 2) << mixed.output;
+  EXPECT_NE(mixed.output.find("holds results of another grid"), std::string::npos) << mixed.output;
+  fs::copy(path("a"), path("b"), fs::copy_options::recursive);
+  std::string record = text_of(path("b/campaign.txtpb"));
+  record.replace(0, record.find('\n'), "commit: \"0123456789ab\"");
+  folder_.write("b/campaign.txtpb", record);
+  const Ended merged = lab({"merge", path("a"), path("b")});
+  EXPECT_EQ(merged.status, 2) << merged.output;
+  EXPECT_NE(merged.output.find("its results are of commit 0123456789ab, not "), std::string::npos)
+      << merged.output;
+  const Ended nothing = lab({"merge", path("a"), path("c")});
+  EXPECT_EQ(nothing.status, 2) << nothing.output;
+  EXPECT_NE(nothing.output.find("is no folder of `longreach-lab sweep`"), std::string::npos)
+      << nothing.output;
+}
+
+TEST_F(Sweep, ACellThatFailsIsNamedTheOthersGoOnAndItIsTriedAgain) {
+  const std::string grid =
+      write_grid("setting { path: 'rendering.law' value: ['WAVE', 'STIFFNESS'] }\nseeds { from: 1 to: 2 }");
+  for (const char* summary :
+       {"4 cells: 0 were done, 4 run, 2 of them failed", "4 cells: 2 were done, 2 run, 2 of them failed"}) {
+    const Ended ended = lab({"sweep", grid, "--out", path("a")});
+    EXPECT_EQ(ended.status, 1) << ended.output;
+    for (const std::string part :
+         {summary, "cell 0 failed: touch duration_s=2 rendering.law=WAVE seed=1: the comparison laws run in",
+          "cell 1 failed: "})
+      EXPECT_NE(ended.output.find(part), std::string::npos) << part << "\n" << ended.output;
+  }
+  const std::string table = text_of(path("a/results.csv"));
+  EXPECT_NE(table.find("\n0,touch,1,2,WAVE,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n3,touch,2,2,STIFFNESS,"), std::string::npos) << table;
+}
+
+TEST_F(Sweep, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
+  const std::string grid = write_grid("seeds { from: 1 to: 100000 }");
+  std::string said;
+  EXPECT_EQ(interrupt(grid, path("a"), 3, SIGINT, &said), 128 + SIGINT) << said;
+  const std::string done = std::to_string(cells_in(path("a")).size());
+  EXPECT_EQ(said, "longreach-lab: stopped (Interrupt) with " + done +
+                      " of 100000 cells done; the same command goes on\n");
+}
+
+TEST_F(Sweep, MistakesEndWithStatus2AndOneSentenceBeforeAnythingRuns) {
+  const auto expect = [this](const std::vector<std::string>& arguments, const std::string& about) {
+    const Ended ended = lab(arguments);
+    EXPECT_EQ(ended.status, 2) << ended.output;
+    EXPECT_EQ(std::ranges::count(ended.output, '\n'), 1) << ended.output;
+    EXPECT_NE(ended.output.find(about), std::string::npos) << ended.output;
+    EXPECT_FALSE(fs::exists(path("a")));
+  };
+  const std::string good = write_grid("");
+  const std::string bad = folder_.write(
+      "bad.txtpb", "experiment: 'touch'\nsetting { path: 'mapping.scale' value: '0.5' value: '7' }\n");
+  expect({"sweep", bad, "--out", path("a")}, "bad.txtpb:2:46: master.mapping.scale = 7 is outside");
+  expect({"sweep", path("none.txtpb"), "--out", path("a")}, "none.txtpb: there is no such file");
+  for (const char* shard : {"0/2", "3/2", "half"})
+    expect({"sweep", good, "--out", path("a"), "--shard", shard}, std::string("--shard ") + shard);
+  expect({"sweep", good, "--out", path("a"), "--jobs", "-1"}, "--jobs -1");
+  expect({"sweep", good, "--out", path("a"), "--jobs", "many"}, "--jobs");
+  expect({"sweep"}, "file");
+  expect({"merge"}, "folders");
+}
+
+}  // namespace
+}  // namespace longreach
