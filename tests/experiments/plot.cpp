@@ -18,6 +18,11 @@ double height_px(const Plot& plot) {
   return kTitle_px + plot.panel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
 }
 
+std::string points_of(const Curve& curve) {
+  const std::string size = curve.size > 0.0 ? " lw 2 ps " + std::to_string(curve.size) : "";
+  return "points pt " + std::to_string(curve.mark) + size;
+}
+
 void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::size_t i) {
   const bool last = i + 1 == plot.panels.size();
   const double height = plot.panel_px / height_px(plot);
@@ -30,7 +35,7 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
     const Curve& curve = panel.curves[c];
     out << (c ? ", " : "") << "'" << plot.csv << ".csv' using (column('" << plot.x_column << "')*"
         << plot.x_factor << "):(column('" << curve.column << "')*" << curve.factor << ") with "
-        << (curve.points ? "points pt " + std::to_string(curve.mark) : "lines lw 1.6") << " lc rgb '"
+        << (curve.points ? points_of(curve) : "lines lw 1.6") << " lc rgb '"
         << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
         << "' title '" << curve.title << "'";
   }

@@ -15,6 +15,7 @@ struct Curve {
   bool points = false;  // instead of a line
   int mark = 7;         // gnuplot's point type
   int colour = -1;      // place in the palette; negative: that of the curve in its panel
+  double size = 0.0;    // of the points; 0: the panel's
 };
 
 struct Panel {

@@ -1,7 +1,8 @@
 // What a scene costs: microseconds of a step of the simulated robot and the slave's node with each scene that
-// ships, and of the contact alone where the tool touches something; then with 1 to 10,000 surfaces, at rest
-// (found through a tree of bounds) and moving (asked one after the other). The one experiment whose figures
-// are of this machine and its load.
+// ships, what it builds (1) and leaves out (0), and of the contact alone where the tool touches something;
+// then with 1 to 10,000 surfaces, at rest (found through a tree of bounds) and moving (asked one after the
+// other), and with 1 to 32 free bodies in a row, apart and touching. The one experiment whose figures are of
+// this machine and its load.
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +18,7 @@
 namespace longreach {
 namespace {
 
-constexpr int kSteps = 2000;
+constexpr int kSteps = 2000, kRowSteps = 50;
 constexpr int kRounds = 7;  // the quickest counts: the others were disturbed
 
 // Of one of `times` calls, in the quickest of the rounds.
@@ -77,6 +78,47 @@ double bodies_us(const SceneConfig& config, const Vector3& displaced_m, bool hel
   return cost_us(kSteps, [&](int) { bodies.step(tool, 1e-3); });
 }
 
+/// Balls of 1 kg and 40 mm in a row, this far apart; negative: they press on each other.
+SceneConfig row_of_balls(int count, double gap_m) {
+  SceneConfig scene;
+  scene.material = {{"hard", 1e4, 0.001, 1.5, 0.1}};
+  std::string world =
+      "<body name='tool' pos='0 1 0'><freejoint/><geom type='sphere' size='0.02' mass='1' "
+      "material='hard'/></body>\n";
+  for (int i = 0; i < count; ++i) {
+    world += "<body name='ball" + std::to_string(i) + "' pos='" + std::to_string((0.04 + gap_m) * i) +
+             " 0 0'><freejoint/><geom type='sphere' size='0.02' mass='1' material='hard'/></body>\n";
+  }
+  scene.bodies.emplace();
+  scene.bodies->mjcf_file = "row.xml";
+  scene.bodies->file = {{"row.xml",
+                         "<mujoco>\n<option gravity='0 0 0'/>\n<asset><material name='hard'/></asset>\n"
+                         "<worldbody>\n" +
+                             world + "</worldbody>\n</mujoco>\n"}};
+  return scene;
+}
+
+/// Of a step that begins with the row as it was made.
+double row_us(int count, double gap_m) {
+  Bodies bodies(row_of_balls(count, gap_m), Pose{});
+  const Pose away{{0.0, 1.0, 0.0}, Quaternion::Identity()};
+  return cost_us(kRowSteps, [&](int) {
+    for (int i = 0; i < count; ++i) bodies.place(i, bodies.body(i).X_start);
+    bodies.step(away, 1e-3);
+  });
+}
+
+void bodies_growth(const ExperimentRun& run, std::vector<Metric>& metrics) {
+  Trace trace(run.out, "scenes_cost_bodies", {"bodies", "apart_us", "touching_us"});
+  for (const int count : {1, 2, 4, 8, 16, 32}) {
+    const double apart = row_us(count, 1e-3), touching = row_us(count, -1e-4);
+    trace.row({static_cast<double>(count), apart, touching});
+    metrics.push_back({std::to_string(count) + "_bodies_apart_us", apart, "bodies alone", true});
+    metrics.push_back({std::to_string(count) + "_bodies_touching_us", touching, "bodies alone", true});
+  }
+  trace.close();
+}
+
 Scene many(int count, bool moving) {
   SceneConfig config;
   config.material.push_back({.name = "m"});
@@ -115,7 +157,15 @@ std::vector<Plot> scenes_cost_plots() {
                    "set logscale xy\nset yrange [0.005:1000]\nset format y '%g'"},
                   {"distances computed",
                    {{"resting_asked", "at rest"}, {"moving_asked", "moving"}},
-                   "set logscale xy\nset yrange [0.01:20000]\nset format y '%g'"}}}};
+                   "set logscale xy\nset yrange [0.01:20000]\nset format y '%g'"}}},
+      {.name = "scenes_cost_bodies",
+       .csv = "scenes_cost_bodies",
+       .title = "Free bodies in a row",
+       .x_column = "bodies",
+       .x_label = "bodies",
+       .panels = {{"time of a step (µs)",
+                   {{"apart_us", "apart"}, {"touching_us", "each touching the next"}},
+                   "set logscale xy\nset format y '%g'"}}}};
 }
 
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
@@ -126,6 +176,10 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     resolve_files(message, find_deploy_folder());
     const SlaveConfig config = to_struct(message);
     metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node", true});
+    const NeedsConfig built = needs(config.scene);
+    metrics.push_back({name + "_builds_contact", built.contact ? 1.0 : 0.0, "sensor, estimator"});
+    metrics.push_back({name + "_builds_rotation", built.rotation ? 1.0 : 0.0, "contact by rotation"});
+    metrics.push_back({name + "_builds_bodies", config.scene.bodies ? 1.0 : 0.0, "free bodies, MuJoCo"});
     if (config.scene.bodies) {
       const Vector3 docking_m{0.441, -0.45, 0.05};  // of scene dock: the striker presses the keeper
       metrics.push_back(
@@ -151,6 +205,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone", true});
   }
   trace.close();
+  bodies_growth(run, metrics);
   return metrics;
 }
 

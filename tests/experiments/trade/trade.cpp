@@ -23,19 +23,23 @@ const std::vector<TradeStage>& stages() {
 
 std::string trace_name(const TradeStage& stage) { return "trade_" + std::string(stage.name); }
 
-/// One row a point: its error in the column of its series, so that each is drawn with its own mark.
-void write(const ExperimentRun& run, const TradeStage& stage, std::vector<TradePoint> points) {
-  std::vector<bool> front;
-  std::ranges::stable_sort(points, {}, &TradePoint::cost);
-  for (std::size_t i = 0; i < points.size(); ++i) front.push_back(on_front(points, i));
+/// One row a point, those of the front first, by their cost, so that a line can join them; its error in the
+/// column of its series, so that each is drawn with its own mark.
+void write(const ExperimentRun& run, const TradeStage& stage, const std::vector<TradePoint>& points) {
+  struct Row {
+    const TradePoint* point;
+    bool on_front;
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < points.size(); ++i) rows.push_back({&points[i], on_front(points, i)});
+  std::ranges::stable_sort(rows, {}, [](const Row& r) { return std::pair(!r.on_front, r.point->cost); });
   std::vector<std::string_view> columns{"cost", "instructions", "front", "standard"};
   columns.insert(columns.end(), stage.series.begin(), stage.series.end());
   Trace trace(run.out, trace_name(stage), columns);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const TradePoint& p = points[i];
-    const double shown = std::max(p.error, 1e-17);  // on a logarithmic axis
-    std::vector<double> row{p.cost, p.instructions, front[i] ? shown : NAN, p.standard ? shown : NAN};
-    for (const std::string_view series : stage.series) row.push_back(p.series == series ? shown : NAN);
+  for (const auto& [p, front] : rows) {
+    const double shown = std::max(p->error, 1e-17);  // on a logarithmic axis
+    std::vector<double> row{p->cost, p->instructions, front ? shown : NAN, p->standard ? shown : NAN};
+    for (const std::string_view series : stage.series) row.push_back(p->series == series ? shown : NAN);
     trace.row(row);
   }
   trace.close();
@@ -71,8 +75,7 @@ Plot plot_of(const TradeStage& stage) {
     curves.push_back({std::string(stage.series[i]), title, 1.0, true, kMarks[i % std::size(kMarks)],
                       static_cast<int>(i % 5)});
   }
-  curves.push_back({"standard", "default", 2.2, true, 6, 1});
-  curves.back().factor = 1.0;
+  curves.push_back({"standard", "default", 1.0, true, 6, 1, 2.4});
   const std::string error = std::string(stage.error) + " (" + std::string(stage.error_unit) + ")";
   return {
       .name = trace_name(stage),
