@@ -19,15 +19,6 @@ TEST(Trade, AFrontIsWhatNothingElseBeats) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(on_front(points, i), expected[i]) << i;
 }
 
-TEST(Trade, InstructionsDecideWhereBothHaveThem) {
-  std::vector<TradePoint> points{point(1, 1), point(2, 1)};
-  points[0].instructions = 200;
-  EXPECT_TRUE(on_front(points, 0));
-  points[1].instructions = 100;
-  EXPECT_FALSE(on_front(points, 0));
-  EXPECT_TRUE(on_front(points, 1));
-}
-
 TEST(Trade, InstructionsAreCountedExactly) {
   volatile double sum = 0.0;
   const auto add = [&sum](int times) {

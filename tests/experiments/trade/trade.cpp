@@ -94,9 +94,7 @@ Plot plot_of(const TradeStage& stage) {
 bool on_front(const std::vector<TradePoint>& points, std::size_t which) {
   const TradePoint& self = points[which];
   return std::ranges::none_of(points, [&self](const TradePoint& p) {
-    const bool counted = std::isfinite(p.instructions) && std::isfinite(self.instructions);
-    const double cost = counted ? p.instructions : p.cost, own = counted ? self.instructions : self.cost;
-    return cost <= own && p.error <= self.error && (cost < own || p.error < self.error);
+    return p.cost <= self.cost && p.error <= self.error && (p.cost < self.cost || p.error < self.error);
   });
 }
 

@@ -31,8 +31,7 @@ struct TradeStage {
   std::vector<TradePoint> (*measure)(const ExperimentRun& run);
 };
 
-/// Whether no other point is cheaper and as accurate, or as cheap and more accurate. Cost are the
-/// instructions where both have them.
+/// Whether no other point is cheaper and as accurate, or as cheap and more accurate.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 
 // The stages, one file each.
