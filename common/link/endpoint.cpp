@@ -10,9 +10,9 @@ namespace {
 
 using std::chrono::seconds;
 
-// Longer than the longest link that can be configured (100 s each way): whatever exceeds it is not a round
-// trip.
-constexpr Duration kRttMax = seconds(200);
+// Longer than the longest link that can be configured (each way 100 s, a step of 100 s, jitter, a queue and
+// the turns of both sides): whatever exceeds it is not a round trip.
+constexpr Duration kRttMax = seconds(600);
 
 constexpr std::size_t index_of(DatagramType type) { return static_cast<std::size_t>(type) - 1; }
 

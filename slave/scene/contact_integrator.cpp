@@ -155,7 +155,9 @@ NormalStep step_contact(Integrator integrator, const ContactMass& contact, const
   if (integrator != Integrator::kDiscreteGradient)
     step.external_work_j = external_n * (step.motion.depth_m - from.depth_m);
   const double sum = step.motion.depth_m + step.motion.speed_m_per_s + step.external_work_j;
-  if (std::isfinite(sum)) return step;
+  const bool law =
+      std::isfinite(contact.law.k) && std::isfinite(contact.law.n) && std::isfinite(contact.law.a);
+  if (law && std::isfinite(sum)) return step;
   return {from, 0.0, step.evaluations, false};
 }
 

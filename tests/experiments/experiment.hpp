@@ -113,5 +113,7 @@ std::vector<Metric> run_trade(const ExperimentRun& run);
 std::vector<Plot> trade_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);
 std::vector<Plot> docking_plots();
+std::vector<Metric> run_extremes(const ExperimentRun& run);
+std::vector<Plot> extremes_plots();
 
 }  // namespace longreach
