@@ -70,6 +70,25 @@ const std::vector<Experiment> kExperiments = {
      run_scale_steps, scale_steps_plots, "",
      "{scale_steps} steps of the scale: the goal steps by {goal_step_max_m} m, the force by "
      "{force_step_max_n} N; friction within {friction_error_max*100} % of f / k_scale"},
+    {"path-task",
+     "Simulated operators on a path to targets: rate, position and hybrid, across the delay, with a ghost.",
+     run_path_task, path_task_plots, "Fig. 19, Table 2",
+     "{operators} simulated operators, 2.6 s away: rate {rate_time_s_at_2.6} s and "
+     "{rate_error_m_at_2.6*1e3} mm off the way, position {position_time_s_at_2.6} s and "
+     "{position_error_m_at_2.6*1e3} mm, hybrid {hybrid_time_s_at_2.6} s and {hybrid_error_m_at_2.6*1e3} mm; "
+     "with the ghost {ghost_hybrid_time_s_at_2.6} s; in the mean hybrid is faster than position at "
+     "{hybrid_gains_on_position_delays} and nearer to the way than rate at {hybrid_gains_on_rate_delays} "
+     "of 4 delays (p < 0.05 at {hybrid_gains_on_position_delays_surely} and "
+     "{hybrid_gains_on_rate_delays_surely})"},
+    {"mapping-trade",
+     "The trade of the mapping: time against error over kv, k_scale, the dead zone and where hybrid changes.",
+     run_mapping_trade, mapping_trade_plots, "",
+     "{rtt_s} s away: rate {rate_kv_per_s_error_m_at_0.5*1e3} mm off the way at kv 0.5/s, "
+     "{rate_kv_per_s_error_m_at_4*1e3} mm at 4/s; position {position_k_scale_time_s_at_0.2} s and "
+     "{position_k_scale_error_m_at_0.2*1e3} mm at k_scale 0.2, {position_k_scale_time_s_at_1} s and "
+     "{position_k_scale_error_m_at_1*1e3} mm at 1; hybrid {hybrid_near_sd_time_s_at_0} s and "
+     "{hybrid_near_sd_error_m_at_0*1e3} mm in rate up to the target, {hybrid_near_sd_time_s_at_4} s and "
+     "{hybrid_near_sd_error_m_at_4*1e3} mm if left 4 sd before"},
     {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.",
      run_fk_network, fk_network_plots, "",
      "largest error: tracking {tracking_error_max_rad} rad, network {network_error_max_rad} rad, network and "

@@ -18,7 +18,9 @@ double height_px(const Plot& plot) {
   return kTitle_px + plot.panel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
 }
 
-std::string points_of(const Curve& curve) {
+std::string style_of(const Curve& curve) {
+  if (!curve.low.empty()) return "yerrorlines lw 1.6 pt " + std::to_string(curve.mark);
+  if (!curve.points) return "lines lw 1.6";
   const std::string size = curve.size > 0.0 ? " lw 2 ps " + std::to_string(curve.size) : "";
   return "points pt " + std::to_string(curve.mark) + size;
 }
@@ -33,9 +35,17 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
   out << "set yrange [*:*]\nset pointsize 0.7\n" << panel.extra << "\nplot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
-    out << (c ? ", " : "") << "'" << plot.csv << ".csv' using (column('" << plot.x_column << "')*"
-        << plot.x_factor << "):(column('" << curve.column << "')*" << curve.factor << ") with "
-        << (curve.points ? points_of(curve) : "lines lw 1.6") << " lc rgb '"
+    const auto y = [&](const std::string& column) {
+      out << ":(column('" << column << "')*" << curve.factor << ")";
+    };
+    out << (c ? ", " : "") << "'" << (curve.csv.empty() ? plot.csv : curve.csv) << ".csv' using (column('"
+        << plot.x_column << "')*" << plot.x_factor << ")";
+    y(curve.column);
+    if (!curve.low.empty()) {
+      y(curve.low);
+      y(curve.high);
+    }
+    out << " with " << style_of(curve) << " lc rgb '"
         << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
         << "' title '" << curve.title << "'";
   }

@@ -11,11 +11,13 @@ namespace longreach {
 struct Curve {
   std::string column;  // of the CSV file
   std::string title;
-  double factor = 1.0;  // from the column's unit to the axis's
-  bool points = false;  // instead of a line
-  int mark = 7;         // gnuplot's point type
-  int colour = -1;      // place in the palette; negative: that of the curve in its panel
-  double size = 0.0;    // of the points; 0: the panel's
+  double factor = 1.0;        // from the column's unit to the axis's
+  bool points = false;        // instead of a line
+  int mark = 7;               // gnuplot's point type
+  int colour = -1;            // place in the palette; negative: that of the curve in its panel
+  double size = 0.0;          // of the points; 0: the panel's
+  std::string csv{};          // trace of its own; empty: the plot's
+  std::string low{}, high{};  // columns of error bars; empty: none
 };
 
 struct Panel {

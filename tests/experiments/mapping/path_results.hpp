@@ -1,0 +1,37 @@
+#pragma once
+// What simulated operators did in one way of working: a figure for each, the mean of his trials.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/experiments/experiment.hpp"
+#include "tests/experiments/mapping/path_trial.hpp"
+#include "tests/experiments/mapping/sample.hpp"
+
+namespace longreach {
+
+struct PathSample {
+  std::vector<double> time_s, error_m, target_error_m;  // of each operator
+  double moves = 0.0, relocations = 0.0;                // a trial, mean
+  int unfinished = 0;                                   // trials
+};
+
+struct PathSize {
+  int persons = 20, trials = 2;
+  static PathSize chosen();  // by LONGREACH_FULL
+};
+
+/// Runs `c` with each operator; `done` is called after each trial.
+PathSample sample_paths(const proto::LabConfig& config, PathCase c, PathSize size,
+                        const std::function<void()>& done);
+
+/// a - b of each.
+std::vector<double> paired(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Mean and standard deviation over the operators, as NAME_SUFFIX and NAME_sd_SUFFIX.
+void add_spread(std::vector<Metric>& metrics, const std::string& name, const std::string& suffix,
+                const std::vector<double>& sample, const std::string& unit);
+
+}  // namespace longreach
