@@ -243,16 +243,16 @@ std::ostream& operator<<(std::ostream& out, const Blackout& b) {
              << (b.down ? ", down" : "");
 }
 
-/// Gap timer 0.15 s, silence 0.5 s, resume 1 s: a silence up to the gap is none; the slave's hold ends within
-/// 1.15 s of the last command, the master's within 1.5 s of the last news.
+/// Gap timer 0.1 s, silence 0.5 s, resume 1 s: a silence up to the gap is none; the slave's hold ends within
+/// 1.1 s of the last command, the master's within 1.5 s of the last news.
 std::vector<Blackout> blackouts() {
   std::vector<Blackout> all;
   const double longest_s = campaign(1800, 6);
   for (const double delay_s : {0.01, 1.3}) {
-    for (const double s : {0.1, 0.2, 0.4, 0.45, 0.6, 0.9, 1.05, 1.25, 1.4, 1.7, 3.0, longest_s}) {
-      if (delay_s > 1.0 && s != 0.1 && s != 0.9 && s != 1.25 && s != 3.0) continue;
-      all.push_back({delay_s, true, true, s, s < 1.15});
-      all.push_back({delay_s, true, false, s, s < 1.15});
+    for (const double s : {0.08, 0.2, 0.4, 0.45, 0.6, 0.9, 1.05, 1.25, 1.4, 1.7, 3.0, longest_s}) {
+      if (delay_s > 1.0 && s != 0.08 && s != 0.9 && s != 1.25 && s != 3.0) continue;
+      all.push_back({delay_s, true, true, s, s < 1.1});
+      all.push_back({delay_s, true, false, s, s < 1.1});
       all.push_back({delay_s, false, true, s, s < 1.5});
     }
   }
@@ -271,7 +271,7 @@ TEST(Safety, ABlackoutEndsAsTheTableSays) {
     run(*lab, 2.0 + 6.0 * b.delay_s);
     ASSERT_TRUE(both(*lab, State::kEngaged)) << b;
     *cut = {b.up, b.down};
-    const bool held = b.up && b.seconds > 0.16;
+    const bool held = b.up && b.seconds > 0.11;
     run(*lab, b.seconds);
     *cut = {};
     const bool seen = held && b.seconds > b.delay_s;

@@ -78,7 +78,7 @@ TEST(SlaveSafety, HoldsWithTheCauseOfEachDemand) {
   {
     Drill d = engaged();
     d.silent = true;
-    d.tick(149);
+    d.tick(99);
     EXPECT_EQ(d.state(), SafetyState::kEngaged);
     d.tick(3);
     EXPECT_EQ(d.state(), SafetyState::kHolding);
