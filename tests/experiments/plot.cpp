@@ -18,6 +18,13 @@ double height_px(const Plot& plot) {
   return kTitle_px + plot.panel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
 }
 
+/// As gnuplot reads it.
+std::string in_quotes(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string style_of(const Curve& curve) {
   if (!curve.low.empty()) return "yerrorlines lw 1.6 pt " + std::to_string(curve.mark);
   if (!curve.points) return "lines lw 1.6";
@@ -30,8 +37,9 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
   const double height = plot.panel_px / height_px(plot);
   const double top = 1.0 - (kTitle_px + static_cast<double>(i) * plot.panel_px) / height_px(plot);
   out << "set tmargin at screen " << top << "\nset bmargin at screen " << top - 0.86 * height << '\n';
-  out << "set ylabel '" << panel.y_label << "' offset 0.5,0\n";
-  out << (last ? "set format x '%g'\nset xlabel '" + plot.x_label + "'\n" : "set format x ''\nset xlabel\n");
+  out << "set ylabel " << in_quotes(panel.y_label) << " offset 0.5,0\n";
+  out << (last ? "set format x '%g'\nset xlabel " + in_quotes(plot.x_label) + "\n"
+               : "set format x ''\nset xlabel\n");
   out << "set yrange [*:*]\nset pointsize 0.7\n" << panel.extra << "\nplot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
@@ -47,7 +55,7 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
     }
     out << " with " << style_of(curve) << " lc rgb '"
         << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
-        << "' title '" << curve.title << "'";
+        << "' title " << in_quotes(curve.title);
   }
   out << '\n';
 }
@@ -63,8 +71,8 @@ std::string draw(const std::filesystem::path& folder, const Plot& plot) {
         << "set title\nset grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n"
         << "set key outside right top samplen 1.5 width -2\nset lmargin at screen 0.10\nset rmargin at "
            "screen 0.78\n"
-        << "set label 1 '" << plot.title << "' at screen 0.10," << 1.0 - 0.55 * kTitle_px / height_px(plot)
-        << " font 'sans,15'\n"
+        << "set label 1 " << in_quotes(plot.title) << " at screen 0.10,"
+        << 1.0 - 0.55 * kTitle_px / height_px(plot) << " font 'sans,15'\n"
         << "set multiplot\n";
     for (std::size_t i = 0; i < plot.panels.size(); ++i) {
       write_panel(out, plot, plot.panels[i], i);

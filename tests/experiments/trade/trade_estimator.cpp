@@ -42,7 +42,10 @@ TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vect
   for (const test::Samples& record : records) {
     Identifier identifier(way.config);
     for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
-    identifier.answer();
+    if (!identifier.answer().valid) {
+      point.error += 1.0 / kRecords;
+      continue;
+    }
     const double error =
         identifier.answer_at(way.config.surface_known ? x : identifier.depth_of(5.0)).stiffness.value /
             right -
