@@ -175,8 +175,7 @@ void require_device(const DeviceConfig& device) {
 
 int operate(const MasterOptions& options) {
   const auto config = load_config<proto::MasterConfig>(
-      with_shorthands(options), &proto::LinkProfile::down,
-      [](proto::MasterConfig& c) { resolve_files(c, find_deploy_folder()); });
+      with_shorthands(options), [](proto::MasterConfig& c) { resolve_files(c, find_deploy_folder()); });
   require_device(to_struct(config).device);
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);

@@ -77,8 +77,7 @@ int pair(const SlaveOptions& options) {
 int serve(const SlaveOptions& options) {
   if (options.pair) return pair(options);
   const auto config = load_config<proto::SlaveConfig>(
-      options, &proto::LinkProfile::up,
-      [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
+      options, [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);
     return 0;

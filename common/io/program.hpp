@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/config/config.hpp"
+#include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
 #include "common/io/site.hpp"
 
@@ -80,18 +81,14 @@ inline bool concerns_named_file(const std::string& setting) {
   return setting.starts_with("scene.") || setting.starts_with("robot.");
 }
 
-/// The file, over it the profile's direction, over it the settings; `resolve` reads the files that it names,
+/// The file, over it the profile, over it the settings; `resolve` reads the files that it names,
 /// before the settings that change what they say. Throws ConfigError.
 template <class Message, class Resolve>
-Message load_config(const ProgramOptions& options,
-                    const proto::Impairment& (proto::LinkProfile::*direction)() const,
-                    const Resolve& resolve) {
+Message load_config(const ProgramOptions& options, const Resolve& resolve) {
   Message message;
   if (!options.config.empty()) load_text_file(options.config, message);
-  if (!options.profile.empty()) {
-    const proto::LinkProfile profile = load_link_profile(find_deploy_folder(), options.profile);
-    *message.mutable_link()->mutable_impairment() = (profile.*direction)();
-  }
+  if (!options.profile.empty())
+    take_profile(*message.mutable_link(), load_link_profile(find_deploy_folder(), options.profile));
   for (const std::string& setting : options.settings) {
     if (!concerns_named_file(setting)) apply_setting(message, setting);
   }

@@ -9,6 +9,7 @@
 
 #include "commit.hpp"
 #include "common/config/config.hpp"
+#include "common/config/link_profile.hpp"
 #include "tests/experiments/name_hash.hpp"
 
 namespace longreach {
@@ -191,8 +192,8 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
     if (chooses(setting)) set_lab_field(config, setting);
   }
   const proto::LinkProfile profile = load_link_profile(deploy_folder, config.profile());
-  *config.mutable_slave()->mutable_link()->mutable_impairment() = profile.up();
-  *config.mutable_master()->mutable_link()->mutable_impairment() = profile.down();
+  take_profile(*config.mutable_slave()->mutable_link(), profile);
+  take_profile(*config.mutable_master()->mutable_link(), profile);
   config.mutable_master()->mutable_safety()->set_engage_at_start(true);
   resolve_files(*config.mutable_master(), deploy_folder);
   resolve_files(*config.mutable_slave(), deploy_folder);

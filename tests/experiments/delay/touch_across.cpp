@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/config/config.hpp"
+#include "common/config/link_profile.hpp"
 #include "tests/experiments/delay/delay_grid.hpp"
 #include "tests/experiments/laboratory.hpp"
 
@@ -22,8 +23,8 @@ ExperimentRun across(const ExperimentRun& run, const proto::LinkProfile& link, d
   out.seed = run.seed;
   proto::MasterConfig& master = *out.config.mutable_master();
   proto::SlaveConfig& slave = *out.config.mutable_slave();
-  *master.mutable_link()->mutable_impairment() = link.down();
-  *slave.mutable_link()->mutable_impairment() = link.up();
+  take_profile(*master.mutable_link(), link);
+  take_profile(*slave.mutable_link(), link);
   master.mutable_rendering()->set_law(proto::Rendering::STIFFNESS);
   // A hand that lets go was a light one.
   master.mutable_hand()->set_grip(grip == Grip::kFirm ? proto::Hand::FIRM : proto::Hand::LIGHT);

@@ -1,0 +1,24 @@
+#include "common/config/link_profile.hpp"
+
+namespace longreach {
+namespace {
+
+template <class Link>
+void take(Link& link, const proto::Impairment& in, const proto::Impairment& out) {
+  constexpr double kShare = 0.95;
+  *link.mutable_impairment() = in;
+  if (!link.has_budget_kbit_per_s() && out.rate_bit_per_s() > 0.0)
+    link.set_budget_kbit_per_s(kShare * 1e-3 * out.rate_bit_per_s());
+}
+
+}  // namespace
+
+void take_profile(proto::MasterLink& link, const proto::LinkProfile& profile) {
+  take(link, profile.down(), profile.up());
+}
+
+void take_profile(proto::SlaveLink& link, const proto::LinkProfile& profile) {
+  take(link, profile.up(), profile.down());
+}
+
+}  // namespace longreach
