@@ -108,7 +108,7 @@ TEST(ChildProcesses, AJobThatThrowsAbortsOrCrashesFailsAloneAndSaysWhy) {
                            [](std::size_t job) {
                              if (job == 1) throw std::runtime_error("no such wall");
                              if (job == 2) std::fprintf(stderr, "before\nit is broken\n"), std::abort();
-                             if (job == 3) raise(SIGSEGV);
+                             if (job == 3) raise(SIGKILL);
                              if (job == 4) _exit(7);
                            },
                        .ended = [&](std::size_t job, const std::string& why) { ended[job] = why; },
@@ -117,7 +117,7 @@ TEST(ChildProcesses, AJobThatThrowsAbortsOrCrashesFailsAloneAndSaysWhy) {
   const std::map<std::size_t, std::string> expected = {{0, ""},
                                                        {1, "no such wall"},
                                                        {2, "it was ended by Aborted: it is broken"},
-                                                       {3, "it was ended by Segmentation fault"},
+                                                       {3, "it was ended by Killed"},
                                                        {4, "it failed without a word"},
                                                        {5, ""}};
   EXPECT_EQ(ended, expected);
