@@ -14,24 +14,16 @@
 #include "slave/slave_node.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/trace.hpp"
+#include "tests/experiments/trade/cost.hpp"
 
 namespace longreach {
 namespace {
 
 constexpr int kSteps = 2000, kRowSteps = 50;
-constexpr int kRounds = 7;  // the quickest counts: the others were disturbed
 
-// Of one of `times` calls, in the quickest of the rounds.
 template <class Call>
 double cost_us(int times, Call&& call) {
-  double best = 1e300;
-  for (int round = 0; round < kRounds; ++round) {
-    const auto began = std::chrono::steady_clock::now();
-    for (int i = 0; i < times; ++i) call(i);
-    const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - began;
-    best = std::min(best, spent.count() / times);
-  }
-  return best;
+  return 1e-3 * cost_ns(times, call);
 }
 
 double slave_step_us(const SlaveConfig& config) {
