@@ -1,5 +1,6 @@
 // On a pseudo terminal: the keyboard and the view change it and give it back, however the program ends.
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <termios.h>
@@ -34,10 +35,17 @@ struct Pty {
     EXPECT_EQ(::tcgetattr(inner, &present), 0);
     return present;
   }
+  // The system passes on what was written a little later.
   [[nodiscard]] std::string seen() const {
-    std::array<char, 65536> bytes{};
-    const ssize_t n = ::read(outer, bytes.data(), bytes.size());
-    return n > 0 ? std::string(bytes.data(), static_cast<std::size_t>(n)) : std::string();
+    std::string text;
+    pollfd wait{outer, POLLIN, 0};
+    while (::poll(&wait, 1, text.empty() ? 500 : 20) > 0) {
+      std::array<char, 65536> bytes{};
+      const ssize_t n = ::read(outer, bytes.data(), bytes.size());
+      if (n <= 0) break;
+      text.append(bytes.data(), static_cast<std::size_t>(n));
+    }
+    return text;
   }
 };
 
