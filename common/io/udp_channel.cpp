@@ -47,45 +47,23 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
   }
   // Less than asked for is fine.
   socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);
-  for (std::size_t i = 0; i < kBatch; ++i) {
-    batch_.parts[i] = {batch_.bytes[i].data(), batch_.bytes[i].size()};
-    batch_.messages[i].msg_hdr.msg_name = &batch_.senders[i];
-    batch_.messages[i].msg_hdr.msg_iov = &batch_.parts[i];
-    batch_.messages[i].msg_hdr.msg_iovlen = 1;
-  }
 }
 
-/// The next batch; false: nothing is there.
-bool UdpChannel::refill() {
-  const bool was_all = batch_.count > 0 && batch_.count < kBatch;
-  batch_.count = batch_.next = 0;
-  if (was_all) return false;
-  // The system writes over the lengths.
-  for (std::size_t i = 0; i < kBatch; ++i) batch_.messages[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
-  // MSG_TRUNC: the true size, also of what was cut.
-  const int count =
-      ::recvmmsg(socket_.native_handle(), batch_.messages.data(), kBatch, MSG_DONTWAIT | MSG_TRUNC, nullptr);
-  batch_.count = static_cast<std::size_t>(std::max(count, 0));
-  return batch_.count > 0;
-}
-
+// Not by Asio: it does not tell the true size of what was cut.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
   for (int i = 0; i < kStrangersPerReceive; ++i) {
-    if (batch_.next == batch_.count && !refill()) return std::nullopt;
-    const std::size_t k = batch_.next++;
-    const std::size_t size = batch_.messages[k].msg_len;
     asio::ip::udp::endpoint sender;
-    const auto length = std::min<std::size_t>(batch_.messages[k].msg_hdr.msg_namelen, sender.capacity());
-    std::memcpy(sender.data(), &batch_.senders[k], length);
+    auto length = static_cast<socklen_t>(sender.capacity());
+    const ssize_t size = ::recvfrom(socket_.native_handle(), buffer.data(), buffer.size(),
+                                    MSG_DONTWAIT | MSG_TRUNC, sender.data(), &length);
+    if (size < 0) return std::nullopt;
     if (fixed_peer_ && sender != *peer_) {
       ++strangers_;
       continue;
     }
     origin_ = {};
     std::memcpy(origin_.data(), sender.data(), std::min(sender.size(), origin_.size()));
-    std::copy_n(batch_.bytes[k].begin(), std::min({size, buffer.size(), batch_.bytes[k].size()}),
-                buffer.begin());
-    return size;
+    return static_cast<std::size_t>(size);
   }
   return std::nullopt;
 }

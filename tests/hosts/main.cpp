@@ -1,31 +1,51 @@
-// longreach-wire: delays and drops what the rule `-j NFQUEUE` hands it in this network namespace: whole IP
-// packets, so handshakes, segments and acknowledgements of TCP as well as datagrams. It shares no code with
+// longreach-wire: delays and drops whole IP packets between two hosts: handshakes, segments and
+// acknowledgements of TCP as well as datagrams. They come from the rule `-j NFQUEUE` in its own network
+// namespace, or, with --relay, it is the cable between two namespaces. It shares no code with
 // common/link/impairment, which it checks. Ends on SIGTERM or SIGINT and says what it did.
 //
 // Not here: jitter, reordering, rate. A packet waits at least the delay, and longer by as much as this
 // program is scheduled late. What is on its way when it ends is lost.
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
+#include <vector>
 
 #include "tests/hosts/packet_queue.hpp"
+#include "tests/hosts/packet_relay.hpp"
 
 namespace {
 
 volatile std::sig_atomic_t ended = 0;
 void end(int) { ended = 1; }
 
+template <class Wire>
+void serve(Wire wire) {
+  std::puts("ready");
+  std::fflush(stdout);
+  while (ended == 0) wire->step();
+  std::fprintf(stderr, "longreach-wire: packets=%llu dropped=%llu\n",
+               static_cast<unsigned long long>(wire->packets()),
+               static_cast<unsigned long long>(wire->dropped()));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Delays and drops the packets that iptables -j NFQUEUE hands it.", "longreach-wire"};
+  CLI::App app{"Delays and drops packets between two hosts.", "longreach-wire"};
   longreach::WireConfig config;
+  std::uint16_t queue = 0;
+  std::vector<pid_t> hosts;
   app.add_option("--delay", config.delay_s, "how long each packet waits, s")->check(CLI::Range(0.0, 100.0));
   app.add_option("--loss", config.loss, "fraction that is dropped")->check(CLI::Range(0.0, 1.0));
   app.add_option("--seed", config.seed, "of the choice what is dropped");
-  app.add_option("--queue", config.queue, "number of the queue, as in iptables --queue-num");
+  auto* number = app.add_option("--queue", queue, "number of the queue, as in iptables --queue-num");
+  app.add_option("--relay", hosts, "be the cable between the network namespaces of two processes: PID PID")
+      ->expected(2)
+      ->excludes(number);
   CLI11_PARSE(app, argc, argv);
 
   struct sigaction action {};
@@ -33,13 +53,10 @@ int main(int argc, char** argv) {
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   try {
-    longreach::PacketQueue queue(config);
-    std::puts("ready");
-    std::fflush(stdout);
-    while (ended == 0) queue.step();
-    std::fprintf(stderr, "longreach-wire: packets=%llu dropped=%llu\n",
-                 static_cast<unsigned long long>(queue.packets()),
-                 static_cast<unsigned long long>(queue.dropped()));
+    if (hosts.empty())
+      serve(std::make_unique<longreach::PacketQueue>(config, queue));
+    else
+      serve(std::make_unique<longreach::PacketRelay>(config, std::array{hosts[0], hosts[1]}));
   } catch (const std::exception& e) {
     std::fprintf(stderr, "longreach-wire: %s\n", e.what());
     return 1;

@@ -31,7 +31,7 @@ constexpr auto kLongestWait = std::chrono::milliseconds(100);
 
 void PacketQueue::Close::operator()(nfq_handle* handle) const { nfq_close(handle); }
 
-PacketQueue::PacketQueue(const WireConfig& config)
+PacketQueue::PacketQueue(const WireConfig& config, std::uint16_t number)
     : config_(config),
       delay_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(config.delay_s))),
       random_(config.seed),
@@ -42,8 +42,8 @@ PacketQueue::PacketQueue(const WireConfig& config)
       static_cast<PacketQueue*>(self)->take(ntohl(header->packet_id));
     return 0;
   };
-  queue_ = nfq_create_queue(handle_.get(), config.queue, callback, this);
-  if (queue_ == nullptr) refuse("no packet queue " + std::to_string(config.queue));
+  queue_ = nfq_create_queue(handle_.get(), number, callback, this);
+  if (queue_ == nullptr) refuse("no packet queue " + std::to_string(number));
   // The kernel keeps the packets: their bytes do not come here.
   if (nfq_set_mode(queue_, NFQNL_COPY_META, 0) < 0 || nfq_set_queue_maxlen(queue_, kPacketsMax) < 0)
     refuse("the packet queue takes no settings");

@@ -8,22 +8,17 @@
 #include <memory>
 #include <random>
 
+#include "tests/hosts/wire_config.hpp"
+
 struct nfq_handle;
 struct nfq_q_handle;
 
 namespace longreach {
 
-struct WireConfig {
-  double delay_s = 0.0;
-  double loss = 0.0;  // fraction, independent from packet to packet
-  std::uint64_t seed = 1;
-  std::uint16_t queue = 0;
-};
-
 class PacketQueue {
  public:
   /// Throws std::runtime_error, one sentence, where the kernel or the rights do not permit it.
-  explicit PacketQueue(const WireConfig& config);
+  PacketQueue(const WireConfig& config, std::uint16_t number);
   ~PacketQueue();
   PacketQueue(const PacketQueue&) = delete;
   PacketQueue& operator=(const PacketQueue&) = delete;

@@ -91,8 +91,11 @@ Seen look(HostsRun& hosts) {
   return seen;
 }
 
-TEST(Hosts, OurImpairmentMakesTheFiguresThatARealLinkMakes) {
-  HostsRun real({"--delay", "150ms", "--loss", "10%", "--seconds", "120"});
+/// What keeps the packets under way: the kernel where it can, or we.
+class HostsWire : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(HostsWire, MakesTheFiguresThatOurImpairmentMakes) {
+  HostsRun real({"--delay", "150ms", "--loss", "10%", "--seconds", "120", "--wire", GetParam()});
   HostsRun ours({"--seconds", "120"});
   ASSERT_TRUE(real.up() && ours.up()) << real.all() << ours.all();
   ASSERT_TRUE(real.shows(" Engaged ", seconds(60)) && ours.shows(" Engaged ", seconds(60)))
@@ -113,6 +116,9 @@ TEST(Hosts, OurImpairmentMakesTheFiguresThatARealLinkMakes) {
   EXPECT_NEAR(a.loss_down, 0.1, 0.077);
   EXPECT_NEAR(b.loss_down, 0.1, 0.077);
 }
+
+INSTANTIATE_TEST_SUITE_P(Hosts, HostsWire, ::testing::Values("auto", "relay"),
+                         [](const auto& kind) { return std::string(kind.param); });
 
 bool gone(int id, seconds timeout) {
   const auto deadline = std::chrono::steady_clock::now() + timeout;
@@ -145,6 +151,7 @@ TEST(Hosts, SayWhatIsWrongWithAnOptionAndWithoutTheRightToMakeNamespaces) {
   const std::string hosts = std::string(LONGREACH_DEPLOY) + "/hosts";
   refused(hosts, {"--delay", "soon"}, "--delay wants a time");
   refused(hosts, {"--loss", "much"}, "--loss wants a fraction");
+  refused(hosts, {"--wire", "rope"}, "--wire wants auto, queue or relay");
   refused(hosts, {"--operator", "ghost"}, "--operator wants script or keyboard");
   refused(hosts, {"--operator", "keyboard"}, "needs a terminal");
   refused(hosts, {"--bin", LONGREACH_DEPLOY}, "has no longreach-master");
