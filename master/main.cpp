@@ -185,8 +185,10 @@ int operate(const MasterOptions& options) {
   set_up_log("master", options.log);
   const MasterConfig plain = to_struct(config);
   const RpcSecurity security = security_of(options, RpcRole::kMaster);
-  MasterShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
-  MasterService service(shell, config);
+  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
+  MasterShell shell(plain, seed);
+  MasterService service(shell, config, {options.recordings, seed});
+  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   RpcServer rpc(plain.rpc.listen, service, "master", security);
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz);

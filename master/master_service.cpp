@@ -52,8 +52,8 @@ bool moves_script(const Assignments& assignments) {
 
 }  // namespace
 
-MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config)
-    : shell_(shell), config_(config) {}
+MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings)
+    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("master", log_end) {}
 
 MasterSnapshot MasterService::snapshot() {
   const std::lock_guard lock(reading_);
@@ -69,6 +69,7 @@ proto::Status MasterService::status() {
   *out.mutable_impairment() = link();
   add_view(out, s.view);
   fill(out, s.side);
+  fill(out, recording_.status());
   add_view_counts(out, s.view);
   const std::lock_guard lock(troubling_);
   out.set_trouble(trouble_);
@@ -87,7 +88,8 @@ std::optional<Refusal> MasterService::set_config(const Assignments& assignments)
   const auto& after = static_cast<const proto::MasterConfig&>(*change.after);
   MasterChange command{to_struct(after), !change.not_while_engaged.empty(),
                        !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
-                       moves_script(assignments)};
+                       moves_script(assignments), config_number_ + 1};
+  recording_.add_config(++config_number_, recorded_text(after));
   auto refusal = post(shell_.mailbox(), MasterCommand(std::move(command)), change.not_while_engaged);
   if (!refusal) config_ = after;
   return refusal;
@@ -97,7 +99,10 @@ proto::Impairment MasterService::link() { return config_.link().impairment(); }
 
 std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairment) {
   auto refusal = post(shell_.mailbox(), MasterCommand(to_struct(impairment)));
-  if (!refusal) *config_.mutable_link()->mutable_impairment() = impairment;
+  if (!refusal) {
+    *config_.mutable_link()->mutable_impairment() = impairment;
+    recording_.add_event("link impaired: " + impairment.ShortDebugString());
+  }
   return refusal;
 }
 
@@ -168,6 +173,39 @@ std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
 
 std::optional<Refusal> MasterService::close_session(std::uint64_t) {
   return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are closed at the slave"};
+}
+
+SideRecording<MasterTape>::Request MasterService::recording_request(double max_mb) const {
+  SideRecording<MasterTape>::Request request;
+  request.max_mb = max_mb;
+  request.rate_hz = config_.loop().rate_hz();
+  request.seed = recordings_.seed;
+  request.config_number = config_number_;
+  request.config_text = recorded_text(config_);
+  return request;
+}
+
+bool MasterService::attach(MasterTape* tape) {
+  return !post(shell_.mailbox(), MasterCommand(MasterTaping{tape}));
+}
+
+std::variant<std::string, Refusal> MasterService::start_recording(const std::string& name, double max_mb) {
+  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "master",
+                                    [this](MasterTape* tape) { return attach(tape); });
+}
+
+std::variant<std::string, Refusal> MasterService::stop_recording() {
+  return longreach::stop_recording(recording_, [this](MasterTape* tape) { return attach(tape); });
+}
+
+void MasterService::record_from_start(const std::string& file, double max_mb) {
+  auto request = recording_request(max_mb);
+  request.file = file;
+  recording_.start(request, [this](MasterTape* tape) {
+    shell_.record(tape);
+    return true;
+  });
+  log_start(recording_.status());
 }
 
 }  // namespace longreach

@@ -5,13 +5,14 @@
 #include <mutex>
 
 #include "common/io/control_backend.hpp"
+#include "common/io/recording_answers.hpp"
 #include "master/master_shell.hpp"
 
 namespace longreach {
 
 class MasterService : public ControlBackend {
  public:
-  MasterService(MasterShell& shell, const proto::MasterConfig& config);
+  MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
   std::unique_ptr<google::protobuf::Message> config() override;
@@ -25,6 +26,11 @@ class MasterService : public ControlBackend {
   std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
                                                                  const std::string& caller) override;
   std::optional<Refusal> close_session(std::uint64_t session) override;
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
+  std::variant<std::string, Refusal> stop_recording() override;
+
+  /// Before the loop begins: from its first tick on, as a replay needs it. Throws RecordingError.
+  void record_from_start(const std::string& file, double max_mb);
 
   /// The newest picture of the loop; callable from any thread but the loop's.
   MasterSnapshot snapshot();
@@ -36,8 +42,15 @@ class MasterService : public ControlBackend {
   void put_trouble(const std::string& trouble, const std::string& taken_by);
 
  private:
+  SideRecording<MasterTape>::Request recording_request(double max_mb) const;
+  /// Hands a tape to the loop; false: it did not answer.
+  bool attach(MasterTape* tape);
+
   MasterShell& shell_;
   proto::MasterConfig config_;
+  std::uint32_t config_number_ = 0;  // of those that the loop was handed
+  RecordingPlace recordings_;
+  SideRecording<MasterTape> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
   std::mutex troubling_;

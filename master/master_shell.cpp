@@ -45,6 +45,14 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.view = node_.view();
   snapshot_.phase = script_.phase();
   snapshots_.write(snapshot_);
+  write_down(in, out);
+}
+
+void MasterShell::write_down(const MasterInput& in, const MasterOutput& out) {
+  const std::uint64_t tick = ticks_++;
+  if (tape_ == nullptr) return;
+  tape_->add_tick(tick, config_number_, in, out, node_.view());
+  if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
 }
 
 LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
@@ -57,11 +65,14 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
     robbed_ = false;
   } else if (std::holds_alternative<MasterRobbed>(command)) {
     robbed_ = true;
+  } else if (const auto* taping = std::get_if<MasterTaping>(&command)) {
+    tape_ = taping->tape;
   } else {
     const auto& change = std::get<MasterChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
     config_ = change.config;
     node_.configure(config_);
+    config_number_ = change.number;
     if (change.impairment) port_.impairment().configure(config_.link.impairment, now);
     if (change.script) {
       script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);

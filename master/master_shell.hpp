@@ -14,6 +14,7 @@
 #include "master/devices/scripted_operator.hpp"
 #include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
+#include "master/master_tape.hpp"
 
 namespace longreach {
 
@@ -28,10 +29,16 @@ struct MasterChange {
   bool only_disengaged = false;  // a field changes that must not while engaged
   bool impairment = false;       // config.link.impairment has changed
   bool script = false;           // what the script acts on has changed: it begins anew
+  std::uint32_t number = 0;      // of the configuration, for a recording
+};
+/// What is written down from now on; none: nothing. The loop no longer uses the one before.
+struct MasterTaping {
+  MasterTape* tape = nullptr;
 };
 /// Another master has the robot now: that is why the slave is silent.
 struct MasterRobbed {};
-using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterRobbed>;
+using MasterCommand =
+    std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterRobbed, MasterTaping>;
 
 /// What a person at the keyboard holds.
 struct HandLevel {
@@ -47,6 +54,9 @@ class MasterShell {
 
   void tick(Time now, const LoopFigures& loop);
 
+  /// Before the first tick; later by MasterTaping.
+  void record(MasterTape* tape) { tape_ = tape; }
+
   /// Loop thread only: the picture of the last tick.
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
 
@@ -60,6 +70,7 @@ class MasterShell {
   LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
   HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
   HandTarget hold(const HandLevel& level);
+  void write_down(const MasterInput& in, const MasterOutput& out);
 
   MasterConfig config_;
   UdpChannel channel_;
@@ -70,7 +81,10 @@ class MasterShell {
   MasterNode node_;
   Vector3 held_m_ = Vector3::Zero();  // where the hand at the keyboard is
   SideObserver observer_;
-  bool robbed_ = false;  // until the next session
+  bool robbed_ = false;              // until the next session
+  MasterTape* tape_ = nullptr;       // none: nothing is recorded
+  std::uint64_t ticks_ = 0;          // steps of the node
+  std::uint32_t config_number_ = 0;  // of what it was configured with
   MasterSnapshot snapshot_{};
   Mailbox<MasterCommand, LoopAnswer> mailbox_;
   LatestValue<MasterSnapshot> snapshots_;

@@ -86,8 +86,10 @@ int serve(const SlaveOptions& options) {
   set_up_log("slave", options.log);
   const SlaveConfig plain = to_struct(config);
   const RpcSecurity security = security_of(options, RpcRole::kSlave);
-  SlaveShell shell(plain, draw_session(Cipher::kChaCha20Poly1305).number);
-  SlaveService service(shell, config);
+  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
+  SlaveShell shell(plain, seed);
+  SlaveService service(shell, config, {options.recordings, seed});
+  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   RpcServer rpc(plain.rpc.listen, service, "slave", security);
   log_start(config, shell, rpc);
 

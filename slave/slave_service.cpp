@@ -32,8 +32,12 @@ std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
 
 }  // namespace
 
-SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config)
-    : shell_(shell), start_(config), config_(config) {}
+SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)
+    : shell_(shell),
+      start_(config),
+      config_(config),
+      recordings_(std::move(recordings)),
+      recording_("slave", log_end) {}
 
 SlaveSnapshot SlaveService::snapshot() {
   const std::lock_guard lock(reading_);
@@ -68,6 +72,7 @@ proto::Status SlaveService::status() {
   add_clamps(out, view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);
+  fill(out, recording_.status());
   add_count(out, "touches", view.touch);
   add_count(out, "false_holds", view.false_holds);
   add_count(out, "limit_violations", view.limit_violations);
@@ -96,7 +101,9 @@ std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) 
   if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
   SlaveChange command{plain, !change.not_while_engaged.empty(),
-                      !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment())};
+                      !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
+                      config_number_ + 1};
+  recording_.add_config(++config_number_, recorded_text(after));
   auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
   if (!refusal) config_ = after;
   return refusal;
@@ -106,7 +113,10 @@ proto::Impairment SlaveService::link() { return config_.link().impairment(); }
 
 std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairment) {
   auto refusal = post(shell_.mailbox(), SlaveCommand(to_struct(impairment)));
-  if (!refusal) *config_.mutable_link()->mutable_impairment() = impairment;
+  if (!refusal) {
+    *config_.mutable_link()->mutable_impairment() = impairment;
+    recording_.add_event("link impaired: " + impairment.ShortDebugString());
+  }
   return refusal;
 }
 
@@ -139,6 +149,7 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
     return refusal->kind == Refusal::Kind::kPrecondition ? occupied(caller) : *std::move(refusal);
   }
   spdlog::info("lease holder={} before=\"{}\" taken={}", caller, before, request.take());
+  recording_.add_event("lease to " + caller + (request.take() ? ", taken" : ""));
   set_lease(caller);
   response.set_session(session.number);
   response.set_secret(session.secret.data(), session.secret.size());
@@ -162,8 +173,42 @@ std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
   if (post(shell_.mailbox(), SlaveCommand(SlaveReturn{session})))
     return Refusal{Refusal::Kind::kPrecondition, "this master does not have the robot"};
   spdlog::info("lease returned by={}", lease());
+  recording_.add_event("lease returned by " + lease());
   set_lease("");
   return std::nullopt;
+}
+
+SideRecording<SlaveTape>::Request SlaveService::recording_request(double max_mb) const {
+  SideRecording<SlaveTape>::Request request;
+  request.max_mb = max_mb;
+  request.rate_hz = config_.loop().rate_hz();
+  request.seed = recordings_.seed;
+  request.config_number = config_number_;
+  request.config_text = recorded_text(config_);
+  return request;
+}
+
+bool SlaveService::attach(SlaveTape* tape) {
+  return !post(shell_.mailbox(), SlaveCommand(SlaveTaping{tape}));
+}
+
+std::variant<std::string, Refusal> SlaveService::start_recording(const std::string& name, double max_mb) {
+  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "slave",
+                                    [this](SlaveTape* tape) { return attach(tape); });
+}
+
+std::variant<std::string, Refusal> SlaveService::stop_recording() {
+  return longreach::stop_recording(recording_, [this](SlaveTape* tape) { return attach(tape); });
+}
+
+void SlaveService::record_from_start(const std::string& file, double max_mb) {
+  auto request = recording_request(max_mb);
+  request.file = file;
+  recording_.start(request, [this](SlaveTape* tape) {
+    shell_.record(tape);
+    return true;
+  });
+  log_start(recording_.status());
 }
 
 std::string SlaveService::lease() const {

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "common/io/control_backend.hpp"
+#include "common/io/recording_answers.hpp"
 #include "slave/slave_shell.hpp"
 
 namespace longreach {
@@ -13,7 +14,7 @@ namespace longreach {
 class SlaveService : public ControlBackend {
  public:
   /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
-  SlaveService(SlaveShell& shell, const proto::SlaveConfig& config);
+  SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
   std::unique_ptr<google::protobuf::Message> config() override;
@@ -27,6 +28,11 @@ class SlaveService : public ControlBackend {
   std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
                                                                  const std::string& caller) override;
   std::optional<Refusal> close_session(std::uint64_t session) override;
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
+  std::variant<std::string, Refusal> stop_recording() override;
+
+  /// Before the loop begins: from its first tick on, as a replay needs it. Throws RecordingError.
+  void record_from_start(const std::string& file, double max_mb);
 
   /// Who has the robot: the address that its session was opened from; empty: nobody.
   [[nodiscard]] std::string lease() const;
@@ -38,9 +44,16 @@ class SlaveService : public ControlBackend {
   Refusal occupied(const std::string& caller);
   void set_lease(const std::string& holder);
 
+  SideRecording<SlaveTape>::Request recording_request(double max_mb) const;
+  /// Hands a tape to the loop; false: it did not answer.
+  bool attach(SlaveTape* tape);
+
   SlaveShell& shell_;
   const proto::SlaveConfig start_;
   proto::SlaveConfig config_;
+  std::uint32_t config_number_ = 0;  // of those that the loop was handed
+  RecordingPlace recordings_;
+  SideRecording<SlaveTape> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
   mutable std::mutex leasing_;

@@ -48,6 +48,14 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.rejected_setpoints = arm_.rejected_setpoints();
   snapshot_.watchdog_stopped = arm_.watchdog_stopped();
   snapshots_.write(snapshot_);
+  write_down(in, out);
+}
+
+void SlaveShell::write_down(const SlaveInput& in, const SlaveOutput& out) {
+  const std::uint64_t tick = ticks_++;
+  if (tape_ == nullptr) return;
+  tape_->add_tick(tick, config_number_, in, out, node_.view());
+  if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
 }
 
 LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, Asked& asked) {
@@ -65,10 +73,13 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, Asked& asked)
     if (returned->session == 0 || returned->session != port_.endpoint().session())
       return LoopAnswer::kOccupied;
     port_.leave();
+  } else if (const auto* taping = std::get_if<SlaveTaping>(&command)) {
+    tape_ = taping->tape;
   } else {
     const auto& change = std::get<SlaveChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
     node_.configure(change.config);
+    config_number_ = change.number;
     port_.limit(change.config.link.budget_kbit_per_s);
     if (change.impairment) port_.impairment().configure(change.config.link.impairment, now);
   }

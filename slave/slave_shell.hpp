@@ -13,6 +13,7 @@
 #include "common/wire/port.hpp"
 #include "slave/robot/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
+#include "slave/slave_tape.hpp"
 
 namespace longreach {
 
@@ -28,6 +29,11 @@ struct SlaveChange {
   SlaveConfig config{};
   bool only_disengaged = false;  // a field changes that must not while engaged
   bool impairment = false;       // config.link.impairment has changed
+  std::uint32_t number = 0;      // of the configuration, for a recording
+};
+/// What is written down from now on; none: nothing. The loop no longer uses the one before.
+struct SlaveTaping {
+  SlaveTape* tape = nullptr;
 };
 struct SlaveStop {};
 /// A master asks for the robot. `take`: also while another one has it.
@@ -40,7 +46,8 @@ struct SlaveLease {
 struct SlaveReturn {
   std::uint64_t session = 0;
 };
-using SlaveCommand = std::variant<SlaveStop, SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn>;
+using SlaveCommand =
+    std::variant<SlaveStop, SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn, SlaveTaping>;
 
 class SlaveShell {
  public:
@@ -49,6 +56,9 @@ class SlaveShell {
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
   void tick(Time now, const LoopFigures& loop);
+
+  /// Before the first tick; later by SlaveTaping.
+  void record(SlaveTape* tape) { tape_ = tape; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
   LatestValue<SlaveSnapshot>& snapshots() { return snapshots_; }
@@ -62,12 +72,16 @@ class SlaveShell {
   };
   LoopAnswer obey(const SlaveCommand& command, Time now, Asked& asked);
   [[nodiscard]] bool occupied(Time now) const;
+  void write_down(const SlaveInput& in, const SlaveOutput& out);
 
   UdpChannel channel_;
   SlavePort port_;
   SimulatedArm arm_;
   SlaveNode node_;
   SideObserver observer_;
+  SlaveTape* tape_ = nullptr;        // none: nothing is recorded
+  std::uint64_t ticks_ = 0;          // steps of the node
+  std::uint32_t config_number_ = 0;  // of what it was configured with
   SlaveSnapshot snapshot_{};
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;
   LatestValue<SlaveSnapshot> snapshots_;

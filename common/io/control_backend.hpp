@@ -47,6 +47,9 @@ class ControlBackend {
   virtual std::variant<proto::OpenSessionResponse, Refusal> open_session(
       const proto::OpenSessionRequest& request, const std::string& caller) = 0;
   virtual std::optional<Refusal> close_session(std::uint64_t session) = 0;
+  /// Return the file, with how much is in it at the end.
+  virtual std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) = 0;
+  virtual std::variant<std::string, Refusal> stop_recording() = 0;
 };
 
 }  // namespace longreach

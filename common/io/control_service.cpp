@@ -31,6 +31,11 @@ ControlService::Result<proto::Outcome> outcome(std::optional<Refusal> refusal, s
   return outcome;
 }
 
+ControlService::Result<proto::Outcome> said(std::variant<std::string, Refusal> answer) {
+  if (auto* refusal = std::get_if<Refusal>(&answer)) return std::move(*refusal);
+  return outcome({}, std::get<std::string>(std::move(answer)));
+}
+
 /// A window of time, s from now; it has begun when start is 0.
 struct Window {
   double start_s = 0.0;
@@ -168,6 +173,18 @@ ControlService::Result<proto::Outcome> ControlService::close_session(
     const proto::CloseSessionRequest& request) {
   const std::lock_guard lock(mutex_);
   return outcome(backend_.close_session(request.session()), "the robot is returned");
+}
+
+ControlService::Result<proto::Outcome> ControlService::start_recording(
+    const proto::StartRecordingRequest& request) {
+  if (!(request.max_mb() >= 1.0 && request.max_mb() <= 1e6)) return invalid("max_mb is from 1 to 1000000");
+  const std::lock_guard lock(mutex_);
+  return said(backend_.start_recording(request.name(), request.max_mb()));
+}
+
+ControlService::Result<proto::Outcome> ControlService::stop_recording() {
+  const std::lock_guard lock(mutex_);
+  return said(backend_.stop_recording());
 }
 
 }  // namespace longreach

@@ -40,6 +40,8 @@ class ControlService {
   Result<proto::OpenSessionResponse> open_session(const proto::OpenSessionRequest& request,
                                                   const std::string& caller);
   Result<proto::Outcome> close_session(const proto::CloseSessionRequest& request);
+  Result<proto::Outcome> start_recording(const proto::StartRecordingRequest& request);
+  Result<proto::Outcome> stop_recording();
 
  private:
   using Instant = std::chrono::steady_clock::time_point;

@@ -11,6 +11,8 @@
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
+#include "common/io/recording/recording_error.hpp"
+#include "common/io/recording/recording_folder.hpp"
 #include "common/io/site.hpp"
 
 namespace longreach {
@@ -25,6 +27,9 @@ struct ProgramOptions {
   std::optional<double> seconds{};
   std::string log;
   std::string site;
+  std::string record;
+  std::string recordings;
+  double record_max_mb = kRecordMaxMb;
   bool insecure = false;
   bool check = false;
 };
@@ -46,6 +51,16 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--site", options.site,
                  "Folder of the certificates, made when there is none ($XDG_CONFIG_HOME/longreach)")
       ->type_name("DIR");
+  app.add_option("--record", options.record,
+                 "Record from the start into this file, which `longreach-lab replay` can run again")
+      ->type_name("FILE.mcap");
+  app.add_option("--recordings", options.recordings,
+                 "Folder for what `longreach record start` records ($XDG_STATE_HOME/longreach/recordings)")
+      ->type_name("DIR");
+  app.add_option("--record-max-mb", options.record_max_mb, "A recording from the start ends at this size")
+      ->type_name("N")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
                "RPC in clear and for everybody on this machine: simulated robots only");
   app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
@@ -120,6 +135,8 @@ int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
   } catch (const ConfigError& e) {
     return complain(e, kExitBadUsage);
   } catch (const AddressError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const RecordingError& e) {
     return complain(e, kExitBadUsage);
   } catch (const std::exception& e) {
     return complain(e, kExitFailed);

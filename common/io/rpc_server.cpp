@@ -107,6 +107,14 @@ class GrpcControl final : public proto::Control::Service {
     if (!is_master(*context)) return denied(*context, "only a master of this site may close a session");
     return finish(context, service_.close_session(*request), answer);
   }
+  grpc::Status StartRecording(Context* context, const proto::StartRecordingRequest* request,
+                              proto::Outcome* answer) override {
+    return finish(context, service_.start_recording(*request), answer);
+  }
+  grpc::Status StopRecording(Context* context, const proto::StopRecordingRequest*,
+                             proto::Outcome* answer) override {
+    return finish(context, service_.stop_recording(), answer);
+  }
 
   grpc::Status Watch(Context* context, const proto::WatchRequest* request,
                      grpc::ServerWriter<proto::Status>* writer) override {

@@ -1,6 +1,7 @@
 #include "common/io/side_figures.hpp"
 
 #include <limits>
+#include <numeric>
 
 namespace longreach {
 namespace {
@@ -8,6 +9,18 @@ namespace {
 constexpr Duration kLinkPeriod = std::chrono::milliseconds(50);
 
 }  // namespace
+
+LinkSample link_sample(Time now, const SideFigures& figures) {
+  LinkSample out;
+  out.now = now;
+  out.link = figures.link;
+  out.accepted = figures.accepted;
+  out.rejected = std::accumulate(figures.rejected.begin(), figures.rejected.end(), std::uint64_t{0});
+  out.session = figures.session;
+  out.missed_ticks = figures.loop.missed_ticks;
+  out.ticks_late_100ms = figures.loop.ticks_late_100ms;
+  return out;
+}
 
 const SideFigures& SideObserver::observe(Time now, Port& port, const UdpChannel& channel,
                                          const LoopFigures& loop) {

@@ -2,6 +2,7 @@
 // What both sides' loops publish besides their view: the link, the loop and what was dropped. Plain values.
 
 #include "common/io/loop_figures.hpp"
+#include "common/io/recording/tape.hpp"
 #include "common/io/udp_channel.hpp"
 #include "common/wire/port.hpp"
 
@@ -18,6 +19,9 @@ struct SideFigures {
   std::uint64_t strangers = 0;      // datagrams from other addresses than the peer's
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
+
+/// What a recording keeps of them.
+LinkSample link_sample(Time now, const SideFigures& figures);
 
 /// Keeps the figures of a side. One tick costs a few copies; the figures of the link, which sort a window,
 /// are taken anew twenty times a second.

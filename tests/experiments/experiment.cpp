@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "commit.hpp"
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
+#include "common/io/recording/build_name.hpp"
 #include "tests/experiments/name_hash.hpp"
 
 namespace longreach {
@@ -216,7 +216,7 @@ std::string config_hash(const proto::LabConfig& config) {
   return name_hash(bytes);
 }
 
-std::string_view commit() { return kCommit; }
+std::string_view commit() { return build_commit(); }
 
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
                                    const std::function<void(const std::string&)>& trouble) {

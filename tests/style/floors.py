@@ -3,7 +3,7 @@
 Within the stages of a side the order is that of the flow, so a stage sees the stages whose output it takes and none of
 those that it feeds. A haptic device is built from its drives upwards. At the slave that is the way of the force: what
 the scene presses, the sensor feels and the robot meets; command and estimation work on the robot's state. Within floor 4: bytes,
-then configuration, then I/O, then what a program shows and serves.
+then configuration, then recordings, then I/O, then what a program shows and serves.
 """
 
 import posixpath
@@ -17,7 +17,7 @@ FOLDERS = {
     'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.05, 'slave/estimation': 2.4,
     'slave/comparison': 2.4,
     'master': 3, 'slave': 3,
-    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io': 4.3, 'master/console': 4.4,
+    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io/recording': 4.25, 'common/io': 4.3, 'master/console': 4.4,
     'deploy/cli': 5, 'tests': 6,
 }
 SERVICE, PROGRAM = 4.4, 5
@@ -28,10 +28,12 @@ def floor(path):
     """Floor of a file or of an included path; none where the table does not know its folder."""
     name = posixpath.basename(path)
     folder = posixpath.dirname(path)
+    if path == 'commit.hpp':   # written by the build
+        return 0
     if folder in ('master', 'slave'):
         if name == 'main.cpp':
             return PROGRAM
-        if re.search(r'_(service|shell)\.[ch]pp$', name):
+        if re.search(r'_(service|shell|tape)\.[ch]pp$', name):
             return SERVICE
     while folder and folder not in FOLDERS:
         folder = posixpath.dirname(folder)

@@ -110,6 +110,16 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return change("close_session " + std::to_string(session), [] {});
   }
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double) override {
+    const Inside inside(*this);
+    if (auto refusal = change("start_recording " + name, [] {})) return *std::move(refusal);
+    return "/recordings/" + name + "-" + side_ + ".mcap";
+  }
+  std::variant<std::string, Refusal> stop_recording() override {
+    const Inside inside(*this);
+    if (auto refusal = change("stop_recording", [] {})) return *std::move(refusal);
+    return "/recordings/x-" + side_ + ".mcap: 1.5 s, 0.2 MB";
+  }
   /// Of the session that it opens; a caller that has it keeps it.
   void put_session(std::uint64_t number) {
     const std::lock_guard lock(mutex_);

@@ -1,0 +1,33 @@
+#pragma once
+// Names of the MCAP format (mcap.dev/spec): a file is magic, header, data, summary, footer, magic; all
+// between the magics are records of one byte opcode, eight bytes length, content.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace longreach {
+
+enum class McapOp : std::uint8_t {
+  kHeader = 1,
+  kFooter = 2,
+  kSchema = 3,
+  kChannel = 4,
+  kMessage = 5,
+  kChunk = 6,
+  kMessageIndex = 7,
+  kChunkIndex = 8,
+  kStatistics = 11,
+  kMetadata = 12,
+  kMetadataIndex = 13,
+  kSummaryOffset = 14,
+  kDataEnd = 15
+};
+
+constexpr std::array<std::byte, 8> kMcapMagic = {std::byte{0x89}, std::byte{'M'}, std::byte{'C'},
+                                                 std::byte{'A'},  std::byte{'P'}, std::byte{'0'},
+                                                 std::byte{'\r'}, std::byte{'\n'}};
+constexpr std::size_t kMcapRecordHead = 9;    // opcode and length
+constexpr std::size_t kMcapMessageHead = 22;  // of a message's content: channel, sequence, two times
+
+}  // namespace longreach

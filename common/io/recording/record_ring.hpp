@@ -1,0 +1,49 @@
+#pragma once
+// A bounded queue from one writing thread to one reading thread, over memory that is allocated once: neither
+// waits for the other, locks or calls the system. The writer asks for room, fills slots and publishes them;
+// what there is no room for it has to drop.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/check.hpp"
+
+namespace longreach {
+
+template <class T>
+class RecordRing {
+ public:
+  explicit RecordRing(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
+
+  /// Writer: slots that are free. At least so many stay free until the next publish().
+  [[nodiscard]] std::size_t room() const {
+    return slots_.size() - static_cast<std::size_t>(written_.load(std::memory_order_relaxed) + pending_ -
+                                                    read_.load(std::memory_order_acquire));
+  }
+  /// Writer: the next free slot; there must be room.
+  T& next() { return slots_[(written_.load(std::memory_order_relaxed) + pending_++) % slots_.size()]; }
+  /// Writer: hands over what was filled since the last call.
+  void publish() {
+    written_.store(written_.load(std::memory_order_relaxed) + pending_, std::memory_order_release);
+    pending_ = 0;
+  }
+
+  /// Reader: the oldest record, or none.
+  [[nodiscard]] const T* front() const {
+    const std::uint64_t at = read_.load(std::memory_order_relaxed);
+    return at == written_.load(std::memory_order_acquire) ? nullptr : &slots_[at % slots_.size()];
+  }
+  void pop() { read_.store(read_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
+
+  [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
+
+ private:
+  std::vector<T> slots_;
+  alignas(64) std::atomic<std::uint64_t> written_{0};
+  std::uint64_t pending_ = 0;  // the writer's: filled, not yet published
+  alignas(64) std::atomic<std::uint64_t> read_{0};
+};
+
+}  // namespace longreach

@@ -1,0 +1,231 @@
+#include "common/io/recording/recorded_values.hpp"
+
+namespace longreach {
+
+static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 88 &&
+              sizeof(StiffnessReport) == 192);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
+static_assert(sizeof(Received<MotionCommand>) == 120);
+
+void write(const Vector3& v, recording::Vector& out) {
+  out.set_x(v.x());
+  out.set_y(v.y());
+  out.set_z(v.z());
+}
+
+void write(const Quaternion& q, recording::Quaternion& out) {
+  out.set_x(q.x());
+  out.set_y(q.y());
+  out.set_z(q.z());
+  out.set_w(q.w());
+}
+
+void write(const Pose& pose, recording::Pose& out) {
+  write(pose.p, *out.mutable_position_m());
+  write(pose.q, *out.mutable_orientation());
+}
+
+void write(const Wrench& wrench, recording::Wrench& out) {
+  write(wrench.force, *out.mutable_force_n());
+  write(wrench.moment, *out.mutable_moment_nm());
+}
+
+Vector3 read(const recording::Vector& in) { return {in.x(), in.y(), in.z()}; }
+Quaternion read(const recording::Quaternion& in) { return {in.w(), in.x(), in.y(), in.z()}; }
+Pose read(const recording::Pose& in) { return {read(in.position_m()), read(in.orientation())}; }
+Wrench read(const recording::Wrench& in) { return {read(in.moment_nm()), read(in.force_n())}; }
+
+namespace {
+
+void write(const Matrix3& m, recording::Tensor& out) {
+  out.set_xx(m(0, 0));
+  out.set_xy(m(0, 1));
+  out.set_xz(m(0, 2));
+  out.set_yx(m(1, 0));
+  out.set_yy(m(1, 1));
+  out.set_yz(m(1, 2));
+  out.set_zx(m(2, 0));
+  out.set_zy(m(2, 1));
+  out.set_zz(m(2, 2));
+}
+
+Matrix3 read(const recording::Tensor& in) {
+  Matrix3 out;
+  out << in.xx(), in.xy(), in.xz(), in.yx(), in.yy(), in.yz(), in.zx(), in.zy(), in.zz();
+  return out;
+}
+
+void write(const ContactStiffness& contact, recording::ContactStiffness& out) {
+  write(contact.stiffness, *out.mutable_stiffness());
+  out.set_touch_sequence(contact.touch_sequence);
+  out.set_touch(contact.touch);
+  out.set_in_contact(contact.in_contact);
+}
+
+ContactStiffness read(const recording::ContactStiffness& in) {
+  return {read(in.stiffness()), in.touch_sequence(), in.touch(), in.in_contact()};
+}
+
+}  // namespace
+
+void write(const MotionCommand& command, recording::MotionCommand& out) {
+  out.set_engagement(command.engagement);
+  out.set_request(to_recorded<recording::Request>(command.request));
+  out.set_mode(to_recorded<recording::Mode>(command.mode));
+  out.set_scale(command.scale);
+  out.set_grip(command.grip);
+  out.set_goal_kind(to_recorded<recording::GoalKind>(command.goal_kind));
+  write(command.position_m, *out.mutable_position_m());
+  write(command.rotation_rad, *out.mutable_rotation_rad());
+}
+
+MotionCommand read(const recording::MotionCommand& in) {
+  return {in.engagement(),
+          read_enum(in.request(), Request::kLetGo),
+          read_enum(in.mode(), MotionMode::kPosition),
+          in.scale(),
+          in.grip(),
+          read_enum(in.goal_kind(), GoalKind::kOrientation),
+          read(in.position_m()),
+          read(in.rotation_rad())};
+}
+
+void write(const StiffnessReport& report, recording::StiffnessReport& out) {
+  out.set_engagement(report.engagement);
+  out.set_state(to_recorded<recording::State>(report.state));
+  out.set_cause(to_recorded<recording::Cause>(report.cause));
+  write(report.translation, *out.mutable_translation());
+  write(report.rotation, *out.mutable_rotation());
+  out.set_reached_sequence(report.reached_sequence);
+}
+
+StiffnessReport read(const recording::StiffnessReport& in) {
+  return {in.engagement(),
+          read_enum(in.state(), SafetyState::kFault),
+          read_enum(in.cause(), HoldCause::kUnanswered),
+          read(in.translation()),
+          read(in.rotation()),
+          in.reached_sequence()};
+}
+
+void write(const ContactEstimate& e, recording::ContactEstimate& out) {
+  out.set_stiffness_n_per_m(e.stiffness_n_per_m);
+  out.set_stiffness_sd_n_per_m(e.stiffness_sd_n_per_m);
+  out.set_k(e.k);
+  out.set_lambda(e.lambda);
+  out.set_n(e.n);
+  out.set_depth_m(e.depth_m);
+  out.set_valid(e.valid);
+  out.set_secant_n_per_m(e.secant_n_per_m);
+  out.set_k_sd(e.k_sd);
+  out.set_lambda_sd(e.lambda_sd);
+  out.set_n_sd(e.n_sd);
+  out.set_correlation(e.correlation);
+  out.set_stiffness_verdict(to_recorded<recording::Verdict>(e.stiffness_verdict));
+  out.set_k_verdict(to_recorded<recording::Verdict>(e.k_verdict));
+  out.set_lambda_verdict(to_recorded<recording::Verdict>(e.lambda_verdict));
+  out.set_n_verdict(to_recorded<recording::Verdict>(e.n_verdict));
+}
+
+ContactEstimate read(const recording::ContactEstimate& in) {
+  ContactEstimate e;
+  e.stiffness_n_per_m = in.stiffness_n_per_m();
+  e.stiffness_sd_n_per_m = in.stiffness_sd_n_per_m();
+  e.k = in.k();
+  e.lambda = in.lambda();
+  e.n = in.n();
+  e.depth_m = in.depth_m();
+  e.valid = in.valid();
+  e.secant_n_per_m = in.secant_n_per_m();
+  e.k_sd = in.k_sd();
+  e.lambda_sd = in.lambda_sd();
+  e.n_sd = in.n_sd();
+  e.correlation = in.correlation();
+  e.stiffness_verdict = read_enum(in.stiffness_verdict(), Verdict::kNotIdentifiable);
+  e.k_verdict = read_enum(in.k_verdict(), Verdict::kNotIdentifiable);
+  e.lambda_verdict = read_enum(in.lambda_verdict(), Verdict::kNotIdentifiable);
+  e.n_verdict = read_enum(in.n_verdict(), Verdict::kNotIdentifiable);
+  return e;
+}
+
+void write(const Clamps& c, recording::Clamps& out) {
+  out.set_tool_speed(c.tool_speed);
+  out.set_joint_speed(c.joint_speed);
+  out.set_joint_position(c.joint_position);
+  out.set_workspace(c.workspace);
+  out.set_force_guard(c.force_guard);
+  out.set_singularity(c.singularity);
+  out.set_unreachable(c.unreachable);
+}
+
+Clamps read(const recording::Clamps& in) {
+  return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),
+          in.force_guard(), in.singularity(), in.unreachable()};
+}
+
+void write(const Telemetry& t, recording::Telemetry& out) {
+  out.set_state(to_recorded<recording::State>(t.state));
+  out.set_cause(to_recorded<recording::Cause>(t.cause));
+  out.set_engagement(t.engagement);
+  write(t.X_WE, *out.mutable_tool());
+  write(t.X_WE_goal, *out.mutable_goal());
+  write_joints(t.joint_rad, *out.mutable_joint_rad());
+  write(t.F_E_W, *out.mutable_wrench());
+  write(t.estimate, *out.mutable_estimate());
+  out.set_penetration_m(t.penetration_m);
+  write(t.clamps, *out.mutable_clamps());
+  out.set_up_loss(t.up_loss);
+  out.set_up_jitter_s(t.up_jitter_s);
+  out.set_playout_delay_s(t.playout_delay_s);
+  out.set_rejected(t.rejected);
+  out.set_limit_violations(t.limit_violations);
+  out.set_late_ticks(t.late_ticks);
+  out.set_load(t.load);
+}
+
+Telemetry read(const recording::Telemetry& in) {
+  Telemetry t;
+  t.state = read_enum(in.state(), SafetyState::kFault);
+  t.cause = read_enum(in.cause(), HoldCause::kUnanswered);
+  t.engagement = in.engagement();
+  t.X_WE = read(in.tool());
+  t.X_WE_goal = read(in.goal());
+  t.joint_rad = read_joints<std::array<double, kMaxJoints>>(in.joint_rad());
+  t.F_E_W = read(in.wrench());
+  t.estimate = read(in.estimate());
+  t.penetration_m = in.penetration_m();
+  t.clamps = read(in.clamps());
+  t.up_loss = in.up_loss();
+  t.up_jitter_s = in.up_jitter_s();
+  t.playout_delay_s = in.playout_delay_s();
+  t.rejected = in.rejected();
+  t.limit_violations = in.limit_violations();
+  t.late_ticks = in.late_ticks();
+  t.load = in.load();
+  return t;
+}
+
+void write(const Received<StiffnessReport>& received, recording::ReceivedReport& out) {
+  write_receipt(received, *out.mutable_receipt());
+  write(received.message, *out.mutable_report());
+}
+void write(const Received<Telemetry>& received, recording::ReceivedTelemetry& out) {
+  write_receipt(received, *out.mutable_receipt());
+  write(received.message, *out.mutable_telemetry());
+}
+void write(const Received<MotionCommand>& received, recording::ReceivedCommand& out) {
+  write_receipt(received, *out.mutable_receipt());
+  write(received.message, *out.mutable_command());
+}
+
+Received<StiffnessReport> read(const recording::ReceivedReport& in) {
+  return read_receipt(in.receipt(), read(in.report()));
+}
+Received<Telemetry> read(const recording::ReceivedTelemetry& in) {
+  return read_receipt(in.receipt(), read(in.telemetry()));
+}
+Received<MotionCommand> read(const recording::ReceivedCommand& in) {
+  return read_receipt(in.receipt(), read(in.command()));
+}
+
+}  // namespace longreach

@@ -1,0 +1,130 @@
+// Recordings of the real programs: killed, on a full disk, started and stopped on the way.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "common/io/recording/mcap_reader.hpp"
+#include "proto/recording.pb.h"
+#include "tests/process/station.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+double unix_now_s() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// The ticks of a recording follow each other without a gap.
+struct Recorded {
+  std::uint64_t first_tick = 0, ticks = 0;
+  double last_s = 0.0;  // Unix time
+  bool whole = false;
+};
+Recorded read_recording(const std::filesystem::path& path) {
+  McapReader reader(path);
+  Recorded out;
+  while (const auto message = reader.next()) {
+    if (!message->channel->topic.ends_with("/tick")) continue;
+    recording::SlaveTick tick;  // the numbers are the same fields on both sides
+    EXPECT_TRUE(tick.ParseFromArray(message->bytes.data(), static_cast<int>(message->bytes.size())));
+    if (out.ticks == 0) out.first_tick = tick.tick();
+    EXPECT_EQ(tick.tick(), out.first_tick + out.ticks);
+    ++out.ticks;
+    out.last_s = 1e-9 * static_cast<double>(message->log_time_ns);
+  }
+  out.whole = reader.whole();
+  return out;
+}
+
+class Recording : public Station {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Recording, OfAKilledProgramHoldsWhatIsOlderThanASecond) {
+  // Again where this machine held a recorder up for longer than it may take.
+  double missing_s = 1e9;
+  for (int attempt = 0; attempt < 3 && missing_s > 1.0; ++attempt) {
+    const std::string path = file("slave" + std::to_string(attempt) + ".mcap");
+    start_slave({"--record", path});
+    ASSERT_TRUE(eventually([this] { return slave_.counter("ticks") > 3000; })) << outputs();
+    const double killed_s = unix_now_s();
+    slave_program_->signal(SIGKILL);
+    ASSERT_EQ(slave_program_->wait(std::chrono::seconds(10)), 128 + SIGKILL);
+    const Recorded recorded = read_recording(path);
+    EXPECT_EQ(recorded.first_tick, 0u);
+    EXPECT_GT(recorded.ticks, 1000u);
+    EXPECT_FALSE(recorded.whole);
+    missing_s = killed_s - recorded.last_s;
+  }
+  EXPECT_LT(missing_s, 1.0);
+}
+
+TEST_F(Recording, OnAFullDiskEndsWithAnEventAndChangesNothingElse) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit full{2'000'000, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);  // the programs inherit it
+  start_slave({"--record", file("slave.mcap")});
+  start_master({"--operator", "none", "--engage", "--record", file("master.mcap")});
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  ASSERT_TRUE(both_engaged()) << outputs();
+  for (Side* side : {&slave_, &master_}) {
+    ASSERT_TRUE(eventually([side] {
+      const auto status = side->status();
+      return status && status->has_recording() && !status->recording().running();
+    })) << outputs();
+    const auto status = side->status();
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(status->recording().failed());
+    EXPECT_EQ(status->recording().ended(), "it could not be written any more: File too large");
+  }
+  const auto event = [](const RunningProgram& program) {
+    return program.output().find("warn") != std::string::npos &&
+           program.output().find("because=\"it could not be written any more: File too large\"") !=
+               std::string::npos;
+  };
+  EXPECT_TRUE(event(*slave_program_)) << outputs();
+  EXPECT_TRUE(event(*master_program_)) << outputs();
+  // Both loops go on.
+  const auto ticks = slave_.counter("ticks");
+  EXPECT_TRUE(eventually([&] { return slave_.counter("ticks") > ticks + 1000; }));
+  EXPECT_EQ(slave_.state(), "Engaged") << outputs();
+  EXPECT_EQ(master_.state(), "Engaged") << outputs();
+  EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0u);
+  EXPECT_EQ(slave_.counter("limit_violations"), 0u);
+  EXPECT_GT(read_recording(file("slave.mcap")).ticks, 1000u);
+}
+
+TEST_F(Recording, FromTheStartHasEveryTick) {
+  start_slave({"--record", file("slave.mcap")});
+  start_master({"--operator", "script", "--engage", "--record", file("master.mcap")});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  ASSERT_TRUE(eventually([this] { return master_.counter("ticks") > 2000; }));
+  master_program_->signal(SIGTERM);
+  ASSERT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  slave_program_->signal(SIGTERM);
+  ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  for (const char* name : {"slave.mcap", "master.mcap"}) {
+    const Recorded recorded = read_recording(file(name));
+    EXPECT_EQ(recorded.first_tick, 0u) << name;
+    EXPECT_GT(recorded.ticks, 2000u) << name;
+    EXPECT_TRUE(recorded.whole) << name;
+  }
+}
+
+TEST_F(Recording, OverwritesNothing) {
+  start_slave({"--record", file("slave.mcap"), "--seconds", "0.2"});
+  ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  start_slave({"--record", file("slave.mcap")});
+  EXPECT_EQ(slave_program_->wait(std::chrono::seconds(20)), 2) << outputs();
+  EXPECT_NE(slave_program_->output().find("there is such a file; choose another name"), std::string::npos)
+      << outputs();
+}
+
+}  // namespace
+}  // namespace longreach
