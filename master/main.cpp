@@ -13,6 +13,7 @@
 #include "common/io/session_seeker.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/io/stop_signal.hpp"
+#include "master/console/desk.hpp"
 #include "master/console/keyboard.hpp"
 #include "master/console/summary.hpp"
 #include "master/console/terminal_view.hpp"
@@ -86,6 +87,15 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
   out.rejected = s.side.rejected;
   if (config.operator_.kind == OperatorKind::kScript) out.operator_phase = to_string(s.phase);
   out.force_max_n = config.rendering.force_max_n;
+  out.hand_outside = s.hand_outside;
+  return out;
+}
+
+/// The newest one, for RPC threads.
+ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, double seconds) {
+  ConsoleSnapshot out = picture(service.snapshot(), config);
+  out.trouble = service.trouble();
+  out.seconds = seconds;
   return out;
 }
 
@@ -164,6 +174,15 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
   return options.seconds && !result.passed() ? kExitFailed : 0;
 }
 
+/// All of them outlive it.
+std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shell,
+                                       const MasterConfig& config) {
+  return std::make_unique<DeskService>(
+      DeskService::Reach{config.device.delta.workspace_m, config.device.spherical.workspace_rad},
+      [&, began = monotonic_now()] { return picture(service, config, to_seconds(monotonic_now() - began)); },
+      [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
+}
+
 /// What ranges cannot tell: whether the mechanisms close their loops.
 void require_device(const DeviceConfig& device) {
   try {
@@ -189,7 +208,9 @@ int operate(const MasterOptions& options) {
   MasterShell shell(plain, seed);
   MasterService service(shell, config, {options.recordings, seed});
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
-  RpcServer rpc(plain.rpc.listen, service, "master", security);
+  const Time began = monotonic_now();
+  const auto desk = make_desk(service, shell, plain);
+  RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz);
   Housekeeping housekeeping(options, plain, shell, service);
@@ -205,7 +226,6 @@ int operate(const MasterOptions& options) {
     try {
       for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
       RealTimeLoop loop(plain.loop.rate_hz);
-      const Time began = monotonic_now();
       loop.run(end, [&](Time now, const LoopFigures& figures) {
         shell.tick(now, figures);
         summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);

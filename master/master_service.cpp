@@ -153,6 +153,11 @@ std::optional<Refusal> MasterService::request(const OperatorRequests& requests) 
   return post(shell_.mailbox(), MasterCommand(requests));
 }
 
+std::string MasterService::trouble() {
+  const std::lock_guard lock(troubling_);
+  return trouble_;
+}
+
 void MasterService::put_trouble(const std::string& trouble, const std::string& taken_by) {
   const bool robbed = !taken_by.empty();
   {

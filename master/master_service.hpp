@@ -38,6 +38,8 @@ class MasterService : public ControlBackend {
   std::optional<Refusal> request(const OperatorRequests& requests);
   /// Hands a session to the loop; false: it did not answer. Callable from any thread but the loop's.
   bool adopt(const Session& session);
+  /// Why there is no session; empty: there is one.
+  std::string trouble();
   /// Why there is no session, and who has taken the robot (its address); empty: there is one, nobody has.
   void put_trouble(const std::string& trouble, const std::string& taken_by);
 

@@ -14,7 +14,8 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       devices_(config.device),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
-      node_(config) {
+      node_(config),
+      remote_(1.0 / config.loop.rate_hz) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 
@@ -44,6 +45,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.side = observer_.observe(now, port_, channel_, loop);
   snapshot_.view = node_.view();
   snapshot_.phase = script_.phase();
+  snapshot_.hand_outside = remote_.holds();
   snapshots_.write(snapshot_);
   write_down(in, out);
 }
@@ -83,6 +85,8 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
 }
 
 HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
+  const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
+  if (const auto target = remote_.step(remote, requests)) return displaced(*target);
   if (config_.operator_.kind == OperatorKind::kKeyboard) {
     const HandLevel& level = hand_.read();
     requests.clutch = level.clutch;
@@ -106,6 +110,16 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
   HandTarget target = script.target;
   // The grip may change while the script goes on; where the script itself lets go, it stays let go.
   if (target.grip == script_grip_) target.grip = config_.hand.grip;
+  return target;
+}
+
+/// Whoever is configured goes on from where the hand from outside leaves the handle.
+HandTarget MasterShell::displaced(const HandTarget& target) {
+  held_m_ = target.position_m;
+  if (script_.phase() != ScriptPhase::kWaiting) {
+    script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
+    script_grip_ = config_.hand.grip;
+  }
   return target;
 }
 

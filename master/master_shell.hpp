@@ -15,6 +15,7 @@
 #include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
 #include "master/master_tape.hpp"
+#include "master/remote_hand.hpp"
 
 namespace longreach {
 
@@ -22,6 +23,7 @@ struct MasterSnapshot {
   SideFigures side{};
   MasterView view{};
   ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, when it is the operator
+  bool hand_outside = false;                  // a hand from outside holds the handle
 };
 
 struct MasterChange {
@@ -64,11 +66,14 @@ class MasterShell {
   LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
   /// Written by the thread that polls the keyboard.
   LatestValue<HandLevel>& hand() { return hand_; }
+  /// Written by one thread at a time, for a hand from outside.
+  LatestValue<RemoteAim>& remote_aim() { return remote_aim_; }
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
   LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
   HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
+  HandTarget displaced(const HandTarget& target);
   HandTarget hold(const HandLevel& level);
   void write_down(const MasterInput& in, const MasterOutput& out);
 
@@ -80,6 +85,7 @@ class MasterShell {
   Grip script_grip_;
   MasterNode node_;
   Vector3 held_m_ = Vector3::Zero();  // where the hand at the keyboard is
+  RemoteHand remote_;
   SideObserver observer_;
   bool robbed_ = false;              // until the next session
   MasterTape* tape_ = nullptr;       // none: nothing is recorded
@@ -89,6 +95,7 @@ class MasterShell {
   Mailbox<MasterCommand, LoopAnswer> mailbox_;
   LatestValue<MasterSnapshot> snapshots_;
   LatestValue<HandLevel> hand_;
+  LatestValue<RemoteAim> remote_aim_;
 };
 
 }  // namespace longreach

@@ -58,6 +58,8 @@ proto::Status SlaveService::status() {
   *out.mutable_impairment() = link();
   assign(view.X_WE.p, *out.mutable_tool_m());
   assign(view.X_WE_goal.p, *out.mutable_goal_m());
+  assign(view.X_WE_anchor.p, *out.mutable_anchor_m());
+  assign(log_rotation(view.X_WE_anchor.q), *out.mutable_anchor_rad());
   out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.reported_stiffness_n_per_m);
   if (view.reported_stiffness_nm_per_rad > 0.0) {

@@ -270,7 +270,7 @@ struct RpcServer::State {
 };
 
 RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
-                     const RpcSecurity& security)
+                     const RpcSecurity& security, const std::vector<grpc::Service*>& more)
     : state_(std::make_unique<State>(backend, side, security.credentials.has_value())) {
   const std::string address = listen_address(listen, side);
   if (!security.credentials && !is_loopback(address))
@@ -283,6 +283,7 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
   int port = 0;
   builder.AddListeningPort(address, server_credentials(security), &port);
   builder.RegisterService(&state_->control);
+  for (grpc::Service* service : more) builder.RegisterService(service);
   state_->server = builder.BuildAndStart();
   if (!state_->server || port == 0)
     throw std::runtime_error(

@@ -10,9 +10,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/io/control_backend.hpp"
 #include "common/io/rpc_security.hpp"
+
+namespace grpc {
+class Service;
+}
 
 namespace longreach {
 
@@ -28,10 +33,11 @@ inline constexpr double kWatchHzDefault = 4.0;
 class RpcServer {
  public:
   /// Serves at once. `listen`: address:port; port 0: any free one; empty: the side's default address. `side`:
-  /// "master" or "slave". `backend` must outlive the server. Throws std::runtime_error, one sentence, when it
-  /// cannot listen, or when it would serve others than this machine in clear.
+  /// "master" or "slave". `more`: services beside Control. They and `backend` must outlive the server. Throws
+  /// std::runtime_error, one sentence, when it cannot listen, or when it would serve others than this machine
+  /// in clear.
   RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
-            const RpcSecurity& security = {});
+            const RpcSecurity& security = {}, const std::vector<grpc::Service*>& more = {});
   ~RpcServer();
   RpcServer(const RpcServer&) = delete;
   RpcServer& operator=(const RpcServer&) = delete;

@@ -24,6 +24,7 @@ struct Words {
   std::string mode{}, scale{};
   std::string token{};
   std::string seconds = "2";
+  std::string listen = ViewCommand{}.listen;
 };
 
 double bounded(const char* what, const std::string& text, std::optional<double> value, double min, double max,
@@ -112,6 +113,10 @@ void Grammar::declare_views() {
               "0.\nExample: longreach watch --hz 10");
   watch->add_option("--hz", words_.hz, "updates a second, 0.1 to 60 [4]")->type_name("HZ");
   watch->add_option("--count", words_.count, "end after this many updates")->type_name("N");
+  declare(app_, "view", "serve a page for the browser: the robot, what is felt, a hand", kViewMore)
+      ->add_option("--listen", words_.listen,
+                   "address of the page; port 0: any free one [" + words_.listen + "]")
+      ->type_name("HOST:PORT");
 }
 
 void Grammar::declare_fields() {
@@ -225,6 +230,7 @@ Command Grammar::command() const {
       throw UsageError("--count = " + words_.count + " is not a whole number from 1");
     return watch;
   }
+  if (parsed("view")) return ViewCommand{words_.listen};
   if (parsed("get")) return GetCommand{side(), words_.path};
   if (parsed("set")) return set_command();
   if (parsed("link")) {

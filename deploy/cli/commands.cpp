@@ -87,20 +87,7 @@ std::optional<SideError> try_stop(Side side, const Options& options) {
 }
 
 ExitStatus run_stop(const Options& options) {
-  // At the same time: a side that does not answer must not delay the other one's stop.
-  auto slave = std::async(std::launch::async, try_stop, Side::kSlave, options);
-  const auto master_error = try_stop(Side::kMaster, options);
-  const auto slave_error = slave.get();
-  if (master_error && slave_error)
-    throw SideError(SideError::Kind::kDown,
-                    "nothing was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
-  if (slave_error) {
-    print_done(options, "stopped at the master, which tells the slave; " + std::string(slave_error->what()));
-  } else if (master_error) {
-    print_done(options, "stopped at the slave; " + std::string(master_error->what()));
-  } else {
-    print_done(options, "stopped at the master and at the slave");
-  }
+  print_done(options, stop_sides(options));
   return ExitStatus::kDone;
 }
 
@@ -116,6 +103,19 @@ ExitStatus run_engage(const Options& options) {
 }
 
 }  // namespace
+
+std::string stop_sides(const Options& options) {
+  // At the same time: a side that does not answer must not delay the other one's stop.
+  auto slave = std::async(std::launch::async, try_stop, Side::kSlave, options);
+  const auto master_error = try_stop(Side::kMaster, options);
+  const auto slave_error = slave.get();
+  if (master_error && slave_error)
+    throw SideError(SideError::Kind::kDown,
+                    "nothing was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
+  if (slave_error) return "stopped at the master, which tells the slave; " + std::string(slave_error->what());
+  if (master_error) return "stopped at the slave; " + std::string(master_error->what());
+  return "stopped at the master and at the slave";
+}
 
 void print_done(const Options& options, const std::string& sentence) {
   if (options.json) {
@@ -138,6 +138,7 @@ ExitStatus run(const Invocation& invocation) {
         using Asked = std::decay_t<decltype(command)>;
         if constexpr (std::is_same_v<Asked, StatusCommand>) return run_status(options);
         if constexpr (std::is_same_v<Asked, WatchCommand>) return run_watch(options, command);
+        if constexpr (std::is_same_v<Asked, ViewCommand>) return run_view(options, command);
         if constexpr (std::is_same_v<Asked, GetCommand>) return run_get(options, command);
         if constexpr (std::is_same_v<Asked, SetCommand>) return run_set(options, command);
         if constexpr (std::is_same_v<Asked, LinkShowCommand>) return run_link_show(options);

@@ -13,11 +13,17 @@ ExitStatus run(const Invocation& invocation);
 
 // One file each.
 ExitStatus run_watch(const Options& options, const WatchCommand& command);
+ExitStatus run_view(const Options& options, const ViewCommand& command);
 ExitStatus run_doctor(const Options& options, const DoctorCommand& command);
 ExitStatus run_pair(const Options& options, const PairCommand& command);
 ExitStatus run_link_show(const Options& options);
-/// Both directions, or none: a direction that was changed is put back when the other one refuses.
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
+
+/// Both directions, or none: a direction that was changed is put back when the other one refuses. Returns
+/// what was done.
+std::string set_link(const Options& options, const LinkSetCommand& command);
+/// Done when one of them has answered; likewise.
+std::string stop_sides(const Options& options);
 
 /// Prints what was done: a sentence, or {"done": ...}.
 void print_done(const Options& options, const std::string& sentence);

@@ -45,6 +45,13 @@ inline constexpr const char* kSetMore =
 at start; the refusal says so.
 Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";
 
+inline constexpr const char* kViewMore =
+    R"(Prints the page's address and serves it until Ctrl-C: arm and scene as the slave reports them, the pose that is
+commanded now, forces, plots, controls. One page at a time has the hand and may act; all may look, and stop.
+Beyond this machine (--listen 0.0.0.0:8080) the address holds a token, and whoever has it may act; the page
+is not encrypted: across a network that you do not trust, go through ssh -L instead.
+Example: longreach view)";
+
 /// Options of `link set` with the fields that they set.
 struct FieldOption {
   const char* name;

@@ -38,6 +38,10 @@ struct WatchCommand {
   double rate_hz = 4.0;
   std::optional<std::uint64_t> count{};  // none: until Ctrl-C
 };
+/// Serves the page until Ctrl-C.
+struct ViewCommand {
+  std::string listen = "127.0.0.1:0";
+};
 struct GetCommand {
   Side side = Side::kMaster;
   std::string path;  // empty: everything
@@ -74,9 +78,9 @@ struct DoctorCommand {
   double seconds = 2.0;
 };
 
-using Command =
-    std::variant<StatusCommand, WatchCommand, GetCommand, SetCommand, LinkShowCommand, LinkSetCommand,
-                 ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand, DoctorCommand>;
+using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
+                             LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand,
+                             StopCommand, PairCommand, DoctorCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

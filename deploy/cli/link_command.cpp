@@ -115,7 +115,7 @@ ExitStatus run_link_show(const Options& options) {
   return ExitStatus::kFailed;
 }
 
-ExitStatus run_link_set(const Options& options, const LinkSetCommand& command) {
+std::string set_link(const Options& options, const LinkSetCommand& command) {
   std::vector<Change> changes = changes_of(options, command);
   look(changes);
   apply(changes);
@@ -123,7 +123,11 @@ ExitStatus run_link_set(const Options& options, const LinkSetCommand& command) {
   for (Change& change : changes)
     done += (done.empty() ? "" : "; ") + std::string(change.side == Side::kSlave ? "up: " : "down: ") +
             in_words(change.client.link());
-  print_done(options, done);
+  return done;
+}
+
+ExitStatus run_link_set(const Options& options, const LinkSetCommand& command) {
+  print_done(options, set_link(options, command));
   return ExitStatus::kDone;
 }
 

@@ -26,15 +26,6 @@ const std::string& address_of(Side side, const Options& options) {
   return side == Side::kMaster ? options.master_address : options.slave_address;
 }
 
-std::shared_ptr<grpc::Channel> connect(Side side, const Options& options) {
-  RpcSecurity security;
-  if (!options.insecure)
-    security.credentials = site_credentials(
-        options.site.empty() ? default_site() : std::filesystem::path(options.site), RpcRole::kClient);
-  return connect_rpc(address_of(side, options), side == Side::kMaster ? RpcRole::kMaster : RpcRole::kSlave,
-                     security);
-}
-
 std::string down_sentence(Side side, const Options& options, bool timed_out) {
   const std::string name(name_of(side));
   std::string sentence = "the " + name + " does not answer at " + address_of(side, options);
@@ -54,6 +45,23 @@ SideError wrong_side(Side side, const Options& options, const std::string& found
   const std::string name(name_of(side));
   return {SideError::Kind::kRefused, "what answers at " + address_of(side, options) + " is the " + found +
                                          ", not the " + name + ": correct --" + name};
+}
+
+/// Throws when what answers is another side than the one that was meant.
+void check_side(Side side, const Options& options, const proto::Status& status) {
+  if (!status.has_side() || status.side() == name_of(side)) return;
+  throw wrong_side(side, options, status.side());
+}
+
+}  // namespace
+
+std::shared_ptr<grpc::Channel> connect(Side side, const Options& options) {
+  RpcSecurity security;
+  if (!options.insecure)
+    security.credentials = site_credentials(
+        options.site.empty() ? default_site() : std::filesystem::path(options.site), RpcRole::kClient);
+  return connect_rpc(address_of(side, options), side == Side::kMaster ? RpcRole::kMaster : RpcRole::kSlave,
+                     security);
 }
 
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
@@ -80,14 +88,6 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kRefused, refusal};
   }
 }
-
-/// Throws when what answers is another side than the one that was meant.
-void check_side(Side side, const Options& options, const proto::Status& status) {
-  if (!status.has_side() || status.side() == name_of(side)) return;
-  throw wrong_side(side, options, status.side());
-}
-
-}  // namespace
 
 struct SideClient::State {
   Side side;

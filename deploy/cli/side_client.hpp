@@ -12,6 +12,12 @@
 #include "proto/config.pb.h"
 #include "proto/control.pb.h"
 
+namespace grpc {
+class Channel;
+class ClientContext;
+class Status;
+}  // namespace grpc
+
 namespace longreach {
 
 /// A call that was not carried out: one sentence that names the side.
@@ -28,6 +34,11 @@ class SideError : public std::runtime_error {
  private:
   Kind kind_;
 };
+
+/// For calls that SideClient does not have.
+std::shared_ptr<grpc::Channel> connect(Side side, const Options& options);
+SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
+                  const grpc::Status& status);
 
 class SideClient {
  public:

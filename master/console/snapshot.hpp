@@ -23,6 +23,7 @@ struct ConsoleSnapshot {
   std::optional<double> seconds_left{};  // none: runs until it is ended
   double force_max_n = 15.0;             // full length of the force bars
   bool show_keys = false;                // list the keys below the view
+  bool hand_outside = false;             // a hand from outside holds the handle
 };
 
 }  // namespace longreach

@@ -1,0 +1,16 @@
+#pragma once
+// The page, as the build has bundled it from master/console/page.
+
+#include <string_view>
+
+namespace longreach {
+
+struct ViewPage {
+  std::string_view html;
+  std::string_view script;
+  std::string_view style;
+};
+
+ViewPage view_page();
+
+}  // namespace longreach

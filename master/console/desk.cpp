@@ -1,0 +1,132 @@
+#include "master/console/desk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "common/io/pace.hpp"
+#include "common/io/real_time_loop.hpp"
+#include "common/io/rpc_server.hpp"
+#include "master/console/desk_frame.hpp"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kLeaveCheck = std::chrono::milliseconds(100);  // how soon a follower that left is noticed
+
+/// False when there is nothing to wait for: the server stops or the client has left.
+bool wait_until(Clock::time_point due, const grpc::ServerContext& context) {
+  while (!context.IsCancelled()) {
+    const auto now = Clock::now();
+    if (now >= due) return true;
+    std::this_thread::sleep_until(std::min(due, now + kLeaveCheck));
+  }
+  return false;
+}
+
+double follow_hz(const proto::FollowRequest& request) {
+  if (!request.has_rate_hz()) return kWatchHzMax;
+  if (!(request.rate_hz() > kWatchHzMin)) return kWatchHzMin;  // also what is not a number
+  return std::min(request.rate_hz(), kWatchHzMax);
+}
+
+/// Three numbers, or none: no field is zero.
+template <class Field>
+std::optional<Vector3> vector(const Field& numbers, double radius) {
+  if (numbers.empty()) return Vector3::Zero();
+  if (numbers.size() != 3) return std::nullopt;
+  const Vector3 v(numbers[0], numbers[1], numbers[2]);
+  // Beyond it a square could overflow.
+  if (!v.allFinite() || v.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
+  return Vector3(clamp_norm(v, radius));
+}
+
+std::optional<RemoteAim> to_aim(const proto::HandAim& message, const DeskService::Reach& reach) {
+  const auto position_m = vector(message.position_m(), reach.translation_m);
+  const auto rotation_rad = vector(message.rotation_rad(), reach.rotation_rad);
+  if (!position_m || !rotation_rad) return std::nullopt;
+  return RemoteAim{.position_m = *position_m,
+                   .rotation_rad = *rotation_rad,
+                   .clutch = message.clutch(),
+                   .grip = message.grip(),
+                   .holds = true,
+                   .said = monotonic_now()};
+}
+
+}  // namespace
+
+DeskService::DeskService(const Reach& reach, std::function<ConsoleSnapshot()> look,
+                         std::function<void(const RemoteAim&)> aim)
+    : reach_(reach), look_(std::move(look)), aim_(std::move(aim)) {}
+
+grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::FollowRequest* request,
+                                 grpc::ServerWriter<proto::Frame>* writer) {
+  if (!take_seat()) {
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+            std::to_string(kFollowersMax) + " clients follow the master already: end one of them"};
+  }
+  // A frame that waits in a buffer is an old frame.
+  const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
+  for (Pace pace(follow_hz(*request)); wait_until(pace.due(), *context); pace.advance()) {
+    if (!writer->Write(to_frame(look_(), reach_.translation_m), options)) break;
+  }
+  leave_seat();
+  return grpc::Status::OK;
+}
+
+grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<proto::HandAim>* reader,
+                               proto::Outcome* answer) {
+  const std::uint64_t hand = take_handle();
+  if (hand == 0) {
+    return {grpc::StatusCode::FAILED_PRECONDITION,
+            "another hand is on the handle; it has to let go first, or to be silent for 0.3 s"};
+  }
+  for (proto::HandAim message; reader->Read(&message);) {
+    const auto aim = to_aim(message, reach_);
+    if (!aim) {
+      return {grpc::StatusCode::INVALID_ARGUMENT,
+              "position_m and rotation_rad are three finite numbers each, up to 1e6"};
+    }
+    if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand has taken the handle"};
+  }
+  // Broken: what it last said grows old, and that is a hold.
+  if (context->IsCancelled()) return grpc::Status::CANCELLED;
+  (void)pass(hand, {});
+  answer->set_message("the hand has let go");
+  return grpc::Status::OK;
+}
+
+bool DeskService::take_seat() {
+  const std::lock_guard lock(mutex_);
+  if (followers_ >= kFollowersMax) return false;
+  ++followers_;
+  return true;
+}
+
+void DeskService::leave_seat() {
+  const std::lock_guard lock(mutex_);
+  --followers_;
+}
+
+std::uint64_t DeskService::take_handle() {
+  const std::lock_guard lock(mutex_);
+  const std::chrono::duration<double> silence = Clock::now() - said_;
+  if (held_ && silence.count() <= RemoteHand::kSilence_s) return 0;
+  held_ = true;
+  said_ = Clock::now();
+  return ++hands_;
+}
+
+bool DeskService::pass(std::uint64_t hand, const RemoteAim& aim) {
+  const std::lock_guard lock(mutex_);
+  if (hand != hands_) return false;
+  held_ = aim.holds;
+  said_ = Clock::now();
+  aim_(aim);
+  return true;
+}
+
+}  // namespace longreach

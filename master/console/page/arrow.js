@@ -1,0 +1,34 @@
+// A force as an arrow: it points where the force points, its tail where it acts. Seen through everything, since it mostly
+// lies within the tool.
+
+import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from 'three';
+
+const M_PER_N = 0.02;
+const LEAST_M = 0.035;
+const MOST_M = 0.3;
+const SHOWN_N = 0.15;     // the sensor's noise stays below
+const UP = new Vector3(0, 1, 0);
+
+export class Arrow {
+  constructor(color) {
+    const material = new MeshBasicMaterial({ color, depthTest: false, transparent: true, opacity: 0.95 });
+    this.shaft = new Mesh(new CylinderGeometry(0.0022, 0.0022, 1, 12), material);
+    this.head = new Mesh(new ConeGeometry(0.007, 0.02, 16), material);
+    this.group = new Group();
+    this.group.add(this.shaft, this.head);
+    for (const mesh of this.group.children) mesh.renderOrder = 10;
+    this.group.visible = false;
+  }
+
+  show(at, force_n) {
+    const n = force_n.length();
+    this.group.visible = n > SHOWN_N;
+    if (!this.group.visible) return;
+    const length = Math.min(LEAST_M + M_PER_N * n, MOST_M);
+    this.group.position.copy(at);
+    this.group.quaternion.setFromUnitVectors(UP, force_n.clone().divideScalar(n));
+    this.shaft.scale.y = length - 0.02;
+    this.shaft.position.y = (length - 0.02) / 2;
+    this.head.position.y = length - 0.01;
+  }
+}

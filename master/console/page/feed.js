@@ -1,0 +1,57 @@
+// The WebSocket to the view server: what it tells goes to `talk`, what the page asks for comes by send(). Connects again by
+// itself.
+
+const RETRY_MS = 1000;
+
+export class Feed {
+  /** `talk`: functions by the name of what is told: frame, scene, anchor, desk, said, links, down, slave_down, full, and
+   * lost, when the server does not answer. */
+  constructor(talk) {
+    this.talk = talk;
+    this.frames = 0;
+    this.gap_max_ms = 0;
+    this.last_ms = null;
+    this.times_ms = [];
+    this.connect();
+  }
+
+  connect() {
+    const address = new URL('live', location.href);
+    address.protocol = 'ws:';
+    this.socket = new WebSocket(address);
+    this.socket.onmessage = (event) => this.take(JSON.parse(event.data));
+    this.socket.onclose = () => {
+      this.last_ms = null;
+      this.talk.lost();
+      setTimeout(() => this.connect(), RETRY_MS);
+    };
+  }
+
+  take(message) {
+    if (message.frame) this.count();
+    if (message.robot) return this.talk.scene(message);
+    for (const name of Object.keys(message)) {
+      if (name === 'refused') continue;
+      this.talk[name]?.(message[name], message);
+    }
+  }
+
+  count() {
+    const now = performance.now();
+    if (this.last_ms !== null) this.gap_max_ms = Math.max(this.gap_max_ms, now - this.last_ms);
+    this.last_ms = now;
+    this.frames += 1;
+    this.times_ms.push(now);
+    if (this.times_ms.length > 120) this.times_ms.shift();
+  }
+
+  /** Frames a second, over the last two. */
+  rate_hz() {
+    const n = this.times_ms.length;
+    return n > 1 ? (1e3 * (n - 1)) / (this.times_ms[n - 1] - this.times_ms[0]) : 0;
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+}

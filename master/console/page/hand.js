@@ -1,0 +1,92 @@
+// The page's hand: where it wants the handle to be, from pointer, wheel, touch and keys. Nothing is sent from here; the newest
+// aim is `aim_m`. Keys are those of the terminal's keyboard.
+
+export const STEP_M = 0.001;
+export const LARGE_STEP_M = 0.005;
+
+const MOVES = {
+  w: [0, 1], arrowup: [0, 1], s: [0, -1], arrowdown: [0, -1],
+  a: [1, 1], arrowleft: [1, 1], d: [1, -1], arrowright: [1, -1],
+  r: [2, 1], pageup: [2, 1], f: [2, -1], pagedown: [2, -1],
+};
+const ACTIONS = { ' ': 'home', m: 'mode', '+': 'scale_up', '=': 'scale_up', '-': 'scale_down', _: 'scale_down', c: 'clutch',
+  g: 'grip', e: 'engage', x: 'stop', t: 'take' };
+
+export class Hand {
+  /** `act(name)`: what a key asks for that is no motion. */
+  constructor(act) {
+    this.act = act;
+    this.held = false;
+    this.aim_m = [0, 0, 0];
+    this.workspace_m = 0.075;
+    this.clutch = false;
+    this.grip = false;
+    this.rate = false;     // rate mode: the handle goes home when the pointer lets it go
+    this.dragging = false;
+  }
+
+  take(hand_m, gripping) {
+    this.held = true;
+    this.aim_m = [...hand_m];
+    this.clutch = false;
+    this.grip = gripping;
+  }
+
+  let_go() {
+    this.held = false;
+    this.clutch = false;
+  }
+
+  home() { this.aim_m = [0, 0, 0]; }
+
+  move(axis, by_m) {
+    if (!this.held) return;
+    this.aim_m[axis] += by_m;
+    const norm = Math.hypot(...this.aim_m);
+    if (norm > this.workspace_m) this.aim_m = this.aim_m.map((x) => (x * this.workspace_m) / norm);
+  }
+
+  /** True when the key is one of ours. */
+  key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey) return false;
+    const name = event.key.toLowerCase();
+    const move = MOVES[name];
+    if (move) {
+      this.move(move[0], move[1] * (event.shiftKey ? LARGE_STEP_M : STEP_M));
+      return this.held;
+    }
+    const action = ACTIONS[name];
+    if (!action || event.repeat) return Boolean(action);
+    this.act(action);
+    return true;
+  }
+
+  /** Dragging on `canvas` moves along the axes: `across` and `up` are functions of pixels. */
+  follow(canvas, radius_px, axes) {
+    let last = null;
+    canvas.addEventListener('pointerdown', (event) => {
+      if (!this.held) return this.act('untaken');
+      canvas.setPointerCapture(event.pointerId);
+      last = [event.clientX, event.clientY];
+      this.dragging = true;
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (!last) return;
+      const m_per_px = this.workspace_m / radius_px();
+      const fine = event.shiftKey ? 0.2 : 1;
+      if (axes.across !== undefined) this.move(axes.across, -(event.clientX - last[0]) * m_per_px * fine);
+      this.move(axes.up, -(event.clientY - last[1]) * m_per_px * fine);
+      last = [event.clientX, event.clientY];
+    });
+    const end = () => {
+      if (last && this.rate) this.home();
+      last = null;
+      this.dragging = false;
+    };
+    for (const name of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(name, end);
+    canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.move(2, -Math.sign(event.deltaY) * STEP_M);
+    }, { passive: false });
+  }
+}

@@ -1,0 +1,49 @@
+// Where the links of an arm are: Denavit-Hartenberg rows as in proto/config.proto, message Robot.
+
+import { Matrix4, Quaternion, Vector3 } from 'three';
+
+export const vector = (numbers) => new Vector3(...(numbers?.length === 3 ? numbers : [0, 0, 0]));
+
+/** Rotation vector, rad. */
+export function rotation(numbers) {
+  const v = vector(numbers);
+  const angle = v.length();
+  return new Quaternion().setFromAxisAngle(angle > 0 ? v.divideScalar(angle) : v.set(0, 0, 1), angle);
+}
+
+const turn = (axis, angle) => new Matrix4().makeRotationAxis(axis, angle);
+const shift = (x, z) => new Matrix4().makeTranslation(x, 0, z);
+const X = new Vector3(1, 0, 0);
+const Z = new Vector3(0, 0, 1);
+
+function row(joint, q, modified) {
+  const theta = joint.theta_rad + (joint.kind === 'REVOLUTE' ? q : 0);
+  const d = joint.d_m + (joint.kind === 'PRISMATIC' ? q : 0);
+  const about_z = turn(Z, theta).multiply(shift(0, d));
+  const about_x = shift(joint.a_m, 0).multiply(turn(X, joint.alpha_rad));
+  return modified ? about_x.multiply(about_z) : about_z.multiply(about_x);
+}
+
+/** Frames of the base, behind each row, and of the tool. */
+export function frames(robot, q) {
+  const all = [new Matrix4()];
+  robot.joint.forEach((joint, i) => {
+    all.push(all.at(-1).clone().multiply(row(joint, q[i] ?? 0, robot.convention === 'MODIFIED')));
+  });
+  const tool = new Matrix4().compose(vector(robot.tool?.position_m), rotation(robot.tool?.rotation_rad),
+    new Vector3(1, 1, 1));
+  all.push(all.at(-1).clone().multiply(tool));
+  return all;
+}
+
+/** Pose of the tool where the robot starts. */
+export const start_frame = (robot) => frames(robot, robot.joint.map((joint) => joint.start_rad)).at(-1);
+
+/** Joints that stand at the end of their range, by index. */
+export function at_limit(robot, q) {
+  return robot.joint.flatMap((joint, i) => {
+    const margin = 0.004 * (joint.max_rad - joint.min_rad);
+    const out = joint.kind !== 'FIXED' && (q[i] < joint.min_rad + margin || q[i] > joint.max_rad - margin);
+    return out ? [i] : [];
+  });
+}

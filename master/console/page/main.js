@@ -1,0 +1,165 @@
+// The page of `longreach view`: puts feed, picture, plots, panel and hand together.
+
+import { Vector3 } from 'three';
+
+import { Feed } from './feed.js';
+import { Hand } from './hand.js';
+import { rotation, vector } from './kinematics.js';
+import { draw_lift, draw_pad, pad_radius } from './pad.js';
+import { Panel } from './panel.js';
+import { Picture } from './picture.js';
+import { Plots } from './plots.js';
+
+const AIM_MS = 25;     // the master lets a hand go that is silent for 300 ms
+const SCALE_STEP = 0.05;
+const COLORS = ['ground', 'card', 'line', 'text', 'quiet', 'operator', 'robot', 'contact', 'good', 'warn', 'third'];
+
+function colors() {
+  const style = getComputedStyle(document.documentElement);
+  const all = Object.fromEntries(COLORS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+  return { ...all, link: dark ? '#aeb9c6' : '#b9c3cf', scene: dark ? '#7f95ad' : '#8fa3ba', path: all.third };
+}
+
+const at = (id) => document.getElementById(id);
+let frame = null;
+let anchor = null;     // of the present engagement
+let dirty = true;
+let page_colors = colors();
+
+let picture = null;    // until the rest of the page is there
+let lasting = null;    // robot and scene, as last told
+const plots = new Plots(at('plots'), page_colors);
+const hand = new Hand((name) => ask(name));
+const panel = new Panel((name, value) => ask(name, value));
+
+/** Where the commands put the tool now. */
+function ghost() {
+  if (!anchor || anchor.engagement !== frame.engagement) return null;
+  if (frame.state !== 'Engaged' && frame.state !== 'Holding') return null;
+  return {
+    position: vector(anchor.position_m).add(vector(frame.goal_m)),
+    quaternion: rotation(frame.goal_rad).multiply(rotation(anchor.rotation_rad)),
+  };
+}
+
+function show_lag(pose) {
+  let text = '';
+  if (pose && frame.far) {
+    const mm = 1e3 * new Vector3(...frame.far.tool_m).distanceTo(pose.position);
+    text = `robot ${mm.toFixed(mm < 10 ? 1 : 0)} mm from where it is sent`;
+  }
+  at('lag').textContent = text;
+}
+
+const feed = new Feed({
+  frame(now) {
+    // A deflected handle would be a speed from the start.
+    if (now.mode === 'rate' && frame?.mode === 'position') hand.home();
+    frame = now;
+    hand.workspace_m = now.workspace_m;
+    hand.rate = now.mode === 'rate';
+    plots.anchor = anchor?.engagement === now.engagement ? anchor.position_m : plots.anchor;
+    plots.add(now);
+    dirty = true;
+  },
+  scene(now) {
+    lasting = now;
+    picture?.build(now);
+  },
+  anchor(now) { anchor = now; },
+  desk(now) {
+    if (now.holder === 'you' && !hand.held && frame) hand.take(frame.hand_m, frame.gripping);
+    if (now.holder !== 'you') hand.let_go();
+    panel.hold(now);
+  },
+  said(sentence, message) { panel.say(sentence, message.refused); },
+  links(names) { panel.links(names); },
+  down(why) { if (why) offline('no master', why); },
+  slave_down(why) { if (why) panel.say(why, true); },
+  full(why) { offline('full', why); },
+  lost() { offline('no server', 'the view server does not answer; it is asked again every second'); },
+});
+
+function offline(state, why) {
+  hand.let_go();
+  panel.hold({ holder: 'nobody', viewers: 1 });
+  panel.banner(state, why, '');
+}
+
+function ask(name, value) {
+  const scale_to = (by) => Math.round((frame.scale + by) / SCALE_STEP) * SCALE_STEP;
+  const asks = {
+    take: () => feed.send({ take: !hand.held }),
+    engage: () => feed.send({ do: 'engage' }),
+    stop: () => feed.send({ do: 'stop' }),
+    mode: () => feed.send({ mode: value ?? (frame.mode === 'rate' ? 'position' : 'rate') }),
+    scale: () => feed.send({ scale: value }),
+    scale_up: () => feed.send({ scale: Math.min(scale_to(SCALE_STEP), 1) }),
+    scale_down: () => feed.send({ scale: Math.max(scale_to(-SCALE_STEP), SCALE_STEP) }),
+    link: () => feed.send({ link: value }),
+    clutch: () => { hand.clutch = !hand.clutch; },
+    grip: () => { hand.grip = !hand.grip; },
+    home: () => hand.home(),
+    camera: () => picture?.choose(value),
+    untaken: () => panel.say('take the hand first, then drag here', false),
+  };
+  if (!frame && name !== 'stop' && name !== 'camera') return;
+  asks[name]?.();
+  dirty = true;
+}
+
+addEventListener('keydown', (event) => {
+  if (event.target.closest?.('select, input') && event.key !== 'x') return;
+  if (event.target.closest?.('button, summary') && event.key === ' ') return;
+  if (hand.key(event)) event.preventDefault();
+});
+hand.follow(at('pad'), () => pad_radius(at('pad')), { across: 1, up: 0 });
+hand.follow(at('lift'), () => (0.9 * at('lift').clientHeight) / 2, { up: 2 });
+setInterval(() => {
+  if (hand.held) feed.send({ aim: hand.aim_m, clutch: hand.clutch, grip: hand.grip });
+}, AIM_MS);
+
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+  page_colors = colors();
+  picture?.paint(page_colors);
+  plots.paint(page_colors);
+});
+new ResizeObserver(() => { dirty = true; }).observe(at('picture'));
+
+/** The picture takes longest to begin: the rest is there before. */
+function begin_picture() {
+  picture = new Picture(at('space'), page_colors);
+  picture.on_inset = ({ width, height, margin }) => {
+    Object.assign(at('inset').style, { left: `${margin}px`, bottom: `${margin}px`, width: `${width}px`, height: `${height}px` });
+  };
+  for (const orbit of [picture.orbit, picture.orbit_whole]) orbit.addEventListener('change', () => { dirty = true; });
+  if (lasting) picture.build(lasting);
+}
+addEventListener('load', () => setTimeout(begin_picture, 0));
+
+let rate_ms = 0;
+let drawn_ms = 0;
+
+function draw(now_ms) {
+  requestAnimationFrame(draw);
+  if (!dirty || !frame || now_ms - drawn_ms < (picture?.pause_ms ?? 0)) return;
+  dirty = false;
+  drawn_ms = now_ms;
+  const pose = ghost();
+  picture?.show(frame, pose);
+  picture?.draw();
+  plots.draw(now_ms);
+  panel.show(frame, hand);
+  draw_pad(at('pad'), frame, hand, page_colors);
+  draw_lift(at('lift'), frame, hand, page_colors);
+  show_lag(pose);
+  if (now_ms - rate_ms > 500) {
+    rate_ms = now_ms;
+    at('rate').textContent = `${feed.rate_hz().toFixed(0)} updates a second`;
+  }
+}
+requestAnimationFrame(draw);
+
+// For tests and for the curious.
+window.longreach = { feed, hand, picture: () => picture, frame: () => frame, anchor: () => anchor };

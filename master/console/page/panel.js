@@ -1,0 +1,106 @@
+// The banner, the controls and the force bars: what they show of a frame, and what is asked for by them.
+
+const by_id = (id) => document.getElementById(id);
+const number = (x, digits) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
+const percent = (x) => (Number.isFinite(x) ? `${(100 * x).toFixed(1)} %` : '–');
+
+/** Changes the page only where something has changed. */
+function write(id, text) {
+  const element = by_id(id);
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export class Panel {
+  /** `ask(name, value)`: engage, stop, take, mode, scale, clutch, grip, link, camera. */
+  constructor(ask) {
+    this.ask = ask;
+    this.holder = 'nobody';
+    for (const id of ['engage', 'stop', 'take', 'clutch', 'grip']) by_id(id).addEventListener('click', () => ask(id));
+    for (const button of document.querySelectorAll('[data-mode]'))
+      button.addEventListener('click', () => ask('mode', button.dataset.mode));
+    for (const button of document.querySelectorAll('[data-camera]'))
+      button.addEventListener('click', () => this.choose_camera(button.dataset.camera));
+    const scale = by_id('scale');
+    scale.addEventListener('input', () => { write('scale-now', Number(scale.value).toFixed(2)); });
+    scale.addEventListener('change', () => ask('scale', Number(scale.value)));
+    const link = by_id('link');
+    link.addEventListener('change', () => { if (link.value) ask('link', link.value); });
+    this.hold({ holder: 'nobody', viewers: 1 });
+  }
+
+  choose_camera(name) {
+    for (const button of document.querySelectorAll('[data-camera]'))
+      button.setAttribute('aria-pressed', String(button.dataset.camera === name));
+    this.ask('camera', name);
+  }
+
+  /** Who has the hand: nobody, you, other. */
+  hold({ holder, viewers }) {
+    this.holder = holder;
+    const mine = holder === 'you';
+    const take = by_id('take');
+    take.classList.toggle('held', mine);
+    take.textContent = mine ? 'Give the hand back' : 'Take the hand';
+    take.disabled = holder === 'other';
+    by_id('reach').classList.toggle('held', mine);
+    for (const element of document.querySelectorAll('#controls button, #controls input, #controls select'))
+      element.disabled = !mine;
+    const pages = viewers === 1 ? '' : ` · ${viewers} pages look`;
+    write('holder', (mine ? 'yours' : holder === 'other' ? 'another page has it' : 'you look on') + pages);
+  }
+
+  links(names) {
+    by_id('link').append(...names.map((name) => new Option(name, name)));
+  }
+
+  show(frame, hand) {
+    this.banner(frame.state, frame.happening, frame.clamped.join(' · '));
+    write('rtt', frame.link.rtt_known ? `${frame.link.rtt_s.toFixed(frame.link.rtt_s < 0.1 ? 3 : 2)} s` : '–');
+    write('loss', `${percent(frame.up_loss)} / ${percent(frame.link.loss)}`);
+    write('now-mode', frame.mode === 'rate' ? 'rate' : `position × ${number(frame.scale, 2)}`);
+    for (const button of document.querySelectorAll('[data-mode]'))
+      button.setAttribute('aria-pressed', String(button.dataset.mode === frame.mode));
+    const scale = by_id('scale');
+    if (document.activeElement !== scale || !scale.matches(':active')) {
+      scale.value = frame.scale;
+      write('scale-now', number(frame.scale, 2));
+    }
+    by_id('clutch').setAttribute('aria-pressed', String(hand.held ? hand.clutch : frame.clutched));
+    by_id('grip').setAttribute('aria-pressed', String(frame.gripping));
+    write('engage', frame.state === 'Engaged' ? 'Engaged' : 'Engage');
+    by_id('engage').disabled = this.holder !== 'you' || frame.state === 'Engaged';
+    this.felt(frame);
+  }
+
+  felt(frame) {
+    const [x, y, z] = frame.hand_m.map((m) => (1e3 * m).toFixed(1));
+    write('where', `x ${x}   y ${y}   z ${z} mm`);
+    ['x', 'y', 'z'].forEach((name, i) => {
+      const share = Math.max(-1, Math.min(1, frame.force_n[i] / frame.force_max_n));
+      // Bent, so that small forces show.
+      const width = 50 * Math.abs(share) ** 0.7;
+      const bar = by_id(`felt-${name}`).style;
+      bar.width = `${width.toFixed(1)}%`;
+      bar.left = share < 0 ? `${(50 - width).toFixed(1)}%` : '50%';
+    });
+    write('felt-n', `${number(Math.hypot(...frame.force_n), 2)} N`);
+    const k = frame.stiffness_n_per_m;
+    write('felt-k', k > 0 ? `${number(1e-3 * k, 2)} N/mm` : '–');
+  }
+
+  banner(state, sentence, clamped) {
+    by_id('banner').dataset.state = state;
+    write('state', state);
+    write('happening', sentence);
+    write('clamped', clamped);
+  }
+
+  /** Something of the moment. */
+  say(sentence, refused) {
+    const box = by_id('said');
+    box.textContent = sentence;
+    box.className = refused ? 'shown refused' : 'shown';
+    clearTimeout(this.saying);
+    this.saying = setTimeout(() => { box.className = ''; }, refused ? 6000 : 2500);
+  }
+}

@@ -1,0 +1,175 @@
+// The picture in space: arm, scene, ghost, trails, contact arrows, workspace. Two cameras: near the tool, and the whole arm;
+// the one that is not chosen is shown small in the corner. Drawn when something has changed.
+
+import { AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, Line,
+  LineBasicMaterial, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer }
+  from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+
+import { Arm, ring } from './arm.js';
+import { Arrow } from './arrow.js';
+import { start_frame, vector } from './kinematics.js';
+import { Scenery, ground } from './scenery.js';
+
+const TRAIL_POINTS = 1800;     // 30 s at 60 Hz
+const INSET = { width: 0.24, margin: 12 };
+
+/** Whether the picture is drawn by the processor, which then has little time for anything else. */
+function drawn_in_software() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+class Trail {
+  constructor(color) {
+    this.positions = new Float32Array(3 * TRAIL_POINTS);
+    this.count = 0;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(this.positions, 3));
+    this.line = new Line(geometry, new LineBasicMaterial({ color }));
+    this.line.frustumCulled = false;
+    this.clear();
+  }
+
+  clear() {
+    this.count = 0;
+    this.line.geometry.setDrawRange(0, 0);
+  }
+
+  add(p) {
+    if (this.count === TRAIL_POINTS) {
+      this.positions.copyWithin(0, 3);
+      this.count -= 1;
+    }
+    p.toArray(this.positions, 3 * this.count);
+    this.count += 1;
+    this.line.geometry.attributes.position.needsUpdate = true;
+    this.line.geometry.setDrawRange(0, this.count);
+  }
+}
+
+export class Picture {
+  constructor(canvas, colors) {
+    this.canvas = canvas;
+    this.slow = drawn_in_software();
+    this.pause_ms = this.slow ? 90 : 0;     // between two pictures
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.slow });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.near = new PerspectiveCamera(38, 1, 0.005, 200);
+    this.whole = new PerspectiveCamera(38, 1, 0.05, 500);
+    for (const camera of [this.near, this.whole]) camera.up.set(0, 0, 1);
+    this.orbit = new OrbitControls(this.near, canvas);
+    this.orbit_whole = new OrbitControls(this.whole, canvas);
+    this.choose('tool');
+    this.lasting = null;     // {robot, scene}, as last told
+    this.last = null;        // frame and ghost, as last shown
+    this.paint(colors);
+  }
+
+  /** The colours of the page; everything is built anew. */
+  paint(colors) {
+    this.colors = colors;
+    this.renderer.setClearColor(new Color(colors.card), 1);
+    if (this.lasting) this.build(this.lasting);
+  }
+
+  choose(name) {
+    this.chosen = name;
+    this.orbit.enabled = name === 'tool';
+    this.orbit_whole.enabled = name === 'arm';
+  }
+
+  build(lasting) {
+    const first = !this.lasting;
+    this.lasting = lasting;
+    const { robot, scene, workspace_m } = lasting;
+    const start = new Vector3().setFromMatrixPosition(start_frame(robot));
+    this.start = start;
+    this.space = new Scene();
+    this.space.add(new AmbientLight(0xffffff, 0.9), new HemisphereLight(0xffffff, 0x8899aa, 1.1));
+    const sun = new DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-4, -6, 9);
+    this.space.add(sun);
+    this.arm = new Arm(robot, scene.tool_radius_m ?? 0, this.colors);
+    this.scenery = new Scenery(scene, start, this.colors);
+    this.reported = ring(Math.max(2.2 * (scene.tool_radius_m ?? 0), 0.014), this.colors.robot);
+    this.workspace = new Mesh(new SphereGeometry(workspace_m || 3, 28, 16),
+      new MeshBasicMaterial({ color: this.colors.line, wireframe: true, transparent: true, opacity: 0.22 }));
+    this.workspace.position.copy(start);
+    this.trails = { robot: new Trail(this.colors.robot), operator: new Trail(this.colors.operator) };
+    this.measured = new Arrow(this.colors.contact);
+    this.rendered = new Arrow(this.colors.operator);
+    this.overview = new Group();
+    this.overview.add(ground(2 * Math.ceil(start.length() * 0.8), this.colors), this.workspace);
+    this.space.add(this.arm.group, this.arm.ghost, this.scenery.group, this.reported, this.trails.robot.line,
+      this.trails.operator.line, this.measured.group, this.rendered.group, this.overview);
+    if (first) this.frame_cameras();
+  }
+
+  frame_cameras() {
+    const reach = this.scenery.radius(this.start);
+    this.near.position.copy(this.start).add(new Vector3(-0.5, -1.75, 0.75).multiplyScalar(reach));
+    this.orbit.target.copy(this.start).add(new Vector3(0.2 * reach, 0, 0));
+    const size = Math.max(this.start.length(), 0.6);
+    this.whole.position.set(0.15 * size, -1.75 * size, 0.75 * size);
+    this.orbit_whole.target.copy(this.start).multiplyScalar(0.5);
+    this.orbit.update();
+    this.orbit_whole.update();
+  }
+
+  /** `ghost`: pose that the commands ask for now, or none. */
+  show(frame, ghost) {
+    if (!this.lasting || !frame.far) return;
+    const { far } = frame;
+    this.arm.set(far.joint_rad);
+    this.arm.set_ghost(ghost);
+    const tool = vector(far.tool_m);
+    const force = vector(far.force_n);
+    this.reported.position.copy(vector(far.goal_m));
+    this.reported.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.arm.approach);
+    this.trails.robot.add(tool);
+    if (ghost) this.trails.operator.add(ghost.position);
+    this.scenery.touch(tool, frame.in_contact);
+    // Side by side, where they would lie in each other.
+    const aside = new Vector3(0, 0, 0.012);
+    this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3());
+    this.rendered.show((ghost?.position ?? tool).clone().addScaledVector(aside, 2), vector(frame.spring_n));
+    const outside = this.outside = far.clamped.includes('workspace') || far.clamped.includes('unreachable');
+    this.workspace.material.color.set(outside ? this.colors.contact : this.colors.line);
+    this.workspace.material.opacity = outside ? 0.6 : 0.22;
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const size = this.renderer.getSize(new (this.near.position.constructor)());
+    if (size.x !== clientWidth || size.y !== clientHeight) this.renderer.setSize(clientWidth, clientHeight, false);
+    return { width: clientWidth, height: clientHeight };
+  }
+
+  view(camera, overview, x, y, width, height) {
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    this.overview.visible = overview;
+    // From within, its wires are only in the way.
+    const radius = this.workspace.geometry.parameters.radius;
+    this.workspace.visible = this.outside || camera.position.distanceTo(this.start) > 1.05 * radius;
+    this.renderer.setViewport(x, y, width, height);
+    this.renderer.setScissor(x, y, width, height);
+    this.renderer.render(this.space, camera);
+  }
+
+  draw() {
+    if (!this.lasting) return;
+    const { width, height } = this.resize();
+    const near_is_large = this.chosen === 'tool';
+    this.renderer.setScissorTest(true);
+    this.view(near_is_large ? this.near : this.whole, !near_is_large, 0, 0, width, height);
+    const w = Math.round(Math.max(150, INSET.width * width));
+    const h = Math.round(0.68 * w);
+    this.on_inset?.({ ...INSET, width: w, height: h });
+    this.view(near_is_large ? this.whole : this.near, near_is_large, INSET.margin, INSET.margin, w, h);
+  }
+}

@@ -1,0 +1,149 @@
+// What the robot can meet: the surfaces and the path of a scene (proto/config.proto, message Scene). A ball or any other
+// body turns red when the tool touches it; what was touched once keeps a tint.
+
+import { BoxGeometry, BufferGeometry, Color, CylinderGeometry, DoubleSide, GridHelper, Group, Line, LineBasicMaterial,
+  Mesh, MeshStandardMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
+
+import { rotation, vector } from './kinematics.js';
+
+const UP = new Vector3(0, 1, 0);
+const Z = new Vector3(0, 0, 1);
+const WALL_M = 0.3;
+
+const from_start = (part, numbers, start) => {
+  const p = vector(numbers);
+  return part.from_tool_start ? p.add(start) : p;
+};
+
+function plane(shape, start, material, colors) {
+  const normal = vector(shape.normal).normalize();
+  const point = from_start(shape, shape.point_m, start);
+  // The piece of it nearest to where the tool starts.
+  const centre = start.clone().addScaledVector(normal, point.clone().sub(start).dot(normal));
+  const wall = new Mesh(new PlaneGeometry(WALL_M, WALL_M), material);
+  wall.position.copy(centre);
+  wall.quaternion.setFromUnitVectors(Z, normal);
+  const grid = new GridHelper(WALL_M, 10, colors.line, colors.line);
+  grid.rotation.x = Math.PI / 2;
+  wall.add(grid);
+  material.side = DoubleSide;
+  return { mesh: wall, distance: (p) => p.clone().sub(point).dot(normal) };
+}
+
+function sphere(shape, start, material) {
+  const centre = from_start(shape, shape.centre_m, start);
+  const mesh = new Mesh(new SphereGeometry(shape.radius_m, 40, 24), material);
+  mesh.position.copy(centre);
+  return { mesh, distance: (p) => p.distanceTo(centre) - shape.radius_m };
+}
+
+function box(shape, start, material) {
+  const centre = from_start(shape, shape.centre_m, start);
+  const size = shape.size_m.length === 3 ? vector(shape.size_m) : new Vector3(0.04, 0.04, 0.04);
+  const mesh = new Mesh(new BoxGeometry(size.x, size.y, size.z), material);
+  mesh.position.copy(centre);
+  mesh.quaternion.copy(rotation(shape.rotation_rad));
+  const inverse = mesh.quaternion.clone().invert();
+  return {
+    mesh,
+    distance: (p) => {
+      const local = p.clone().sub(centre).applyQuaternion(inverse);
+      const out = new Vector3(Math.abs(local.x), Math.abs(local.y), Math.abs(local.z)).addScaledVector(size, -0.5);
+      const inside = Math.min(Math.max(out.x, out.y, out.z), 0);
+      return out.max(new Vector3()).length() + inside;
+    },
+  };
+}
+
+function cylinder(shape, start, material) {
+  const centre = from_start(shape, shape.centre_m, start);
+  const axis = shape.axis.length === 3 ? vector(shape.axis).normalize() : Z.clone();
+  const mesh = new Mesh(new CylinderGeometry(shape.radius_m, shape.radius_m, shape.length_m, 40), material);
+  mesh.position.copy(centre);
+  mesh.quaternion.setFromUnitVectors(UP, axis);
+  return {
+    mesh,
+    distance: (p) => {
+      const local = p.clone().sub(centre);
+      const height = local.dot(axis);
+      const radial = local.addScaledVector(axis, -height).length() - shape.radius_m;
+      const axial = Math.abs(height) - shape.length_m / 2;
+      return Math.min(Math.max(radial, axial), 0) + Math.hypot(Math.max(radial, 0), Math.max(axial, 0));
+    },
+  };
+}
+
+const SHAPES = { plane, sphere, box, cylinder };
+
+/** Straight from point to point, quarter turns of the path's radius between. */
+function path_points(path, start) {
+  const points = path.waypoint.map((w) => from_start(path, w.point_m, start));
+  const out = [points[0]];
+  for (let i = 1; i + 1 < points.length; ++i) {
+    const before = points[i - 1].clone().sub(points[i]).normalize();
+    const after = points[i + 1].clone().sub(points[i]).normalize();
+    const r = path.turn_radius_m;
+    const centre = points[i].clone().addScaledVector(before, r).addScaledVector(after, r);
+    for (let k = 0; k <= 16; ++k) {
+      const angle = (k / 16) * (Math.PI / 2);
+      out.push(centre.clone().addScaledVector(after, -r * Math.cos(angle)).addScaledVector(before, -r * Math.sin(angle)));
+    }
+  }
+  out.push(points.at(-1));
+  return out;
+}
+
+export class Scenery {
+  /** `start`: where the tool starts, W. */
+  constructor(scene, start, colors) {
+    this.group = new Group();
+    this.tool_radius_m = scene.tool_radius_m ?? 0;
+    this.red = new Color(colors.contact);
+    this.bodies = [];
+    for (const surface of scene.surface ?? []) {
+      // The slave prints all shapes; the one that it has is the one that is somewhere.
+      const kind = Object.keys(SHAPES).find((name) => surface[name]?.centre_m?.length || surface[name]?.point_m?.length);
+      if (!kind) continue;     // a hinge is met by turning: it has no place
+      const material = new MeshStandardMaterial({ color: colors.scene, roughness: 0.8, transparent: kind === 'plane',
+        opacity: kind === 'plane' ? 0.35 : 1 });
+      const body = SHAPES[kind](surface[kind], start, material, colors);
+      this.bodies.push({ ...body, material, plain: new Color(colors.scene), solid: kind !== 'plane', touched: false });
+      this.group.add(body.mesh);
+    }
+    if (scene.path?.waypoint?.length > 1) {
+      const line = new BufferGeometry().setFromPoints(path_points(scene.path, start));
+      this.group.add(new Line(line, new LineBasicMaterial({ color: colors.path })));
+    }
+  }
+
+  /** How far the scene reaches from where the tool starts, m. */
+  radius(start) {
+    let reach = 0.25;
+    for (const { mesh, solid } of this.bodies) {
+      if (solid) reach = Math.max(reach, mesh.position.distanceTo(start) + 0.05);
+    }
+    return Math.min(reach, 3);
+  }
+
+  /** `contact`: the slave feels something at the tool. */
+  touch(tool_m, contact) {
+    let nearest = null;
+    if (contact) {
+      const by_distance = this.bodies.map((body) => ({ body, d: body.distance(tool_m) - this.tool_radius_m }));
+      nearest = by_distance.reduce((a, b) => (a && a.d <= b.d ? a : b), null)?.body;
+    }
+    for (const body of this.bodies) {
+      const now = body === nearest;
+      if (now && body.solid) body.touched = true;
+      const share = now ? 1 : body.touched ? 0.75 : 0;
+      body.material.color.lerpColors(body.plain, this.red, body.solid ? share : 0.6 * share);
+    }
+  }
+}
+
+/** A grid on the ground and three short axes, so that the eye finds its way. */
+export function ground(size, colors) {
+  const grid = new GridHelper(size, 20, colors.line, colors.line);
+  grid.rotation.x = Math.PI / 2;
+  return grid;
+}

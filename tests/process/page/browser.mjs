@@ -1,0 +1,99 @@
+// A browser in front of the page of `longreach view`: opened without a window, driven as a person does, watched for errors.
+
+import { createRequire } from 'module';
+import { join } from 'path';
+
+/** `packages`: the folder that the build fetched the page's packages into. */
+export async function open(packages, chromium) {
+  const puppeteer = createRequire(join(packages, 'package.json'))('puppeteer-core');
+  return puppeteer.launch({
+    executablePath: chromium,
+    headless: true,
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'],
+  });
+}
+
+export class Person {
+  constructor(page, folder) {
+    this.page = page;
+    this.folder = folder;
+    this.errors = [];
+    this.deeds = 0;     // clicks and keys
+    this.engages_again = false;     // a busy machine stops the page for longer than a hand may be silent: that is a hold
+    page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
+    page.on('pageerror', (error) => this.errors.push(String(error)));
+    page.on('requestfailed', (request) => this.errors.push(`not loaded: ${request.url()}`));
+  }
+
+  async visit(address) {
+    await this.page.setViewport({ width: 1280, height: 800 });
+    await this.page.goto(address, { waitUntil: 'load' });
+    await this.see('the first frames', () => longreach.feed.frames > 30 && longreach.frame().far);
+  }
+
+  async click(selector) {
+    this.deeds += 1;
+    await this.page.click(selector);
+  }
+
+  async key(name) {
+    this.deeds += 1;
+    await this.page.keyboard.press(name);
+  }
+
+  /** With shift: the large step. */
+  async large(name) {
+    this.deeds += 1;
+    await this.page.keyboard.down('Shift');
+    await this.page.keyboard.press(name);
+    await this.page.keyboard.up('Shift');
+  }
+
+  /** Takes the handle by the pad; drag() and release() follow. */
+  async grasp() {
+    this.deeds += 1;
+    const pad = await (await this.page.$('#pad')).boundingBox();
+    this.at = { x: pad.x + pad.width / 2, y: pad.y + pad.height / 2 };
+    this.px_per_m = await this.page.evaluate(() => (0.45 * document.getElementById('pad').clientHeight) / longreach.frame().workspace_m);
+    await this.page.mouse.move(this.at.x, this.at.y);
+    await this.page.mouse.down();
+  }
+
+  /** Forwards, along x. */
+  async drag(by_m) {
+    this.at.y -= by_m * this.px_per_m;
+    await this.page.mouse.move(this.at.x, this.at.y, { steps: 6 });
+  }
+
+  async release() { await this.page.mouse.up(); }
+
+  /** Waits until it is so. */
+  async see(what, is_so, ...values) {
+    try {
+      const waiting = this.page.waitForFunction(is_so, { timeout: 60000, polling: 50 }, ...values);
+      const again = setInterval(() => this.engage_again().catch(() => {}), 500);
+      await waiting.finally(() => clearInterval(again));
+    } catch (error) {
+      const frame = await this.page.evaluate(() => JSON.stringify(longreach.frame()));
+      await this.shoot('missed');
+      throw new Error(`never seen: ${what}; the last frame was ${frame}`);
+    }
+    console.log(`seen: ${what}`);
+  }
+
+  async engage_again() {
+    if (!this.engages_again || this.engaging || !await this.look(() => longreach.frame().state === 'Holding')) return;
+    console.log('held meanwhile: engaged again');
+    this.engaging = true;
+    await this.key('e');
+    setTimeout(() => { this.engaging = false; }, 5000);     // the answer takes a round trip
+  }
+
+  async look(picture) { return this.page.evaluate(picture); }
+
+  async scheme(name) {
+    await this.page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: name }]);
+  }
+
+  async shoot(name) { await this.page.screenshot({ path: join(this.folder, `${name}.png`) }); }
+}

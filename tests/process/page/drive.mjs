@@ -1,0 +1,118 @@
+// drive.mjs demo|path ADDRESS FOLDER PACKAGES CHROMIUM: drives the page, writes pictures of it into FOLDER. Exit status 1 and a
+// sentence when something is not seen.
+
+import { Person, open } from './browser.mjs';
+
+const [what, address, folder, packages, chromium] = process.argv.slice(2);
+
+function require(is_so, sentence) {
+  if (!is_so) throw new Error(sentence);
+  console.log(`so: ${sentence}`);
+}
+
+/** The page beside a script that touches the wall. */
+async function demo(person) {
+  await person.see('engaged', () => longreach.frame().state === 'Engaged');
+  await person.look(() => {
+    longreach.was = longreach.frame();
+    longreach.ink = () => [...document.querySelectorAll('#plots canvas')].map((canvas) => canvas.toDataURL());
+    longreach.plotted = longreach.ink();
+  });
+  await person.see('the arm moves', () => {
+    const [a, b] = [longreach.was.far.joint_rad, longreach.frame().far.joint_rad];
+    return a.some((q, i) => Math.abs(q - b[i]) > 1e-5);
+  });
+  await person.see('the plots run', () => longreach.ink().every((url, i) => url !== longreach.plotted[i]));
+  await person.see('the ghost', () => longreach.picture()?.arm?.ghost.visible);
+  await person.see('the wall is felt', () => longreach.frame().in_contact && Math.hypot(...longreach.frame().spring_n) > 0.3);
+  for (const scheme of ['light', 'dark']) {
+    await person.scheme(scheme);
+    await person.page.setViewport({ width: 1920, height: 1080 });
+    await new Promise((done) => { setTimeout(done, 500); });
+    await person.shoot(`demo-1920x1080-${scheme}`);
+    await person.page.setViewport({ width: 1280, height: 800 });
+    await new Promise((done) => { setTimeout(done, 500); });
+    await person.shoot(`demo-1280x800-${scheme}`);
+  }
+  await person.click('#take');
+  await person.see('the hand is taken', () => longreach.hand.held && longreach.frame().hand_outside);
+  await person.click('[data-mode="rate"]');
+  await person.see('rate mode', () => longreach.frame().mode === 'rate');
+  await person.click('[data-mode="position"]');
+  await person.see('position mode', () => longreach.frame().mode === 'position');
+  await person.key('-');
+  await person.see('another scale', () => Math.abs(longreach.frame().scale - 0.75) < 1e-9);
+  const note = () => person.look(() => {
+    longreach.was = longreach.frame();
+    longreach.way = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
+  });
+  await note();
+  for (let i = 0; i < 2; ++i) await person.large('s');
+  await person.see('the robot follows the hand', () => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m) > 0.004);
+  await person.click('#stop');
+  await person.see('the robot stops', () => longreach.frame().state === 'Stopped' && longreach.frame().far_state === 'Stopped');
+  await new Promise((done) => { setTimeout(done, 1000); });
+  await note();
+  for (let i = 0; i < 3; ++i) await person.large('w');
+  await person.see('the hand moves on', () => longreach.way(longreach.frame().hand_m, longreach.was.hand_m) > 0.008);
+  await new Promise((done) => { setTimeout(done, 1500); });
+  const moved = await person.look(() => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m));
+  require(moved < 5e-4, `the robot does not: ${(1e3 * moved).toFixed(3)} mm`);
+}
+
+/** A person with nothing but the page: to the wall across the link, feel it, let go, stop. */
+async function path(person) {
+  await person.click('#take');
+  await person.see('the hand is taken', () => longreach.hand.held);
+  await person.click('#engage');
+  await person.see('engaged', () => longreach.frame().state === 'Engaged' && longreach.anchor());
+  // Where the commands put the tool, from where it was first.
+  await person.look(() => {
+    const [first] = longreach.anchor().position_m;
+    longreach.commanded = () => longreach.anchor().position_m[0] + longreach.frame().goal_m[0] - first;
+  });
+  person.engages_again = true;
+  // Coarse: a deflection of 15 mm is a speed of 20 mm/s. Let go, the handle goes home.
+  await person.click('[data-mode="rate"]');
+  await person.see('rate mode', () => longreach.frame().mode === 'rate');
+  await person.grasp();
+  await person.drag(0.015);
+  await person.see('nearly at the wall', () => longreach.commanded() > 0.09);
+  await person.release();
+  await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004);
+  // Fine: into the wall, whose news takes as long as the link; then it is there at once.
+  await person.click('[data-mode="position"]');
+  await person.see('position mode', () => longreach.frame().mode === 'position');
+  await person.grasp();
+  for (let i = 0; i < 10 && await person.look(() => longreach.commanded() < 0.107); ++i) {
+    await person.drag(0.003);
+    await new Promise((done) => { setTimeout(done, 400); });
+  }
+  await person.see('the robot touches the wall', () => longreach.frame().in_contact && longreach.frame().stiffness_n_per_m > 500);
+  await person.drag(0.003);
+  await person.see('the wall is felt', () => Math.hypot(...longreach.frame().spring_n) > 0.5
+    && document.getElementById('felt-x').offsetWidth > 5);
+  await person.shoot('path-wall');
+  await person.drag(-0.02);
+  await person.see('let go of the wall', () => !longreach.frame().in_contact);
+  person.engages_again = false;
+  await person.release();
+  await person.click('#stop');
+  await person.see('the robot stops', () => longreach.frame().far_state === 'Stopped');
+  require(person.deeds < 20, `${person.deeds} clicks, drags and keys, under 20`);
+}
+
+const browser = await open(packages, chromium);
+const person = new Person(await browser.newPage(), folder);
+try {
+  await person.visit(address);
+  await { demo, path }[what](person);
+  const frames = await person.look(() => longreach.feed.frames);
+  require(frames > 100, `${frames} frames came`);
+  require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
+} catch (error) {
+  console.error(`drive: ${error.message}`);
+  process.exitCode = 1;
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,156 @@
+// The desk over RPC, in clear on loopback: pictures out, one hand in.
+#include "master/console/desk.hpp"
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include "master/console/desk_frame.hpp"
+
+namespace longreach {
+namespace {
+
+struct Desk {
+  Desk() {
+    grpc::ServerBuilder builder;
+    int port = 0;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+    builder.RegisterService(&service);
+    server = builder.BuildAndStart();
+    stub = proto::Desk::NewStub(
+        grpc::CreateChannel("127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials()));
+  }
+  ~Desk() { server->Shutdown(std::chrono::system_clock::now()); }
+
+  RemoteAim newest() {
+    const std::lock_guard lock(mutex);
+    return aims.empty() ? RemoteAim{} : aims.back();
+  }
+  bool eventually(const std::function<bool(const RemoteAim&)>& is_so) {
+    for (int i = 0; i < 600; ++i) {
+      if (is_so(newest())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
+
+  std::mutex mutex;
+  std::vector<RemoteAim> aims;
+  ConsoleSnapshot shown;
+  DeskService service{{.translation_m = 0.075, .rotation_rad = 0.8},
+                      [this] { return shown; },
+                      [this](const RemoteAim& aim) {
+                        const std::lock_guard lock(mutex);
+                        aims.push_back(aim);
+                      }};
+  std::unique_ptr<grpc::Server> server;
+  std::unique_ptr<proto::Desk::Stub> stub;
+};
+
+proto::HandAim aim_at(double x, double y, double z) {
+  proto::HandAim aim;
+  for (const double v : {x, y, z}) aim.add_position_m(v);
+  return aim;
+}
+
+TEST(Desk, ShowsFramesUntilTheFollowerLeaves) {
+  Desk desk;
+  desk.shown.view.scale = 0.35;
+  grpc::ClientContext context;
+  const auto stream = desk.stub->Follow(&context, {});
+  proto::Frame frame;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(stream->Read(&frame));
+    EXPECT_EQ(frame.scale(), 0.35);
+    EXPECT_EQ(frame.workspace_m(), 0.075);
+  }
+  context.TryCancel();
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+}
+
+TEST(Desk, PassesAimsOnWithinReachAndTheEndInOrder) {
+  Desk desk;
+  grpc::ClientContext context;
+  proto::Outcome outcome;
+  const auto stream = desk.stub->Hold(&context, &outcome);
+  ASSERT_TRUE(stream->Write(aim_at(3.0, 0.0, 4.0)));
+  EXPECT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
+  EXPECT_NEAR(desk.newest().position_m.x(), 0.045, 1e-12);
+  EXPECT_NEAR(desk.newest().position_m.z(), 0.06, 1e-12);
+  stream->WritesDone();
+  EXPECT_TRUE(stream->Finish().ok());
+  EXPECT_FALSE(desk.newest().holds);
+}
+
+TEST(Desk, ABrokenStreamLeavesItsLastWordToGrowOld) {
+  Desk desk;
+  {
+    grpc::ClientContext context;
+    proto::Outcome outcome;
+    const auto stream = desk.stub->Hold(&context, &outcome);
+    ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
+    ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
+    context.TryCancel();
+    EXPECT_FALSE(stream->Finish().ok());
+  }
+  EXPECT_TRUE(desk.newest().holds);
+  // And the next hand is let on the handle when that one has been silent for long enough.
+  EXPECT_TRUE(desk.eventually([&desk](const RemoteAim&) {
+    grpc::ClientContext context;
+    proto::Outcome outcome;
+    const auto stream = desk.stub->Hold(&context, &outcome);
+    stream->Write(aim_at(0.0, 0.02, 0.0));
+    stream->WritesDone();
+    return stream->Finish().ok();
+  }));
+}
+
+TEST(Desk, RefusesASecondHandAndImpossibleAims) {
+  Desk desk;
+  grpc::ClientContext first_context, second_context;
+  proto::Outcome outcome;
+  const auto first = desk.stub->Hold(&first_context, &outcome);
+  std::jthread kept([&first](const std::stop_token& end) {
+    while (!end.stop_requested() && first->Write(aim_at(0.01, 0.0, 0.0)))
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  });
+  ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
+  const auto second = desk.stub->Hold(&second_context, &outcome);
+  const grpc::Status refused = second->Finish();
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_NE(refused.error_message().find("another hand"), std::string::npos);
+  kept.request_stop();
+  kept.join();
+  first->Write(aim_at(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
+  EXPECT_EQ(first->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_TRUE(desk.newest().position_m.allFinite());
+}
+
+TEST(DeskFrame, SaysWhatTheConsoleSays) {
+  ConsoleSnapshot s;
+  s.view.far_known = true;
+  s.view.state = SafetyState::kEngaged;
+  s.view.far_state = SafetyState::kEngaged;
+  s.view.mode = MotionMode::kRate;
+  s.view.goal_m = {0.1, 0.2, 0.3};
+  s.view.far.clamps.workspace = true;
+  s.view.far.joint_rad = {1, 2, 3, 4, 5, 6};
+  const proto::Frame frame = to_frame(s, 0.05);
+  EXPECT_EQ(frame.state(), "Engaged");
+  EXPECT_EQ(frame.mode(), "rate");
+  EXPECT_EQ(frame.happening(), "moving freely: the hand's deflection sets the robot's speed");
+  ASSERT_EQ(frame.clamped_size(), 1);
+  EXPECT_EQ(frame.clamped(0), "robot: the goal is outside of the workspace");
+  EXPECT_EQ(frame.goal_m(2), 0.3);
+  ASSERT_EQ(frame.far().joint_rad_size(), 6);
+  EXPECT_EQ(frame.far().joint_rad(5), 6.0);
+  EXPECT_EQ(frame.far().clamped(0), "workspace");
+  s.view.far_known = false;
+  EXPECT_FALSE(to_frame(s, 0.05).has_far());
+}
+
+}  // namespace
+}  // namespace longreach
