@@ -51,7 +51,7 @@ TradePoint standard(const TradeStage& stage) {
 TEST(Trade, TheDefaultsAreAsAccurateAsADoubleIs) {
   EXPECT_LE(standard(trade_delta_forward()).error, 1e-15 * 4.0);
   EXPECT_LE(standard(trade_arm_inverse()).error, 1e-14);
-  EXPECT_LE(standard(trade_contact()).error, 1e-11);
+  EXPECT_LE(standard(trade_contact()).error, 1e-14);
 }
 
 }  // namespace

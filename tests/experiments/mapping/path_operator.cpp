@@ -94,7 +94,9 @@ PathOperatorOutput PathOperator::step(const PathOperatorInput& in) {
 void PathOperator::act(const PathOperatorInput& in) {
   switch (phase_) {
     case Phase::kLook:
-      if (!away_ && in.t_s >= until_s_) look(in);
+      if (in.t_s < until_s_) return;
+      if (away_ && ran_ && work_.strategy == PathStrategy::kHybrid) take_again(in);
+      if (!away_) look(in);
       return;
     case Phase::kMove:
       if (reach_.over(in.t_s)) wait(in);
@@ -164,6 +166,12 @@ void PathOperator::let_go() {
   reach_ = {};
   hand_m_.setZero();
   hand_m_per_s_.setZero();
+}
+
+// Position mode goes on from wherever the handle is by now; rate mode begins at home.
+void PathOperator::take_again(const PathOperatorInput& in) {
+  away_ = false;
+  hand_m_ = in.handle_m;
 }
 
 // Rate mode: a deflection towards the next aim; the speed is that of the whole run.

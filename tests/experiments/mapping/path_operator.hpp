@@ -12,9 +12,10 @@
 // from aim to aim, and lets go of the handle, which stops the robot and glides home while he waits, when the
 // distance left, as shown, is less than v (reaction + round trip); until the first round trip of the run is
 // over he takes v times its age for it, since nothing has been seen yet. Hybrid: in each line or turn rate
-// until near, then position. The model leaves open: v (a run lasts a second, or a reaction and a round trip
-// if that is longer: he sees the tool move before he lets go), near (near_sd), when a target is reached (2
-// mm, the radius of the scene's tool), and the room of the handle (60 mm of 75).
+// until near, then position, for which he takes the handle wherever it is. The model leaves open: v (a run
+// lasts a second, or a reaction and a round trip if that is longer: he sees the tool move before he lets go),
+// near (near_sd, chosen by `mapping-trade`: earlier is nearer to the way and slower), when a target is
+// reached (2 mm, the radius of the scene's tool), and the room of the handle (60 mm of 75).
 
 #include <cstdint>
 #include <optional>
@@ -46,9 +47,9 @@ struct PathWork {
   MappingConfig mapping{};
   double spring_share = 0.0;  // stiffness of rate mode's spring over that of the hand
   Grip grip = Grip::kLight;
-  double near_sd = 2.0;  // hybrid: he leaves rate mode so many sd of an aimed move's end, of the run's
-                         // length, before the target
-  double late_s = 0.0;   // of what is shown behind the hand: the round trip; 0 of a predicted picture
+  double near_sd = 2.75;  // hybrid: he leaves rate mode so many sd of an aimed move's end, of the run's
+                          // length, before the target
+  double late_s = 0.0;    // of what is shown behind the hand: the round trip; 0 of a predicted picture
 };
 
 struct PathOperatorInput {
@@ -90,6 +91,7 @@ class PathOperator {
   void steer_from(const PathOperatorInput& in, const Vector3& tool_m);
   void steer(const PathOperatorInput& in);
   void let_go();
+  void take_again(const PathOperatorInput& in);
   void wait(const PathOperatorInput& in);
 
   [[nodiscard]] double sd_of(double length_m) const;  // of an aimed move's end, a coordinate
