@@ -117,7 +117,8 @@ double ViewFeed::look_at_slave(SideClient& slave, double uptime_s) {
   if (uptime_s < 0.0 || status.uptime_s() < uptime_s) {
     anchored_ = 0;
     talk_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +
-                            ",\"scene\":" + part_json<proto::Scene>(slave, "scene") + "}");
+                            ",\"scene\":" + part_json<proto::Scene>(slave, "scene") +
+                            ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
   }
   if (status.engagement() == engagement_ && status.engagement() != anchored_ && status.anchor_m_size() == 3) {
     anchored_ = status.engagement();

@@ -3,8 +3,8 @@
 // comes back.
 //
 // From the master: {"frame": proto/control's Frame} 60 times a second, or {"down": why} when there is none.
-// From the slave: {"robot": ..., "scene": ...} of proto/config when it is first heard and when it has
-// restarted, and
+// From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config when it is first heard and
+// when it has restarted, and
 // {"anchor": {"engagement": N, "position_m": [...], "rotation_rad": [...]}} at each engagement;
 // {"slave_down": why}.
 

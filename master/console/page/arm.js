@@ -32,7 +32,7 @@ export class Arm {
     this.joint = new MeshStandardMaterial({ color: colors.robot, roughness: 0.5 });
     this.limit = new MeshStandardMaterial({ color: colors.contact, roughness: 0.5 });
     this.ghostly = new MeshStandardMaterial({ color: colors.operator, transparent: true, opacity: 0.45,
-      depthWrite: false, roughness: 0.6 });
+      depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
     const start = frames(robot, robot.joint.map((joint) => joint.start_rad));
     const places = start.map(origin);
     const reach = places.slice(1).reduce((sum, p, i) => sum + p.distanceTo(places[i]), 0);

@@ -3,6 +3,7 @@
 
 export const STEP_M = 0.001;
 export const LARGE_STEP_M = 0.005;
+const TURN_MAX_RAD = 0.5;
 
 const MOVES = {
   w: [0, 1], arrowup: [0, 1], s: [0, -1], arrowdown: [0, -1],
@@ -18,6 +19,7 @@ export class Hand {
     this.act = act;
     this.held = false;
     this.aim_m = [0, 0, 0];
+    this.turn_rad = [0, 0, 0];
     this.workspace_m = 0.075;
     this.clutch = false;
     this.grip = false;
@@ -28,6 +30,7 @@ export class Hand {
   take(hand_m, gripping) {
     this.held = true;
     this.aim_m = [...hand_m];
+    this.turn_rad = [0, 0, 0];
     this.clutch = false;
     this.grip = gripping;
   }
@@ -37,7 +40,15 @@ export class Hand {
     this.clutch = false;
   }
 
-  home() { this.aim_m = [0, 0, 0]; }
+  home() {
+    this.aim_m = [0, 0, 0];
+    this.turn_rad = [0, 0, 0];
+  }
+
+  turn(axis, by_rad) {
+    if (!this.held) return;
+    this.turn_rad[axis] = Math.max(-TURN_MAX_RAD, Math.min(TURN_MAX_RAD, this.turn_rad[axis] + by_rad));
+  }
 
   move(axis, by_m) {
     if (!this.held) return;
@@ -64,16 +75,25 @@ export class Hand {
   /** Dragging on `canvas` moves along the axes: `across` and `up` are functions of pixels. */
   follow(canvas, radius_px, axes) {
     let last = null;
+    let turns = false;     // the right button turns the handle instead
     canvas.addEventListener('pointerdown', (event) => {
       if (!this.held) return this.act('untaken');
       canvas.setPointerCapture(event.pointerId);
       last = [event.clientX, event.clientY];
+      turns = event.button === 2;
       this.dragging = true;
     });
     canvas.addEventListener('pointermove', (event) => {
       if (!last) return;
       const m_per_px = this.workspace_m / radius_px();
       const fine = event.shiftKey ? 0.2 : 1;
+      if (turns && axes.across !== undefined) {
+        const rad_per_px = TURN_MAX_RAD / radius_px();
+        this.turn(2, -(event.clientX - last[0]) * rad_per_px * fine);
+        this.turn(1, (event.clientY - last[1]) * rad_per_px * fine);
+        last = [event.clientX, event.clientY];
+        return;
+      }
       if (axes.across !== undefined) this.move(axes.across, -(event.clientX - last[0]) * m_per_px * fine);
       this.move(axes.up, -(event.clientY - last[1]) * m_per_px * fine);
       last = [event.clientX, event.clientY];
@@ -84,6 +104,7 @@ export class Hand {
       this.dragging = false;
     };
     for (const name of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(name, end);
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       this.move(2, -Math.sign(event.deltaY) * STEP_M);

@@ -18,7 +18,8 @@ function colors() {
   const style = getComputedStyle(document.documentElement);
   const all = Object.fromEntries(COLORS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
   const dark = matchMedia('(prefers-color-scheme: dark)').matches;
-  return { ...all, link: dark ? '#aeb9c6' : '#b9c3cf', scene: dark ? '#7f95ad' : '#8fa3ba', path: all.third };
+  return { ...all, link: dark ? '#aeb9c6' : '#b9c3cf', scene: dark ? '#7f95ad' : '#8fa3ba',
+    soft: dark ? '#a9bdd2' : '#c3d2e2', hard: dark ? '#45586d' : '#52677e', path: all.third };
 }
 
 const at = (id) => document.getElementById(id);
@@ -117,7 +118,7 @@ addEventListener('keydown', (event) => {
 hand.follow(at('pad'), () => pad_radius(at('pad')), { across: 1, up: 0 });
 hand.follow(at('lift'), () => (0.9 * at('lift').clientHeight) / 2, { up: 2 });
 setInterval(() => {
-  if (hand.held) feed.send({ aim: hand.aim_m, clutch: hand.clutch, grip: hand.grip });
+  if (hand.held) feed.send({ aim: hand.aim_m, turn: hand.turn_rad, clutch: hand.clutch, grip: hand.grip });
 }, AIM_MS);
 
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {

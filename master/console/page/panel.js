@@ -69,12 +69,13 @@ export class Panel {
     by_id('grip').setAttribute('aria-pressed', String(frame.gripping));
     write('engage', frame.state === 'Engaged' ? 'Engaged' : 'Engage');
     by_id('engage').disabled = this.holder !== 'you' || frame.state === 'Engaged';
-    this.felt(frame);
+    this.felt(frame, hand);
   }
 
-  felt(frame) {
+  felt(frame, hand) {
     const [x, y, z] = frame.hand_m.map((m) => (1e3 * m).toFixed(1));
-    write('where', `x ${x}   y ${y}   z ${z} mm`);
+    const turned = Math.hypot(...hand.turn_rad) * (180 / Math.PI);
+    write('where', `x ${x}   y ${y}   z ${z} mm${turned > 0.05 ? `   turned ${turned.toFixed(1)}°` : ''}`);
     ['x', 'y', 'z'].forEach((name, i) => {
       const share = Math.max(-1, Math.min(1, frame.force_n[i] / frame.force_max_n));
       // Bent, so that small forces show.

@@ -8,7 +8,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { Arm, ring } from './arm.js';
 import { Arrow } from './arrow.js';
-import { start_frame, vector } from './kinematics.js';
+import { Bodies } from './bodies.js';
+import { rotation, start_frame, vector } from './kinematics.js';
 import { Scenery, ground } from './scenery.js';
 
 const TRAIL_POINTS = 1800;     // 30 s at 60 Hz
@@ -95,6 +96,7 @@ export class Picture {
     this.space.add(sun);
     this.arm = new Arm(robot, scene.tool_radius_m ?? 0, this.colors);
     this.scenery = new Scenery(scene, start, this.colors);
+    this.bodies = new Bodies(scene, start, this.colors);
     this.reported = ring(Math.max(2.2 * (scene.tool_radius_m ?? 0), 0.014), this.colors.robot);
     this.workspace = new Mesh(new SphereGeometry(workspace_m || 3, 28, 16),
       new MeshBasicMaterial({ color: this.colors.line, wireframe: true, transparent: true, opacity: 0.22 }));
@@ -104,15 +106,15 @@ export class Picture {
     this.rendered = new Arrow(this.colors.operator);
     this.overview = new Group();
     this.overview.add(ground(2 * Math.ceil(start.length() * 0.8), this.colors), this.workspace);
-    this.space.add(this.arm.group, this.arm.ghost, this.scenery.group, this.reported, this.trails.robot.line,
+    this.space.add(this.arm.group, this.arm.ghost, this.scenery.group, this.bodies.group, this.reported, this.trails.robot.line,
       this.trails.operator.line, this.measured.group, this.rendered.group, this.overview);
     if (first) this.frame_cameras();
   }
 
   frame_cameras() {
-    const reach = this.scenery.radius(this.start);
-    this.near.position.copy(this.start).add(new Vector3(-0.5, -1.75, 0.75).multiplyScalar(reach));
-    this.orbit.target.copy(this.start).add(new Vector3(0.2 * reach, 0, 0));
+    const reach = Math.min(Math.max(this.scenery.radius(this.start), 0.8 * this.bodies.radius()), 3);
+    this.near.position.copy(this.start).add(new Vector3(-0.55, -1.95, 0.85).multiplyScalar(reach));
+    this.orbit.target.copy(this.start).add(new Vector3((this.bodies.radius() > 0 ? 0.45 : 0.2) * reach, 0, 0));
     const size = Math.max(this.start.length(), 0.6);
     this.whole.position.set(0.15 * size, -1.75 * size, 0.75 * size);
     this.orbit_whole.target.copy(this.start).multiplyScalar(0.5);
@@ -133,6 +135,7 @@ export class Picture {
     this.trails.robot.add(tool);
     if (ghost) this.trails.operator.add(ghost.position);
     this.scenery.touch(tool, frame.in_contact);
+    this.bodies.follow(tool, rotation(far.tool_rad), far.gripping);
     // Side by side, where they would lie in each other.
     const aside = new Vector3(0, 0, 0.012);
     this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3());

@@ -1,8 +1,8 @@
 // What the robot can meet: the surfaces and the path of a scene (proto/config.proto, message Scene). A ball or any other
 // body turns red when the tool touches it; what was touched once keeps a tint.
 
-import { BoxGeometry, BufferGeometry, Color, CylinderGeometry, DoubleSide, GridHelper, Group, Line, LineBasicMaterial,
-  Mesh, MeshStandardMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
+import { BoxGeometry, BufferGeometry, Color, CylinderGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,
+  LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
 
 import { rotation, vector } from './kinematics.js';
 
@@ -73,6 +73,13 @@ function cylinder(shape, start, material) {
   };
 }
 
+/** The stiffer, the darker: 100 N/m to 1e6 N/m. */
+function shade(scene, name, colors) {
+  const k = scene.material?.find((one) => one.name === name)?.stiffness_n_per_m ?? 1000;
+  const share = Math.min(Math.max((Math.log10(k) - 2) / 4, 0), 1);
+  return new Color(colors.soft).lerp(new Color(colors.hard), share);
+}
+
 const SHAPES = { plane, sphere, box, cylinder };
 
 /** Straight from point to point, quarter turns of the path's radius between. */
@@ -104,10 +111,12 @@ export class Scenery {
       // The slave prints all shapes; the one that it has is the one that is somewhere.
       const kind = Object.keys(SHAPES).find((name) => surface[name]?.centre_m?.length || surface[name]?.point_m?.length);
       if (!kind) continue;     // a hinge is met by turning: it has no place
-      const material = new MeshStandardMaterial({ color: colors.scene, roughness: 0.8, transparent: kind === 'plane',
+      const plain = shade(scene, surface.material, colors);
+      const material = new MeshStandardMaterial({ color: plain, roughness: 0.8, transparent: kind === 'plane',
         opacity: kind === 'plane' ? 0.35 : 1 });
       const body = SHAPES[kind](surface[kind], start, material, colors);
-      this.bodies.push({ ...body, material, plain: new Color(colors.scene), solid: kind !== 'plane', touched: false });
+      this.bodies.push({ ...body, material, plain, solid: kind !== 'plane', touched: false });
+      if (kind === 'box') body.mesh.add(new LineSegments(new EdgesGeometry(body.mesh.geometry), new LineBasicMaterial({ color: colors.line })));
       this.group.add(body.mesh);
     }
     if (scene.path?.waypoint?.length > 1) {

@@ -1,0 +1,121 @@
+// The bodies of a scene's MJCF: boxes, spheres, capsules and cylinders with their places; meshes are left out. The slave does
+// not report where free bodies float: one is drawn where it started or was let go of, as a shade, and goes with the tool
+// while the gripper holds it.
+
+import { BoxGeometry, CapsuleGeometry, CylinderGeometry, Euler, Group, Mesh, MeshStandardMaterial, Quaternion,
+  SphereGeometry, Vector3 } from 'three';
+
+const UP = new Vector3(0, 1, 0);
+const Z = new Vector3(0, 0, 1);
+
+const numbers = (element, name) => element.getAttribute(name)?.trim().split(/\s+/).map(Number) ?? null;
+
+/** Orientation of a body or geom; `to_rad`: of the file's angles. */
+function orientation(element, to_rad) {
+  const quaternion = numbers(element, 'quat');
+  if (quaternion) return new Quaternion(quaternion[1], quaternion[2], quaternion[3], quaternion[0]).normalize();
+  const euler = numbers(element, 'euler');
+  if (euler) return new Quaternion().setFromEuler(new Euler(...euler.map((a) => a * to_rad), 'XYZ'));
+  const turn = numbers(element, 'axisangle');
+  if (turn) return new Quaternion().setFromAxisAngle(new Vector3(...turn.slice(0, 3)).normalize(), turn[3] * to_rad);
+  const axis = numbers(element, 'zaxis');
+  return axis ? new Quaternion().setFromUnitVectors(Z, new Vector3(...axis).normalize()) : new Quaternion();
+}
+
+/** Capsules and cylinders stand along y here and along z in the file. */
+const upright = new Quaternion().setFromUnitVectors(UP, Z);
+
+function geometry_of(kind, size, length) {
+  if (kind === 'sphere') return new SphereGeometry(size[0], 32, 20);
+  if (kind === 'box') return new BoxGeometry(2 * size[0], 2 * size[1], 2 * size[2]);
+  if (kind === 'capsule') return new CapsuleGeometry(size[0], length, 8, 24);
+  if (kind === 'cylinder') return new CylinderGeometry(size[0], size[0], length, 32);
+  return null;
+}
+
+function shape(element, material, to_rad) {
+  const size = numbers(element, 'size') ?? [0.01];
+  const ends = numbers(element, 'fromto');
+  const kind = element.getAttribute('type') ?? 'sphere';
+  const from = ends && new Vector3(...ends.slice(0, 3));
+  const to = ends && new Vector3(...ends.slice(3));
+  const geometry = geometry_of(kind, size, ends ? from.distanceTo(to) : 2 * (size[1] ?? 0));
+  if (!geometry) return null;
+  const mesh = new Mesh(geometry, material);
+  if (ends) {
+    mesh.position.copy(from).add(to).multiplyScalar(0.5);
+    mesh.quaternion.setFromUnitVectors(UP, to.sub(from).normalize());
+  } else {
+    mesh.position.set(...(numbers(element, 'pos') ?? [0, 0, 0]));
+    mesh.quaternion.copy(orientation(element, to_rad));
+    if (kind === 'capsule' || kind === 'cylinder') mesh.quaternion.multiply(upright);
+  }
+  return mesh;
+}
+
+function body(element, colors, to_rad) {
+  const group = new Group();
+  const free = element.querySelector(':scope > freejoint, :scope > joint[type="free"]') !== null;
+  const is_tool = element.getAttribute('name') === 'tool';
+  const material = new MeshStandardMaterial({ color: is_tool ? colors.link : colors.scene, roughness: 0.7,
+    transparent: free && !is_tool, opacity: free && !is_tool ? 0.55 : 1 });
+  group.position.set(...(numbers(element, 'pos') ?? [0, 0, 0]));
+  group.quaternion.copy(orientation(element, to_rad));
+  for (const child of element.children) {
+    if (child.tagName === 'geom') {
+      const mesh = shape(child, material, to_rad);
+      if (mesh) group.add(mesh);
+    }
+    if (child.tagName === 'body') group.add(body(child, colors, to_rad).group);
+  }
+  return { group, free, is_tool, gripped: child_named(element, 'site') };
+}
+
+const child_named = (element, tag) => [...element.querySelectorAll(tag)].map((site) => site.getAttribute('name'));
+
+export class Bodies {
+  /** `start`: where the tool starts, W; the file's origin. */
+  constructor(scene, start, colors) {
+    this.group = new Group();
+    this.bodies = [];
+    const text = scene.bodies?.file?.find((file) => file.name === scene.bodies.mjcf_file)?.text;
+    if (!text) return;
+    const file = new DOMParser().parseFromString(text, 'text/xml');
+    const to_rad = file.querySelector('compiler')?.getAttribute('angle') === 'radian' ? 1 : Math.PI / 180;
+    this.group.position.copy(start);
+    for (const element of file.querySelectorAll('worldbody > body')) this.bodies.push(body(element, colors, to_rad));
+    for (const one of this.bodies) this.group.add(one.group);
+    this.fixture = scene.bodies.gripper?.fixture;
+  }
+
+  /** How far they reach from where the tool starts, m. */
+  radius() { return Math.max(0, ...this.bodies.map((one) => one.group.position.length())); }
+
+  /** The tool's pose, and whether its gripper holds something. */
+  follow(tool_m, tool_q, holds) {
+    if (this.bodies.length === 0) return;
+    this.start_q ??= tool_q.clone();
+    const turn = tool_q.clone().multiply(this.start_q.clone().invert());
+    const place = tool_m.clone().sub(this.group.position);
+    for (const one of this.bodies) {
+      if (one.is_tool) {
+        one.group.position.copy(place);
+        one.group.quaternion.copy(turn);
+      } else if (one.free && one.gripped.includes(this.fixture)) {
+        this.carry(one, place, turn, holds);
+      }
+    }
+  }
+
+  carry(one, place, turn, holds) {
+    if (!holds) {
+      one.held = null;
+      return;
+    }
+    const back = turn.clone().invert();
+    one.held ??= { p: one.group.position.clone().sub(place).applyQuaternion(back),
+      q: back.clone().multiply(one.group.quaternion) };
+    one.group.position.copy(one.held.p).applyQuaternion(turn).add(place);
+    one.group.quaternion.copy(turn).multiply(one.held.q);
+  }
+}
