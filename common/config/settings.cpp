@@ -14,6 +14,7 @@ namespace {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
+using google::protobuf::Reflection;
 
 // The message that holds the last step of `path`.
 const Message& holder(const Message& root, const FieldPath& path) {
@@ -39,41 +40,48 @@ Message& mutable_holder(Message& root, const FieldPath& path) {
   throw ConfigError(text + " is a group; set one of its fields: " + fields);
 }
 
-// `scene` beside `scene_file`: printed empty, it would read as a scene in place and hide the file.
-bool is_left_to_file(const Message& message, const FieldDescriptor& field) {
-  return !field.is_repeated() && !message.GetReflection()->HasField(message, &field) &&
-         message.GetDescriptor()->FindFieldByName(field.name() + "_file") != nullptr;
+// `scene` beside `scene_file`, `robot` beside `robot_file`: what it does not say is not there, and there may
+// be no more than one kind of shape. Printed empty, it would read as one.
+bool is_of_file(const FieldDescriptor& field) {
+  return field.containing_type()->FindFieldByName(field.name() + "_file") != nullptr;
 }
 
-void print_message(const Message& message, const std::string& indent, std::string& out);
+/// Prints fields with their defaults where they are not set; of what a file describes only what is there.
+struct Printer {
+  bool of_file = false;
+  std::string text{};
 
-void print_nested(const Message& message, const PathStep& step, const std::string& indent, std::string& out) {
-  out += indent + step.field->name() + " {\n";
-  print_message(message_at(message, step), indent + "  ", out);
-  out += indent + "}\n";
-}
-
-void print_field(const Message& message, const FieldDescriptor* field, const std::string& indent,
-                 std::string& out) {
-  const int size = field->is_repeated() ? message.GetReflection()->FieldSize(message, field) : 1;
-  if (holds_messages(*field)) {
-    if (is_left_to_file(message, *field)) return;
-    for (int i = 0; i < size; ++i) print_nested(message, {field, field->is_repeated() ? i : -1}, indent, out);
-    return;
+  void message(const Message& message, const std::string& indent) {
+    const auto* type = message.GetDescriptor();
+    for (int i = 0; i < type->field_count(); ++i) field(message, type->field(i), indent);
   }
-  if (size == 0) return;
-  std::string value = value_text(message, {field, -1});
-  if (field->is_repeated()) value = "[" + value + "]";
-  if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-    google::protobuf::TextFormat::PrintFieldValueToString(message, field, -1, &value);
-  }
-  out += indent + field->name() + ": " + value + "\n";
-}
 
-void print_message(const Message& message, const std::string& indent, std::string& out) {
-  const auto* type = message.GetDescriptor();
-  for (int i = 0; i < type->field_count(); ++i) print_field(message, type->field(i), indent, out);
-}
+  void field(const Message& message, const FieldDescriptor* field, const std::string& indent) {
+    if (holds_messages(*field)) return nested(message, field, indent);
+    if (field->is_repeated() && message.GetReflection()->FieldSize(message, field) == 0) return;
+    std::string value = value_text(message, {field, -1});
+    if (field->is_repeated()) value = "[" + value + "]";
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+      google::protobuf::TextFormat::PrintFieldValueToString(message, field, -1, &value);
+    }
+    text += indent + field->name() + ": " + value + "\n";
+  }
+
+ private:
+  void nested(const Message& message, const FieldDescriptor* field, const std::string& indent) {
+    const Reflection* reflection = message.GetReflection();
+    const bool outside = of_file;
+    of_file = of_file || is_of_file(*field);
+    const bool there = field->is_repeated() || !of_file || reflection->HasField(message, field);
+    const int size = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
+    for (int i = 0; there && i < size; ++i) {
+      text += indent + field->name() + " {\n";
+      this->message(message_at(message, {field, field->is_repeated() ? i : -1}), indent + "  ");
+      text += indent + "}\n";
+    }
+    of_file = outside;
+  }
+};
 
 }  // namespace
 
@@ -91,22 +99,24 @@ void set_field(Message& message, std::string_view path, std::string_view value) 
 }
 
 std::string get_field(const Message& message, std::string_view path) {
-  std::string text;
+  Printer print;
   if (path.empty()) {
-    print_message(message, "", text);
-    return text;
+    print.message(message, "");
+    return print.text;
   }
   const PathLookup found = find_path(message, path);
   if (!found.error.empty()) throw ConfigError(found.error);
   const PathStep& last = found.path.back();
   const Message& at = holder(message, found.path);
   if (!holds_messages(*last.field)) return value_text(at, last);
+  print.of_file =
+      std::ranges::any_of(found.path, [](const PathStep& step) { return is_of_file(*step.field); });
   if (last.field->is_repeated() && last.index < 0) {
-    print_field(at, last.field, "", text);
+    print.field(at, last.field, "");
   } else {
-    print_message(message_at(at, last), "", text);
+    print.message(message_at(at, last), "");
   }
-  return text;
+  return print.text;
 }
 
 }  // namespace longreach

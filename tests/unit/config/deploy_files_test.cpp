@@ -52,6 +52,37 @@ TEST(DeployFiles, ResolveTheRobotAndTheSceneOfTheSlave) {
   EXPECT_GE(config.scene().surface_size(), 1);
 }
 
+/// What `--check` prints, as a user would keep it.
+template <class Config>
+void expect_kept(const TemporaryFolder& folder, const Config& config) {
+  Config again;
+  const std::string text = get_field(config, "");
+  ASSERT_EQ(error_of([&] { load_text_file(folder.write("kept.txtpb", text), again); }), "no error") << text;
+  EXPECT_EQ(get_field(again, ""), text);
+}
+
+TEST(DeployFiles, AreKeptAsTheyArePrinted) {
+  const TemporaryFolder folder;
+  for (const std::string kind : {"robot", "scene", "device"}) {
+    for (const auto& entry : fs::directory_iterator(kDeploy / (kind + "s"))) {
+      if (entry.path().extension() != ".txtpb" || entry.path().stem().string().ends_with("_network"))
+        continue;
+      SCOPED_TRACE(entry.path());
+      proto::SlaveConfig slave;
+      proto::MasterConfig master;
+      if (kind == "device") {
+        set_field(master, "device_file", entry.path().string());
+      } else {
+        set_field(slave, kind + "_file", entry.path().string());
+      }
+      resolve_files(slave, kDeploy);
+      resolve_files(master, kDeploy);
+      expect_kept(folder, slave);
+      expect_kept(folder, master);
+    }
+  }
+}
+
 TEST(DeployFiles, GiveTheDefaultLinkOfTheLaboratory) {
   proto::LinkProfile profile;
   EXPECT_EQ(error_of([&] { profile = load_link_profile(kDeploy, proto::LabConfig{}.profile()); }),
