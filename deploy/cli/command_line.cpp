@@ -10,6 +10,7 @@
 #include "common/config/number_text.hpp"
 #include "common/io/rpc_server.hpp"
 #include "deploy/cli/help_text.hpp"
+#include "deploy/cli/record_words.hpp"
 
 namespace longreach {
 namespace {
@@ -68,6 +69,7 @@ class Grammar {
 
   CLI::App app_{kIntroduction, "longreach"};
   CLI::App* link_ = nullptr;
+  RecordWords record_{};
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
@@ -95,6 +97,7 @@ Grammar::Grammar() {
   declare_fields();
   declare_link();
   declare_motion();
+  record_.declare(app_);
   declare_site();
 }
 
@@ -245,6 +248,7 @@ Command Grammar::command() const {
     return ScaleCommand{
         bounded("scale", words_.scale, parse_number(words_.scale), 0.05, 1.0, ", up or down")};
   }
+  if (parsed("record")) return record_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
   if (parsed("doctor"))

@@ -14,6 +14,7 @@ With --json every answer is one JSON object on one line, with the field names of
   status, watch  {"master": {...}, "slave": {...}}; null for a side that is down, and then "error"
   get            {"text": "..."}
   link show      {"up": {...}, "down": {...}}; likewise
+  record list    {"recordings": [{...}]}
   other commands {"done": "..."}
   every failure  {"error": "..."}
 Example: longreach status)";

@@ -78,9 +78,18 @@ struct DoctorCommand {
   double seconds = 2.0;
 };
 
+struct RecordCommand {
+  enum class What { kStart, kStop, kList, kExport };
+  What what = What::kStart;
+  std::string name;        // of a start; empty: the time
+  double max_mb = 4096.0;  // likewise
+  std::string file;        // to be exported
+  std::string folder;      // listed or exported to; empty: the usual one
+};
+
 using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
                              LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand,
-                             StopCommand, PairCommand, DoctorCommand>;
+                             StopCommand, PairCommand, DoctorCommand, RecordCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

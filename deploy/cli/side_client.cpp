@@ -165,6 +165,17 @@ std::string SideClient::stop() {
   return state_->call(&proto::Control::Stub::Stop, proto::StopRequest()).message();
 }
 
+std::string SideClient::start_recording(const std::string& name, double max_mb) {
+  proto::StartRecordingRequest request;
+  request.set_name(name);
+  request.set_max_mb(max_mb);
+  return state_->call(&proto::Control::Stub::StartRecording, request).message();
+}
+
+std::string SideClient::stop_recording() {
+  return state_->call(&proto::Control::Stub::StopRecording, proto::StopRecordingRequest()).message();
+}
+
 struct StatusStream::State {
   State(Side the_side, const Options& the_options, double the_rate_hz)
       : side(the_side),

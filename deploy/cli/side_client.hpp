@@ -56,6 +56,8 @@ class SideClient {
   std::string set_scale(double scale);
   std::string engage();
   std::string stop();
+  std::string start_recording(const std::string& name, double max_mb);
+  std::string stop_recording();
 
  private:
   struct State;

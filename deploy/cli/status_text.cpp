@@ -45,6 +45,15 @@ std::string joined(const google::protobuf::RepeatedPtrField<std::string>& words)
   return text;
 }
 
+std::string recording_cell(const Status& s) {
+  if (!s.has_recording()) return "";
+  const proto::Recording& r = s.recording();
+  std::string text =
+      r.file() + print(", %.1f s, ", r.seconds()) + print("%.1f MB", 1e-6 * static_cast<double>(r.bytes()));
+  if (!r.running()) text += ": " + r.ended();
+  return text;
+}
+
 std::string energy(const Status& status) {
   if (!status.has_energy_j()) return "";
   return with_unit(status.energy_j(), "J") + ", least " + with_unit(status.energy_min_j(), "J");
@@ -105,6 +114,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
     {"energy from the hand", energy},
     {"clamped", [](const Status& s) { return joined(s.clamped()); }},
+    {"recording", recording_cell},
 });
 
 struct Line {

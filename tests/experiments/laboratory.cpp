@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "master/rendering/comparison/comparison_law.hpp"
+#include "tests/experiments/recording/lab_recording.hpp"
 
 namespace longreach {
 
@@ -22,6 +23,9 @@ Session session_of(Random random) {
 Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed)
     : period_(from_seconds(1.0 / master.loop.rate_hz)),
       send_hz_(sent_hz(master.link)),
+      master_config_(master),
+      slave_config_(slave),
+      seed_(seed),
       random_(seed),
       master_port_(channels_.a(), master.link.impairment, random_.child("down")),
       slave_port_(channels_.b(), slave.link.impairment, random_.child("up")),
@@ -41,6 +45,18 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
   const Session session = session_of(random_.child("session"));
   master_port_.follow(session);
   slave_port_.follow(session);
+}
+
+Laboratory::~Laboratory() = default;
+
+void Laboratory::record(const std::filesystem::path& file) {
+  recording_ = std::make_unique<LabRecording>(file, master_config_, slave_config_, seed_,
+                                              LabRecording::Clocks{master_now(), slave_now()});
+}
+
+void Laboratory::end_recording() {
+  if (recording_) recording_->finish();
+  recording_.reset();
 }
 
 void Laboratory::step() {
@@ -69,6 +85,7 @@ void Laboratory::step_slave() {
   in.rejected = slave_port_.rejected_total();
   in.may_send = slave_port_.may_send(now);
   const SlaveOutput out = slave_node_.step(in);
+  if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
   arm_.write(out.joint_setpoint_rad);
   arm_.grip(out.grip);
   if (out.report) {
@@ -112,6 +129,7 @@ void Laboratory::step_master() {
   in.rtt_s = rtt_s_;
   in.may_send = master_port_.may_send(now);
   const MasterOutput out = master_node_.step(in);
+  if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
   devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);
   requests_ = OperatorRequests{};

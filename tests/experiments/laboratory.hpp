@@ -4,7 +4,9 @@
 // named by (commit, config, seed): the same name gives the same bytes.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -18,6 +20,8 @@
 
 namespace longreach {
 
+class LabRecording;
+
 /// What the slave has sent of the one haptic quantity.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
@@ -29,6 +33,8 @@ class Laboratory {
   /// Configurations complete, files resolved, link profile already in the impairments. Throws
   /// std::invalid_argument for a comparison law, which has a bench of its own.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
+
+  ~Laboratory();
 
   /// One tick of both sides.
   void step();
@@ -58,6 +64,10 @@ class Laboratory {
   /// One side ends from now on, as a program does that is killed; robot and devices go on by themselves.
   void kill_slave() { slave_lives_ = false; }
   void kill_master() { master_lives_ = false; }
+  /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
+  void record(const std::filesystem::path& file);
+  /// Ends the file. Throws RecordingError when it could not be written.
+  void end_recording();
   /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
   /// slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
@@ -70,6 +80,9 @@ class Laboratory {
 
   Duration period_;
   double send_hz_;
+  MasterConfig master_config_;
+  SlaveConfig slave_config_;
+  std::uint64_t seed_;
   Duration elapsed_{0};
   MemoryChannelPair channels_;
   Random random_;
@@ -86,6 +99,7 @@ class Laboratory {
   bool let_go_ = false;
   bool slave_lives_ = true, master_lives_ = true;
   std::function<void(MemoryChannelPair&)> intruder_{};
+  std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
   HapticReturn haptic_return_{};

@@ -8,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "tests/experiments/campaign/sweep.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/recording/replay.hpp"
 #include "tests/experiments/report/report.hpp"
 #include "tests/experiments/run.hpp"
 #include "tests/experiments/solve.hpp"
@@ -26,6 +27,7 @@ struct Options {
   RunOptions run;
   SweepOptions sweep;
   MergeOptions merge;
+  std::vector<std::string> recordings;
   ReportOptions report;
   std::string kind;  // of question, of device
   IdentifyOptions identify;
@@ -45,7 +47,21 @@ void add_run(CLI::App& app, RunOptions& o) {
       ->allow_extra_args(false);
   run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; made if missing")
       ->type_name("DIR");
+  run->add_flag("--record", o.record,
+                "Record both sides as the programs do, into DIR/touch.mcap (only touch, with --out); "
+                "`longreach-lab replay` can run it again");
   run->add_flag("--quiet", o.quiet, "Print nothing");
+}
+
+void add_replay(CLI::App& app, std::vector<std::string>& files) {
+  CLI::App* replay = app.add_subcommand(
+      "replay",
+      "Run the nodes again on the inputs of recordings (`longreach-master --record FILE`, `longreach-slave "
+      "--record FILE`) and compare what they put out with what was recorded, bit for bit.\n\n"
+      "Exit status: 0 all the same, 1 there is a difference, and the first one is named, 2 not all of it "
+      "could be "
+      "replayed, and why.");
+  replay->add_option("files", files, "Recordings")->type_name("FILE...")->required();
 }
 
 void add_sweep(CLI::App& app, SweepOptions& o) {
@@ -141,6 +157,7 @@ void add_train(CLI::App& app, Options& o) {
 int run_subcommand(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("sweep")) return sweep(o.sweep);
   if (app.got_subcommand("merge")) return merge(o.merge);
+  if (app.got_subcommand("replay")) return replay(o.recordings, std::cout, std::cerr);
   if (app.got_subcommand("report")) return write_report(o.report) == 0 ? kDone : kFailed;
   if (app.got_subcommand("solve") && o.kind == "identify")
     return solve_identify(o.identify, std::cin, std::cout, std::cerr);
@@ -163,6 +180,7 @@ int main(int argc, char** argv) {
   longreach::add_run(app, options.run);
   longreach::add_sweep(app, options.sweep);
   longreach::add_merge(app, options.merge);
+  longreach::add_replay(app, options.recordings);
   longreach::add_report(app, options.report);
   longreach::add_solve(app, options.kind, options.identify);
   longreach::add_train(app, options);

@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/touch.hpp"
 
 namespace longreach {
 namespace {
@@ -43,6 +44,13 @@ void run(const RunOptions& o) {
   const Experiment* experiment = find_experiment(o.name);
   if (!experiment)
     throw ConfigError("there is no experiment '" + o.name + "'; `longreach-lab list` shows them");
+  Experiment chosen = *experiment;
+  if (o.record) {
+    if (o.name != "touch" || o.out.empty())
+      throw ConfigError(
+          "--record needs --out DIR and the experiment touch, the only one that is a single run");
+    chosen.run = run_touch_recorded;
+  }
   ExperimentRun r;
   r.config = configure(o.settings, find_deploy_folder());
   r.seed = o.seed;
@@ -50,7 +58,7 @@ void run(const RunOptions& o) {
   r.progress = progress_line(o, r.config.duration_s());
   const auto began = std::chrono::steady_clock::now();
   const auto complain = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
-  const std::vector<Metric> metrics = run_experiment(*experiment, r, complain);
+  const std::vector<Metric> metrics = run_experiment(chosen, r, complain);
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (o.quiet) return;
   for (const Metric& m : metrics) {

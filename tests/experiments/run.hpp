@@ -12,6 +12,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> settings;
   std::string out;
+  bool record = false;
   bool quiet = false;
 };
 

@@ -16,6 +16,7 @@
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/laboratory.hpp"
 #include "tests/experiments/plot.hpp"
+#include "tests/experiments/touch.hpp"
 #include "tests/experiments/trace.hpp"
 
 namespace longreach {
@@ -179,10 +180,13 @@ std::vector<Plot> touch_plots() {
                        ""}}}};
 }
 
-std::vector<Metric> run_touch(const ExperimentRun& run) {
+namespace {
+
+std::vector<Metric> touch(const ExperimentRun& run, const std::filesystem::path& record) {
   const MasterConfig master = to_struct(run.config.master());
   const SlaveConfig slave = to_struct(run.config.slave());
   Laboratory lab(master, slave, run.seed);
+  if (!record.empty()) lab.record(record);
   Trace trace(run.out, "touch",
               {"t_s", "hand_m", "surface_m", "goal_m", "tool_m", "hand_force_n", "spring_force_n",
                "tool_force_n", "stiffness_n_per_m", "reported_n_per_m", "penetration_m", "port_energy_j",
@@ -199,8 +203,17 @@ std::vector<Metric> run_touch(const ExperimentRun& run) {
     if (lab.script().cycles() > 0 && lab.script().phase() == ScriptPhase::kRest) break;
   }
   trace.close();
+  lab.end_recording();
   if (run.progress) run.progress(1.0);
   return metrics_of(watch, lab);
+}
+
+}  // namespace
+
+std::vector<Metric> run_touch(const ExperimentRun& run) { return touch(run, {}); }
+
+std::vector<Metric> run_touch_recorded(const ExperimentRun& run) {
+  return touch(run, run.out / "touch.mcap");
 }
 
 }  // namespace longreach

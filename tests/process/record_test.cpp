@@ -117,6 +117,84 @@ TEST_F(Recording, FromTheStartHasEveryTick) {
   }
 }
 
+TEST_F(Recording, IsReplayedBitForBitAfterAllThatMayChangeOnTheWay) {
+  start_slave({"--record", file("slave.mcap")});
+  start_master({"--operator", "script", "--engage", "--profile", "analog", "--record", file("master.mcap")});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  EXPECT_NE(master_.set("mapping.scale", "0.5"), "") << "refused: it does not reach the node";
+  EXPECT_EQ(master_.set("hand.grip", "FIRM"), "");
+  EXPECT_EQ(slave_.set("estimator.forgetting", "0.99"), "");
+  EXPECT_EQ(slave_.set_delay(0.05), "");
+  EXPECT_EQ(master_.stop(), "");
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Stopped"; })) << outputs();
+  EXPECT_EQ(slave_.set("command.force_guard_n", "10"), "");
+  EXPECT_EQ(master_.set("mapping.mode", "RATE"), "");
+  EXPECT_EQ(master_.set("mapping.scale", "0.5"), "");
+  EXPECT_EQ(master_.set("rendering.contact_damping_n_s_per_m", "2"), "");
+  EXPECT_EQ(master_.engage(), "");
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const auto ticks = slave_.counter("ticks");
+  ASSERT_TRUE(eventually([&] { return slave_.counter("ticks") > ticks + 2000; }));
+  master_program_->signal(SIGTERM);
+  ASSERT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  slave_program_->signal(SIGKILL);
+  ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 128 + SIGKILL) << outputs();
+  RunningProgram replay("longreach-lab", {"replay", file("master.mcap"), file("slave.mcap")});
+  EXPECT_EQ(replay.wait(std::chrono::seconds(120)), 0) << replay.output();
+  EXPECT_NE(replay.output().find("master: "), std::string::npos) << replay.output();
+  EXPECT_NE(replay.output().find("slave: "), std::string::npos) << replay.output();
+  EXPECT_NE(replay.output().find("slave.mcap was cut"), std::string::npos) << replay.output();
+  EXPECT_EQ(replay.output().find("difference"), std::string::npos) << replay.output();
+}
+
+TEST_F(Recording, StartsAndStopsOnTheWay) {
+  const std::string folder = file("all");
+  start_slave({"--recordings", folder});
+  start_master({"--operator", "none", "--engage", "--recordings", folder});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const auto client = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"--master", "127.0.0.1:" + std::to_string(ports_.master_rpc), "--slave",
+                                 "127.0.0.1:" + std::to_string(ports_.slave_rpc)});
+    RunningProgram program("longreach", words);
+    const int status = program.wait(std::chrono::seconds(60)).value_or(-1);
+    return std::to_string(status) + " " + program.output();
+  };
+  const std::string begun = client({"record", "start", "drill"});
+  EXPECT_TRUE(begun.starts_with("0 ")) << begun;
+  EXPECT_NE(begun.find(folder + "/drill-slave.mcap"), std::string::npos) << begun;
+  const std::string again = client({"record", "start", "other"});
+  EXPECT_TRUE(again.starts_with("1 ")) << again;
+  EXPECT_NE(again.find("is being recorded"), std::string::npos) << again;
+  EXPECT_NE(client({"status"}).find("drill-master.mcap, "), std::string::npos);
+  for (Side* side : {&slave_, &master_})
+    ASSERT_TRUE(eventually([side] {
+      const auto status = side->status();
+      return status && status->recording().bytes() > 300'000;
+    })) << outputs();
+  const std::string ended = client({"record", "stop"});
+  EXPECT_TRUE(ended.starts_with("0 ")) << ended;
+  EXPECT_TRUE(client({"record", "stop"}).starts_with("1 ")) << "nothing is being recorded";
+  EXPECT_NE(client({"record", "list", folder}).find("drill-slave.mcap"), std::string::npos);
+  const std::string tables = client({"record", "export", folder + "/drill-slave.mcap", "--csv"});
+  EXPECT_TRUE(tables.starts_with("0 ")) << tables;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/drill-slave/slave_tick.csv")) << tables;
+  for (const char* name : {"/drill-slave.mcap", "/drill-master.mcap"}) {
+    const Recorded recorded = read_recording(folder + name);
+    EXPECT_TRUE(recorded.whole);
+    EXPECT_GT(recorded.first_tick, 0u);
+    EXPECT_GT(recorded.ticks, 500u);
+  }
+  RunningProgram replay("longreach-lab", {"replay", folder + "/drill-slave.mcap"});
+  EXPECT_EQ(replay.wait(std::chrono::seconds(60)), 2) << replay.output();
+  EXPECT_NE(replay.output().find("a replay needs a recording from the start (--record)"), std::string::npos)
+      << replay.output();
+  // And a second one.
+  EXPECT_TRUE(client({"record", "start", "drill"}).starts_with("1 ")) << "nothing is overwritten";
+  EXPECT_TRUE(client({"record", "start"}).starts_with("0 "));
+  EXPECT_EQ(slave_.state(), "Engaged") << outputs();
+  EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0u);
+}
+
 TEST_F(Recording, OverwritesNothing) {
   start_slave({"--record", file("slave.mcap"), "--seconds", "0.2"});
   ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();

@@ -1,0 +1,46 @@
+#include "common/io/recording/recording_list.hpp"
+
+#include <algorithm>
+
+#include "common/io/recording/mcap_reader.hpp"
+#include "common/io/recording/recording_error.hpp"
+
+namespace longreach {
+namespace {
+
+ListedRecording listed(const std::filesystem::path& file) {
+  ListedRecording out{.file = file};
+  try {
+    std::error_code gone;
+    out.bytes = std::filesystem::file_size(file, gone);
+    const McapFigures figures = mcap_figures(file);
+    out.messages = figures.messages;
+    out.seconds = 1e-9 * static_cast<double>(figures.last_ns - figures.first_ns);
+    out.whole = figures.whole;
+    McapReader reader(file);
+    (void)reader.next();
+    if (const auto facts = reader.metadata().find("longreach"); facts != reader.metadata().end()) {
+      TextMap known = facts->second;
+      out.began = known["began"];
+      out.side = known["side"];
+    }
+  } catch (const RecordingError& e) {
+    out.trouble = e.what();
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return {};
+  std::vector<ListedRecording> out;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".mcap") out.push_back(listed(entry.path()));
+  if (error) throw RecordingError("cannot read the folder " + folder.string() + ": " + error.message());
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.file < b.file; });
+  return out;
+}
+
+}  // namespace longreach

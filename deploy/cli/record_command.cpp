@@ -1,0 +1,121 @@
+// `longreach record`: start and stop by RPC at both sides, list and export on this machine.
+
+#include <cstdio>
+#include <future>
+#include <iostream>
+
+#include "common/io/recording/csv_export.hpp"
+#include "common/io/recording/recording_error.hpp"
+#include "common/io/recording/recording_folder.hpp"
+#include "common/io/recording/recording_list.hpp"
+#include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
+#include "deploy/cli/side_client.hpp"
+
+namespace longreach {
+namespace {
+
+/// What a side answered, or its error.
+struct Answer {
+  std::string text;
+  std::optional<SideError> error{};
+};
+
+template <class Call>
+Answer ask(Side side, const Options& options, const Call& call) {
+  try {
+    SideClient client(side, options);
+    return {call(client)};
+  } catch (const SideError& error) {
+    return {error.what(), error};
+  }
+}
+
+/// Both sides at the same time; done when both have done it.
+template <class Call>
+ExitStatus at_both(const Options& options, const std::string& doing, const Call& call) {
+  auto slave = std::async(std::launch::async, [&] { return ask(Side::kSlave, options, call); });
+  const Answer master_answer = ask(Side::kMaster, options, call);
+  const Answer slave_answer = slave.get();
+  if (master_answer.error && slave_answer.error)
+    throw SideError(master_answer.error->kind(), master_answer.text + "; " + slave_answer.text);
+  const auto part = [&doing](const Answer& answer, const char* side) {
+    return answer.error ? answer.text : doing + " at the " + side + ": " + answer.text;
+  };
+  print_done(options, part(master_answer, "master") + "; " + part(slave_answer, "slave"));
+  return master_answer.error || slave_answer.error ? ExitStatus::kFailed : ExitStatus::kDone;
+}
+
+std::string json_of(const ListedRecording& r) {
+  char numbers[120];
+  std::snprintf(numbers, sizeof numbers,
+                ",\"bytes\":\"%llu\",\"messages\":\"%llu\",\"seconds\":%.3f,\"whole\":%s",
+                static_cast<unsigned long long>(r.bytes), static_cast<unsigned long long>(r.messages),
+                r.seconds, r.whole ? "true" : "false");
+  return "{\"file\":" + json_string(r.file.string()) + ",\"side\":" + json_string(r.side) +
+         ",\"began\":" + json_string(r.began) + numbers + ",\"trouble\":" + json_string(r.trouble) + "}";
+}
+
+ExitStatus list(const Options& options, const RecordCommand& command) {
+  const std::filesystem::path folder =
+      command.folder.empty() ? default_recordings() : std::filesystem::path(command.folder);
+  const auto recordings = list_recordings(folder);
+  if (options.json) {
+    std::string out;
+    for (const auto& r : recordings) out += (out.empty() ? "" : ",") + json_of(r);
+    std::cout << "{\"recordings\":[" << out << "]}" << std::endl;
+    return ExitStatus::kDone;
+  }
+  for (const auto& r : recordings) {
+    if (!r.trouble.empty()) {
+      std::cout << r.trouble << "\n";
+      continue;
+    }
+    char line[120];
+    std::snprintf(line, sizeof line, "%8.1f s %9.1f MB  %-16s %s  ", r.seconds,
+                  1e-6 * static_cast<double>(r.bytes), r.began.c_str(), r.whole ? "whole" : "cut  ");
+    std::cout << line << r.file.string() << "\n";
+  }
+  if (recordings.empty()) std::cout << "no recordings in " << folder.string() << "\n";
+  std::cout.flush();
+  return ExitStatus::kDone;
+}
+
+ExitStatus export_tables(const Options& options, const RecordCommand& command) {
+  const std::filesystem::path file = command.file;
+  const std::filesystem::path folder =
+      command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
+  if (std::filesystem::exists(folder) && folder == file)
+    throw UsageError("say with --out DIR where the tables shall go");
+  const auto tables = export_csv(file, folder);
+  std::uint64_t rows = 0;
+  for (const auto& table : tables) rows += table.rows;
+  print_done(options, std::to_string(tables.size()) + " tables with " + std::to_string(rows) + " rows in " +
+                          folder.string());
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+ExitStatus run_record(const Options& options, const RecordCommand& command) {
+  try {
+    switch (command.what) {
+      case RecordCommand::What::kStart: {
+        const std::string name = command.name.empty() ? recording_name_now() : command.name;
+        return at_both(options, "recording",
+                       [&](SideClient& side) { return side.start_recording(name, command.max_mb); });
+      }
+      case RecordCommand::What::kStop:
+        return at_both(options, "recorded", [](SideClient& side) { return side.stop_recording(); });
+      case RecordCommand::What::kList:
+        return list(options, command);
+      case RecordCommand::What::kExport:
+        break;
+    }
+    return export_tables(options, command);
+  } catch (const RecordingError& e) {
+    throw UsageError(e.what());
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,24 @@
+#pragma once
+// The part of the command line that is about recordings.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "deploy/cli/invocation.hpp"
+
+namespace longreach {
+
+class RecordWords {
+ public:
+  /// Adds `record` with its commands.
+  void declare(CLI::App& app);
+  /// What was asked for, where `record` was. Throws UsageError.
+  [[nodiscard]] RecordCommand command() const;
+
+ private:
+  CLI::App* record_ = nullptr;
+  std::string name_, folder_, file_, max_mb_ = "4096";
+  bool csv_ = false;
+};
+
+}  // namespace longreach

@@ -1,0 +1,109 @@
+#include "tests/experiments/recording/replay.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <ostream>
+
+#include "common/config/config.hpp"
+#include "common/io/recording/build_name.hpp"
+#include "common/io/recording/mcap_reader.hpp"
+#include "common/io/recording/recording_error.hpp"
+#include "tests/experiments/recording/node_replay.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kSame = 0, kDifferent = 1, kNotReplayed = 2;
+
+/// "tick" of "/master/tick", for the side "master"; empty: of another side.
+std::string_view name_in(std::string_view topic, std::string_view side) {
+  if (topic.size() < side.size() + 2 || topic.substr(1, side.size()) != side || topic[side.size() + 1] != '/')
+    return {};
+  return topic.substr(side.size() + 2);
+}
+
+/// Texts of up to 200 characters are enough for a line of result.
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+int judge(const SideReplay& side, double spent_s, std::ostream& out) {
+  const auto ticks = static_cast<unsigned long long>(side.ticks);
+  out << side.side << ": ";
+  if (side.difference) {
+    const ReplayDifference& d = *side.difference;
+    out << line("first difference at tick %llu (%.6f s): ", static_cast<unsigned long long>(d.tick), d.time_s)
+        << d.field << " is " << d.recorded << " in the recording, " << d.replayed << " in the replay\n";
+    return kDifferent;
+  }
+  out << line("%llu ticks, %.1f s, %llu messages: outputs and views are bit for bit as recorded", ticks,
+              side.seconds, static_cast<unsigned long long>(side.messages));
+  if (side.seconds > 0.0) out << line(", %.0f times faster than real time", side.seconds / spent_s);
+  if (!side.stopped.empty()) out << "; no further: " << side.stopped;
+  out << "\n";
+  return side.stopped.empty() && side.ticks > 0 ? kSame : kNotReplayed;
+}
+
+}  // namespace
+
+FileReplay replay_file(const std::filesystem::path& file) {
+  McapReader reader(file);
+  MasterReplay master;
+  SlaveReplay slave;
+  bool has_master = false, has_slave = false;
+  try {
+    while (const auto message = reader.next()) {
+      if (const auto name = name_in(message->channel->topic, "master"); !name.empty()) {
+        has_master = true;
+        master.take(name, message->bytes);
+      } else if (const auto other = name_in(message->channel->topic, "slave"); !other.empty()) {
+        has_slave = true;
+        slave.take(other, message->bytes);
+      }
+    }
+  } catch (const ConfigError& e) {
+    throw RecordingError(file.string() + ": " + e.what());
+  }
+  FileReplay out;
+  out.whole = reader.whole();
+  if (const auto facts = reader.metadata().find("longreach"); facts != reader.metadata().end())
+    if (const auto commit = facts->second.find("commit"); commit != facts->second.end())
+      out.commit = commit->second;
+  if (has_master) out.sides.push_back(master.result());
+  if (has_slave) out.sides.push_back(slave.result());
+  return out;
+}
+
+int replay(const std::vector<std::string>& files, std::ostream& out, std::ostream& err) {
+  int worst = kSame;
+  for (const std::string& file : files) {
+    FileReplay result;
+    const auto began = std::chrono::steady_clock::now();
+    try {
+      result = replay_file(file);
+    } catch (const RecordingError& e) {
+      err << "longreach-lab: " << e.what() << "\n";
+      worst = kNotReplayed;
+      continue;
+    }
+    const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    if (result.sides.empty()) {
+      err << "longreach-lab: " << file << " holds neither a master nor a slave\n";
+      worst = kNotReplayed;
+    }
+    if (!result.commit.empty() && result.commit != build_commit())
+      err << "longreach-lab: " << file << " was recorded by commit " << result.commit << ", this is "
+          << build_commit() << "\n";
+    for (const SideReplay& side : result.sides) {
+      const int status = judge(side, spent_s, out);
+      if (status == kDifferent || worst == kSame) worst = status;
+    }
+    if (!result.whole) out << file << " was cut: its last second may be missing\n";
+  }
+  return worst;
+}
+
+}  // namespace longreach

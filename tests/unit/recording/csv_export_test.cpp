@@ -1,0 +1,114 @@
+// Recordings as tables and as a list.
+#include "common/io/recording/csv_export.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "common/io/recording/mcap_writer.hpp"
+#include "common/io/recording/recording_error.hpp"
+#include "common/io/recording/recording_list.hpp"
+#include "proto/config.pb.h"
+#include "proto/recording.pb.h"
+#include "tests/unit/io/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+std::string read_all(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_sample(const std::filesystem::path& path) {
+  RecordingFile file(path);
+  McapWriter writer(file, "test");
+  writer.add_metadata("longreach", {{"side", "slave"}, {"began", "20260102T030405Z"}});
+  const auto links = writer.add_channel("/slave/link", *recording::Link::descriptor());
+  const auto events = writer.add_channel("/slave/event", *recording::Event::descriptor());
+  const auto commands =
+      writer.add_channel("/slave/received_command", *recording::ReceivedCommand::descriptor());
+  recording::Link link;
+  link.set_loss(0.1);
+  writer.write(links, 1'000'000'000, link);
+  link.set_rtt_s(1.0 / 3.0);
+  writer.write(links, 1'500'000'000, link);
+  recording::Event event;
+  event.set_text("a \"word\", and\nmore");
+  writer.write(events, 2'000'000'000, event);
+  recording::ReceivedCommand command;
+  command.mutable_receipt()->set_sent_ns(-5);
+  command.mutable_command()->set_mode(recording::POSITION);
+  command.mutable_command()->set_grip(true);
+  command.mutable_command()->mutable_position_m()->set_y(-2.5e-7);
+  writer.write(commands, 3'500'000'000, command);
+  writer.finish();
+}
+
+TEST(CsvExport, HasARowAMessageAndAColumnANumber) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap");
+  const auto tables = export_csv(folder.path() / "a.mcap", folder.path() / "new" / "tables");
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[0].file, folder.path() / "new" / "tables" / "slave_link.csv");
+  EXPECT_EQ(tables[0].rows, 2u);
+  const std::string links = read_all(tables[0].file);
+  EXPECT_EQ(links.substr(0, links.find('\n')),
+            "t_s,log_time_ns,rtt_s,jitter_s,loss,reorder,silence_s,rate_hz,bytes_per_s,accepted,rejected,"
+            "session,missed_ticks,ticks_late_100ms,ticks_not_recorded");
+  EXPECT_NE(links.find("\n0,1000000000,,0,0.1,0,"), std::string::npos) << links;  // absent: empty
+  EXPECT_NE(links.find("\n0.5,1500000000,0.3333333333333333,0,0.1,"), std::string::npos) << links;
+  EXPECT_EQ(read_all(tables[1].file), "t_s,log_time_ns,text\n1,2000000000,\"a \"\"word\"\", and\nmore\"\n");
+  const std::string commands = read_all(tables[2].file);
+  EXPECT_NE(commands.find("command.position_m.y"), std::string::npos) << commands;
+  EXPECT_NE(commands.find("\n2.5,3500000000,0,-5,0,,0,0,HOLD,POSITION,0,1,GOAL_POSITION,0,-2.5e-07,0,,,\n"),
+            std::string::npos)
+      << commands;
+}
+
+TEST(CsvExport, TakesForeignSchemasWithListsAndTypesThatContainThemselves) {
+  const TemporaryFolder folder;
+  {
+    RecordingFile file(folder.path() / "a.mcap");
+    McapWriter writer(file, "test");
+    proto::Scene scene;
+    scene.add_surface()->set_name("one");
+    scene.add_surface()->set_name("two");
+    writer.write(writer.add_channel("odd/topic name", *proto::Scene::descriptor()), 1, scene);
+    writer.finish();
+  }
+  const auto tables = export_csv(folder.path() / "a.mcap", folder.path());
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].file.filename(), "odd_topic_name.csv");
+  EXPECT_NE(read_all(tables[0].file).find("two"), std::string::npos);
+}
+
+TEST(CsvExport, SaysWhyNot) {
+  const TemporaryFolder folder;
+  EXPECT_THROW((void)export_csv(folder.path() / "none.mcap", folder.path()), RecordingError);
+  write_sample(folder.path() / "a.mcap");
+  EXPECT_THROW((void)export_csv(folder.path() / "a.mcap", folder.path() / "a.mcap"), RecordingError);
+}
+
+TEST(RecordingList, KnowsWhatIsWholeAndWhatIsNot) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(list_recordings(folder.path() / "none").empty());
+  write_sample(folder.path() / "b.mcap");
+  const std::string bytes = read_all(folder.path() / "b.mcap");
+  std::ofstream(folder.path() / "c.mcap", std::ios::binary) << bytes.substr(0, bytes.size() - 20);
+  std::ofstream(folder.path() / "a.mcap") << "no recording";
+  std::ofstream(folder.path() / "text.txt") << "no recording";
+  const auto list = list_recordings(folder.path());
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_NE(list[0].trouble.find("a.mcap is no recording"), std::string::npos) << list[0].trouble;
+  EXPECT_EQ(list[1].trouble, "");
+  EXPECT_EQ(list[1].side, "slave");
+  EXPECT_EQ(list[1].began, "20260102T030405Z");
+  EXPECT_EQ(list[1].messages, 4u);
+  EXPECT_DOUBLE_EQ(list[1].seconds, 2.5);
+  EXPECT_TRUE(list[1].whole);
+  EXPECT_EQ(list[2].messages, 4u);
+}
+
+}  // namespace
+}  // namespace longreach
