@@ -22,9 +22,9 @@ Plot displayable_plot() {
   const auto line = [&](const char* column, const char* title, int colour) {
     panel.curves.push_back({.column = column, .title = title, .factor = 1e-3, .colour = colour});
   };
-  line("direct_line_n_per_m", "its delay margin", 0);
-  line("position_position_line_n_per_m", "its coupling and the wall", 1);
-  line("wave_line_n_per_m", "2 b/RTT and the wall", 2);
+  line("direct_line_n_per_m", "limit: delay margin", 0);
+  line("position_position_line_n_per_m", "limit: coupling and wall", 1);
+  line("wave_line_n_per_m", "limit: 2 b/RTT and wall", 2);
   line("wall_n_per_m", "wall, 5 N/mm", 5);
   return {.name = "displayable",
           .csv = "displayable",
@@ -36,8 +36,8 @@ Plot displayable_plot() {
 }
 
 Plot wall_plot(const std::string& wall, const std::string& title) {
-  const std::string axis = "set xrange [-0.2:*]\n";
-  Panel shown{"displayed/true", {}, axis + "set yrange [-0.05:1.6]"};
+  const std::string axis = "set logscale x\nset xrange [0.02:10]\n";
+  Panel shown{"displayed/true", {}, axis + "set logscale y\nset yrange [0.003:2]\nset format y '%g'"};
   Panel given{
       "given to the hand (mJ)", {}, axis + "set logscale y\nset yrange [1e-4:*]\nset format y '10^{%L}'"};
   for (std::size_t i = 0; i < kLawNames.size(); ++i) {
@@ -49,12 +49,19 @@ Plot wall_plot(const std::string& wall, const std::string& title) {
     curve.column += "_given_mj";
     given.curves.push_back(curve);
   }
+  const auto limit = [&](const char* column, const char* title, int colour) {
+    shown.curves.push_back({.column = column, .title = title, .colour = colour, .csv = "limits_" + wall});
+  };
+  limit("direct", "limit: delay margin", 0);
+  limit("position_position", "limit: coupling", 1);
+  limit("wave", "limit: 2 b/RTT", 2);
   return {.name = "wall_" + wall,
           .csv = wall + "_n_per_m",
           .title = "A wall of " + title + " and a light hand; no point: limit cycle",
           .x_column = "rtt_s",
           .x_label = "round-trip time (s)",
-          .panels = {shown, given}};
+          .panels = {shown, given},
+          .panel_px = 230.0};
 }
 
 }  // namespace

@@ -79,32 +79,64 @@ void check_wave(const DelayGrid& grid, const DelayResults& results, std::vector<
   metrics.push_back({"wave_table_error_max", worst, ""});
 }
 
+/// What theory says that each law can display of a wall.
+struct LimitLines {
+  HeldHandle light;
+  const DeviceConfig& device;
+  ComparisonConfig config{};
+
+  [[nodiscard]] double direct_n_per_m(double rtt_s) const {
+    return direct_limit_n_per_m(light, bench_loop_s(rtt_s));
+  }
+  [[nodiscard]] double position_position_n_per_m(double wall_n_per_m, double rtt_s) const {
+    return in_series(tuned_coupling_n_per_m(device, config, rtt_s), wall_n_per_m);
+  }
+  [[nodiscard]] double wave_n_per_m(double wall_n_per_m, double rtt_s) const {
+    return in_series(wave_line_n_per_m(config.wave_n_s_per_m, rtt_s), wall_n_per_m);
+  }
+};
+
+std::vector<double> delays_of_lines_s() {
+  constexpr int kPoints = 160;
+  std::vector<double> rtt_s;
+  for (int i = 0; i <= kPoints; ++i)
+    rtt_s.push_back(0.02 * std::pow(500.0, static_cast<double>(i) / kPoints));
+  return rtt_s;
+}
+
+/// Share of each wall that a law can display; none where direct force is not calm.
+void write_limits(const ExperimentRun& run, const DelayGrid& grid, const LimitLines& limits) {
+  for (const double wall : grid.wall_n_per_m) {
+    Trace trace(run.out, "limits_" + short_number(wall), {"rtt_s", "direct", "position_position", "wave"});
+    for (const double rtt_s : delays_of_lines_s()) {
+      trace.row({rtt_s, wall <= limits.direct_n_per_m(rtt_s) ? 1.0 : kNone,
+                 limits.position_position_n_per_m(wall, rtt_s) / wall,
+                 limits.wave_n_per_m(wall, rtt_s) / wall});
+    }
+    trace.close();
+  }
+}
+
 /// Lines over the whole range of delays, points where something was measured.
 void write_displayable(const ExperimentRun& run, const DelayGrid& grid, const DelayResults& results,
-                       const DeviceConfig& device) {
+                       const LimitLines& limits) {
   Trace trace(run.out, "displayable",
               {"rtt_s", "direct_n_per_m", "position_position_n_per_m", "wave_n_per_m", "tdpa_n_per_m",
                "tank_n_per_m", "stiffness_n_per_m", "direct_line_n_per_m", "position_position_line_n_per_m",
                "wave_line_n_per_m", "wall_n_per_m"});
-  const HeldHandle light = held_handle(device, Grip::kLight);
-  const ComparisonConfig config;
-  constexpr int kLine = 160;
-  for (int i = 0; i <= kLine; ++i) {
-    const double rtt_s = 0.02 * std::pow(500.0, static_cast<double>(i) / kLine);
-    const double coupling = tuned_coupling_n_per_m(device, config, rtt_s);
+  for (const double rtt_s : delays_of_lines_s()) {
     trace.row({rtt_s, kNone, kNone, kNone, kNone, kNone, kNone,
-               std::min(kHardest_n_per_m, direct_limit_n_per_m(light, bench_loop_s(rtt_s))),
-               in_series(coupling, kHardest_n_per_m),
-               in_series(wave_line_n_per_m(config.wave_n_s_per_m, rtt_s), kHardest_n_per_m),
-               kHardest_n_per_m});
+               std::min(kHardest_n_per_m, limits.direct_n_per_m(rtt_s)),
+               limits.position_position_n_per_m(kHardest_n_per_m, rtt_s),
+               limits.wave_n_per_m(kHardest_n_per_m, rtt_s), kHardest_n_per_m});
   }
   for (const double rtt_s : grid.rtt_s) {
     const auto most = [&](RenderingLaw law) {
       const double shown = results.displayable_n_per_m(law, rtt_s, Grip::kLight);
       return shown > 0.0 ? shown : kNone;
     };
-    const double limit =
-        measured_direct_limit_n_per_m(direct_case(device, Grip::kLight, rtt_s), kHardest_n_per_m, 0.05);
+    const double limit = measured_direct_limit_n_per_m(direct_case(limits.device, Grip::kLight, rtt_s),
+                                                       kHardest_n_per_m, 0.05);
     trace.row({rtt_s, limit, most(RenderingLaw::kPositionPosition), most(RenderingLaw::kWave),
                most(RenderingLaw::kTdpa), most(RenderingLaw::kTank), most(RenderingLaw::kStiffness), kNone,
                kNone, kNone, kNone});
@@ -137,7 +169,9 @@ std::vector<Metric> run_delay_sweep(const ExperimentRun& run) {
   summarise(results, metrics);
   if (!run.out.empty()) {
     results.write(run.out);
-    write_displayable(run, grid, results, device);
+    const LimitLines limits{held_handle(device, Grip::kLight), device};
+    write_displayable(run, grid, results, limits);
+    write_limits(run, grid, limits);
   }
   if (run.progress) run.progress(1.0);
   return metrics;
