@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/io/recording/mcap_reader.hpp"
+#include "common/io/recording/mcap_writer.hpp"
 #include "proto/recording.pb.h"
 #include "tests/process/station.hpp"
 #include "tests/unit/io/temporary_folder.hpp"
@@ -193,6 +194,71 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   EXPECT_TRUE(client({"record", "start"}).starts_with("0 "));
   EXPECT_EQ(slave_.state(), "Engaged") << outputs();
   EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0u);
+}
+
+/// What the library of the format's authors says of a file: exit status, what was found as JSON.
+std::string checked(const std::string& how, const std::string& path) {
+  RunningProgram check(LONGREACH_NODE, {LONGREACH_RECORDINGS_CHECK, how, path});
+  const int status = check.wait(std::chrono::seconds(120)).value_or(-1);
+  return std::to_string(status) + " " + check.output();
+}
+
+TEST_F(Recording, IsReadByTheLibraryOfItsFormat) {
+  start_slave({"--record", file("slave.mcap")});
+  start_master({"--operator", "script", "--engage", "--record", file("master.mcap")});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  ASSERT_TRUE(eventually([this] { return master_.counter("ticks") > 3000; }));
+  master_program_->signal(SIGTERM);
+  ASSERT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  slave_program_->signal(SIGKILL);
+  ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 128 + SIGKILL) << outputs();
+  // By its index, all schemas and checksums.
+  const std::string master = checked("indexed", file("master.mcap"));
+  EXPECT_TRUE(master.starts_with("0 {")) << master;
+  for (const char* part : {R"("/master/tick":{"schema":"longreach.recording.MasterTick")",
+                           R"("/master/view":{"schema":"longreach.recording.MasterView")",
+                           R"("/master/link":{"schema":"longreach.recording.Link")",
+                           R"("/master/received_report")", R"("/master/received_telemetry")",
+                           R"("/master/config")", R"("metadata":{"longreach":{)", R"("side":"master")"})
+    EXPECT_NE(master.find(part), std::string::npos) << part << " in " << master;
+  const Recorded recorded = read_recording(file("master.mcap"));
+  EXPECT_NE(master.find(R"("messages":)" + std::to_string(recorded.ticks) + R"(,"last_tick":)" +
+                        std::to_string(recorded.ticks - 1)),
+            std::string::npos)
+      << recorded.ticks << " in " << master;
+  // Cut: from its start.
+  EXPECT_TRUE(checked("indexed", file("slave.mcap")).starts_with("1 "));
+  const std::string slave = checked("stream", file("slave.mcap"));
+  EXPECT_TRUE(slave.starts_with("0 {")) << slave;
+  const Recorded cut = read_recording(file("slave.mcap"));
+  EXPECT_NE(slave.find(R"("messages":)" + std::to_string(cut.ticks) + R"(,"last_tick":)" +
+                       std::to_string(cut.ticks - 1)),
+            std::string::npos)
+      << cut.ticks << " in " << slave;
+  EXPECT_NE(slave.find(R"("complete":false)"), std::string::npos) << slave;
+  const std::string whole = checked("stream", file("master.mcap"));
+  EXPECT_NE(whole.find(R"("complete":true)"), std::string::npos) << whole;
+}
+
+TEST_F(Recording, OfNothingOrOfMuchIsReadByTheLibraryOfItsFormat) {
+  {
+    RecordingFile empty(file("empty.mcap"));
+    McapWriter(empty, "test").finish();
+    RecordingFile large(file("large.mcap"));
+    McapWriter writer(large, "test");
+    recording::Event event;
+    event.set_text(std::string(20'000'000, 'x'));
+    const auto channel = writer.add_channel("/x", *event.descriptor());
+    for (std::uint64_t i = 0; i < 3; ++i) writer.write(channel, i, event);
+    event.set_text("");
+    for (std::uint64_t i = 0; i < 100'000; ++i) writer.write(channel, 10 + i, event);
+    writer.finish();
+  }
+  EXPECT_TRUE(checked("indexed", file("empty.mcap")).starts_with("0 {"));
+  EXPECT_TRUE(checked("stream", file("empty.mcap")).starts_with("0 {"));
+  const std::string large = checked("indexed", file("large.mcap"));
+  EXPECT_TRUE(large.starts_with("0 {")) << large;
+  EXPECT_NE(large.find(R"("messages":100003)"), std::string::npos) << large;
 }
 
 TEST_F(Recording, OverwritesNothing) {
