@@ -106,6 +106,23 @@ TEST(ControlService, DoesNotRepeatABlackoutThatIsOverWhenAnotherFieldChanges) {
   EXPECT_EQ(side.present_link().blackout_duration_s(), 0.0);
 }
 
+TEST(ControlService, HandsRecordingsToTheSideAndSaysWhere) {
+  FakeBackend side("slave");
+  ControlService service(side);
+  proto::StartRecordingRequest request;
+  request.set_name("drill");
+  const auto started = service.start_recording(request);
+  ASSERT_EQ(refusal_of(started), nullptr);
+  EXPECT_EQ(std::get<proto::Outcome>(started).message(), "/recordings/drill-slave.mcap");
+  EXPECT_EQ(refusal_of(service.stop_recording()), nullptr);
+  EXPECT_EQ(side.calls(), (std::vector<std::string>{"start_recording drill", "stop_recording"}));
+  for (const double max_mb : {0.0, -1.0, 2e6, std::nan("")}) {
+    request.set_max_mb(max_mb);
+    ASSERT_NE(refusal_of(service.start_recording(request)), nullptr) << max_mb;
+  }
+  EXPECT_EQ(side.calls().size(), 2u);
+}
+
 TEST(Continued, LeavesALinkThatDoesNotDependOnTimeAsItIs) {
   proto::Impairment link;
   link.set_delay_s(0.65);
