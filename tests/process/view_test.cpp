@@ -2,6 +2,7 @@
 // page or its server goes, and that neither can disturb the loops.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -31,15 +32,19 @@ class View : public Station {
   }
 
   /// Drives the page as tests/process/page/drive.mjs describes; pictures stay in the build.
-  void drive(const std::string& what) {
+  std::unique_ptr<RunningProgram> driver(const std::string& what) {
     const auto pictures = std::filesystem::path(LONGREACH_BIN).parent_path() / "view";
     std::filesystem::create_directories(pictures);
-    RunningProgram driver(LONGREACH_NODE, {LONGREACH_PAGE_TESTS "/drive.mjs", what, address_,
-                                           pictures.string(), LONGREACH_PAGE, LONGREACH_CHROMIUM});
+    return std::make_unique<RunningProgram>(
+        LONGREACH_NODE, std::vector<std::string>{LONGREACH_PAGE_TESTS "/drive.mjs", what, address_,
+                                                 pictures.string(), LONGREACH_PAGE, LONGREACH_CHROMIUM});
+  }
+  void finish(RunningProgram& driver) {
     const auto status = driver.wait(std::chrono::minutes(5));
     EXPECT_EQ(status, 0) << driver.output() << view_->output() << outputs();
     std::cout << driver.output();
   }
+  void drive(const std::string& what) { finish(*driver(what)); }
 
   bool pressing() {
     const auto status = master_.status();
@@ -72,6 +77,20 @@ TEST_F(View, APersonWithABrowserFeelsTheWallOverTheMoon) {
   start_master({"--profile", "moon", "--operator", "none"});
   start_view();
   if (!HasFatalFailure()) drive("path");
+}
+
+TEST_F(View, APageSaysThatTheMasterIsAwayAndGoesOnWhenItIsBack) {
+  start_slave();
+  start_master({"--operator", "none"});
+  start_view();
+  const auto page = driver("away");
+  ASSERT_TRUE(eventually([&] { return page->output().find("seen: observing") != std::string::npos; }))
+      << page->output();
+  master_program_->signal(SIGKILL);
+  ASSERT_TRUE(eventually([&] { return page->output().find("says why") != std::string::npos; }))
+      << page->output();
+  start_master({"--operator", "none"});
+  finish(*page);
 }
 
 TEST_F(View, AskedFromElsewhereItSaysNothing) {
@@ -123,6 +142,35 @@ TEST_F(View, OnePageHasTheHandAndAnybodyMayStop) {
   EXPECT_TRUE(other.send(R"({"do":"stop"})"));
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped" && master_.state() == "Stopped"; }));
   aiming.join();
+}
+
+TEST_F(View, AViewerThatDoesNotReadMissesFramesAndNothingElse) {
+  start_slave();
+  start_master();
+  start_view();
+  PageClient slow(port_), quick(port_);
+  ASSERT_TRUE(slow.read_until("\"frame\""));
+  const auto seconds = [](const std::string& message) {
+    const std::string before = "{\"frame\":{\"seconds\":";
+    return message.starts_with(before) ? std::stod(message.substr(before.size())) : -1.0;
+  };
+  // The other one is shown everything meanwhile.
+  double first = -1.0, last = -1.0, gap = 0.0;
+  while (first < 0.0 || last - first < 8.0) {
+    const auto message = quick.read();
+    ASSERT_TRUE(message) << view_->output();
+    if (seconds(*message) < 0.0) continue;
+    if (first < 0.0) first = seconds(*message);
+    last = seconds(*message);
+  }
+  for (double before = first; before < last;) {
+    const auto message = slow.read();
+    ASSERT_TRUE(message) << view_->output();
+    if (seconds(*message) < 0.0) continue;
+    if (seconds(*message) > first) gap = std::max(gap, seconds(*message) - before);
+    before = std::max(before, seconds(*message));
+  }
+  EXPECT_GT(gap, 1.0) << "what it did not read was kept for it";
 }
 
 TEST_F(View, AHandWhoseServerIsKilledIsAHold) {

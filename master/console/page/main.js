@@ -25,6 +25,7 @@ function colors() {
 const at = (id) => document.getElementById(id);
 let frame = null;
 let anchor = null;     // of the present engagement
+let away = null;       // why there are no frames: state and sentence
 let dirty = true;
 let page_colors = colors();
 
@@ -58,6 +59,7 @@ const feed = new Feed({
     // A deflected handle would be a speed from the start.
     if (now.mode === 'rate' && frame?.mode === 'position') hand.home();
     frame = now;
+    away = null;
     hand.workspace_m = now.workspace_m;
     hand.rate = now.mode === 'rate';
     plots.anchor = anchor?.engagement === now.engagement ? anchor.position_m : plots.anchor;
@@ -85,6 +87,7 @@ const feed = new Feed({
 function offline(state, why) {
   hand.let_go();
   panel.hold({ holder: 'nobody', viewers: 1 });
+  away = { state, why };
   panel.banner(state, why, '');
 }
 
@@ -152,6 +155,7 @@ function draw(now_ms) {
   picture?.draw();
   plots.draw(now_ms);
   panel.show(frame, hand);
+  if (away) panel.banner(away.state, away.why, '');
   draw_pad(at('pad'), frame, hand, page_colors);
   draw_lift(at('lift'), frame, hand, page_colors);
   show_lag(pose);

@@ -1,4 +1,4 @@
-// drive.mjs demo|path ADDRESS FOLDER PACKAGES CHROMIUM: drives the page, writes pictures of it into FOLDER. Exit status 1 and a
+// drive.mjs demo|path|away ADDRESS FOLDER PACKAGES CHROMIUM: drives the page, writes pictures of it into FOLDER. Exit status 1 and a
 // sentence when something is not seen.
 
 import { Person, open } from './browser.mjs';
@@ -102,11 +102,27 @@ async function path(person) {
   require(person.deeds < 20, `${person.deeds} clicks, drags and keys, under 20`);
 }
 
+/** The master goes and comes back. */
+async function away(person) {
+  await person.see('observing', () => longreach.frame().state === 'Observing');
+  await person.see('no master', () => document.getElementById('state').textContent === 'no master');
+  await new Promise((done) => { setTimeout(done, 500); });
+  const words = await person.look(() => document.getElementById('banner').innerText);
+  require(words.includes('master does not answer'), `the banner says why: ${words.replaceAll('\n', ' ')}`);
+  await person.see('observing again', () => document.getElementById('state').textContent === 'Observing');
+}
+
 const browser = await open(packages, chromium);
 const person = new Person(await browser.newPage(), folder);
 try {
   await person.visit(address);
-  await { demo, path }[what](person);
+  const { bytes, loaded_ms } = await person.look(() => {
+    const [page] = performance.getEntriesByType('navigation');
+    const parts = [page, ...performance.getEntriesByType('resource')];
+    return { bytes: parts.reduce((sum, part) => sum + part.decodedBodySize, 0), loaded_ms: page.loadEventEnd };
+  });
+  require(bytes < 1.5e6, `the page has ${(1e-6 * bytes).toFixed(2)} MB, under 1.5; loaded in ${(1e-3 * loaded_ms).toFixed(2)} s`);
+  await { demo, path, away }[what](person);
   const frames = await person.look(() => longreach.feed.frames);
   require(frames > 100, `${frames} frames came`);
   require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
