@@ -56,7 +56,7 @@ export class Picture {
   constructor(canvas, colors) {
     this.canvas = canvas;
     this.slow = drawn_in_software();
-    this.pause_ms = this.slow ? 90 : 0;     // between two pictures
+    this.pause_ms = this.slow ? 140 : 0;     // between two pictures
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.slow });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.near = new PerspectiveCamera(38, 1, 0.005, 200);

@@ -19,7 +19,7 @@ export class Person {
     this.folder = folder;
     this.errors = [];
     this.deeds = 0;     // clicks and keys
-    this.engages_again = false;     // a busy machine stops the page for longer than a hand may be silent: that is a hold
+    this.engaged_ms = 0;
     page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
     page.on('pageerror', (error) => this.errors.push(String(error)));
     page.on('requestfailed', (request) => this.errors.push(`not loaded: ${request.url()}`));
@@ -67,26 +67,31 @@ export class Person {
 
   async release() { await this.page.mouse.up(); }
 
-  /** Waits until it is so. */
-  async see(what, is_so, ...values) {
-    try {
-      const waiting = this.page.waitForFunction(is_so, { timeout: 60000, polling: 50 }, ...values);
-      const again = setInterval(() => this.engage_again().catch(() => {}), 500);
-      await waiting.finally(() => clearInterval(again));
-    } catch (error) {
-      const frame = await this.page.evaluate(() => JSON.stringify(longreach.frame()));
-      await this.shoot('missed');
-      throw new Error(`never seen: ${what}; the last frame was ${frame}`);
+  /** Waits until it is so; `meanwhile` is done again and again. */
+  async see(what, is_so, meanwhile = async () => {}) {
+    const end = Date.now() + 90000;
+    while (!await this.look(is_so)) {
+      if (Date.now() > end) {
+        await this.shoot('missed');
+        throw new Error(`never seen: ${what}; the last frame was ${await this.look(() => JSON.stringify(longreach.frame()))}`);
+      }
+      await meanwhile();
+      await new Promise((done) => { setTimeout(done, 100); });
     }
     console.log(`seen: ${what}`);
   }
 
-  async engage_again() {
-    if (!this.engages_again || this.engaging || !await this.look(() => longreach.frame().state === 'Holding')) return;
-    console.log('held meanwhile: engaged again');
-    this.engaging = true;
-    await this.key('e');
-    setTimeout(() => { this.engaging = false; }, 5000);     // the answer takes a round trip
+  /** A busy machine may stop the page for longer than a hand may be silent. That is a hold, and a person begins again. */
+  async hold_on() {
+    const { held, state } = await this.look(() => ({ held: longreach.hand.held, state: longreach.frame().state }));
+    if (!held) {
+      await this.key('t');
+    } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the answer takes a round trip
+      console.log('held meanwhile: engaged again');
+      this.engaged_ms = Date.now();
+      await this.key('e');
+    }
+    return held && state === 'Engaged';
   }
 
   async look(picture) { return this.page.evaluate(picture); }

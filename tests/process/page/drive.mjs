@@ -47,14 +47,18 @@ async function demo(person) {
     longreach.way = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
   });
   await note();
-  for (let i = 0; i < 2; ++i) await person.large('s');
-  await person.see('the robot follows the hand', () => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m) > 0.004);
+  await person.see('the robot follows the hand', () => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m) > 0.004,
+    async () => {
+      if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > -0.02)) await person.large('s');
+    });
   await person.click('#stop');
   await person.see('the robot stops', () => longreach.frame().state === 'Stopped' && longreach.frame().far_state === 'Stopped');
   await new Promise((done) => { setTimeout(done, 1000); });
   await note();
-  for (let i = 0; i < 3; ++i) await person.large('w');
-  await person.see('the hand moves on', () => longreach.way(longreach.frame().hand_m, longreach.was.hand_m) > 0.008);
+  await person.see('the hand moves on', () => longreach.way(longreach.frame().hand_m, longreach.was.hand_m) > 0.008, async () => {
+    if (await person.look(() => !longreach.hand.held)) await person.key('t');
+    if (await person.look(() => longreach.hand.aim_m[0] < 0.03)) await person.large('w');
+  });
   await new Promise((done) => { setTimeout(done, 1500); });
   const moved = await person.look(() => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m));
   require(moved < 5e-4, `the robot does not: ${(1e3 * moved).toFixed(3)} mm`);
@@ -71,31 +75,31 @@ async function path(person) {
     const [first] = longreach.anchor().position_m;
     longreach.commanded = () => longreach.anchor().position_m[0] + longreach.frame().goal_m[0] - first;
   });
-  person.engages_again = true;
   // Coarse: a deflection of 15 mm is a speed of 20 mm/s. Let go, the handle goes home.
   await person.click('[data-mode="rate"]');
   await person.see('rate mode', () => longreach.frame().mode === 'rate');
   await person.grasp();
-  await person.drag(0.015);
-  await person.see('nearly at the wall', () => longreach.commanded() > 0.09);
+  await person.see('nearly at the wall', () => longreach.commanded() > 0.09, async () => {
+    if (!await person.hold_on()) return;
+    await person.drag(0.015 - await person.look(() => longreach.hand.aim_m[0]));
+  });
   await person.release();
   await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004);
   // Fine: into the wall, whose news takes as long as the link; then it is there at once.
   await person.click('[data-mode="position"]');
   await person.see('position mode', () => longreach.frame().mode === 'position');
   await person.grasp();
-  for (let i = 0; i < 10 && await person.look(() => longreach.commanded() < 0.107); ++i) {
-    await person.drag(0.003);
-    await new Promise((done) => { setTimeout(done, 400); });
-  }
-  await person.see('the robot touches the wall', () => longreach.frame().in_contact && longreach.frame().stiffness_n_per_m > 500);
-  await person.drag(0.003);
-  await person.see('the wall is felt', () => Math.hypot(...longreach.frame().spring_n) > 0.5
-    && document.getElementById('felt-x').offsetWidth > 5);
+  await person.see('the robot touches the wall', () => longreach.frame().in_contact && longreach.frame().stiffness_n_per_m > 500,
+    async () => {
+      if (await person.hold_on() && await person.look(() => longreach.commanded() < 0.107)) await person.drag(0.001);
+    });
+  await person.see('the wall is felt', () => Math.hypot(...longreach.frame().spring_n) > 0.8
+    && document.getElementById('felt-x').offsetWidth > 5, async () => {
+    if (await person.hold_on() && await person.look(() => longreach.commanded() < 0.115)) await person.drag(0.0005);
+  });
   await person.shoot('path-wall');
   await person.drag(-0.02);
-  await person.see('let go of the wall', () => !longreach.frame().in_contact);
-  person.engages_again = false;
+  await person.see('let go of the wall', () => !longreach.frame().in_contact, () => person.hold_on());
   await person.release();
   await person.click('#stop');
   await person.see('the robot stops', () => longreach.frame().far_state === 'Stopped');
