@@ -54,5 +54,12 @@ TEST(Trade, TheDefaultsAreAsAccurateAsADoubleIs) {
   EXPECT_LE(standard(trade_contact()).error, 1e-14);
 }
 
+TEST(Trade, TheDefaultsAreSmoothAndFeelRight) {
+  EXPECT_LE(standard(trade_playout()).error, 0.1);             // m/s^2
+  EXPECT_LE(standard(trade_accuracy_tracking()).error, 0.1);   // mm
+  EXPECT_LE(standard(trade_accuracy_stiffness()).error, 1.5);  // %
+  EXPECT_LE(standard(trade_estimator()).error, 4.0);           // %
+}
+
 }  // namespace
 }  // namespace longreach
