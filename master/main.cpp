@@ -6,6 +6,7 @@
 #include <exception>
 #include <thread>
 
+#include "common/io/adapter_channel.hpp"
 #include "common/io/log.hpp"
 #include "common/io/program.hpp"
 #include "common/io/real_time_loop.hpp"
@@ -18,6 +19,7 @@
 #include "master/console/summary.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/devices/simulated_devices.hpp"
+#include "master/drivers/pad_operator.hpp"
 #include "master/master_service.hpp"
 
 namespace longreach {
@@ -28,17 +30,29 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(20);
 struct MasterOptions : ProgramOptions {
   std::string operator_kind;
   std::string mode;
+  std::string adapter;
   std::string view = "auto";
   bool engage = false;
   bool take = false;
   std::optional<double> wall_n_per_m{};
 };
 
+/// As people write them.
+std::vector<std::string> names_of(const google::protobuf::EnumDescriptor& values) {
+  std::vector<std::string> names;
+  for (int i = 0; i < values.value_count(); ++i) {
+    names.push_back(values.value(i)->name());
+    for (char& c : names.back()) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return names;
+}
+
 /// The shorthands are settings like any other.
 ProgramOptions with_shorthands(const MasterOptions& options) {
   ProgramOptions out = options;
   if (!options.operator_kind.empty()) out.settings.push_back("operator.kind=" + options.operator_kind);
   if (!options.mode.empty()) out.settings.push_back("mapping.mode=" + options.mode);
+  if (!options.adapter.empty()) out.settings.push_back("device_adapter.address=" + options.adapter);
   if (options.engage) out.settings.push_back("safety.engage_at_start=true");
   return out;
 }
@@ -51,7 +65,11 @@ ViewKind view_kind(const std::string& name) {
 /// Logs what has changed since the last call.
 class Chronicle {
  public:
-  void write(const MasterSnapshot& s, const std::string& trouble) {
+  void write(const MasterSnapshot& s, const std::string& trouble, const std::string& hand_trouble) {
+    if (hand_trouble != hand_trouble_) {
+      if (!hand_trouble.empty()) spdlog::warn("hand trouble=\"{}\"", hand_trouble);
+      hand_trouble_ = hand_trouble;
+    }
     if (trouble != trouble_) {
       if (!trouble.empty()) spdlog::warn("session trouble=\"{}\"", trouble);
       trouble_ = trouble;
@@ -75,8 +93,13 @@ class Chronicle {
 
  private:
   MasterSnapshot last_{};
-  std::string trouble_;
+  std::string trouble_, hand_trouble_;
 };
+
+/// A real device has a person.
+bool scripted(const MasterConfig& config) {
+  return config.operator_.kind == OperatorKind::kScript && config.device_adapter.address.empty();
+}
 
 ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
   ConsoleSnapshot out;
@@ -85,7 +108,7 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
   out.late_ticks = s.side.loop.ticks_late_100ms;
   out.missed_ticks = s.side.loop.missed_ticks;
   out.rejected = s.side.rejected;
-  if (config.operator_.kind == OperatorKind::kScript) out.operator_phase = to_string(s.phase);
+  if (scripted(config)) out.operator_phase = to_string(s.phase);
   out.force_max_n = config.rendering.force_max_n;
   out.hand_outside = s.hand_outside;
   return out;
@@ -104,13 +127,28 @@ bool asks(const OperatorRequests& r) {
          r.load.has_value();
 }
 
+/// What keys and pad ask for together; a stop wins.
+OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
+  keys.stop = keys.stop || pad.stop;
+  keys.engage = (keys.engage || pad.engage) && !keys.stop;
+  if (!keys.mode) keys.mode = pad.mode;
+  if (!keys.load) keys.load = pad.load;
+  keys.scale_steps += pad.scale_steps;
+  return keys;
+}
+
 /// The thread beside the loop: keys in, view and log out, until the run is over.
 class Housekeeping {
  public:
   Housekeeping(const MasterOptions& options, const MasterConfig& config, MasterShell& shell,
                MasterService& service)
       : options_(options), config_(config), shell_(shell), service_(service), view_(view_kind(options.view)) {
-    if (config.operator_.kind == OperatorKind::kKeyboard) {
+    const bool pad = PadOperator::is_for(config.operator_.kind);
+    if (pad) {
+      pad_.emplace(config);
+      shell.hand().write({.present = false});  // until it has been looked for
+    }
+    if (pad || config.operator_.kind == OperatorKind::kKeyboard) {
       keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
     }
   }
@@ -121,14 +159,16 @@ class Housekeeping {
     while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
       std::this_thread::sleep_for(kPollPeriod);
       const MasterSnapshot s = service_.snapshot();
-      const std::string trouble = seeker.trouble();
+      std::string trouble = seeker.trouble();
+      if (trouble.empty()) trouble = hand_trouble(s);
       service_.put_trouble(trouble, seeker.taken_by());
-      chronicle_.write(s, trouble);
+      chronicle_.write(s, seeker.trouble(), hand_trouble(s));
       ConsoleSnapshot shown = picture(s, config_);
       shown.trouble = trouble;
       shown.seconds = seconds();
       if (options_.seconds) shown.seconds_left = *options_.seconds - shown.seconds;
-      shown.show_keys = poll_keys(s.view.mode);
+      shown.show_keys = poll_hand(s.view);
+      if (pad_) shown.pad_keys = pad_->key_line();
       view_.show(shown);
     }
     view_.close();
@@ -138,13 +178,32 @@ class Housekeeping {
  private:
   [[nodiscard]] double seconds() const { return to_seconds(monotonic_now() - began_); }
 
+  /// Why there is nothing in the hand, and what to do.
+  [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const {
+    const std::string adapter = adapter_trouble(s.adapter, "haptic device", config_.device_adapter.address);
+    if (!adapter.empty() || !pad_ || s.hand_outside) return adapter;
+    const std::string pad = pad_->trouble();
+    return pad.empty() && s.hand_lost ? "the hand takes up the handle; engage in a moment" : pad;
+  }
+
   /// Returns whether the keys shall be listed.
-  bool poll_keys(MotionMode mode) {
+  bool poll_hand(const MasterView& view) {
     if (!keyboard_) return false;
-    const KeyboardState state = keyboard_->poll(mode);
-    shell_.hand().write({state.target_m, state.requests.clutch});
-    if (asks(state.requests)) {
-      if (const auto refusal = service_.request(state.requests))
+    const KeyboardState state = keyboard_->poll(view.mode);
+    OperatorRequests requests = state.requests;
+    if (pad_) {
+      const double now_s = seconds();
+      const double felt = view.spring_force_n.norm() / config_.rendering.force_max_n;
+      const AxisHandState& pad = pad_->poll(view.mode, felt, now_s - std::exchange(polled_s_, now_s));
+      HandLevel level = pad.level;
+      level.clutch = level.clutch || requests.clutch;
+      shell_.hand().write(level);
+      requests = both(requests, pad.requests);
+    } else {
+      shell_.hand().write({.target_m = state.target_m, .clutch = requests.clutch});
+    }
+    if (asks(requests)) {
+      if (const auto refusal = service_.request(requests))
         spdlog::warn("key refused=\"{}\"", refusal->message);
     }
     quit_ = quit_ || state.quit;
@@ -157,6 +216,8 @@ class Housekeeping {
   MasterService& service_;
   TerminalView view_;
   std::optional<Keyboard> keyboard_;
+  std::optional<PadOperator> pad_;
+  double polled_s_ = 0.0;
   Chronicle chronicle_;
   Time began_ = monotonic_now();
   bool quit_ = false;
@@ -217,15 +278,15 @@ int operate(const MasterOptions& options) {
   // The live view owns the terminal; it shows what the log would say.
   if (housekeeping.live() && isatty(STDERR_FILENO) == 1) set_up_log("master", options.log, true);
 
-  RunSummary summary({.ke = plain.rendering.ke,
-                      .contact_expected = plain.operator_.kind == OperatorKind::kScript,
-                      .wall_n_per_m = options.wall_n_per_m});
+  RunSummary summary(
+      {.ke = plain.rendering.ke, .contact_expected = scripted(plain), .wall_n_per_m = options.wall_n_per_m});
   std::atomic<bool> end{false};
   std::exception_ptr failure;
   std::thread loop_thread([&] {
     try {
       for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
       RealTimeLoop loop(plain.loop.rate_hz);
+      shell.meet_device();
       loop.run(end, [&](Time now, const LoopFigures& figures) {
         shell.tick(now, figures);
         summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);
@@ -261,10 +322,19 @@ int main(int argc, char** argv) {
       "longreach-master"};
   longreach::MasterOptions options;
   longreach::add_program_options(app, options, "longreach-master " LONGREACH_VERSION);
-  app.add_option("--operator", options.operator_kind,
-                 "Who moves the hand: script, keyboard or none (operator.kind)")
-      ->type_name("KIND");
-  app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")->type_name("MODE");
+  app.add_option(
+         "--operator", options.operator_kind,
+         "Who moves the hand: script, keyboard, gamepad (or joystick), spacemouse or none (operator.kind)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember(longreach::names_of(*longreach::proto::Operator::Kind_descriptor()),
+                            CLI::ignore_case));
+  app.add_option("--adapter", options.adapter,
+                 "A real haptic device: where its adapter listens (device_adapter.address); without it a "
+                 "simulated one")
+      ->type_name("ADDRESS:PORT");
+  app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
   app.add_flag("--engage", options.engage, "Engage when the slave is first heard (safety.engage_at_start)");
   app.add_flag("--take", options.take,
                "Take the robot from a master that has it; it holds until this one engages");

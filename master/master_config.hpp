@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/core/loop_config.hpp"
+#include "common/link/adapter_config.hpp"
 #include "common/link/impairment.hpp"
 #include "master/devices/device_config.hpp"
 #include "master/mapping/mapping_config.hpp"
@@ -52,6 +53,7 @@ struct MasterConfig {
   MasterSafetyConfig safety{};
   RpcServerConfig rpc{};
   Accuracy accuracy = Accuracy::kBalanced;
+  AdapterConfig device_adapter{};
 };
 
 }  // namespace longreach

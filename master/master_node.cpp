@@ -23,7 +23,9 @@ std::size_t history_capacity(double send_hz) {
 
 RenderedDevice rendered_device(const MasterConfig& c) {
   const double period_s = 1.0 / c.loop.rate_hz;
-  const DeviceFigures device = device_figures(c.device, period_s);
+  DeviceFigures device = device_figures(c.device, period_s);
+  if (!c.device_adapter.address.empty())
+    device.delay_s += period_s;  // the way through an adapter costs a sample
   return {.mass_kg = device.mass_kg,
           .damping_n_s_per_m = device.damping_n_s_per_m,
           .inertia_kg_m2 = device.inertia_kg_m2,

@@ -71,6 +71,7 @@ proto::Status MasterService::status() {
   fill(out, s.side);
   fill(out, recording_.status());
   add_view_counts(out, s.view);
+  add_counts(out, s.adapter);
   const std::lock_guard lock(troubling_);
   out.set_trouble(trouble_);
   out.set_lease(taken_by_);

@@ -1,9 +1,28 @@
 #include "master/master_shell.hpp"
 
+#include "common/io/adapter_channel.hpp"
+#include "common/io/meeting.hpp"
+#include "master/drivers/pad_operator.hpp"
+
 namespace longreach {
 namespace {
 
-constexpr double kKeyboardSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
+constexpr double kHandSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
+constexpr double kHandSpeed_rad_per_s = 1.0;
+
+std::optional<DeviceAdapter> device_adapter(UdpChannel* channel, const AdapterConfig& config) {
+  if (channel == nullptr) return std::nullopt;
+  return std::optional<DeviceAdapter>(std::in_place, *channel, config,
+                                      draw_session(Cipher::kChaCha20Poly1305).number);
+}
+
+/// By more than friction leaves, and nearly as much as the dead zones of rate mode; or on its way.
+bool away(const HandLevel& level, const HandleState& handle) {
+  constexpr double kFar_m = 0.004, kFar_rad = 0.04, kMoves_m_per_s = 0.01, kMoves_rad_per_s = 0.1;
+  return norm(level.target_m - handle.p_MH) > kFar_m ||
+         norm(level.target_rad - log_rotation(handle.q_MH)) > kFar_rad ||
+         norm(handle.velocity_m_per_s) > kMoves_m_per_s || norm(handle.angular_rad_per_s) > kMoves_rad_per_s;
+}
 
 }  // namespace
 
@@ -12,11 +31,19 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       channel_(config.link.listen, config.link.slave),
       port_(channel_, config.link.impairment, Random(seed).child("down")),
       devices_(config.device),
+      adapter_channel_(open_adapter_channel(config.device_adapter, "device_adapter")),
+      adapter_(device_adapter(adapter_channel_.get(), config.device_adapter)),
+      device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
       node_(config),
-      remote_(1.0 / config.loop.rate_hz) {
+      remote_(1.0 / config.loop.rate_hz),
+      lost_(PadOperator::is_for(config.operator_.kind)) {
   port_.limit(config.link.budget_kbit_per_s);
+}
+
+void MasterShell::meet_device() {
+  if (adapter_) meet(*adapter_);
 }
 
 void MasterShell::tick(Time now, const LoopFigures& loop) {
@@ -27,8 +54,10 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   const Endpoint& endpoint = port_.endpoint();
   MasterInput in;
   in.now = now;
-  in.handle = devices_.read(now);
+  in.handle = device_.read(now);
   devices_.set_target(operate(now, in.handle, requests));
+  // The hand has nothing to hold any more: a device that has failed.
+  if (lost_) in.handle.ok = false;
   in.reports = port_.reports();
   in.telemetry = port_.telemetry();
   in.requests = requests;
@@ -39,13 +68,15 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.may_send = port_.may_send(now);
 
   const MasterOutput out = node_.step(in);
-  devices_.write(out.F_H_M);
+  device_.write(out.F_H_M);
   if (out.command) port_.send(now, out.sequence, *out.command);
 
   snapshot_.side = observer_.observe(now, port_, channel_, loop);
   snapshot_.view = node_.view();
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
+  snapshot_.hand_lost = lost_;
+  if (adapter_) snapshot_.adapter = adapter_->figures();
   snapshots_.write(snapshot_);
   write_down(in, out);
 }
@@ -86,13 +117,21 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
 
 HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
   const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
-  if (const auto target = remote_.step(remote, requests)) return displaced(*target);
-  if (config_.operator_.kind == OperatorKind::kKeyboard) {
-    const HandLevel& level = hand_.read();
-    requests.clutch = level.clutch;
-    return hold(level);
+  // A hand from outside moves the simulated handle, whoever had it.
+  if (const auto target = adapter_ ? std::nullopt : remote_.step(remote, requests)) {
+    lost_ = false;
+    return displaced(*target);
   }
-  if (config_.operator_.kind == OperatorKind::kNone) {
+  const OperatorKind kind = config_.operator_.kind;
+  if (kind == OperatorKind::kKeyboard || PadOperator::is_for(kind)) {
+    const HandLevel& level = hand_.read();
+    // Taken again, it counts when the hand has brought the handle to where it wants it: else the robot would
+    // move by what was left of the deflection.
+    lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle)));
+    requests.clutch = level.clutch;
+    return hold(level, handle);
+  }
+  if (kind == OperatorKind::kNone || adapter_) {
     HandTarget nobody;
     nobody.grip = Grip::kReleased;
     return nobody;
@@ -116,6 +155,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
 /// Whoever is configured goes on from where the hand from outside leaves the handle.
 HandTarget MasterShell::displaced(const HandTarget& target) {
   held_m_ = target.position_m;
+  held_rad_ = target.rotation_rad;
   if (script_.phase() != ScriptPhase::kWaiting) {
     script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
     script_grip_ = config_.hand.grip;
@@ -123,13 +163,21 @@ HandTarget MasterShell::displaced(const HandTarget& target) {
   return target;
 }
 
-HandTarget MasterShell::hold(const HandLevel& level) {
-  const double period_s = 1.0 / config_.loop.rate_hz;
-  const Vector3 step = clamp_norm(level.target_m - held_m_, kKeyboardSpeed_m_per_s * period_s);
-  held_m_ += step;
+HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) {
   HandTarget target;
+  if (!level.present) {  // taken again, the handle is where it then is
+    target.grip = Grip::kReleased;
+    held_m_ = handle.p_MH;
+    held_rad_ = log_rotation(handle.q_MH);
+    return target;
+  }
+  const double period_s = 1.0 / config_.loop.rate_hz;
+  const Vector3 step = clamp_norm(level.target_m - held_m_, kHandSpeed_m_per_s * period_s);
+  held_m_ += step;
+  held_rad_ += clamp_norm(level.target_rad - held_rad_, kHandSpeed_rad_per_s * period_s);
   target.position_m = held_m_;
   target.velocity_m_per_s = step / period_s;
+  target.rotation_rad = held_rad_;
   target.grip = config_.hand.grip;
   return target;
 }

@@ -13,6 +13,8 @@
 #include "common/wire/port.hpp"
 #include "master/devices/scripted_operator.hpp"
 #include "master/devices/simulated_devices.hpp"
+#include "master/drivers/device_adapter.hpp"
+#include "master/drivers/hand_level.hpp"
 #include "master/master_node.hpp"
 #include "master/master_tape.hpp"
 #include "master/remote_hand.hpp"
@@ -24,6 +26,8 @@ struct MasterSnapshot {
   MasterView view{};
   ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, when it is the operator
   bool hand_outside = false;                  // a hand from outside holds the handle
+  AdapterFigures adapter{};
+  bool hand_lost = false;  // gamepad or SpaceMouse, or the handle is not yet where they want it
 };
 
 struct MasterChange {
@@ -42,18 +46,15 @@ struct MasterRobbed {};
 using MasterCommand =
     std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterRobbed, MasterTaping>;
 
-/// What a person at the keyboard holds.
-struct HandLevel {
-  Vector3 target_m = Vector3::Zero();  // from handle home, M
-  bool clutch = false;
-};
-
 class MasterShell {
  public:
   /// Throws AddressError or std::runtime_error when the socket cannot be had. `seed`: of the artificial
   /// impairment.
   MasterShell(const MasterConfig& config, std::uint64_t seed);
 
+  /// Waits until the device's adapter answers, at most 2 s, and not when there is none. Before the first
+  /// tick.
+  void meet_device();
   void tick(Time now, const LoopFigures& loop);
 
   /// Before the first tick; later by MasterTaping.
@@ -64,7 +65,7 @@ class MasterShell {
 
   Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
   LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
-  /// Written by the thread that polls the keyboard.
+  /// Written by the thread that polls keyboard, gamepad or SpaceMouse.
   LatestValue<HandLevel>& hand() { return hand_; }
   /// Written by one thread at a time, for a hand from outside.
   LatestValue<RemoteAim>& remote_aim() { return remote_aim_; }
@@ -74,17 +75,22 @@ class MasterShell {
   LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
   HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
   HandTarget displaced(const HandTarget& target);
-  HandTarget hold(const HandLevel& level);
+  HandTarget hold(const HandLevel& level, const HandleState& handle);
   void write_down(const MasterInput& in, const MasterOutput& out);
 
   MasterConfig config_;
   UdpChannel channel_;
   MasterPort port_;
-  SimulatedDevices devices_;
+  SimulatedDevices devices_;  // are moved while there is no adapter
+  std::unique_ptr<UdpChannel> adapter_channel_;
+  std::optional<DeviceAdapter> adapter_;
+  HapticDevice& device_;
   ScriptedOperator script_;
   Grip script_grip_;
   MasterNode node_;
-  Vector3 held_m_ = Vector3::Zero();  // where the hand at the keyboard is
+  Vector3 held_m_ = Vector3::Zero();  // where the hand at keyboard, gamepad or SpaceMouse is
+  Vector3 held_rad_ = Vector3::Zero();
+  bool lost_ = false;  // as MasterSnapshot::hand_lost
   RemoteHand remote_;
   SideObserver observer_;
   bool robbed_ = false;              // until the next session

@@ -6,6 +6,7 @@
 #include <exception>
 #include <thread>
 
+#include "common/io/adapter_channel.hpp"
 #include "common/io/log.hpp"
 #include "common/io/pairing_desk.hpp"
 #include "common/io/pairing_rpc.hpp"
@@ -23,6 +24,8 @@ namespace {
 /// Logs what has changed since the last call.
 class Chronicle {
  public:
+  explicit Chronicle(std::string adapter) : adapter_(std::move(adapter)) {}
+
   void write(const SlaveSnapshot& s) {
     const SlaveView& now = s.view;
     if (now.state != last_.view.state) {
@@ -37,11 +40,17 @@ class Chronicle {
                    s.side.loop.missed_ticks);
     }
     if (s.watchdog_stopped && !last_.watchdog_stopped) spdlog::warn("robot stopped=\"no setpoint\"");
+    const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
+    if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
+    if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);
+    trouble_ = trouble;
     last_ = s;
   }
 
  private:
+  std::string adapter_;  // its address
   SlaveSnapshot last_{};
+  std::string trouble_;
 };
 
 void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const RpcServer& rpc) {
@@ -62,6 +71,7 @@ void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const 
 struct SlaveOptions : ProgramOptions {
   bool pair = false;
   std::string pair_listen{kPairingAddress};
+  std::string adapter;
 };
 
 /// The log goes to a file in the site folder unless told otherwise: it stays, and the person reads the rest.
@@ -74,10 +84,17 @@ int pair(const SlaveOptions& options) {
   return run_pairing_desk(site, options.pair_listen, stop) ? 0 : kExitFailed;
 }
 
+ProgramOptions with_shorthands(const SlaveOptions& options) {
+  ProgramOptions out = options;
+  if (!options.adapter.empty()) out.settings.push_back("robot_adapter.address=" + options.adapter);
+  return out;
+}
+
 int serve(const SlaveOptions& options) {
   if (options.pair) return pair(options);
   const auto config = load_config<proto::SlaveConfig>(
-      options, [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
+      with_shorthands(options),
+      [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
   if (options.check) {
     std::fputs(get_field(config, "").c_str(), stdout);
     return 0;
@@ -99,13 +116,14 @@ int serve(const SlaveOptions& options) {
     try {
       for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
       RealTimeLoop loop(plain.loop.rate_hz);
+      shell.meet_robot();
       loop.run(end, [&shell](Time now, const LoopFigures& figures) { shell.tick(now, figures); });
     } catch (...) {
       failure = std::current_exception();
       stop = true;
     }
   });
-  Chronicle chronicle;
+  Chronicle chronicle(plain.robot_adapter.address);
   const Time began = monotonic_now();
   const auto over = [&] {
     return options.seconds && to_seconds(monotonic_now() - began) >= *options.seconds;
@@ -137,6 +155,10 @@ int main(int argc, char** argv) {
       "--pair", options.pair,
       "Do not drive the robot: print a token by which another host becomes master and client of this "
       "site, and wait for it (log: pairing.log in the site folder)");
+  app.add_option(
+         "--adapter", options.adapter,
+         "A real robot: where its adapter listens (robot_adapter.address); without it a simulated one")
+      ->type_name("ADDRESS:PORT");
   app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
       ->type_name("ADDRESS:PORT")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/core/loop_config.hpp"
+#include "common/link/adapter_config.hpp"
 #include "common/link/impairment.hpp"
 #include "common/link/playout.hpp"
 #include "slave/command/command_config.hpp"
@@ -51,6 +52,7 @@ struct SlaveConfig {
   SlaveSafetyConfig safety{};
   RpcServerConfig rpc{};
   Accuracy accuracy = Accuracy::kBalanced;
+  AdapterConfig robot_adapter{};
 };
 
 }  // namespace longreach

@@ -67,6 +67,7 @@ struct SlaveNode::State {
   std::optional<Time> stepped_at{};
   bool robot_ok = true;
   bool robot_seen = false;
+  bool robot_was_ok = false;
   Pose X_WE_anchor{};
   double scale = 1.0;  // k_scale as last sent
   bool grip = false;   // likewise: a hold or a silence drops nothing
@@ -99,11 +100,13 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   State& s = *state_;
   const double dt = s.tick(input.now);
   s.robot_ok = input.robot.ok && finite(input.robot);
-  if (!s.robot_seen && s.robot_ok) {
+  // One that comes back may have been moved meanwhile.
+  if (s.robot_ok && !s.robot_was_ok) {
     s.motion.reset(input.robot.joint_rad);
-    s.sensor.zero();
+    if (!s.robot_seen) s.sensor.zero();
     s.robot_seen = true;
   }
+  s.robot_was_ok = s.robot_ok;
   s.watch_robot(input.robot);
   if (s.decide(input)) s.begin_engagement(input.robot);
   s.take_goals(input.commands);

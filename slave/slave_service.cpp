@@ -5,6 +5,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
+#include "common/io/adapter_channel.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/link/estimate_words.hpp"
 #include "slave/ceiling.hpp"
@@ -81,6 +82,8 @@ proto::Status SlaveService::status() {
   add_count(out, "rejected_values", view.rejected_values);
   add_count(out, "ik_failures", view.ik_failures);
   add_count(out, "rejected_setpoints", s.rejected_setpoints);
+  add_counts(out, s.adapter);
+  out.set_trouble(adapter_trouble(s.adapter, "robot", config_.robot_adapter().address()));
   return out;
 }
 

@@ -1,9 +1,18 @@
 #include "slave/slave_shell.hpp"
 
+#include "common/io/adapter_channel.hpp"
+#include "common/io/meeting.hpp"
+
 namespace longreach {
 namespace {
 
 constexpr Duration kOccupied = std::chrono::seconds(1);
+
+std::optional<RobotAdapter> robot_adapter(UdpChannel* channel, const SlaveConfig& config) {
+  if (channel == nullptr) return std::nullopt;
+  return std::optional<RobotAdapter>(std::in_place, *channel, config.robot_adapter, config.robot,
+                                     draw_session(Cipher::kChaCha20Poly1305).number);
+}
 
 }  // namespace
 
@@ -11,8 +20,15 @@ SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
     : channel_(config.link.listen),
       port_(channel_, config.link.impairment, Random(seed).child("up")),
       arm_(config, Random(seed).child("arm")),
+      adapter_channel_(open_adapter_channel(config.robot_adapter, "robot_adapter")),
+      adapter_(robot_adapter(adapter_channel_.get(), config)),
+      robot_(adapter_ ? static_cast<Robot&>(*adapter_) : arm_),
       node_(config) {
   port_.limit(config.link.budget_kbit_per_s);
+}
+
+void SlaveShell::meet_robot() {
+  if (adapter_) meet(*adapter_);
 }
 
 void SlaveShell::tick(Time now, const LoopFigures& loop) {
@@ -24,7 +40,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   const SideFigures& side = observer_.observe(now, port_, channel_, loop);
   SlaveInput in;
   in.now = now;
-  in.robot = arm_.read(now);
+  in.robot = robot_.read(now);
   in.commands = port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
@@ -38,15 +54,16 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   in.may_send = port_.may_send(now);
 
   const SlaveOutput out = node_.step(in);
-  arm_.write(out.joint_setpoint_rad);
-  arm_.grip(out.grip);
+  robot_.grip(out.grip);
+  robot_.write(out.joint_setpoint_rad);
   if (out.report) port_.send(now, out.report_sequence, *out.report);
   if (out.telemetry) port_.send(now, out.telemetry_sequence, *out.telemetry);
 
   snapshot_.side = side;
   snapshot_.view = node_.view();
-  snapshot_.rejected_setpoints = arm_.rejected_setpoints();
-  snapshot_.watchdog_stopped = arm_.watchdog_stopped();
+  snapshot_.rejected_setpoints = adapter_ ? adapter_->rejected_setpoints() : arm_.rejected_setpoints();
+  snapshot_.watchdog_stopped = adapter_ ? adapter_->watchdog_stopped() : arm_.watchdog_stopped();
+  if (adapter_) snapshot_.adapter = adapter_->figures();
   snapshots_.write(snapshot_);
   write_down(in, out);
 }

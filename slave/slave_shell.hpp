@@ -11,6 +11,7 @@
 #include "common/io/side_figures.hpp"
 #include "common/io/udp_channel.hpp"
 #include "common/wire/port.hpp"
+#include "slave/drivers/robot_adapter.hpp"
 #include "slave/robot/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 #include "slave/slave_tape.hpp"
@@ -23,6 +24,7 @@ struct SlaveSnapshot {
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
   double send_hz = 300.0;  // of the master, as it said
+  AdapterFigures adapter{};
 };
 
 struct SlaveChange {
@@ -55,6 +57,8 @@ class SlaveShell {
   /// impairment and of the simulated arm.
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
+  /// Waits until the robot's adapter answers, at most 2 s, and not when there is none. Before the first tick.
+  void meet_robot();
   void tick(Time now, const LoopFigures& loop);
 
   /// Before the first tick; later by SlaveTaping.
@@ -76,7 +80,10 @@ class SlaveShell {
 
   UdpChannel channel_;
   SlavePort port_;
-  SimulatedArm arm_;
+  SimulatedArm arm_;  // moves while there is no adapter
+  std::unique_ptr<UdpChannel> adapter_channel_;
+  std::optional<RobotAdapter> adapter_;
+  Robot& robot_;
   SlaveNode node_;
   SideObserver observer_;
   SlaveTape* tape_ = nullptr;        // none: nothing is recorded

@@ -271,6 +271,21 @@ Finding check_guarded(const proto::SlaveConfig& config) {
   return within(section, at(config.command(), "force_guard_n", why));
 }
 
+// The laboratory is virtual time, which nothing real keeps.
+Finding check_laboratory(const proto::LabConfig& lab) {
+  const char* const why = " is for programs; the laboratory has simulated devices and robots alone";
+  const auto adapted = [&](const char* side, const Message& config, const char* field,
+                           const proto::Adapter& adapter) -> Finding {
+    if (adapter.address().empty()) return std::nullopt;
+    const PathStep section{config.GetDescriptor()->FindFieldByName(field), -1};
+    return within({lab.GetDescriptor()->FindFieldByName(side), -1},
+                  within(section, at(adapter, "address", " = " + adapter.address() + why)));
+  };
+  if (auto finding = adapted("master", lab.master(), "device_adapter", lab.master().device_adapter()))
+    return finding;
+  return adapted("slave", lab.slave(), "robot_adapter", lab.slave().robot_adapter());
+}
+
 // The rules of one message, without those of its parts.
 Finding check_message(const Message& message) {
   if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
@@ -295,6 +310,7 @@ Finding check_message(const Message& message) {
   if (const auto* link = dynamic_cast<const proto::SlaveLink*>(&message)) return check_budget(*link);
   if (const auto* safety = dynamic_cast<const proto::SlaveSafety*>(&message)) return check_safety(*safety);
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
+  if (const auto* lab = dynamic_cast<const proto::LabConfig*>(&message)) return check_laboratory(*lab);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
     auto wrong = in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
     return wrong

@@ -41,6 +41,13 @@ void visit_fields(Visitor& visit, S& s) {
   visit("lock_memory", s.lock_memory);
 }
 
+template <class Visitor, Is<AdapterConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("address", s.address);
+  visit("remote", s.remote);
+  visit("silence_s", s.silence_s);
+}
+
 template <class Visitor, Is<MasterLinkConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("slave", s.slave);
@@ -138,6 +145,13 @@ void visit_fields(Visitor& visit, S& s) {
   visit("probe_cycles", s.probe_cycles);
   visit("direction", s.direction);
   visit("reaction_s", s.reaction_s);
+  visit("dead_zone", s.dead_zone);
+  visit("reach_m", s.reach_m);
+  visit("reach_rad", s.reach_rad);
+  visit("speed_m_per_s", s.speed_m_per_s);
+  visit("speed_rad_per_s", s.speed_rad_per_s);
+  visit("pad", s.pad);
+  visit("rumble", s.rumble);
 }
 
 template <class Visitor, Is<MappingConfig> S>
@@ -210,6 +224,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("safety", s.safety);
   visit("rpc", s.rpc);
   visit("accuracy", s.accuracy);
+  visit("device_adapter", s.device_adapter);
 }
 
 template <class Visitor, Is<SlaveLinkConfig> S>
@@ -345,6 +360,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("safety", s.safety);
   visit("rpc", s.rpc);
   visit("accuracy", s.accuracy);
+  visit("robot_adapter", s.robot_adapter);
 }
 
 }  // namespace longreach

@@ -63,7 +63,9 @@ static_assert(same(Grip::kLight, proto::Hand::LIGHT) && same(Grip::kFirm, proto:
 static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&
               same(OperatorKind::kScript, proto::Operator::SCRIPT) &&
               same(OperatorKind::kKeyboard, proto::Operator::KEYBOARD) &&
-              proto::Operator::Kind_ARRAYSIZE == 3);
+              same(OperatorKind::kGamepad, proto::Operator::GAMEPAD) &&
+              same(OperatorKind::kSpaceMouse, proto::Operator::SPACEMOUSE) &&
+              proto::Operator::Kind_ARRAYSIZE == 5);
 static_assert(same(JointKind::kRevolute, proto::Joint::REVOLUTE) &&
               same(JointKind::kPrismatic, proto::Joint::PRISMATIC) &&
               same(JointKind::kFixed, proto::Joint::FIXED) && proto::Joint::Kind_ARRAYSIZE == 3);

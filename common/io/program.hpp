@@ -11,6 +11,7 @@
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
+#include "common/io/manual/program_text.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
 #include "common/io/site.hpp"
@@ -36,6 +37,7 @@ struct ProgramOptions {
 
 inline void add_program_options(CLI::App& app, ProgramOptions& options, const std::string& version) {
   app.set_version_flag("--version", version);
+  add_manual_options(app, version);
   app.add_option("--config", options.config, "Configuration file, protobuf text format")->type_name("FILE");
   app.add_option("--set", options.settings,
                  "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")

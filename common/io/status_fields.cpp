@@ -94,6 +94,16 @@ void add_counts(proto::Status& status, const ImpairmentCounts& counts) {
   add_count(status, "impaired_reordered", counts.reordered);
 }
 
+void add_counts(proto::Status& status, const AdapterFigures& adapter) {
+  if (!adapter.present) return;
+  add_count(status, "adapter_accepted", adapter.accepted);
+  add_count(status, "adapter_malformed", adapter.malformed);
+  add_count(status, "adapter_late", adapter.late);
+  add_count(status, "adapter_restarts", adapter.restarts);
+  add_count(status, "adapter_silent_after_us",
+            static_cast<std::uint64_t>(std::lround(1e6 * adapter.silent_after_s)));
+}
+
 void add_clamps(proto::Status& status, const Clamps& clamps) {
   const auto add = [&status](bool active, const char* name) {
     if (active) status.add_clamped(name);

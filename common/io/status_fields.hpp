@@ -11,6 +11,7 @@
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
 #include "common/spatial/spatial.hpp"
+#include "common/wire/adapter_port.hpp"
 #include "proto/control.pb.h"
 
 namespace longreach {
@@ -25,6 +26,9 @@ void add_counts(proto::Status& status, const RejectionCounts& counts);
 void add_counts(proto::Status& status, const LoopFigures& loop);
 /// impaired_REASON each: what the artificial impairment did.
 void add_counts(proto::Status& status, const ImpairmentCounts& counts);
+/// adapter_accepted, adapter_malformed, adapter_late, adapter_restarts, adapter_silent_after_us, where there
+/// is an adapter.
+void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Names of what is being clamped, added to `clamped`.
 void add_clamps(proto::Status& status, const Clamps& clamps);
 /// link, and the counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.

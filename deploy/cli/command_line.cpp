@@ -7,9 +7,10 @@
 #include <string_view>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/io/manual/program_text.hpp"
 #include "common/io/rpc_server.hpp"
 #include "deploy/cli/help_text.hpp"
+#include "deploy/cli/judged_words.hpp"
 #include "deploy/cli/record_words.hpp"
 
 namespace longreach {
@@ -26,23 +27,8 @@ struct Words {
   std::string token{};
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
+  std::string device{}, robot{}, force = "0.5", move = "0";
 };
-
-double bounded(const char* what, const std::string& text, std::optional<double> value, double min, double max,
-               const char* unit) {
-  if (value && *value >= min && *value <= max) return *value;
-  throw UsageError(std::string(what) + " = " + text + " is not a number from " + format_number(min) + " to " +
-                   format_number(max) + unit);
-}
-
-void check_address(const char* option, const std::string& address) {
-  const std::size_t colon = address.rfind(':');
-  if (colon != std::string::npos && colon > 0) {
-    const auto port = parse_integer<std::uint16_t>(std::string_view(address).substr(colon + 1));
-    if (port && *port > 0) return;
-  }
-  throw UsageError(std::string(option) + " = " + address + " is not HOST:PORT, e.g. 127.0.0.1:47010");
-}
 
 /// The command line's grammar: declared once, then asked for what was found.
 class Grammar {
@@ -56,6 +42,7 @@ class Grammar {
   void declare_link();
   void declare_motion();
   void declare_site();
+  void declare_adapter();
   CLI::App* declare(CLI::App& parent, const char* name, const std::string& help, const char* more);
   CLI::Option* declare_direction(CLI::App& command);
 
@@ -63,6 +50,7 @@ class Grammar {
   [[nodiscard]] Command command() const;
   [[nodiscard]] SetCommand set_command() const;
   [[nodiscard]] PairCommand pair_command() const;
+  [[nodiscard]] AdapterCheckCommand adapter_command() const;
   [[nodiscard]] LinkSetCommand link_command() const;
   [[nodiscard]] Side side() const { return words_.side == "slave" ? Side::kSlave : Side::kMaster; }
   [[nodiscard]] bool parsed(const char* name) const { return app_.get_subcommand(name)->parsed(); }
@@ -70,16 +58,18 @@ class Grammar {
   CLI::App app_{kIntroduction, "longreach"};
   CLI::App* link_ = nullptr;
   RecordWords record_{};
+  CLI::App* adapter_ = nullptr;
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
   std::string site_;
-  bool insecure_ = false, replace_ = false;
+  bool insecure_ = false, replace_ = false, plain_ = false;
 };
 
 Grammar::Grammar() {
   app_.require_subcommand(0, 1);
   app_.set_version_flag("--version", "longreach " LONGREACH_VERSION);
+  add_manual_options(app_, "longreach " LONGREACH_VERSION);
   app_.footer(kExits);
   app_.get_formatter()->column_width(32);
   app_.add_option("--master", words_.master, "address of the master's RPC server [" + words_.master + "]")
@@ -99,6 +89,7 @@ Grammar::Grammar() {
   declare_motion();
   record_.declare(app_);
   declare_site();
+  declare_adapter();
 }
 
 CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string& help, const char* more) {
@@ -110,10 +101,8 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 
 void Grammar::declare_views() {
   declare(app_, "status", "show both sides once", kStatusMore);
-  CLI::App* watch =
-      declare(app_, "watch", "show both sides live",
-              "Redraws on a terminal; writes one line an update elsewhere. Ctrl-C ends it, with status "
-              "0.\nExample: longreach watch --hz 10");
+  CLI::App* watch = declare(app_, "watch", "show both sides live", kWatchMore);
+  watch->add_flag("--plain", plain_, "one line an update, without colour, on a terminal, too");
   watch->add_option("--hz", words_.hz, "updates a second, 0.1 to 60 [4]")->type_name("HZ");
   watch->add_option("--count", words_.count, "end after this many updates")->type_name("N");
   declare(app_, "view", "serve a page for the browser: the robot, what is felt, a hand", kViewMore)
@@ -192,6 +181,19 @@ void Grammar::declare_site() {
   pair->add_flag("--replace", replace_, "put a site folder that is here already aside");
 }
 
+void Grammar::declare_adapter() {
+  adapter_ = declare(app_, "adapter", "try an adapter of a real device or robot",
+                     "Example: longreach adapter check --device 127.0.0.1:47101");
+  adapter_->require_subcommand(1);
+  CLI::App* check = declare(*adapter_, "check", "does it keep the rules of the protocol?", kAdapterCheckMore);
+  check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("HOST:PORT");
+  check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("HOST:PORT");
+  check->add_option("--force", words_.force, "force that a device is asked for, 0.01 to 10 N [0.5]")
+      ->type_name("N");
+  check->add_option("--move", words_.move, "way that a robot's first joint moves, -0.5 to 0.5 rad or m [0]")
+      ->type_name("RAD");
+}
+
 std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* argv) {
   try {
     app_.parse(argc, argv);
@@ -226,7 +228,8 @@ Options Grammar::options() const {
 Command Grammar::command() const {
   if (parsed("status")) return StatusCommand{};
   if (parsed("watch")) {
-    WatchCommand watch{bounded("--hz", words_.hz, parse_number(words_.hz), kWatchHzMin, kWatchHzMax, " Hz")};
+    WatchCommand watch{
+        bounded("--hz", words_.hz, parse_number(words_.hz), kWatchHzMin, kWatchHzMax, " Hz"), {}, plain_};
     if (words_.count.empty()) return watch;
     watch.count = parse_integer<std::uint64_t>(words_.count);
     if (watch.count.value_or(0) == 0)
@@ -251,6 +254,7 @@ Command Grammar::command() const {
   if (parsed("record")) return record_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
+  if (parsed("adapter")) return adapter_command();
   if (parsed("doctor"))
     return DoctorCommand{
         bounded("--seconds", words_.seconds, parse_seconds(words_.seconds), 0.2, 60.0, " s")};
@@ -261,6 +265,19 @@ PairCommand Grammar::pair_command() const {
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
   return {words_.token, replace_};
+}
+
+AdapterCheckCommand Grammar::adapter_command() const {
+  if (words_.device.empty() == words_.robot.empty())
+    throw UsageError(
+        "adapter check needs --device HOST:PORT or --robot HOST:PORT, where the adapter listens");
+  AdapterCheckCommand check;
+  check.robot = !words_.robot.empty();
+  check.address = check.robot ? words_.robot : words_.device;
+  check_address(check.robot ? "--robot" : "--device", check.address, "127.0.0.1:47101");
+  check.force_n = bounded("--force", words_.force, parse_number(words_.force), 0.01, 10.0, " N");
+  check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
+  return check;
 }
 
 SetCommand Grammar::set_command() const {

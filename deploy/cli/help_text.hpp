@@ -30,6 +30,11 @@ inline constexpr const char* kStatusMore =
 motion, contact, force and all counts that are not zero. Exit status 1 if a side does not answer.
 Example: longreach status --json)";
 
+inline constexpr const char* kWatchMore =
+    R"(Redraws in colour on a terminal, without colour where NO_COLOR is set; writes one line an update elsewhere.
+Ctrl-C ends it, with status 0.
+Example: longreach watch --hz 10)";
+
 inline constexpr const char* kPairMore =
     R"(Makes this host's site folder: the keys of a master and its client, which that slave's site certifies.
 longreach-slave --pair prints the token there, and the whole command.
@@ -40,6 +45,13 @@ inline constexpr const char* kDoctorMore =
 at this machine (clock, real-time rights, a bare loop). Changes nothing, whether something runs or not.
 Exit status 1 when something failed; warnings are no failures.
 Example: longreach doctor --slave 192.0.2.7:47020)";
+
+inline constexpr const char* kAdapterCheckMore =
+    R"(Talks to the adapter as longreach does, and as it does not: rate, sequence, watchdog, garbage, restarts; ten seconds.
+Only where no longreach talks to it meanwhile. THE DEVICE PUSHES by --force along z: hold it or keep clear; it has to
+tell in force_n what it does. A robot is asked to stay where it is, or with --move THE ROBOT MOVES its first joint.
+Exit status 1 when a rule is not kept; each line then says what to do. The rules: common/link/adapter_datagram.hpp.
+Example: longreach adapter check --robot 127.0.0.1:47111 --move 0.01)";
 
 inline constexpr const char* kSetMore =
     R"(Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only

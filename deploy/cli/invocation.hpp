@@ -37,6 +37,7 @@ struct StatusCommand {};
 struct WatchCommand {
   double rate_hz = 4.0;
   std::optional<std::uint64_t> count{};  // none: until Ctrl-C
+  bool plain = false;                    // a line an update, on a terminal, too
 };
 /// Serves the page until Ctrl-C.
 struct ViewCommand {
@@ -86,10 +87,17 @@ struct RecordCommand {
   std::string file;        // to be exported
   std::string folder;      // listed or exported to; empty: the usual one
 };
+/// An adapter of a device or a robot is tried.
+struct AdapterCheckCommand {
+  bool robot = false;
+  std::string address;
+  double force_n = 0.5;  // of a device
+  double move = 0.0;     // of a robot's first joint, rad or m
+};
 
 using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
                              LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand,
-                             StopCommand, PairCommand, DoctorCommand, RecordCommand>;
+                             StopCommand, PairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

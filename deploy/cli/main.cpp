@@ -8,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "deploy/cli/command_line.hpp"
 #include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
 
 namespace {
@@ -15,13 +16,18 @@ namespace {
 using namespace std::string_view_literals;
 using longreach::ExitStatus;
 
+/// Help, version and the like.
+std::string printout_json(const std::string& text) {
+  return "{\"text\":" + longreach::json_string(text) + "}\n";
+}
+
 ExitStatus run(int argc, const char* const* argv) {
   // Also when the command line cannot be understood.
   const bool json = std::any_of(argv, argv + argc, [](const char* word) { return word == "--json"sv; });
   try {
     const auto asked = longreach::parse_command_line(argc, argv);
     if (const auto* printout = std::get_if<longreach::Printout>(&asked)) {
-      std::cout << printout->text;
+      std::cout << (json ? printout_json(printout->text) : printout->text);
       return printout->exit;
     }
     return longreach::run(std::get<longreach::Invocation>(asked));

@@ -241,8 +241,9 @@ std::string status_table(const BothReports& reports) {
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
-  if (reports.master.status && !reports.master.status->trouble().empty())
-    text += "The master says: " + reports.master.status->trouble() + "\n";
+  for (const SideReport* report : {&reports.master, &reports.slave})
+    if (report->status && !report->status->trouble().empty())
+      text += "The " + std::string(name_of(report->side)) + " says: " + report->status->trouble() + "\n";
   return text;
 }
 

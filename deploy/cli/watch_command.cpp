@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <string_view>
 
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
+#include "deploy/cli/paint.hpp"
 #include "deploy/cli/side_client.hpp"
 
 namespace longreach {
@@ -46,7 +48,7 @@ class EndRequest {
 /// Draws a text over the one before, in one write: no clearing, so no flicker.
 class TerminalArea {
  public:
-  TerminalArea() { std::cout << "\x1b[?25l"; }  // no cursor
+  explicit TerminalArea(bool color) : color_(color) { std::cout << "\x1b[?25l"; }  // no cursor
   ~TerminalArea() { std::cout << "\x1b[?25h" << std::flush; }
   TerminalArea(const TerminalArea&) = delete;
   TerminalArea& operator=(const TerminalArea&) = delete;
@@ -61,7 +63,8 @@ class TerminalArea {
     while (!text.empty() && rows_ < rows_max) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       // A line that wraps would count twice.
-      out += std::string(text.substr(0, std::min(end, columns_max))) + "\x1b[K\n";
+      const std::string_view row = text.substr(0, std::min(end, columns_max));
+      out += (color_ ? painted(row) : std::string(row)) + "\x1b[K\n";
       text.remove_prefix(std::min(end + 1, text.size()));
       ++rows_;
     }
@@ -69,8 +72,16 @@ class TerminalArea {
   }
 
  private:
+  bool color_;
   std::size_t rows_ = 0;  // drawn last
 };
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+bool can_redraw() { return isatty(STDOUT_FILENO) == 1 && environment("TERM") != "dumb"; }
 
 std::string down_lines(const BothReports& reports) {
   std::string text;
@@ -88,7 +99,7 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
   master.wait_for_first();
   slave.wait_for_first();
   std::optional<TerminalArea> area;
-  if (!options.json && isatty(STDOUT_FILENO) == 1) area.emplace();
+  if (!options.json && !command.plain && can_redraw()) area.emplace(environment("NO_COLOR").empty());
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / command.rate_hz));
   auto due = Clock::now();

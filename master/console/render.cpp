@@ -220,6 +220,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.line("loop", rejected_line(s), s.late_ticks > 0 ? Tone::kWarn : Tone::kDim);
   if (s.show_keys) {
     page.whole("");
+    if (!s.pad_keys.empty()) page.wrapped(s.pad_keys, Tone::kDim);
     page.wrapped(key_line(), Tone::kDim);
   }
   return page.take();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/link/delay_monitor.hpp"
 #include "common/link/envelope.hpp"
@@ -24,6 +25,7 @@ struct ConsoleSnapshot {
   double force_max_n = 15.0;             // full length of the force bars
   bool show_keys = false;                // list the keys below the view
   bool hand_outside = false;             // a hand from outside holds the handle
+  std::string_view pad_keys{};           // likewise of a gamepad or SpaceMouse, where there is one
 };
 
 }  // namespace longreach

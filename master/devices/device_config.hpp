@@ -86,7 +86,13 @@ struct HandConfig {
   Grip grip = Grip::kLight;
 };
 
-enum class OperatorKind : std::uint8_t { kNone = 0, kScript = 1, kKeyboard = 2 };
+enum class OperatorKind : std::uint8_t {
+  kNone = 0,
+  kScript = 1,
+  kKeyboard = 2,
+  kGamepad = 3,
+  kSpaceMouse = 4
+};
 
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::kScript;
@@ -98,6 +104,13 @@ struct OperatorConfig {
   std::uint32_t probe_cycles = 3;
   Vector3 direction = Vector3::UnitX();
   double reaction_s = 0.25;
+  double dead_zone = 0.12;
+  double reach_m = 0.04;
+  double reach_rad = 0.4;
+  double speed_m_per_s = 0.03;
+  double speed_rad_per_s = 0.4;
+  std::string pad;
+  double rumble = 1.0;
 };
 
 }  // namespace longreach

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "common/config/config.hpp"
+#include "common/io/manual/program_text.hpp"
 #include "tests/experiments/campaign/sweep.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/recording/replay.hpp"
@@ -173,7 +174,9 @@ int run_subcommand(const CLI::App& app, const Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Experiments with both nodes of longreach in deterministic virtual time."};
+  app.name("longreach-lab");
   app.set_version_flag("--version", std::string(longreach::commit()));
+  longreach::add_manual_options(app, "longreach-lab " + std::string(longreach::commit()));
   app.require_subcommand(1);
   app.add_subcommand("list", "Show the experiments");
   longreach::Options options;

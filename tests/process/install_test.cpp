@@ -35,6 +35,14 @@ TEST(Install, ProgramsFindTheirFilesAndUnitsAreValid) {
     EXPECT_EQ(said, "");
     std::ofstream(config) << "# edited\n";
   }
+  // A vendor copies this folder and has all that an adapter needs.
+  for (const std::string kind : {"device", "robot"}) {
+    const std::string adapters = prefix + "/share/longreach/adapters/";
+    expect_done("/usr/bin/g++",
+                {"-std=c++20", "-I", adapters, adapters + kind + "_adapter.cpp", "-o", prefix + "/" + kind},
+                said);
+    EXPECT_EQ(said, "");
+  }
   // A second installation leaves alone what somebody has edited.
   expect_done("/usr/bin/cmake", {"--install", build, "--prefix", prefix}, said);
   std::ifstream edited(prefix + "/etc/longreach/slave.txtpb");

@@ -17,11 +17,14 @@ FOLDERS = {
     'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.05, 'slave/estimation': 2.4,
     'slave/comparison': 2.4,
     'master': 3, 'slave': 3,
-    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io/recording': 4.25, 'common/io': 4.3, 'master/console': 4.4,
-    'deploy/cli': 5, 'tests': 6,
+    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io/recording': 4.25, 'common/io/manual': 4.25,
+    'common/io': 4.3, 'master/console': 4.4,
+    'master/drivers': 4.35, 'slave/drivers': 4.35,
+    'deploy/cli': 5, 'deploy/adapters': 5, 'tests': 6,
 }
 SERVICE, PROGRAM = 4.4, 5
 PURE_BELOW = 4   # floors 0 to 3
+ADAPTER = 'common/link/adapter_datagram.hpp'
 
 
 def floor(path):
@@ -52,6 +55,8 @@ def is_config(path):
 def refused(path, included):
     """Why `path` may not include `included`; none if it may."""
     mine, theirs = floor(path), floor(included)
+    if path.startswith('deploy/adapters/') and included != ADAPTER:
+        return f'is copied by vendors and may include {ADAPTER} alone'
     if mine is None:
         return 'lies in a folder that has no floor'
     if path.startswith('tests/'):

@@ -54,6 +54,9 @@ class Planted(unittest.TestCase):
     def sound(self, path, text):
         self.assertEqual(self.findings({path: text}).errors, [])
 
+    def test_an_adapter_that_vendors_copy_includes_the_layout_alone(self):
+        self.found('deploy/adapters/a.cpp', include('common/core/a.hpp'), 'vendors')
+
     def test_a_sound_tree_has_no_findings(self):
         result = self.findings({})
         self.assertEqual(result.errors + result.warnings, [])

@@ -19,6 +19,7 @@ export class Person {
     this.folder = folder;
     this.errors = [];
     this.deeds = 0;     // clicks and keys
+    this.again = 0;     // of them, those that a busy machine made necessary
     this.engaged_ms = 0;
     page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
     page.on('pageerror', (error) => this.errors.push(String(error)));
@@ -39,6 +40,11 @@ export class Person {
   async key(name) {
     this.deeds += 1;
     await this.page.keyboard.press(name);
+  }
+
+  async repeat(name) {
+    this.again += 1;
+    await this.key(name);
   }
 
   /** With shift: the large step. */
@@ -85,11 +91,11 @@ export class Person {
   async hold_on() {
     const { held, state } = await this.look(() => ({ held: longreach.hand.held, state: longreach.frame().state }));
     if (!held) {
-      await this.key('t');
+      await this.repeat('t');
     } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the answer takes a round trip
       console.log('held meanwhile: engaged again');
       this.engaged_ms = Date.now();
-      await this.key('e');
+      await this.repeat('e');
     }
     return held && state === 'Engaged';
   }

@@ -103,7 +103,8 @@ async function path(person) {
   await person.release();
   await person.click('#stop');
   await person.see('the robot stops', () => longreach.frame().far_state === 'Stopped');
-  require(person.deeds < 20, `${person.deeds} clicks, drags and keys, under 20`);
+  require(person.deeds - person.again < 20,
+    `${person.deeds} clicks, drags and keys, under 20 without the ${person.again} for holds of a busy machine`);
 }
 
 /** The master goes and comes back. */

@@ -158,6 +158,8 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
                                                        {"mode"},
                                                        {"scale"},
                                                        {"engage"},
+                                                       {"adapter"},
+                                                       {"adapter", "check"},
                                                        {"stop"}};
   for (auto words : commands) {
     words.push_back("--help");
@@ -165,6 +167,24 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
     EXPECT_EQ(printout.exit, ExitStatus::kDone);
     EXPECT_NE(printout.text.find("Example: longreach "), std::string::npos) << printout.text;
   }
+}
+
+TEST(CommandLine, AnAdapterIsOfADeviceOrOfARobot) {
+  const auto asked = [](const std::vector<const char*>& words) {
+    return std::get<AdapterCheckCommand>(std::get<Invocation>(parse(words)).command);
+  };
+  const auto device = asked({"adapter", "check", "--device", "127.0.0.1:7", "--force", "2"});
+  EXPECT_FALSE(device.robot);
+  EXPECT_EQ(device.address, "127.0.0.1:7");
+  EXPECT_EQ(device.force_n, 2.0);
+  const auto robot = asked({"adapter", "check", "--robot", "[::1]:7", "--move", "-0.01"});
+  EXPECT_TRUE(robot.robot);
+  EXPECT_EQ(robot.move, -0.01);
+  EXPECT_THROW(parse({"adapter", "check"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1:7", "--robot", "127.0.0.1:8"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1:7", "--force", "11"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--robot", "127.0.0.1:7", "--move", "nan"}), UsageError);
 }
 
 TEST(CommandLine, WithoutACommandItPrintsHelpAndIsBadUsage) {

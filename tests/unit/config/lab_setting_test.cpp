@@ -75,8 +75,8 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
             "are: profile, "
             "duration_s, trace_hz, master, slave, link, loop, device_file, device, hand, operator, mapping, "
             "rendering, "
-            "safety, rpc, accuracy, "
-            "playout, command, robot_file, robot, scene_file, scene, sensing, estimator");
+            "safety, rpc, accuracy, device_adapter, "
+            "playout, command, robot_file, robot, scene_file, scene, sensing, estimator, robot_adapter");
   EXPECT_EQ(lab_error({}, "mapping.scale"), "\"mapping.scale\" is not a setting; write PATH=VALUE");
   EXPECT_EQ(lab_error({}, "=1"), "\"=1\" is not a setting; write PATH=VALUE");
   EXPECT_EQ(lab_error({}, "mapping.scale=7"), "master.mapping.scale = 7 is outside 0.05 to 1");

@@ -127,7 +127,7 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
             "there is no field \"maping\"; did you mean \"mapping\"? There are: link, loop, device_file, "
             "device, hand, "
             "operator, "
-            "mapping, rendering, safety, rpc, accuracy");
+            "mapping, rendering, safety, rpc, accuracy, device_adapter");
   EXPECT_TRUE(set_error(kMaster, "", "1").starts_with("there is no field \"\"; there are: link, "));
   EXPECT_EQ(set_error(kMaster, "mapping.scale.x", "1"),
             "mapping.scale is a single value and has no field \"x\"");

@@ -215,6 +215,7 @@ TEST(Structs, CarryEachFieldOfTheSlaveUnderItsName) {
   expect_same(s.safety, m.safety());
   expect_same(s.rpc, m.rpc());
   EXPECT_EQ(static_cast<int>(s.accuracy), m.accuracy());
+  expect_same(s.robot_adapter, m.robot_adapter());
 }
 
 }  // namespace

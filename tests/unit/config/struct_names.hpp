@@ -43,6 +43,12 @@ inline void expect_same(const LoopConfig& s, const proto::Loop& m) {
   EXPECT_EQ(s.lock_memory, m.lock_memory());
 }
 
+inline void expect_same(const AdapterConfig& s, const proto::Adapter& m) {
+  EXPECT_EQ(s.address, m.address());
+  EXPECT_EQ(s.remote, m.remote());
+  EXPECT_EQ(s.silence_s, m.silence_s());
+}
+
 template <class Drive>
 void expect_same(const DriveConfig& s, const Drive& m) {
   EXPECT_EQ(s.inertia_kg_m2, m.inertia_kg_m2());

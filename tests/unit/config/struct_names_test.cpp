@@ -76,6 +76,13 @@ void expect_same(const OperatorConfig& s, const proto::Operator& m) {
   EXPECT_EQ(s.probe_cycles, m.probe_cycles());
   expect_same(s.direction, m.direction());
   EXPECT_EQ(s.reaction_s, m.reaction_s());
+  EXPECT_EQ(s.dead_zone, m.dead_zone());
+  EXPECT_EQ(s.reach_m, m.reach_m());
+  EXPECT_EQ(s.reach_rad, m.reach_rad());
+  EXPECT_EQ(s.speed_m_per_s, m.speed_m_per_s());
+  EXPECT_EQ(s.speed_rad_per_s, m.speed_rad_per_s());
+  EXPECT_EQ(s.pad, m.pad());
+  EXPECT_EQ(s.rumble, m.rumble());
 }
 
 void expect_same(const MappingConfig& s, const proto::Mapping& m) {
@@ -155,6 +162,7 @@ TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {
   expect_same(s.safety, m.safety());
   expect_same(s.rpc, m.rpc());
   EXPECT_EQ(static_cast<int>(s.accuracy), m.accuracy());
+  expect_same(s.device_adapter, m.device_adapter());
 }
 
 }  // namespace

@@ -32,6 +32,20 @@ TEST(Validation, AcceptsTheEndsOfARangeAndNothingBeyond) {
   }
 }
 
+TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
+  proto::LabConfig lab;
+  lab.mutable_master()->mutable_device_adapter()->set_silence_s(0.1);
+  EXPECT_EQ(validation_error(lab), "no error");
+  lab.mutable_slave()->mutable_robot_adapter()->set_address("127.0.0.1:1");
+  EXPECT_EQ(
+      validation_error(lab),
+      "slave.robot_adapter.address = 127.0.0.1:1 is for programs; the laboratory has simulated devices and "
+      "robots alone");
+  lab.mutable_master()->mutable_device_adapter()->set_address("127.0.0.1:2");
+  EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = 127.0.0.1:2 is for"));
+  EXPECT_EQ(validation_error(lab.master()), "no error");
+}
+
 TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
   proto::LabConfig lab;
   proto::MasterConfig& program = *lab.mutable_master();

@@ -133,8 +133,11 @@ TEST(SessionSeeker, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
   backend.refuse(Refusal{Refusal::Kind::kPrecondition, "another master has the robot", "192.0.2.9:4711"});
   search.loop.fall_silent();
   ASSERT_TRUE(eventually([&] { return search.seeker.taken_by() == "192.0.2.9:4711"; }));
-  EXPECT_NE(search.seeker.trouble().find("another master (192.0.2.9:4711) has taken the robot"),
-            std::string::npos);
+  // The words follow a moment later.
+  EXPECT_TRUE(eventually([&] {
+    return search.seeker.trouble().find("another master (192.0.2.9:4711) has taken the robot") !=
+           std::string::npos;
+  }));
   ASSERT_TRUE(eventually([&] { return backend.calls().size() >= 4; }));
   const auto calls = backend.calls();
   EXPECT_EQ(std::count(calls.begin(), calls.end(), "open_session take"), 1) << "at the start alone";

@@ -1,0 +1,21 @@
+#pragma once
+// The socket to an adapter of a real device or robot.
+
+#include <memory>
+#include <string>
+
+#include "common/io/udp_channel.hpp"
+#include "common/link/adapter_config.hpp"
+
+namespace longreach {
+
+/// `field`: of the configuration, for what is said. Null: there is no adapter. Throws AddressError, also for
+/// an address elsewhere where `remote` is not set.
+std::unique_ptr<UdpChannel> open_adapter_channel(const AdapterConfig& config, const std::string& field);
+
+/// What is wrong with an adapter and what to do, or empty. `device`: "haptic device" or "robot".
+struct AdapterFigures;
+std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
+                            const std::string& address);
+
+}  // namespace longreach

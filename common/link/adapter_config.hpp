@@ -1,0 +1,14 @@
+#pragma once
+// A real device or robot behind an adapter. Meaning, unit and range: proto/config.proto; the same names.
+
+#include <string>
+
+namespace longreach {
+
+struct AdapterConfig {
+  std::string address;  // empty: there is none
+  bool remote = false;
+  double silence_s = 0.02;
+};
+
+}  // namespace longreach

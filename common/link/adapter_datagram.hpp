@@ -1,0 +1,194 @@
+#pragma once
+// The adapter protocol, version 1: how a program of yours lets longreach use a haptic device or a robot. Copy
+// this file; it needs the standard library alone. deploy/adapters has an example of each kind, and
+// `longreach adapter check` tries yours.
+//
+// Datagrams over UDP on one machine. Your adapter listens on a port; longreach sends to it every tick of its
+// loop (1000 a second unless loop.rate_hz says else), and your adapter sends back to where the newest
+// accepted datagram came from, 500 to 4000 times a second, by its own clock or as an answer to each.
+//
+//   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
+//   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
+//
+// All numbers are little-endian, doubles IEEE 754; no struct has padding. SI units and radians. Frames: M the
+// device's base, H its handle, W the robot's world, E its tool.
+//
+// Both ends keep to this:
+//   1  What is not of the right size, magic, version and kind, or has a number that is not finite, is
+//      ignored; so are unknown flags, which are sent as 0.
+//   2  Each end draws a session number, not 0, when it starts, and counts its datagrams 1, 2, 3, ...
+//      `echo` is the number of the newest datagram accepted from the other end, 0 before the first.
+//   3  Of one session a datagram counts only if its number is greater than all before. Another session
+//      counts only after 20 ms of silence of the present one: one program at a time; restarts are accepted.
+//   4  Watchdog: after 20 ms without a datagram that counts a device renders no wrench, a robot stops where
+//      it is. Both go on sending for a second or more, and work again with the next datagram that counts.
+//   5  An adapter that has failed says so (its flag kOk is absent) and goes on sending. 20 ms without a
+//      datagram, or one without kOk, is a fault of the device or robot for longreach: it holds.
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace longreach::adapter {
+
+static_assert(std::endian::native == std::endian::little, "swap the bytes of every number on this machine");
+
+constexpr std::uint8_t kVersion = 1;
+constexpr std::int64_t kWatchdog_ns = 20'000'000;
+
+enum Kind : std::uint8_t { kHandle = 1, kWrench = 2, kSetpoint = 3, kRobot = 4 };
+
+struct Header {
+  char magic[4] = {'L', 'R', 'A', 'P'};
+  std::uint8_t version = kVersion;
+  std::uint8_t kind = 0;
+  std::uint16_t size = 0;  // of the whole datagram, bytes
+  std::uint64_t session = 0;
+  std::uint64_t sequence = 0;
+  std::uint64_t echo = 0;
+};
+
+/// Device adapter to longreach.
+struct HandleDatagram {
+  static constexpr std::uint8_t kKind = kHandle;
+  enum Flag : std::uint32_t {
+    kOk = 1,    // the device works
+    kHeld = 2,  // a hand is on the handle; a device that cannot tell says so always
+    // Buttons, while they are down.
+    kMode = 4,        // rate or position
+    kScaleUp = 8,     // coarser
+    kScaleDown = 16,  // finer
+    kClutch = 32      // the handle moves without the robot
+  };
+  Header header{};
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  double position_m[3] = {};               // of H from its home, in M
+  double orientation[4] = {1.0, 0, 0, 0};  // of H in M, home: 1 0 0 0; unit quaternion w x y z
+  double velocity_m_per_s[3] = {};         // of H in M
+  double angular_rad_per_s[3] = {};        // of H in M
+  double force_n[3] = {};                  // that the motors are told to make on the hand now, in M
+  double moment_nm[3] = {};                // likewise
+};
+
+/// longreach to device adapter.
+struct WrenchDatagram {
+  static constexpr std::uint8_t kKind = kWrench;
+  enum Flag : std::uint32_t {
+    kLive = 1  // the wrench is meant; without it: none
+  };
+  Header header{};
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  double force_n[3] = {};    // on the hand, in M
+  double moment_nm[3] = {};  // likewise
+};
+
+constexpr int kJoints = 6;
+
+/// longreach to robot adapter.
+struct SetpointDatagram {
+  static constexpr std::uint8_t kKind = kSetpoint;
+  enum Flag : std::uint32_t {
+    kMove = 1,  // the joints follow joint_rad; without it they rest where they are
+    kGrip = 2   // the gripper is closed
+  };
+  Header header{};
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  double joint_rad[kJoints] = {};  // in the order of the robot's file; m of a prismatic joint
+};
+
+/// Robot adapter to longreach.
+struct RobotDatagram {
+  static constexpr std::uint8_t kKind = kRobot;
+  enum Flag : std::uint32_t {
+    kOk = 1,      // the robot works and may be moved
+    kLoad = 2,    // the gripper holds something
+    kStopped = 4  // by the watchdog, until the next setpoint
+  };
+  Header header{};
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  double joint_rad[kJoints] = {};  // measured; m of a prismatic joint
+  double joint_rad_per_s[kJoints] = {};
+  double force_n[3] = {};    // by the environment on the tool, along the axes of E; without a sensor 0
+  double moment_nm[3] = {};  // about the origin of E, likewise
+};
+
+static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
+              sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184);
+
+template <std::size_t N>
+bool finite(const double (&numbers)[N]) {
+  for (const double x : numbers)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+inline bool finite(const HandleDatagram& d) {
+  double square = 0.0;
+  for (const double x : d.orientation) square += x * x;
+  return finite(d.position_m) && std::abs(square - 1.0) < 1e-3 && finite(d.velocity_m_per_s) &&
+         finite(d.angular_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
+}
+inline bool finite(const WrenchDatagram& d) { return finite(d.force_n) && finite(d.moment_nm); }
+inline bool finite(const SetpointDatagram& d) { return finite(d.joint_rad); }
+inline bool finite(const RobotDatagram& d) {
+  return finite(d.joint_rad) && finite(d.joint_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
+}
+
+/// Rule 1. False: `out` is as it was.
+template <class Datagram>
+bool decode(const void* bytes, std::size_t size, Datagram& out) {
+  Datagram d;
+  if (size != sizeof d) return false;
+  const Header expected;
+  std::memcpy(&d, bytes, sizeof d);
+  if (std::memcmp(d.header.magic, expected.magic, sizeof expected.magic) != 0 ||
+      d.header.version != kVersion || d.header.kind != Datagram::kKind || d.header.size != sizeof d ||
+      d.header.session == 0 || !finite(d))
+    return false;
+  out = d;
+  return true;
+}
+
+/// Rules 2 to 4, of one end.
+class Exchange {
+ public:
+  explicit Exchange(std::uint64_t session, std::int64_t watchdog_ns = kWatchdog_ns)
+      : session_(session), watchdog_ns_(watchdog_ns) {}
+
+  /// True: this datagram counts. Times are of one monotonic clock, ns.
+  bool accept(const Header& header, std::int64_t now_ns) {
+    if (header.session == peer_ ? header.sequence <= newest_ : !silent(now_ns)) return false;
+    if (header.session != peer_) ++sessions_;
+    peer_ = header.session;
+    newest_ = header.sequence;
+    heard_ns_ = now_ns;
+    return true;
+  }
+
+  template <class Datagram>
+  void stamp(Datagram& out) {
+    out.header = {};
+    out.header.kind = Datagram::kKind;
+    out.header.size = sizeof out;
+    out.header.session = session_;
+    out.header.sequence = ++sent_;
+    out.header.echo = newest_;
+  }
+
+  /// Nothing that counts for as long as the watchdog waits, or never.
+  bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - heard_ns_ >= watchdog_ns_; }
+  std::uint64_t sessions() const { return sessions_; }  // of the other end, so far
+
+ private:
+  std::uint64_t session_;
+  std::int64_t watchdog_ns_;
+  std::uint64_t peer_ = 0, newest_ = 0, sent_ = 0, sessions_ = 0;
+  std::int64_t heard_ns_ = 0;
+};
+
+}  // namespace longreach::adapter

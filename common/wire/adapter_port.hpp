@@ -1,0 +1,84 @@
+#pragma once
+// This side's end of the exchange with an adapter (common/link/adapter_datagram.hpp) over a channel. Never
+// waits, allocates nothing, throws nothing. What does not count changes nothing but a counter.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/core/time.hpp"
+#include "common/link/adapter_datagram.hpp"
+#include "common/wire/channel.hpp"
+
+namespace longreach {
+
+/// What came from an adapter so far, and what it is now.
+struct AdapterFigures {
+  bool present = false;  // there is one, by configuration
+  bool silent = true;    // nothing has come for silence_s
+  bool failed = false;   // it says so
+  std::uint64_t accepted = 0;
+  std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
+  std::uint64_t late = 0;       // overtaken, repeated, or of another session while one lasts
+  std::uint64_t restarts = 0;
+  double silent_after_s = 0.0;  // the last silence, when it became a fault
+};
+
+template <class Out, class In>
+class AdapterPort {
+ public:
+  /// `channel` must outlive the port. `session`: drawn anew at each start, not 0.
+  AdapterPort(Channel& channel, std::uint64_t session, double silence_s)
+      : channel_(channel), exchange_(session, from_seconds(silence_s).count()) {
+    figures_.present = true;
+  }
+
+  /// Takes what has come, at most kMost datagrams. True: newest() is new.
+  bool receive(Time now) {
+    const std::int64_t now_ns = now.time_since_epoch().count();
+    bool fresh = false;
+    std::array<std::byte, sizeof(In)> bytes;
+    for (int i = 0; i < kMost; ++i) {
+      const auto size = channel_.receive(bytes);
+      if (!size) break;
+      In in;
+      if (!adapter::decode(bytes.data(), *size, in)) {
+        ++figures_.malformed;
+      } else if (!exchange_.accept(in.header, now_ns)) {
+        ++figures_.late;
+      } else {
+        ++figures_.accepted;
+        newest_ = in;
+        fresh = true;
+      }
+    }
+    if (fresh) heard_ = now;
+    const bool silent = exchange_.silent(now_ns);
+    if (silent && !figures_.silent) figures_.silent_after_s = to_seconds(now - heard_);
+    figures_.silent = silent;
+    figures_.failed = !figures_.silent && (newest_.flags & In::kOk) == 0;
+    figures_.restarts = exchange_.sessions() > 0 ? exchange_.sessions() - 1 : 0;
+    return fresh;
+  }
+
+  void send(Out out) {
+    exchange_.stamp(out);
+    channel_.send(std::as_bytes(std::span(&out, 1)));
+  }
+
+  /// Of the last receive(): it is heard and says that it works.
+  [[nodiscard]] bool ok() const { return !figures_.silent && !figures_.failed; }
+  [[nodiscard]] const In& newest() const { return newest_; }
+  [[nodiscard]] const AdapterFigures& figures() const { return figures_; }
+
+ private:
+  static constexpr int kMost = 256;
+
+  Channel& channel_;
+  adapter::Exchange exchange_;
+  In newest_{};
+  Time heard_{};
+  AdapterFigures figures_{};
+};
+
+}  // namespace longreach

@@ -1,0 +1,90 @@
+#include "deploy/cli/adapter_socket.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "common/io/address.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+std::int64_t nanoseconds(const timespec& t) { return t.tv_sec * kSecond_ns + t.tv_nsec; }
+
+/// When the system took it; the present, if it does not say.
+std::int64_t taken_ns(msghdr& message) {
+  for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec t{};
+    std::memcpy(&t, CMSG_DATA(c), sizeof t);
+    return nanoseconds(t);
+  }
+  return AdapterSocket::now_ns();
+}
+
+}  // namespace
+
+AdapterSocket::AdapterSocket(const std::string& address) {
+  const auto adapter = parse_udp_address(address);
+  fd_ = ::socket(adapter.protocol().family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const int on = 1, bytes = 1 << 20;
+  ::setsockopt(fd_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+  // Connected: what others send does not arrive.
+  if (fd_ < 0 || ::connect(fd_, adapter.data(), static_cast<socklen_t>(adapter.size())) != 0) {
+    const std::string why = std::strerror(errno);
+    if (fd_ >= 0) ::close(fd_);
+    throw std::runtime_error("cannot send to " + address + ": " + why);
+  }
+}
+
+AdapterSocket::~AdapterSocket() { ::close(fd_); }
+
+std::int64_t AdapterSocket::now_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return nanoseconds(t);
+}
+
+std::int64_t AdapterSocket::send(std::span<const std::byte> datagram) const {
+  // Nobody there: that nothing comes back says so.
+  [[maybe_unused]] const ssize_t sent = ::send(fd_, datagram.data(), datagram.size(), MSG_NOSIGNAL);
+  return now_ns();
+}
+
+std::optional<AdapterSocket::Arrival> AdapterSocket::receive(std::int64_t end_ns) const {
+  for (;;) {
+    Arrival out;
+    iovec part{out.bytes.data(), out.bytes.size()};
+    alignas(cmsghdr) std::array<char, 128> control{};
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    const ssize_t size = ::recvmsg(fd_, &message, MSG_DONTWAIT | MSG_TRUNC);
+    if (size >= 0) {
+      out.size = static_cast<std::size_t>(size);
+      out.at_ns = taken_ns(message);
+      return out;
+    }
+    const std::int64_t left_ns = end_ns - now_ns();
+    if (left_ns <= 0) return std::nullopt;
+    const timespec wait{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
+    pollfd readable{fd_, POLLIN, 0};
+    ::ppoll(&readable, 1, &wait, nullptr);
+    // Nobody listens there: the error is taken, or this would spin.
+    int error = 0;
+    socklen_t length = sizeof error;
+    ::getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &length);
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,38 @@
+#pragma once
+// The socket of `longreach adapter check`: sends to an adapter and hears what it sends back, with the times
+// at which the system took it, so that a late reader blames nobody.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace longreach {
+
+class AdapterSocket {
+ public:
+  struct Arrival {
+    std::int64_t at_ns = 0;  // CLOCK_REALTIME
+    std::size_t size = 0;    // true size, also of what was cut
+    std::array<std::byte, 1024> bytes{};
+  };
+
+  /// Throws AddressError or std::runtime_error.
+  explicit AdapterSocket(const std::string& address);
+  ~AdapterSocket();
+  AdapterSocket(const AdapterSocket&) = delete;
+  AdapterSocket& operator=(const AdapterSocket&) = delete;
+
+  /// Returns when.
+  std::int64_t send(std::span<const std::byte> datagram) const;
+  /// The next datagram; none until `end_ns`.
+  [[nodiscard]] std::optional<Arrival> receive(std::int64_t end_ns) const;
+  [[nodiscard]] static std::int64_t now_ns();
+
+ private:
+  int fd_;
+};
+
+}  // namespace longreach

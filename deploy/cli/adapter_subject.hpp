@@ -1,0 +1,116 @@
+#pragma once
+// What a check of an adapter asks of a device and of a robot, and how it sees that it was done.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "common/link/adapter_datagram.hpp"
+
+namespace longreach {
+
+inline std::string in_text(const char* format, double value) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// A haptic device: a small force along z, which it says it makes.
+class DeviceSubject {
+ public:
+  using Out = adapter::WrenchDatagram;
+  using In = adapter::HandleDatagram;
+  static constexpr const char* kWhat = "device";
+  static constexpr const char* kSends = "HandleDatagram";
+  static constexpr const char* kAsk = "wrench";
+  static constexpr const char* kRests = "renders no wrench";
+  static constexpr double kSettle_s = 0.2;
+
+  explicit DeviceSubject(double force_n) : force_n_(force_n) {}
+
+  void know(const In&) {}
+  [[nodiscard]] Out ask(double /*t_s*/) const {
+    Out out;
+    out.flags = Out::kLive;
+    out.force_n[2] = force_n_;
+    return out;
+  }
+  /// The same with a force along x besides, which nobody may take.
+  [[nodiscard]] Out poison(Out out) const {
+    out.force_n[0] = 2.0 * force_n_;
+    return out;
+  }
+  [[nodiscard]] Out nothing() const { return {}; }
+  [[nodiscard]] bool does(const In& in) const {
+    return std::abs(in.force_n[2] - force_n_) <= 0.01 * force_n_ &&
+           std::abs(in.force_n[0]) <= 0.01 * force_n_ && std::abs(in.force_n[1]) <= 0.01 * force_n_;
+  }
+  [[nodiscard]] bool rests(const In& in) const {
+    return std::ranges::all_of(in.force_n, [](double x) { return x == 0.0; }) &&
+           std::ranges::all_of(in.moment_nm, [](double x) { return x == 0.0; });
+  }
+  [[nodiscard]] std::string asked() const { return in_text("%g N along z", force_n_); }
+  [[nodiscard]] std::string told(const In& in) const {
+    return in_text("force_n is %g", in.force_n[0]) + in_text(" %g", in.force_n[1]) +
+           in_text(" %g", in.force_n[2]);
+  }
+  [[nodiscard]] std::string advice() const {
+    return "give the wrench to the motors and tell in force_n and moment_nm what they make";
+  }
+
+ private:
+  double force_n_;
+};
+
+/// A robot: to be where it is or, if it may move, a small way on with its first joint.
+class RobotSubject {
+ public:
+  using Out = adapter::SetpointDatagram;
+  using In = adapter::RobotDatagram;
+  static constexpr const char* kWhat = "robot";
+  static constexpr const char* kSends = "RobotDatagram";
+  static constexpr const char* kAsk = "setpoint";
+  static constexpr const char* kRests = "stops and says so (kStopped)";
+  static constexpr double kSettle_s = 1.0;
+
+  explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
+
+  void know(const In& in) { std::copy_n(in.joint_rad, adapter::kJoints, start_rad_); }
+  /// Within the first half second it goes there.
+  [[nodiscard]] Out ask(double t_s) {
+    share_ = std::max(share_, std::min(1.0, 2.0 * t_s));
+    Out out;
+    out.flags = Out::kMove;
+    std::copy_n(start_rad_, adapter::kJoints, out.joint_rad);
+    out.joint_rad[0] += share_ * move_rad_;
+    return out;
+  }
+  [[nodiscard]] Out poison(Out out) const {
+    out.joint_rad[0] += 2.0 * move_rad_;
+    return out;
+  }
+  [[nodiscard]] Out nothing() const { return {}; }
+  [[nodiscard]] bool does(const In& in) const {
+    const double off = in.joint_rad[0] - (start_rad_[0] + share_ * move_rad_);
+    return (in.flags & In::kStopped) == 0 && (move_rad_ == 0.0 || std::abs(off) <= 0.5 * std::abs(move_rad_));
+  }
+  [[nodiscard]] bool rests(const In& in) const { return (in.flags & In::kStopped) != 0; }
+  [[nodiscard]] std::string asked() const {
+    return move_rad_ == 0.0 ? "to stay where it is" : in_text("the first joint %g rad (or m) on", move_rad_);
+  }
+  [[nodiscard]] std::string told(const In& in) const {
+    return in_text("the first joint is at %g", in.joint_rad[0]) + in_text(", it was at %g", start_rad_[0]) +
+           (rests(in) ? ", and it says kStopped" : "");
+  }
+  [[nodiscard]] std::string advice() const {
+    return "follow joint_rad while kMove is set, and clear kStopped then";
+  }
+
+ private:
+  double move_rad_;
+  double share_ = 0.0;
+  double start_rad_[adapter::kJoints] = {};
+};
+
+}  // namespace longreach

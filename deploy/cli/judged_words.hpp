@@ -1,0 +1,30 @@
+#pragma once
+// Words of the command line that have to be numbers or addresses. Throw UsageError.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/config/number_text.hpp"
+#include "deploy/cli/invocation.hpp"
+
+namespace longreach {
+
+inline double bounded(const char* what, const std::string& text, std::optional<double> value, double min,
+                      double max, const char* unit) {
+  if (value && *value >= min && *value <= max) return *value;
+  throw UsageError(std::string(what) + " = " + text + " is not a number from " + format_number(min) + " to " +
+                   format_number(max) + unit);
+}
+
+inline void check_address(const char* option, const std::string& address,
+                          const char* example = "127.0.0.1:47010") {
+  const std::size_t colon = address.rfind(':');
+  if (colon != std::string::npos && colon > 0) {
+    const auto port = parse_integer<std::uint16_t>(std::string_view(address).substr(colon + 1));
+    if (port && *port > 0) return;
+  }
+  throw UsageError(std::string(option) + " = " + address + " is not HOST:PORT, e.g. " + example);
+}
+
+}  // namespace longreach

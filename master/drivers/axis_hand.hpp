@@ -1,0 +1,62 @@
+#pragma once
+// From the deflections and buttons of a gamepad, joystick or SpaceMouse to what the hand at the simulated
+// handle does. Pure.
+//   s = (|d| - z)/(1 - z) d/|d| beyond the dead zone z, of push and twist each
+//   rate mode       the hand is at reach s: let go, the handle is home and the robot rests
+//   position mode   the hand moves with speed s: let go, it stays where it is
+// One that was away does nothing until every axis has been let go of once; its buttons act when they go down.
+
+#include <cstdint>
+
+#include "master/drivers/hand_level.hpp"
+#include "master/master_node.hpp"
+
+namespace longreach {
+
+/// Bits of AxisSample::buttons.
+enum class PadButton : std::uint8_t { kMode, kScaleUp, kScaleDown, kClutch, kGripper, kEngage, kStop, kHome };
+
+/// What the thing in the hand tells now.
+struct AxisSample {
+  bool present = false;            // it is plugged in
+  Vector3 push = Vector3::Zero();  // -1 to 1 along x, y, z of M
+  Vector3 twist = Vector3::Zero();
+  std::uint32_t buttons = 0;  // while they are down
+
+  void press(PadButton button, bool down) {
+    if (down) buttons |= 1U << static_cast<unsigned>(button);
+  }
+};
+
+struct AxisHandConfig {
+  double dead_zone = 0.12;
+  double reach_m = 0.04, reach_rad = 0.4;
+  double speed_m_per_s = 0.03, speed_rad_per_s = 0.4;
+  double workspace_m = 0.075, workspace_rad = 0.8;  // that the hand stays within
+};
+AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig& device);
+
+struct AxisHandState {
+  HandLevel level{.present = false};
+  OperatorRequests requests{};  // since the last step; the clutch is in `level`
+  bool armed = false;           // every axis was let go of since it was plugged in
+};
+
+class AxisHand {
+ public:
+  explicit AxisHand(const AxisHandConfig& config) : config_(config) {}
+
+  /// `dt_s`: since the last step.
+  const AxisHandState& step(const AxisSample& sample, MotionMode mode, double dt_s);
+
+ private:
+  void move(const AxisSample& sample, MotionMode mode, double dt_s);
+  void take_buttons(std::uint32_t buttons, MotionMode mode);
+
+  AxisHandConfig config_;
+  AxisHandState state_{};
+  std::uint32_t buttons_ = 0;  // in the last step
+  bool loaded_ = false;
+};
+
+}  // namespace longreach

@@ -1,0 +1,42 @@
+#include "slave/drivers/robot_adapter.hpp"
+
+#include <algorithm>
+
+namespace longreach {
+namespace {
+
+using adapter::RobotDatagram;
+using adapter::SetpointDatagram;
+
+static_assert(adapter::kJoints == kMaxJoints);
+
+Vector3 vector(const double (&numbers)[3]) { return {numbers[0], numbers[1], numbers[2]}; }
+
+}  // namespace
+
+RobotState RobotAdapter::read(Time now) {
+  const bool fresh = port_.receive(now);
+  measured_.ok = port_.ok();
+  if (!fresh || !measured_.ok) return measured_;
+  const RobotDatagram& d = port_.newest();
+  std::copy_n(d.joint_rad, kMaxJoints, measured_.joint_rad.data());
+  std::copy_n(d.joint_rad_per_s, kMaxJoints, measured_.joint_rad_per_s.data());
+  const Quaternion q_WE = kinematics_.forward(measured_.joint_rad).q;
+  measured_.F_F_W = {q_WE * vector(d.moment_nm), q_WE * vector(d.force_n)};
+  measured_.load = (d.flags & RobotDatagram::kLoad) != 0;
+  return measured_;
+}
+
+void RobotAdapter::write(const JointVector& joint_setpoint_rad) {
+  SetpointDatagram out;
+  const bool finite = joint_setpoint_rad.allFinite();
+  if (!finite) ++rejected_;
+  if (finite && measured_.ok) {
+    out.flags = SetpointDatagram::kMove;
+    std::copy_n(joint_setpoint_rad.data(), kMaxJoints, out.joint_rad);
+  }
+  if (grip_) out.flags |= SetpointDatagram::kGrip;
+  port_.send(out);
+}
+
+}  // namespace longreach

@@ -1,0 +1,198 @@
+// Real devices and robots behind adapters: the reference adapters in a loop, killed, and tried.
+
+#include <algorithm>
+#include <csignal>
+
+#include "tests/process/broken_adapter.hpp"
+#include "tests/process/station.hpp"
+
+namespace longreach {
+namespace {
+
+using std::chrono::seconds;
+
+struct Tried {
+  int status = -1;
+  std::string output;
+};
+
+Tried try_adapter(const std::vector<std::string>& options) {
+  std::vector<std::string> words{"adapter", "check"};
+  words.insert(words.end(), options.begin(), options.end());
+  RunningProgram client("longreach", words);
+  const int status = client.wait(seconds(60)).value_or(-1);
+  return {status, client.output()};
+}
+
+class Adapters : public Station {
+ protected:
+  /// Starts one of the reference adapters; where it listens.
+  static std::string start(std::unique_ptr<RunningProgram>& program, const std::string& kind,
+                           const std::vector<std::string>& options = {}) {
+    program.reset();
+    std::vector<std::string> words{"0"};
+    words.insert(words.end(), options.begin(), options.end());
+    program = std::make_unique<RunningProgram>("longreach-reference-" + kind, words);
+    const auto said = [&] {
+      const std::string text = program->output();
+      return text.ends_with('\n') ? text.substr(text.rfind(' ') + 1, text.size() - text.rfind(' ') - 2) : "";
+    };
+    EXPECT_TRUE(eventually([&] { return !said().empty(); }));
+    return said();
+  }
+  /// Killed by the system, as it were; where it then listens again.
+  static void start_again(std::unique_ptr<RunningProgram>& program, const std::string& kind,
+                          const std::string& address, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words{address.substr(address.rfind(':') + 1)};
+    words.insert(words.end(), options.begin(), options.end());
+    program = std::make_unique<RunningProgram>("longreach-reference-" + kind, words);
+  }
+
+  void start_both(const std::string& silence_s, const std::vector<std::string>& device_options) {
+    device_address_ = start(device_, "device", device_options);
+    robot_address_ = start(robot_, "robot", {"--wall", "0.02"});
+    start_slave({"--adapter", robot_address_, "--set", "robot_file=robots/cartesian.txtpb", "--set",
+                 "robot_adapter.silence_s=" + silence_s});
+    start_master({"--adapter", device_address_, "--set", "device_adapter.silence_s=" + silence_s});
+  }
+  /// Also after a fault of a machine that is too busy for 20 ms.
+  bool engaged() {
+    return eventually([this] {
+      if (slave_.state() == "Engaged" && master_.state() == "Engaged") return true;
+      master_.engage();
+      return false;
+    });
+  }
+  /// The last silence in the loop's own time: at least 20 ms, and no more than a tick later.
+  void expect_told_in_time(Side& side) {
+    const std::uint64_t after_us = side.counter("adapter_silent_after_us");
+    EXPECT_GE(after_us, 20'000u);
+    EXPECT_LE(after_us, 20'000u + 2'000u + side.counter("lateness_max_us") + side.counter("busy_max_us"));
+  }
+
+  std::unique_ptr<RunningProgram> device_, robot_;
+  std::string device_address_, robot_address_;
+};
+
+TEST_F(Adapters, ATouchIsFeltThroughBothAdapters) {
+  start_both("0.5", {"--push", "0.05"});
+  // At home, between two pushes, so that the next one leads to the wall.
+  ASSERT_TRUE(eventually([this] {
+    const auto s = master_.status();
+    return s && s->link().rtt_known() && std::abs(s->hand_m(0)) < 1e-4;
+  })) << outputs();
+  ASSERT_TRUE(engaged()) << outputs();
+  EXPECT_TRUE(eventually([this] {
+    const auto s = master_.status();
+    return s && s->in_contact() && s->force_n() > 1.0 && s->stiffness_n_per_m() > 800.0 &&
+           s->stiffness_n_per_m() < 1200.0;
+  })) << outputs();
+  EXPECT_EQ(slave_.counter("limit_violations"), 0u);
+  EXPECT_EQ(slave_.counter("adapter_malformed") + master_.counter("adapter_malformed"), 0u);
+  EXPECT_GT(slave_.counter("adapter_accepted"), 1000u);
+}
+
+TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
+  start_both("0.02", {});
+  ASSERT_TRUE(engaged()) << outputs();
+  device_->signal(SIGKILL);
+  ASSERT_TRUE(eventually([this] { return master_.state() == "Fault" && slave_.state() == "Holding"; }))
+      << outputs();
+  EXPECT_EQ(master_.status()->cause(), "device fault");
+  expect_told_in_time(master_);
+  const std::string why = master_.engage();
+  EXPECT_NE(why.find("has gone silent; start it again"), std::string::npos) << why;
+  EXPECT_TRUE(eventually([this] {
+    return master_program_->output().find("has gone silent; start it again") != std::string::npos;
+  })) << outputs();
+  // Back again, it is not engaged by itself.
+  start_again(device_, "device", device_address_);
+  ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
+  EXPECT_EQ(master_.state(), "Fault");
+  EXPECT_TRUE(engaged()) << outputs();
+}
+
+TEST_F(Adapters, AKilledAdapterOfTheRobotIsAFaultAndTheRobotIsTakenWhereItThenIs) {
+  start_both("0.02", {});
+  ASSERT_TRUE(engaged()) << outputs();
+  robot_->signal(SIGKILL);
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Holding"; }))
+      << outputs();
+  EXPECT_EQ(slave_.status()->cause(), "robot fault");
+  expect_told_in_time(slave_);
+  EXPECT_NE(slave_.status()->trouble().find("has gone silent; start it again"), std::string::npos);
+  start_again(robot_, "robot", robot_address_);
+  ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
+  EXPECT_EQ(slave_.state(), "Fault");
+  EXPECT_TRUE(engaged()) << outputs();
+}
+
+TEST_F(Adapters, TheReferenceAdaptersKeepTheRules) {
+  const std::string device = start(device_, "device"), robot = start(robot_, "robot");
+  const auto passes = [](const std::vector<std::string>& options) {
+    Tried tried;
+    // The rate is that of the machine, too.
+    for (int i = 0; i < 5 && tried.status != 0; ++i) tried = try_adapter(options);
+    EXPECT_EQ(tried.status, 0) << tried.output;
+    EXPECT_NE(tried.output.find("0 failures"), std::string::npos) << tried.output;
+  };
+  passes({"--device", device});
+  passes({"--robot", robot, "--move", "0.01"});
+}
+
+TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
+  struct Case {
+    Flaw flaw;
+    const char* told;
+    const char* advice;
+  };
+  const Case cases[] = {
+      {Flaw::kNoWatchdog, "it goes on for 0.6 s of silence as if longreach were there", "rule 4"},
+      {Flaw::kMute, "it does not go on sending when longreach is silent", "rule 4"},
+      {Flaw::kNoCount, "number 1 follows 1", "count every datagram"},
+      {Flaw::kNoEcho, "is 0 after", "echo the number"},
+      {Flaw::kNotFinite, "a number is not finite", "compare with"},
+      {Flaw::kShort, "191 bytes instead of 192", "compare with"},
+      {Flaw::kSlow, "99 % of gaps", "500 to 4000 times a second"},
+      {Flaw::kTakesAnything, "it does not ignore another magic", "rules 1 and 3"},
+      {Flaw::kTakesOldNumbers, "it does not ignore an old number", "rules 1 and 3"},
+      {Flaw::kTakesNoRestart, "a program that starts again is not taken", "rule 3"},
+      {Flaw::kNoWrench, "asked 0.5 N along z, but force_n is 0 0 0", "tell in force_n"},
+      {Flaw::kFailed, "it says that it has failed", "set kOk"}};
+  for (const Case& c : cases) {
+    const BrokenAdapter broken(c.flaw);
+    const Tried tried = try_adapter({"--device", broken.address()});
+    EXPECT_EQ(tried.status, 1) << c.told << "\n" << tried.output;
+    EXPECT_NE(tried.output.find(c.told), std::string::npos) << c.told << "\n" << tried.output;
+    EXPECT_NE(tried.output.find(c.advice), std::string::npos) << c.advice << "\n" << tried.output;
+  }
+  EXPECT_EQ(try_adapter({"--device", "127.0.0.1"}).status, 2);
+  EXPECT_EQ(try_adapter({}).status, 2);
+}
+
+TEST_F(Adapters, AnAdapterElsewhereIsRefusedUnlessItIsAskedFor) {
+  start_master({"--adapter", "192.0.2.7:47101"});
+  EXPECT_EQ(master_program_->wait(seconds(20)), 2);
+  EXPECT_NE(master_program_->output().find("device_adapter.address = 192.0.2.7:47101 is not on this machine"),
+            std::string::npos)
+      << outputs();
+  start_slave({"--adapter", "192.0.2.7:47111"});
+  EXPECT_EQ(slave_program_->wait(seconds(20)), 2);
+  EXPECT_NE(slave_program_->output().find("set robot_adapter.remote"), std::string::npos) << outputs();
+}
+
+TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
+  start_slave({"--adapter", "127.0.0.1:9"});
+  start_master({"--adapter", "127.0.0.1:9", "--engage"});
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Fault"; }))
+      << outputs();
+  EXPECT_TRUE(eventually([this] {
+    return slave_program_->output().find(
+               "the adapter of the robot at 127.0.0.1:9 does not answer; start it") != std::string::npos &&
+           master_program_->output().find(
+               "the adapter of the haptic device at 127.0.0.1:9 does not answer") != std::string::npos;
+  })) << outputs();
+}
+
+}  // namespace
+}  // namespace longreach

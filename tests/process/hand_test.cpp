@@ -1,0 +1,71 @@
+// A hand at the master that may be unplugged: a SpaceMouse, whose daemon the test plays.
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/process/station.hpp"
+#include "tests/unit/drivers/fake_daemon.hpp"
+
+namespace longreach {
+namespace {
+
+class Hands : public Station {
+ protected:
+  Hands() { ::setenv("SPNAV_SOCKET", path_.c_str(), 1); }
+  ~Hands() override { ::unsetenv("SPNAV_SOCKET"); }
+
+  bool says(const std::string& words) {
+    return eventually([&] { return master_program_->output().find(words) != std::string::npos; });
+  }
+  /// As soon as it is not refused.
+  bool engaged() {
+    return eventually([this] {
+      master_.engage();
+      return slave_.state() == "Engaged" && master_.state() == "Engaged";
+    });
+  }
+  double tool_x() {
+    const auto s = slave_.status();
+    return s && s->tool_m_size() == 3 ? s->tool_m(0) : NAN;
+  }
+
+  std::string path_ =
+      (std::filesystem::temp_directory_path() / ("longreach-hands-" + std::to_string(::getpid()))).string();
+};
+
+TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
+  start_slave({"--set", "scene_file=scenes/free.txtpb"});
+  start_master({"--operator", "spacemouse", "--mode", "rate"});
+  ASSERT_TRUE(says("no SpaceMouse is there; plug it in and start spacenavd, then engage")) << outputs();
+  EXPECT_TRUE(eventually([this] { return master_.engage().find("plug it in") != std::string::npos; }));
+
+  FakeDaemon daemon(path_);
+  ASSERT_TRUE(engaged()) << outputs();
+  // Pushed away: the robot moves along x as long as news of it come.
+  const double began_m = tool_x();
+  ASSERT_TRUE(eventually([&] {
+    daemon.motion({0, 0, -350, 0, 0, 0});
+    return tool_x() > began_m + 0.01;
+  })) << outputs();
+
+  daemon.unplugged();
+  ASSERT_TRUE(eventually([this] { return master_.state() == "Fault" && slave_.state() == "Holding"; }))
+      << outputs();
+  EXPECT_EQ(master_.status()->cause(), "device fault");
+  double rest_m = tool_x();
+  ASSERT_TRUE(eventually([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const double now_m = tool_x();
+    return std::abs(now_m - std::exchange(rest_m, now_m)) < 1e-6;
+  }));
+  // Plugged in again while it is pushed: nothing, also when it is engaged, before it was let go of.
+  daemon.plugged_in();
+  daemon.motion({0, 0, -350, 0, 0, 0});
+  ASSERT_TRUE(says("the puck is not at rest; let go of it once")) << outputs();
+  daemon.motion({0, 0, 0, 0, 0, 0});
+  ASSERT_TRUE(engaged()) << outputs();
+  EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+}
+
+}  // namespace
+}  // namespace longreach
