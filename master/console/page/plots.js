@@ -42,7 +42,10 @@ function options(plot, colors, size) {
     const half = Math.max((to - from) * 0.55, least / 2);
     return zero ? [0, to * 1.1] : [middle - half, middle + half];
   };
-  const axes = [{ show: false }, axis('y', 3, plot.lines.length > 1 && plot.lines[1][3] ? colors[plot.lines[0][1]] : colors.quiet)];
+  // Seconds before the newest sample.
+  const ago = { ...axis('x', 2, colors.quiet), size: 17, gap: 2, splits: (u, i, low, high) => [3, 2, 1, 0].map((n) => high - (n * SPAN_S) / 3),
+    values: (u, all) => all.map((t) => `${Math.round(t - all.at(-1))}${t === all.at(-1) ? ' s' : ''}`) };
+  const axes = [ago, axis('y', 3, plot.lines.length > 1 && plot.lines[1][3] ? colors[plot.lines[0][1]] : colors.quiet)];
   const scales = { x: { time: false, range: (u, low, high) => [high - SPAN_S, high] },
     y: { range: room(plot.name === 'Position' ? 2 : plot.name === 'Energy' ? 2 : 1, plot.name === 'Force'
       || plot.name === 'Stiffness' || plot.name === 'Link') } };
@@ -51,7 +54,7 @@ function options(plot, colors, size) {
     scales.percent = { range: room(5, true) };
   }
   return {
-    ...size, pxAlign: 0, cursor: { show: false }, legend: { show: false }, scales, axes, padding: [6, plot.lines.some((l) => l[3]) ? 0 : 8, 4, 0],
+    ...size, pxAlign: 0, cursor: { show: false }, legend: { show: false }, scales, axes, padding: [6, plot.lines.some((l) => l[3]) ? 0 : 10, 0, 0],
     series: [{}, ...plot.lines.map((line) => ({ label: line[0], stroke: colors[line[1]], width: 1.6,
       scale: scale_of(line), points: { show: false } }))],
   };

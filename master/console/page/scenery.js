@@ -23,10 +23,12 @@ function plane(shape, start, material, colors) {
   const wall = new Mesh(new PlaneGeometry(WALL_M, WALL_M), material);
   wall.position.copy(centre);
   wall.quaternion.setFromUnitVectors(Z, normal);
-  const grid = new GridHelper(WALL_M, 10, colors.line, colors.line);
+  const grid = new GridHelper(WALL_M, 10, colors.quiet, colors.quiet);
+  Object.assign(grid.material, { transparent: true, opacity: 0.3 });
   grid.rotation.x = Math.PI / 2;
   wall.add(grid);
-  material.side = DoubleSide;
+  // Behind its own grid, whatever the depths are rounded to.
+  Object.assign(material, { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   return { mesh: wall, distance: (p) => p.clone().sub(point).dot(normal) };
 }
 
