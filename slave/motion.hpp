@@ -41,6 +41,7 @@ class SlaveMotion {
   [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
+  [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its limit of jerk
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 

@@ -118,7 +118,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
   // was missed is caught up within them.
   if (dt > 0.0) {
-    clamps = s.motion.step({X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
+    clamps = s.motion.step({s.safety.brakes() ? std::nullopt : X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
     s.lead_m = s.servo.step(s.motion.X_WE().p, 1.0 / s.loop_hz);
   }
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
@@ -154,6 +154,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.robot_astray = watch.astray();
   in.stop = input.stop;
   in.send_hz = input.send_hz;
+  in.lag_s = motion.lag_s();
   for (const Received<MotionCommand>& received : input.commands) {
     const MotionCommand& command = received.message;
     const bool valid = possible(command);

@@ -63,9 +63,11 @@ bool SlaveSafety::step(const SlaveSafetyInput& input) {
   };
   const Rule* rule = std::ranges::find_if(kTable, applies);
   if (demanded(Demand::kStop, input) && input.commanded) used_ = std::max(used_, input.engagement);
-  if (rule == std::end(kTable)) return false;
-  enter(*rule, input);
-  return rule->demand == Demand::kEngagement;
+  const bool changes = rule != std::end(kTable);
+  if (changes) enter(*rule, input);
+  const double ahead_s = std::min(input.lag_s, 0.5 * gap_s(config_, input.send_hz));
+  brakes_ = state_ == State::kEngaged && silent(input, -ahead_s);
+  return changes && rule->demand == Demand::kEngagement;
 }
 
 bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {

@@ -23,8 +23,10 @@
 // on this side who asks for a stop. It is the only way out of Stopped and Fault. A hold may end by itself
 // only if silence or a released handle was its cause, within resume_s, and if nothing else asked for a hold
 // meanwhile; the same engagement then goes on. Gap timer: gap_s, or of a master that sends f times a second
-// max(0.1 s, 30/f). Age = now - when this side had sent what the master last heard: no clocks are compared.
-// The cause is the first since Engaged; a fault has its own, the first of its kind.
+// max(0.1 s, 30/f). Setpoints come later than the path that they smooth, so the path brakes that much before
+// the gap timer ends, and the setpoint when it does. Age = now - when this side had sent what the master last
+// heard: no clocks are compared. The cause is the first since Engaged; a fault has its own, the first of its
+// kind.
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +48,7 @@ struct SlaveSafetyInput {
   bool robot_astray = false;             // it is not where its setpoints lead
   bool stop = false;                     // asked for on this side
   double send_hz = 300.0;                // of the master
+  double lag_s = 0.0;                    // of the setpoint behind the path
 
   // The newest command, if one came in this tick.
   bool commanded = false;
@@ -64,6 +67,8 @@ class SlaveSafety {
 
   [[nodiscard]] SafetyState state() const { return state_; }
   [[nodiscard]] HoldCause cause() const { return cause_; }
+  /// Engaged, and silence will end that within the setpoint's lag, half the gap timer at most.
+  [[nodiscard]] bool brakes() const { return brakes_; }
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }  // followed now or last
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
 
@@ -93,6 +98,7 @@ class SlaveSafety {
   std::optional<Time> echo_sent_{};
   Time left_at_{};        // when Engaged was left
   bool expired_ = false;  // this hold cannot end by itself
+  bool brakes_ = false;
   std::uint64_t false_holds_ = 0;
 };
 

@@ -53,6 +53,8 @@ class JointLimiter {
   [[nodiscard]] const JointVector& path_rad() const { return path_rad_; }
   [[nodiscard]] const JointVector& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] bool at_rest() const { return rad_per_s_.isZero(0.0); }
+  /// By which the setpoint comes later than the path, s.
+  [[nodiscard]] double lag_s() const { return 0.5 * (ticks_ - 1) * dt_; }
   /// The setpoint has come to the path and stays.
   [[nodiscard]] bool settled() const { return still_ticks_ >= ticks_; }
 
