@@ -49,7 +49,7 @@ class View : public Station {
     return std::make_unique<RunningProgram>("/usr/bin/nice", words);
   }
   void finish(RunningProgram& driver) {
-    const auto status = driver.wait(std::chrono::minutes(5));
+    const auto status = driver.wait(std::chrono::minutes(9));
     EXPECT_EQ(status, 0) << driver.output() << view_->output() << outputs();
     std::cout << driver.output();
   }

@@ -75,7 +75,7 @@ export class Person {
 
   /** Waits until it is so; `meanwhile` is done again and again. */
   async see(what, is_so, meanwhile = async () => {}) {
-    const end = Date.now() + 90000;
+    const end = Date.now() + 150000;
     while (!await this.look(is_so)) {
       if (Date.now() > end) {
         await this.shoot('missed');
