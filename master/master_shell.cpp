@@ -10,9 +10,10 @@ namespace {
 constexpr double kHandSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
 constexpr double kHandSpeed_rad_per_s = 1.0;
 
-std::optional<DeviceAdapter> device_adapter(UdpChannel* channel, const AdapterConfig& config) {
+std::optional<DeviceAdapter> device_adapter(UdpChannel* channel, const MasterConfig& config) {
   if (channel == nullptr) return std::nullopt;
-  return std::optional<DeviceAdapter>(std::in_place, *channel, config,
+  return std::optional<DeviceAdapter>(std::in_place, *channel,
+                                      told_in_time(config.device_adapter, config.loop.rate_hz),
                                       draw_session(Cipher::kChaCha20Poly1305).number);
 }
 
@@ -32,13 +33,13 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       port_(channel_, config.link.impairment, Random(seed).child("down")),
       devices_(config.device),
       adapter_channel_(open_adapter_channel(config.device_adapter, "device_adapter")),
-      adapter_(device_adapter(adapter_channel_.get(), config.device_adapter)),
+      adapter_(device_adapter(adapter_channel_.get(), config)),
       device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
       node_(config),
-      remote_(1.0 / config.loop.rate_hz),
-      lost_(PadOperator::is_for(config.operator_.kind)) {
+      lost_(PadOperator::is_for(config.operator_.kind)),
+      remote_(1.0 / config.loop.rate_hz) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 

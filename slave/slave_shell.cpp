@@ -10,7 +10,8 @@ constexpr Duration kOccupied = std::chrono::seconds(1);
 
 std::optional<RobotAdapter> robot_adapter(UdpChannel* channel, const SlaveConfig& config) {
   if (channel == nullptr) return std::nullopt;
-  return std::optional<RobotAdapter>(std::in_place, *channel, config.robot_adapter, config.robot,
+  return std::optional<RobotAdapter>(std::in_place, *channel,
+                                     told_in_time(config.robot_adapter, config.loop.rate_hz), config.robot,
                                      draw_session(Cipher::kChaCha20Poly1305).number);
 }
 

@@ -1,5 +1,7 @@
 #include "common/io/adapter_channel.hpp"
 
+#include <algorithm>
+
 #include "common/io/address.hpp"
 #include "common/wire/adapter_port.hpp"
 
@@ -17,6 +19,11 @@ std::unique_ptr<UdpChannel> open_adapter_channel(const AdapterConfig& config, co
   const bool v6 = adapter.address().is_v6();
   const std::string listen = config.remote ? (v6 ? "[::]:0" : "0.0.0.0:0") : (v6 ? "[::1]:0" : "127.0.0.1:0");
   return std::make_unique<UdpChannel>(listen, config.address);
+}
+
+AdapterConfig told_in_time(AdapterConfig config, double rate_hz) {
+  config.silence_s = std::max(config.silence_s - 1.0 / rate_hz, 0.5 * config.silence_s);
+  return config;
 }
 
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,

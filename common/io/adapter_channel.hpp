@@ -13,6 +13,10 @@ namespace longreach {
 /// an address elsewhere where `remote` is not set.
 std::unique_ptr<UdpChannel> open_adapter_channel(const AdapterConfig& config, const std::string& field);
 
+/// Of a loop of so many ticks a second: the last tick within silence_s tells that silence, not the first
+/// after it.
+AdapterConfig told_in_time(AdapterConfig config, double rate_hz);
+
 /// What is wrong with an adapter and what to do, or empty. `device`: "haptic device" or "robot".
 struct AdapterFigures;
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,

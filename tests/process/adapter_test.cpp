@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 
 #include "tests/process/broken_adapter.hpp"
 #include "tests/process/station.hpp"
@@ -63,11 +64,12 @@ class Adapters : public Station {
       return false;
     });
   }
-  /// The last silence in the loop's own time: at least 20 ms, and no more than a tick later.
+  /// The last silence in the loop's own time: within 20 ms, but for what this machine was late.
   void expect_told_in_time(Side& side) {
     const std::uint64_t after_us = side.counter("adapter_silent_after_us");
-    EXPECT_GE(after_us, 20'000u);
-    EXPECT_LE(after_us, 20'000u + 2'000u + side.counter("lateness_max_us") + side.counter("busy_max_us"));
+    std::printf("told after %.1f ms of silence\n", 1e-3 * static_cast<double>(after_us));
+    EXPECT_GE(after_us, 19'000u);
+    EXPECT_LE(after_us, 20'000u + side.counter("lateness_max_us") + side.counter("busy_max_us"));
   }
 
   std::unique_ptr<RunningProgram> device_, robot_;
