@@ -28,7 +28,7 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (view.force_clamped) out.add_clamped("force at the hand");
   if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
   if (view.damping_injected) out.add_clamped("energy at the hand");
-  if (view.far_known) add_clamps(out, view.far.clamps);
+  if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps);
 }
 
 void add_view_counts(proto::Status& out, const MasterView& view) {

@@ -72,7 +72,7 @@ proto::Status SlaveService::status() {
     out.set_estimate(stiffness_in_words(estimate, turns ? "N m/rad" : "N/m") + ", " + law_in_words(estimate));
   }
   out.set_force_n(view.F_E_W.force.norm());
-  add_clamps(out, view.clamps);
+  add_clamps(*out.mutable_clamped(), view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);
   fill(out, recording_.status());

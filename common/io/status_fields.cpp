@@ -104,9 +104,9 @@ void add_counts(proto::Status& status, const AdapterFigures& adapter) {
             static_cast<std::uint64_t>(std::lround(1e6 * adapter.silent_after_s)));
 }
 
-void add_clamps(proto::Status& status, const Clamps& clamps) {
-  const auto add = [&status](bool active, const char* name) {
-    if (active) status.add_clamped(name);
+void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps) {
+  const auto add = [&names](bool active, const char* name) {
+    if (active) names.Add(name);
   };
   add(clamps.tool_speed, "tool speed");
   add(clamps.joint_speed, "joint speed");

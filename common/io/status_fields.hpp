@@ -29,8 +29,8 @@ void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 /// adapter_accepted, adapter_malformed, adapter_late, adapter_restarts, adapter_silent_after_us, where there
 /// is an adapter.
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
-/// Names of what is being clamped, added to `clamped`.
-void add_clamps(proto::Status& status, const Clamps& clamps);
+/// Names of what is being clamped.
+void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
 /// link, and the counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
 void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);

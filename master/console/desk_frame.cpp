@@ -45,16 +45,6 @@ void add_hand(proto::Frame& out, const ConsoleSnapshot& s, double workspace_m) {
   out.set_tank_j(view.tank_j);
 }
 
-void add_clamps(proto::FarFrame& out, const Clamps& clamps) {
-  if (clamps.tool_speed) out.add_clamped("tool speed");
-  if (clamps.joint_speed) out.add_clamped("joint speed");
-  if (clamps.joint_position) out.add_clamped("joint position");
-  if (clamps.workspace) out.add_clamped("workspace");
-  if (clamps.force_guard) out.add_clamped("force guard");
-  if (clamps.singularity) out.add_clamped("singularity");
-  if (clamps.unreachable) out.add_clamped("unreachable");
-}
-
 void add_far(proto::FarFrame& out, const Telemetry& far) {
   out.set_engagement(far.engagement);
   for (const double joint : far.joint_rad) out.add_joint_rad(joint);
@@ -65,7 +55,7 @@ void add_far(proto::FarFrame& out, const Telemetry& far) {
   assign(far.F_E_W.moment, *out.mutable_moment_nm());
   out.set_stiffness_n_per_m(far.estimate.valid ? far.estimate.stiffness_n_per_m : 0.0);
   out.set_penetration_m(far.penetration_m);
-  add_clamps(out, far.clamps);
+  add_clamps(*out.mutable_clamped(), far.clamps);
   out.set_gripping(far.load);
   out.set_playout_delay_s(far.playout_delay_s);
 }

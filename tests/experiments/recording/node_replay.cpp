@@ -45,7 +45,7 @@ void NodeReplay::take(std::string_view name, std::string_view bytes) {
   }
 }
 
-bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, std::size_t missing) {
+bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete) {
   if (!began() && tick != 0) {
     stop("the recording begins at tick " + std::to_string(tick) +
          ", and what the node knew then is not in it: a replay needs a recording from the start (--record)");
@@ -56,7 +56,7 @@ bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t 
          " are not in the recording: it could not be written as fast");
     return false;
   }
-  if (missing > 0) {
+  if (!complete) {
     stop("messages that tick " + std::to_string(tick) + " took are not in the recording");
     return false;
   }
@@ -94,20 +94,19 @@ void NodeReplay::book_tick(std::size_t messages) {
   result_.seconds = to_seconds(Duration(now_ns_ - first_ns_));
 }
 
-void MasterReplay::begin(const std::string& config) {
-  node_ = std::make_unique<MasterNode>(struct_of<proto::MasterConfig>(config));
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::begin(const std::string& config) {
+  node_ = std::make_unique<Node>(struct_of<Config>(config));
 }
 
-void MasterReplay::configure(const std::string& config) {
-  node_->configure(struct_of<proto::MasterConfig>(config));
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::configure(const std::string& config) {
+  node_->configure(struct_of<Config>(config));
 }
 
-void MasterReplay::take_own(std::string_view name, std::string_view bytes) {
-  if (name == "received_report") {
-    reports_.push_back(parsed<recording::ReceivedReport>(bytes));
-  } else if (name == "received_telemetry") {
-    telemetry_.push_back(parsed<recording::ReceivedTelemetry>(bytes));
-  } else if (name == "tick") {
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::take_own(std::string_view name, std::string_view bytes) {
+  if (name == "tick") {
     parse(bytes, tick_);
     step();
   } else if (name == "view") {
@@ -117,60 +116,49 @@ void MasterReplay::take_own(std::string_view name, std::string_view bytes) {
     write(node_->view(), shown_);
     shown_.set_tick(view_.tick());
     compare("view", view_, shown_);
+  } else {
+    take_received(name, bytes);
   }
+}
+
+template <class Node, class Config, class Tick, class Output, class View>
+template <class Input>
+void ReplayOf<Node, Config, Tick, Output, View>::step_node(const Input& in, std::size_t messages) {
+  const auto out = node_->step(in);
+  output_.Clear();
+  write(out, output_);
+  compare("output", tick_.output(), output_);
+  book_tick(messages);
+}
+
+void MasterReplay::take_received(std::string_view name, std::string_view bytes) {
+  if (name == "received_report") reports_.push_back(parsed<recording::ReceivedReport>(bytes));
+  if (name == "received_telemetry") telemetry_.push_back(parsed<recording::ReceivedTelemetry>(bytes));
 }
 
 void MasterReplay::step() {
   const recording::MasterInput& recorded = tick_.input();
   const bool complete = reports_.size() == recorded.reports() && telemetry_.size() == recorded.telemetry();
-  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete ? 0 : 1)) return;
+  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
   MasterInput in = read(recorded);
   in.reports = reports_;
   in.telemetry = telemetry_;
-  const MasterOutput out = node_->step(in);
-  output_.Clear();
-  write(out, output_);
-  compare("output", tick_.output(), output_);
-  book_tick(reports_.size() + telemetry_.size());
+  step_node(in, reports_.size() + telemetry_.size());
   reports_.clear();
   telemetry_.clear();
 }
 
-void SlaveReplay::begin(const std::string& config) {
-  node_ = std::make_unique<SlaveNode>(struct_of<proto::SlaveConfig>(config));
-}
-
-void SlaveReplay::configure(const std::string& config) {
-  node_->configure(struct_of<proto::SlaveConfig>(config));
-}
-
-void SlaveReplay::take_own(std::string_view name, std::string_view bytes) {
-  if (name == "received_command") {
-    commands_.push_back(parsed<recording::ReceivedCommand>(bytes));
-  } else if (name == "tick") {
-    parse(bytes, tick_);
-    step();
-  } else if (name == "view") {
-    parse(bytes, view_);
-    if (!is_last_tick(view_.tick())) return;
-    shown_.Clear();
-    write(node_->view(), shown_);
-    shown_.set_tick(view_.tick());
-    compare("view", view_, shown_);
-  }
+void SlaveReplay::take_received(std::string_view name, std::string_view bytes) {
+  if (name == "received_command") commands_.push_back(parsed<recording::ReceivedCommand>(bytes));
 }
 
 void SlaveReplay::step() {
   const recording::SlaveInput& recorded = tick_.input();
   const bool complete = commands_.size() == recorded.commands();
-  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete ? 0 : 1)) return;
+  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
   SlaveInput in = read(recorded);
   in.commands = commands_;
-  const SlaveOutput out = node_->step(in);
-  output_.Clear();
-  write(out, output_);
-  compare("output", tick_.output(), output_);
-  book_tick(commands_.size());
+  step_node(in, commands_.size());
   commands_.clear();
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/io/recording/mcap_reader.hpp"
 #include "master/master_node.hpp"
+#include "proto/config.pb.h"
 #include "proto/recording.pb.h"
 #include "slave/slave_node.hpp"
 #include "tests/experiments/recording/replay.hpp"
@@ -34,7 +35,7 @@ class NodeReplay {
   [[nodiscard]] virtual bool began() const = 0;
 
   /// Whether the node is ready for this tick: begun, in order, with its configuration and its messages.
-  bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, std::size_t missing);
+  bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete);
   /// Books a difference, if there is one.
   void compare(const char* what, const google::protobuf::Message& recorded,
                const google::protobuf::Message& replayed);
@@ -53,41 +54,56 @@ class NodeReplay {
   std::string recorded_bytes_, replayed_bytes_;
 };
 
-class MasterReplay : public NodeReplay {
+/// What both sides do alike.
+template <class Node, class Config, class Tick, class Output, class View>
+class ReplayOf : public NodeReplay {
  public:
-  MasterReplay() : NodeReplay("master") {}
+  using NodeReplay::NodeReplay;
+
+ protected:
+  /// Steps the node with the recorded input and compares what comes out.
+  virtual void step() = 0;
+  /// A message that the next tick takes.
+  virtual void take_received(std::string_view name, std::string_view bytes) = 0;
+  template <class Input>
+  void step_node(const Input& in, std::size_t messages);
+
+  Tick tick_;
+  std::unique_ptr<Node> node_;
 
  private:
   void take_own(std::string_view name, std::string_view bytes) override;
   void begin(const std::string& config) override;
   void configure(const std::string& config) override;
   [[nodiscard]] bool began() const override { return node_ != nullptr; }
-  void step();
 
-  std::unique_ptr<MasterNode> node_;
-  std::vector<Received<StiffnessReport>> reports_;
-  std::vector<Received<Telemetry>> telemetry_;
-  recording::MasterTick tick_;
-  recording::MasterOutput output_;
-  recording::MasterView view_, shown_;
+  Output output_;
+  View view_, shown_;
 };
 
-class SlaveReplay : public NodeReplay {
+class MasterReplay : public ReplayOf<MasterNode, proto::MasterConfig, recording::MasterTick,
+                                     recording::MasterOutput, recording::MasterView> {
  public:
-  SlaveReplay() : NodeReplay("slave") {}
+  MasterReplay() : ReplayOf("master") {}
 
  private:
-  void take_own(std::string_view name, std::string_view bytes) override;
-  void begin(const std::string& config) override;
-  void configure(const std::string& config) override;
-  [[nodiscard]] bool began() const override { return node_ != nullptr; }
-  void step();
+  void step() override;
+  void take_received(std::string_view name, std::string_view bytes) override;
 
-  std::unique_ptr<SlaveNode> node_;
+  std::vector<Received<StiffnessReport>> reports_;
+  std::vector<Received<Telemetry>> telemetry_;
+};
+
+class SlaveReplay : public ReplayOf<SlaveNode, proto::SlaveConfig, recording::SlaveTick,
+                                    recording::SlaveOutput, recording::SlaveView> {
+ public:
+  SlaveReplay() : ReplayOf("slave") {}
+
+ private:
+  void step() override;
+  void take_received(std::string_view name, std::string_view bytes) override;
+
   std::vector<Received<MotionCommand>> commands_;
-  recording::SlaveTick tick_;
-  recording::SlaveOutput output_;
-  recording::SlaveView view_, shown_;
 };
 
 }  // namespace longreach
