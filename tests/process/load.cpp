@@ -3,12 +3,15 @@
 #include <arpa/inet.h>
 #include <grpcpp/grpcpp.h>
 #include <netinet/in.h>
+#include <sched.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <iostream>
 #include <memory>
+#include <numeric>
 
 #include "common/core/random.hpp"
 #include "common/io/real_time_loop.hpp"
@@ -166,21 +169,56 @@ LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::s
   return counts;
 }
 
-BareLoop::BareLoop()
-    : thread_([this] {
-        const LoopConfig config{};
-        (void)ask_for_real_time(config);
-        RealTimeLoop loop(1000.0);
-        loop.run(ended_, [](Time, const LoopFigures&) {});
-        figures_ = loop.figures();
-      }) {}
+BareLoops::BareLoops() {
+  std::vector<int> processors;
+  cpu_set_t allowed;
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  for (int i = 0; i < CPU_SETSIZE; ++i)
+    if (CPU_ISSET(i, &allowed)) processors.push_back(i);
+  figures_.resize(processors.size());
+  for (std::size_t i = 0; i < processors.size(); ++i)
+    threads_.emplace_back([this, i, processor = processors[i]] {
+      cpu_set_t own;
+      CPU_ZERO(&own);
+      CPU_SET(processor, &own);
+      sched_setaffinity(0, sizeof own, &own);
+      (void)ask_for_real_time(LoopConfig{});
+      RealTimeLoop loop(1000.0);
+      loop.run(ended_, [](Time, const LoopFigures&) {});
+      figures_[i] = loop.figures();
+    });
+}
 
-BareLoop::~BareLoop() { (void)end(); }
+BareLoops::~BareLoops() { (void)end(); }
 
-LoopFigures BareLoop::end() {
+BareLoops::Figures BareLoops::end() {
   ended_ = true;
-  if (thread_.joinable()) thread_.join();
-  return figures_;
+  Figures out;
+  for (std::size_t i = 0; i < threads_.size(); ++i) {
+    if (threads_[i].joinable()) threads_[i].join();
+    const auto octaves = figures_[i].lateness_octaves();
+    out.stalls += std::accumulate(octaves.begin() + 16, octaves.end(), std::uint64_t{0});  // over 2^15 us
+    out.lateness_max = std::max(out.lateness_max, figures_[i].lateness_max);
+  }
+  return out;
+}
+
+void Disturbance::expect_none(const std::string& load) {
+  const BareLoops::Figures machine = bare_.end();
+  const auto judge = [&](const char* name, Side& side, const Counts& before) {
+    const Counts after(side);
+    const std::uint64_t late = after.late - before.late;
+    EXPECT_LE(late, machine.stalls) << load << ", " << name;
+    EXPECT_LE(after.false_holds - before.false_holds, machine.stalls) << load << ", " << name;
+    EXPECT_EQ(after.violations, before.violations) << load << ", " << name;
+    std::cout << late << " of " << name << "'s";
+  };
+  std::cout << load << ": ticks late by over 100 ms: ";
+  judge("slave", slave_, slave_before_);
+  std::cout << ", ";
+  judge("master", master_, master_before_);
+  std::cout << "; loops that do nothing: " << machine.stalls << " late by over 33 ms, at most by "
+            << 1e3 * to_seconds(machine.lateness_max) << " ms\n";
 }
 
 }  // namespace longreach

@@ -11,6 +11,7 @@
 
 #include "common/io/loop_figures.hpp"
 #include "common/io/rpc_security.hpp"
+#include "tests/process/station.hpp"
 
 namespace longreach {
 
@@ -41,19 +42,48 @@ LoadCounts request_status(RpcRole role, int port, double rate_hz, std::chrono::s
 /// number, and a number that is new, old or far ahead; their bodies are random, and so is the fourth.
 LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::seconds time);
 
-/// A loop of 1 kHz with real-time priority that does nothing, for as long as it lives.
-class BareLoop {
+/// Loops of 1 kHz with real-time priority that do nothing, one on each processor, for as long as they live:
+/// where one of them is late, the machine stood still.
+class BareLoops {
  public:
-  BareLoop();
-  ~BareLoop();
-  BareLoop(const BareLoop&) = delete;
-  BareLoop& operator=(const BareLoop&) = delete;
-  LoopFigures end();
+  struct Figures {
+    std::uint64_t stalls = 0;  // ticks late by over 33 ms
+    Duration lateness_max{0};
+  };
+
+  BareLoops();
+  ~BareLoops();
+  BareLoops(const BareLoops&) = delete;
+  BareLoops& operator=(const BareLoops&) = delete;
+  Figures end();
 
  private:
   std::atomic<bool> ended_{false};
-  LoopFigures figures_{};
-  std::thread thread_;
+  std::vector<LoopFigures> figures_;
+  std::vector<std::thread> threads_;
+};
+
+/// What a load may not do to both sides while this lives, beyond what the machine did to itself.
+class Disturbance {
+ public:
+  Disturbance(Side& slave, Side& master) : slave_(slave), master_(master) {}
+  /// Ends it: no tick late by over 100 ms and no false hold but where the machine stood still, no violated
+  /// limit. Prints what was seen.
+  void expect_none(const std::string& load);
+
+ private:
+  struct Counts {
+    std::uint64_t late = 0, false_holds = 0, violations = 0;
+    explicit Counts(Side& side)
+        : late(side.counter("ticks_late_100ms")),
+          false_holds(side.counter("false_holds")),
+          violations(side.counter("limit_violations")) {}
+  };
+
+  Side& slave_;
+  Side& master_;
+  BareLoops bare_;
+  const Counts slave_before_{slave_}, master_before_{master_};
 };
 
 }  // namespace longreach
