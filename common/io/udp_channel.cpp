@@ -3,7 +3,6 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <asio/buffer.hpp>
 #include <cstring>
 #include <stdexcept>
 
@@ -23,6 +22,12 @@ asio::ip::udp::endpoint as_seen_by(const asio::ip::udp::endpoint& own,
   return {asio::ip::make_address_v6(asio::ip::v4_mapped, endpoint.address().to_v4()), endpoint.port()};
 }
 
+Origin to_origin(const asio::ip::udp::endpoint& endpoint) {
+  Origin out{};
+  std::memcpy(out.data(), endpoint.data(), std::min(endpoint.size(), out.size()));
+  return out;
+}
+
 }  // namespace
 
 UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::string>& peer)
@@ -35,7 +40,7 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
       throw AddressError("'" + *peer + "' cannot be reached from '" + listen +
                          "': one is IPv6, the other IPv4; listen on [::]:0 instead");
     }
-    peer_ = as_seen_by(own, other);
+    peer_ = to_origin(as_seen_by(own, other));
   }
   asio::error_code error;
   socket_.open(own.protocol(), error);
@@ -52,17 +57,17 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
 // Not by Asio: it does not tell the true size of what was cut.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
   for (int i = 0; i < kStrangersPerReceive; ++i) {
-    asio::ip::udp::endpoint sender;
-    auto length = static_cast<socklen_t>(sender.capacity());
-    const ssize_t size = ::recvfrom(socket_.native_handle(), buffer.data(), buffer.size(),
-                                    MSG_DONTWAIT | MSG_TRUNC, sender.data(), &length);
+    Origin sender{};
+    socklen_t length = sizeof sender;
+    const ssize_t size =
+        ::recvfrom(socket_.native_handle(), buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC,
+                   reinterpret_cast<sockaddr*>(sender.data()), &length);
     if (size < 0) return std::nullopt;
     if (fixed_peer_ && sender != *peer_) {
       ++strangers_;
       continue;
     }
-    origin_ = {};
-    std::memcpy(origin_.data(), sender.data(), std::min(sender.size(), origin_.size()));
+    origin_ = sender;
     return static_cast<std::size_t>(size);
   }
   return std::nullopt;
@@ -70,20 +75,15 @@ std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
 
 void UdpChannel::send(std::span<const std::byte> datagram) {
   if (!peer_) return;
-  asio::error_code error;
-  socket_.send_to(asio::buffer(datagram.data(), datagram.size()), *peer_, 0, error);
-  if (error) ++unsent_;
+  const ssize_t sent =
+      ::sendto(socket_.native_handle(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+               reinterpret_cast<const sockaddr*>(peer_->data()), sizeof(Origin));
+  if (sent < 0) ++unsent_;
 }
 
 void UdpChannel::answer_to(const Origin& origin) {
   if (fixed_peer_) return;
-  if (origin == Origin{}) {
-    peer_.reset();
-    return;
-  }
-  asio::ip::udp::endpoint sender;
-  std::memcpy(sender.data(), origin.data(), std::min(sender.capacity(), origin.size()));
-  peer_ = sender;
+  peer_ = origin == Origin{} ? std::nullopt : std::optional(origin);
 }
 
 std::string UdpChannel::local_address() const {
@@ -92,7 +92,10 @@ std::string UdpChannel::local_address() const {
 }
 
 std::optional<std::string> UdpChannel::peer_address() const {
-  return peer_ ? std::optional(to_string(*peer_)) : std::nullopt;
+  if (!peer_) return std::nullopt;
+  asio::ip::udp::endpoint peer;
+  std::memcpy(peer.data(), peer_->data(), std::min(peer.capacity(), peer_->size()));
+  return to_string(peer);
 }
 
 }  // namespace longreach

@@ -34,7 +34,7 @@ class UdpChannel : public Channel {
   asio::io_context context_{1};
   asio::ip::udp::socket socket_;
   bool fixed_peer_;
-  std::optional<asio::ip::udp::endpoint> peer_{};
+  std::optional<Origin> peer_{};
   Origin origin_{};
   std::uint64_t strangers_ = 0;
   std::uint64_t unsent_ = 0;

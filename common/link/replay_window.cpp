@@ -1,6 +1,7 @@
 #include "common/link/replay_window.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "common/core/check.hpp"
 
@@ -11,16 +12,17 @@ constexpr std::uint64_t kWordBits = 64;
 
 }  // namespace
 
-// The window reaches at most ceil((width - 1) / 64) words below the newest number's word.
+// The window reaches at most ceil((width - 1) / 64) words below the newest number's word. As many words as a
+// power of two, so that a place among them is found without a division.
 ReplayWindow::ReplayWindow(std::uint32_t width)
-    : width_(width), bits_((std::uint64_t{width} + kWordBits - 2) / kWordBits + 1) {
+    : width_(width), bits_(std::bit_ceil((std::uint64_t{width} + kWordBits - 2) / kWordBits + 1)) {
   CHECK(width > 0);
 }
 
 bool ReplayWindow::fresh(std::uint64_t sequence) const {
   if (sequence > newest_) return true;
   if (sequence == 0 || newest_ - sequence >= width_) return false;
-  return (bits_[sequence / kWordBits % bits_.size()] >> (sequence % kWordBits) & 1U) == 0;
+  return (bits_[place_of(sequence / kWordBits)] >> (sequence % kWordBits) & 1U) == 0;
 }
 
 bool ReplayWindow::accept(std::uint64_t sequence) {
@@ -28,10 +30,10 @@ bool ReplayWindow::accept(std::uint64_t sequence) {
   const std::uint64_t word = sequence / kWordBits;
   if (sequence > newest_) {
     const std::uint64_t entered = std::min<std::uint64_t>(word - newest_ / kWordBits, bits_.size());
-    for (std::uint64_t i = 0; i < entered; ++i) bits_[(word - i) % bits_.size()] = 0;
+    for (std::uint64_t i = 0; i < entered; ++i) bits_[place_of(word - i)] = 0;
     newest_ = sequence;
   }
-  bits_[word % bits_.size()] |= std::uint64_t{1} << (sequence % kWordBits);
+  bits_[place_of(word)] |= std::uint64_t{1} << (sequence % kWordBits);
   return true;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 // Accepts each sequence number once. Numbers that lie `width` or more below the newest are refused, because
-// nobody can tell any more (RFC 6479's idea: a ring of words of bits, one word longer than the window).
+// nobody can tell any more (RFC 6479's idea: a ring of words of bits, longer than the window).
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,8 @@ class ReplayWindow {
   bool operator==(const ReplayWindow&) const = default;
 
  private:
+  [[nodiscard]] std::size_t place_of(std::uint64_t word) const { return word & (bits_.size() - 1); }
+
   std::uint32_t width_;
   std::uint64_t newest_ = 0;
   std::vector<std::uint64_t> bits_;

@@ -1,10 +1,6 @@
 #include "common/wire/codec.hpp"
 
-#include <google/protobuf/arena.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <tuple>
 
 #include "common/core/check.hpp"
 #include "common/wire/values.hpp"
@@ -13,23 +9,30 @@
 #include "proto/telemetry.pb.h"
 
 namespace longreach {
-
-// The largest message that fits a datagram needs under 4 KiB; parsing beyond it would only fall back to the
-// heap.
-constexpr std::size_t kArenaBytes = 16384;
-
-struct Codec::State {
-  alignas(16) std::array<char, kArenaBytes> block;
-  google::protobuf::Arena arena{block.data(), block.size()};
-  proto::MotionCommand command;
-  proto::StiffnessReport report;
-  proto::Telemetry telemetry;
-};
-
-Codec::Codec() : state_(std::make_unique<State>()) {}
-Codec::~Codec() = default;
-
 namespace {
+
+template <class... Fields>
+void reserve(int numbers, Fields*... fields) {
+  (fields->Reserve(numbers), ...);
+}
+
+void make_room(proto::MotionCommand& m) {
+  m.mutable_stamp();
+  reserve(3, m.mutable_position_m(), m.mutable_rotation_rad());
+}
+
+void make_room(proto::StiffnessReport& m) {
+  m.mutable_stamp();
+  reserve(6, m.mutable_translation()->mutable_stiffness(), m.mutable_rotation()->mutable_stiffness());
+}
+
+void make_room(proto::Telemetry& m) {
+  m.mutable_stamp();
+  for (proto::PoseXyzw* pose : {m.mutable_tool(), m.mutable_goal()})
+    reserve(4, pose->mutable_position_m(), pose->mutable_quaternion());
+  reserve(kMaxJoints, m.mutable_joint_rad(), m.mutable_force_n(), m.mutable_moment_nm(),
+          m.mutable_estimate_sd());
+}
 
 template <class Message>
 std::size_t serialise(const Message& message, std::span<std::byte> body) {
@@ -39,47 +42,49 @@ std::size_t serialise(const Message& message, std::span<std::byte> body) {
   return size;
 }
 
-/// A message in the arena's own block: parsing a message of ours allocates nothing.
-template <class Message>
-const Message* parse(google::protobuf::Arena& arena, std::span<const std::byte> body) {
-  arena.Reset();
-  auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);
-  const bool ok =
-      body.size() <= kBodyMaxBytes && message->ParseFromArray(body.data(), static_cast<int>(body.size()));
-  return ok ? message : nullptr;
-}
-
 }  // namespace
 
-std::size_t Codec::encode(const Stamp& stamp, const MotionCommand& command, std::span<std::byte> body) {
-  write(command, state_->command);
-  write(stamp, *state_->command.mutable_stamp());
-  return serialise(state_->command, body);
-}
+// Written and parsed over and over. Sub-messages are `optional` in the schema, so that clearing keeps them.
+struct Codec::State {
+  State() {
+    make_room(std::get<proto::MotionCommand>(messages));
+    make_room(std::get<proto::StiffnessReport>(messages));
+    make_room(std::get<proto::Telemetry>(messages));
+  }
+  template <class Message>
+  WireMessage<Message>& message_for() {
+    return std::get<WireMessage<Message>>(messages);
+  }
+  std::tuple<proto::MotionCommand, proto::StiffnessReport, proto::Telemetry> messages;
+};
 
-std::size_t Codec::encode(const Stamp& stamp, const StiffnessReport& report, std::span<std::byte> body) {
-  write(report, state_->report);
-  write(stamp, *state_->report.mutable_stamp());
-  return serialise(state_->report, body);
-}
+Codec::Codec() : state_(std::make_unique<State>()) {}
+Codec::~Codec() = default;
 
-std::size_t Codec::encode(const Stamp& stamp, const Telemetry& telemetry, std::span<std::byte> body) {
-  write(telemetry, state_->telemetry);
-  write(stamp, *state_->telemetry.mutable_stamp());
-  return serialise(state_->telemetry, body);
+template <class Message>
+std::size_t Codec::encode(const Stamp& stamp, const Message& message, std::span<std::byte> body) {
+  WireMessage<Message>& wire = state_->message_for<Message>();
+  wire.Clear();
+  write(message, wire);
+  write(stamp, *wire.mutable_stamp());
+  return serialise(wire, body);
 }
 
 template <class Message>
 std::variant<Decoded<Message>, Rejection> Codec::decode(std::span<const std::byte> body) {
-  const auto* wire = parse<WireMessage<Message>>(state_->arena, body);
-  if (wire == nullptr) return Rejection::kDecode;
-  const auto stamp = wire->has_stamp() ? read_stamp(wire->stamp()) : std::nullopt;
+  WireMessage<Message>& wire = state_->message_for<Message>();
+  if (body.size() > kBodyMaxBytes || !wire.ParseFromArray(body.data(), static_cast<int>(body.size())))
+    return Rejection::kDecode;
+  const auto stamp = wire.has_stamp() ? read_stamp(wire.stamp()) : std::nullopt;
   if (!stamp) return Rejection::kValue;
-  const auto message = read(*wire);
+  const auto message = read(wire);
   if (!message) return Rejection::kValue;
   return Decoded<Message>{*stamp, *message};
 }
 
+template std::size_t Codec::encode(const Stamp&, const MotionCommand&, std::span<std::byte>);
+template std::size_t Codec::encode(const Stamp&, const StiffnessReport&, std::span<std::byte>);
+template std::size_t Codec::encode(const Stamp&, const Telemetry&, std::span<std::byte>);
 template std::variant<Decoded<MotionCommand>, Rejection> Codec::decode(std::span<const std::byte>);
 template std::variant<Decoded<StiffnessReport>, Rejection> Codec::decode(std::span<const std::byte>);
 template std::variant<Decoded<Telemetry>, Rejection> Codec::decode(std::span<const std::byte>);

@@ -32,7 +32,8 @@ struct Decoded {
   Message message{};
 };
 
-/// One a side and thread: it keeps the protobuf objects, so that they are allocated once.
+/// One a side and thread: it keeps the protobuf objects, so that they are allocated once. For MotionCommand,
+/// StiffnessReport and Telemetry.
 class Codec {
  public:
   Codec();
@@ -40,11 +41,9 @@ class Codec {
 
   /// Writes the body and returns its size; `body` holds kBodyMaxBytes. Every message fits.
   /// An estimate that is not finite is sent as not valid.
-  std::size_t encode(const Stamp& stamp, const MotionCommand& command, std::span<std::byte> body);
-  std::size_t encode(const Stamp& stamp, const StiffnessReport& report, std::span<std::byte> body);
-  std::size_t encode(const Stamp& stamp, const Telemetry& telemetry, std::span<std::byte> body);
+  template <class Message>
+  std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
-  /// For MotionCommand, StiffnessReport and Telemetry.
   template <class Message>
   std::variant<Decoded<Message>, Rejection> decode(std::span<const std::byte> body);
 

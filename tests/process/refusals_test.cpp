@@ -3,12 +3,14 @@
 #include <grpcpp/grpcpp.h>
 
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include "common/core/random.hpp"
 #include "common/io/rpc_channel.hpp"
 #include "common/io/site.hpp"
 #include "tests/process/datagram_tap.hpp"
+#include "tests/process/load.hpp"
 #include "tests/process/station.hpp"
 #include "tests/unit/io/wrong_certificates.hpp"
 
@@ -26,6 +28,7 @@ class Refusals : public Station {
     ASSERT_TRUE(both_engaged()) << outputs();
     before_ = slave_.status().value();
     restarts_ = slave_.counter("peer_restarts");
+    disturbance_.emplace(slave_, master_);
   }
   void expect_undisturbed() {
     // Time for any harm to show.
@@ -38,8 +41,7 @@ class Refusals : public Station {
     EXPECT_EQ(after->lease(), before_.lease());
     EXPECT_EQ(master_.state(), "Engaged");
     EXPECT_EQ(slave_.counter("peer_restarts"), restarts_);
-    EXPECT_EQ(slave_.counter("false_holds") + master_.counter("false_holds"), 0U);
-    EXPECT_EQ(slave_.counter("limit_violations"), 0U);
+    disturbance_->expect_none("refused");
     ASSERT_EQ(after->tool_m_size(), 3);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(after->tool_m(i), before_.tool_m(i), 1e-4);
   }
@@ -56,6 +58,7 @@ class Refusals : public Station {
   DatagramTap tap_{ports_.link};
   proto::Status before_;
   std::uint64_t restarts_ = 0;
+  std::optional<Disturbance> disturbance_;
 };
 
 grpc::Status call(const std::string& address, const RpcSecurity& security, const auto& make) {

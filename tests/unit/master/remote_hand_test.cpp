@@ -66,7 +66,9 @@ TEST(RemoteHand, SilenceLetsGoAndHoldsOnce) {
     const auto target = h.tick(false);
     ASSERT_TRUE(target);
     const bool silent = i * kPeriod_s > RemoteHand::kSilence_s;
-    if (i != 300) EXPECT_EQ(target->grip == Grip::kReleased, silent) << i;
+    if (i != 300) {
+      EXPECT_EQ(target->grip == Grip::kReleased, silent) << i;
+    }
     holds += h.requests.hold ? 1 : 0;
   }
   EXPECT_EQ(holds, 1);
