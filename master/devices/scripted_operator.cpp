@@ -17,6 +17,8 @@ constexpr double kFast_m_per_s = 0.02;      // unhurried motion of the hand
 constexpr double kCareful_m_per_s = 0.008;  // towards something that will be touched
 constexpr double kCoarse_m_per_s = 0.08;    // at the slave, in rate mode
 constexpr double kRest_s = 2.0;
+constexpr double kHome_m = 1e-4;  // of the handle, along the direction
+constexpr double kComesHome_s = 0.8;
 
 }  // namespace
 
@@ -65,6 +67,12 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
     case ScriptPhase::kWaiting:
       if (!in.engaged) break;
       if (left_m > 0.0) {
+        // After a hold he first lets the handle come home: rate mode's centre was left where the handle was,
+        // and goes home with it, as far as friction lets it.
+        const double off_m = direction_.dot(in.handle_m);
+        const bool home = std::abs(off_m) < kHome_m;
+        if (!home && (elapsed_s < kComesHome_s || std::abs(off_m) > mapping_.dead_zone_m)) break;
+        centre_m_ = home ? 0.0 : off_m;
         enter(ScriptPhase::kCoarse, in.now);
         return MotionMode::kRate;
       }
@@ -125,7 +133,7 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   switch (phase_) {
     case ScriptPhase::kCoarse: {
       const double left_m = config_.rate_distance_m - goal_direction_.dot(in.goal_m);
-      speed = 8.0 * (coarse_deflection(left_m) - handle_m);
+      speed = 8.0 * (centre_m_ + coarse_deflection(left_m) - handle_m);
       break;
     }
     case ScriptPhase::kWaiting:

@@ -75,6 +75,7 @@ class ScriptedOperator {
   bool started_ = false;
   double reach_m_ = 0.0;        // hand's target along the direction
   double speed_m_per_s_ = 0.0;  // its speed
+  double centre_m_ = 0.0;       // of rate mode
   double probe_centre_m_ = 0.0;
   int cycles_ = 0;
 };

@@ -122,6 +122,15 @@ TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   EXPECT_LT(v.at("port_energy_min_j"), -0.1);
 }
 
+// A burst of losses in the midst of rate mode: the hold leaves rate mode's centre at the handle, far from
+// home.
+TEST(Touch, AHoldInTheMidstOfRateModeIsGotOver) {
+  Values touched = touch({"profile=moon-relay"}, 26);
+  EXPECT_GT(touched["false_holds"], 0.0) << "nothing was tried";
+  EXPECT_GT(touched["probing_cycles_done"], 0.0);
+  EXPECT_LT(touched["displayed_stiffness_error"], 0.05);
+}
+
 TEST(Touch, TheSameSeedGivesTheSameBytesAndAnotherDoesNot) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "longreach_touch_test";
   std::vector<std::string> traces;
