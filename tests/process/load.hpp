@@ -1,7 +1,7 @@
 #pragma once
 // Loads for a program on loopback, each bounded in count and time, each ended with its object: idle
-// connections, requests, forged datagrams; and a bare loop, which tells a stall of the whole machine from one
-// of a program.
+// connections, requests, forged datagrams; loops that do nothing, which tell a stall of the machine from one
+// of a program; and what a load may not do to both sides.
 
 #include <atomic>
 #include <chrono>
