@@ -54,10 +54,10 @@ ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t 
   }
   const auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
   if (!(contact.stiffness.cwiseAbs().maxCoeff() > 0.0)) return ContactChange::kNone;  // not identified yet
-  if (!goal) return ContactChange::kRejected;
+  if (!goal && !history.forgotten(contact.touch_sequence)) return ContactChange::kRejected;
   const Vector3 motion = history.motion_before(contact.touch_sequence, config_.least_motion);
   const Vector3 before = spring_force(handle.x);
-  if (!take_tensor(contact, *goal, motion, handle, mapping)) return ContactChange::kNone;
+  if (!take_tensor(contact, goal, motion, handle, mapping)) return ContactChange::kNone;
   force_step_ = (spring_force(handle.x) - before).norm();
   return ContactChange::kUpdated;
 }
@@ -73,8 +73,8 @@ void Contact::forget_what_is_free(std::uint64_t reached_sequence, const GoalHist
   }
 }
 
-bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, const Vector3& motion,
-                          const ContactHandle& handle, const Mapping& mapping) {
+bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<Vector3>& goal,
+                          const Vector3& motion, const ContactHandle& handle, const Mapping& mapping) {
   Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
   const double ke = config_.ke * (config_.ke_by_scale ? mapping.scale() : 1.0);
   const double least = kLeastShare * left.cwiseAbs().maxCoeff();
@@ -87,7 +87,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
     const double k = a.n_W.dot(row);
     if (k > least && (row - k * a.n_W).norm() <= kSameAxis * k) {
       // Met again, or known better: another touch while this one lasts does not move it.
-      if (a.released || (a.touch == contact.touch && !config_.by_arrival)) a.goal = goal;
+      if (goal && (a.released || (a.touch == contact.touch && !config_.by_arrival))) a.goal = *goal;
       a.touch = a.released ? contact.touch : a.touch;
       a.released = false;
       a.reported = ke * k;
@@ -96,6 +96,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
       a.spring.set_stiffness(a.s(handle.x), a.reported);
     }
   }
+  if (!goal) return any;  // nothing new can be placed
   const Principal rest = principal(left);
   for (int i = 2; i >= 0; --i) {
     if (!(rest.values[i] > least)) continue;
@@ -103,7 +104,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const Vector3& goal, 
     const Vector3 into = inward(n, motion);
     if (!n.allFinite() || into.isZero(0.0)) continue;
     forget_beside(n, handle.x);
-    add_axis(into, contact, goal, handle, mapping, ke * rest.values[i]);
+    add_axis(into, contact, *goal, handle, mapping, ke * rest.values[i]);
     any = true;
   }
   return any;

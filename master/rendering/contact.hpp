@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "common/link/stiffness_report.hpp"
 #include "common/spatial/spatial.hpp"
@@ -94,7 +95,8 @@ class Contact {
   [[nodiscard]] double force_step() const { return force_step_; }  // of the springs, by the last report
 
  private:
-  bool take_tensor(const ContactStiffness& contact, const Vector3& goal, const Vector3& motion,
+  /// `goal`: at the touch, none if that was too long ago; what is known goes on without it.
+  bool take_tensor(const ContactStiffness& contact, const std::optional<Vector3>& goal, const Vector3& motion,
                    const ContactHandle& handle, const Mapping& mapping);
   void forget_what_is_free(std::uint64_t reached_sequence, const GoalHistory& history, const Vector3& x);
   void forget_beside(const Vector3& n_W, const Vector3& x);

@@ -26,6 +26,11 @@ class GoalHistory {
   /// commanded before the history began is its first goal: an engagement begins where the robot is.
   [[nodiscard]] std::optional<Vector3> at(double sequence) const;
 
+  /// It was commanded, but too long ago to be remembered.
+  [[nodiscard]] bool forgotten(double sequence) const {
+    return !whole_ && sequence >= 1.0 && sequence < static_cast<double>(first_);
+  }
+
   [[nodiscard]] std::optional<Vector3> newest() const;
 
   /// Direction (not unit) in which the goal moved up to `sequence`: the displacement over the shortest reach

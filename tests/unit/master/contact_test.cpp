@@ -64,6 +64,10 @@ TEST(GoalHistory, ForgetsTheOldestWhenFull) {
   EXPECT_FALSE(history.at(24.0).has_value());
   EXPECT_NEAR(history.at(25.0)->x(), 25.0, 1e-12);
   EXPECT_NEAR(history.at(40.0)->x(), 40.0, 1e-12);
+  EXPECT_TRUE(history.forgotten(24.0));
+  EXPECT_FALSE(history.forgotten(25.0));
+  EXPECT_FALSE(history.forgotten(41.0));
+  EXPECT_FALSE(history.forgotten(std::nan("")));
 }
 
 TEST(Contact, LiesWhereTheGoalWasAtTheTouchAndFacesTheMotion) {
@@ -142,6 +146,19 @@ TEST(Contact, IsRememberedAfterTheContactAndForgottenWhenProvenGone) {
   EXPECT_TRUE(b.felt.known());
   b.report({}, 160);  // 5.9 mm behind
   EXPECT_FALSE(b.felt.known());
+}
+
+TEST(Contact, GoesOnInATouchThatIsOlderThanWhatIsRemembered) {
+  Bench b(Vector3::UnitX());
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  for (std::uint64_t i = 401; i <= 2000; ++i) b.history.push(i, Vector3(0.04, 0.0, 0.0));
+  ASSERT_FALSE(b.history.at(101.0).has_value());
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitX(), 1500.0), 101.0)), ContactChange::kUpdated);
+  EXPECT_NEAR(b.felt.foremost().reported, 1500.0, 1e-9);
+  EXPECT_NEAR(b.felt.foremost().surface, 100e-4, 1e-12);
+  // A plane that is new could not be placed.
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitY(), 1000.0), 101.0)), ContactChange::kNone);
+  EXPECT_TRUE(b.felt.known());
 }
 
 TEST(Contact, DoesNotTurnWhileForceIsRenderedButFadesAndTurnsThen) {
