@@ -24,38 +24,25 @@ const unsigned char* raw(std::span<const std::byte> bytes) {
 }
 unsigned char* raw(std::span<std::byte> bytes) { return reinterpret_cast<unsigned char*>(bytes.data()); }
 
-template <std::size_t N>
-auto* state_of(std::array<unsigned char, N>& bytes) {
-  return reinterpret_cast<crypto_aead_aes256gcm_state*>(bytes.data());
-}
-template <std::size_t N>
-const auto* state_of(const std::array<unsigned char, N>& bytes) {
-  return reinterpret_cast<const crypto_aead_aes256gcm_state*>(bytes.data());
-}
+AesGcm::Bytes all(std::span<const std::byte> bytes) { return {raw(bytes), bytes.size()}; }
 
 }  // namespace
 
 Seal::Seal(const Session& session, Way way) : cipher_(session.cipher) {
-  static_assert(
-      kSecretBytes == crypto_kdf_KEYBYTES && kTagBytes == crypto_aead_chacha20poly1305_ietf_ABYTES &&
-      kTagBytes == crypto_aead_aes256gcm_ABYTES && sizeof(NonceBytes) == crypto_aead_aes256gcm_NPUBBYTES &&
-      sizeof(NonceBytes) == crypto_aead_chacha20poly1305_ietf_NPUBBYTES &&
-      kKeyBytes == crypto_aead_chacha20poly1305_ietf_KEYBYTES &&
-      kKeyBytes == crypto_aead_aes256gcm_KEYBYTES && kAesStateBytes == sizeof(crypto_aead_aes256gcm_state));
+  static_assert(kSecretBytes == crypto_kdf_KEYBYTES &&
+                kTagBytes == crypto_aead_chacha20poly1305_ietf_ABYTES && kTagBytes == AesGcm::kTagBytes &&
+                sizeof(NonceBytes) == AesGcm::kNonceBytes &&
+                sizeof(NonceBytes) == crypto_aead_chacha20poly1305_ietf_NPUBBYTES &&
+                kKeyBytes == crypto_aead_chacha20poly1305_ietf_KEYBYTES && kKeyBytes == AesGcm::kKeyBytes);
   CHECK(sodium_init() >= 0);
   const std::uint64_t id =
       kDirections * static_cast<std::uint64_t>(cipher_) + static_cast<std::uint64_t>(way);
   CHECK(crypto_kdf_derive_from_key(key_.data(), key_.size(), id, kContext, raw(std::span(session.secret))) ==
         0);
-  if (cipher_ == Cipher::kAes256Gcm) {
-    CHECK(has_aes256gcm() && crypto_aead_aes256gcm_beforenm(state_of(aes_), key_.data()) == 0);
-  }
+  if (cipher_ == Cipher::kAes256Gcm) aes_.set_key(key_.data());
 }
 
-Seal::~Seal() {
-  sodium_memzero(key_.data(), key_.size());
-  sodium_memzero(aes_.data(), aes_.size());
-}
+Seal::~Seal() { sodium_memzero(key_.data(), key_.size()); }
 
 void Seal::close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const {
   CHECK(body.size() >= kTagBytes);
@@ -63,8 +50,7 @@ void Seal::close(const Nonce& nonce, std::span<const std::byte> header, std::spa
   unsigned char* const at = raw(body);
   const std::size_t size = body.size() - kTagBytes;
   if (cipher_ == Cipher::kAes256Gcm) {
-    crypto_aead_aes256gcm_encrypt_afternm(at, nullptr, at, size, raw(header), header.size(), nullptr,
-                                          n.data(), state_of(aes_));
+    aes_.close(n.data(), all(header), {at, size}, at);
   } else {
     crypto_aead_chacha20poly1305_ietf_encrypt(at, nullptr, at, size, raw(header), header.size(), nullptr,
                                               n.data(), key_.data());
@@ -76,13 +62,9 @@ bool Seal::open(const Nonce& nonce, std::span<const std::byte> header, std::span
   if (sealed.size() < kTagBytes) return false;
   CHECK(body.size() >= sealed.size() - kTagBytes);
   const NonceBytes n = bytes_of(nonce);
-  const int opened =
-      cipher_ == Cipher::kAes256Gcm
-          ? crypto_aead_aes256gcm_decrypt_afternm(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
-                                                  raw(header), header.size(), n.data(), state_of(aes_))
-          : crypto_aead_chacha20poly1305_ietf_decrypt(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
-                                                      raw(header), header.size(), n.data(), key_.data());
-  return opened == 0;
+  if (cipher_ == Cipher::kAes256Gcm) return aes_.open(n.data(), all(header), all(sealed), raw(body));
+  return crypto_aead_chacha20poly1305_ietf_decrypt(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
+                                                   raw(header), header.size(), n.data(), key_.data()) == 0;
 }
 
 }  // namespace longreach

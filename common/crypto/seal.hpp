@@ -1,5 +1,5 @@
 #pragma once
-// Authenticated encryption of the datagrams of one direction of one session (AEAD, libsodium).
+// Authenticated encryption of the datagrams of one direction of one session (AEAD).
 //
 //   key   = KDF(secret; cipher, direction)    BLAKE2b, crypto_kdf_derive_from_key
 //   nonce = type (1) | 0 (3) | sequence (8)   big-endian, once under each key: who seals counts
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <span>
 
+#include "common/crypto/aes_gcm.hpp"
 #include "common/crypto/session.hpp"
 
 namespace longreach {
@@ -43,11 +44,10 @@ class Seal {
 
  private:
   static constexpr std::size_t kKeyBytes = 32;
-  static constexpr std::size_t kAesStateBytes = 512;
 
   Cipher cipher_;
   std::array<unsigned char, kKeyBytes> key_{};
-  alignas(16) std::array<unsigned char, kAesStateBytes> aes_{};  // round keys; not used by ChaCha20
+  AesGcm aes_;
 };
 
 }  // namespace longreach

@@ -3,6 +3,7 @@
 #include <sodium.h>
 
 #include "common/core/check.hpp"
+#include "common/crypto/aes_gcm.hpp"
 
 namespace longreach {
 namespace {
@@ -11,10 +12,7 @@ void start_sodium() { CHECK(sodium_init() >= 0); }
 
 }  // namespace
 
-bool has_aes256gcm() {
-  start_sodium();
-  return crypto_aead_aes256gcm_is_available() == 1;
-}
+bool has_aes256gcm() { return AesGcm::available(); }
 
 Session draw_session(Cipher cipher) {
   start_sodium();

@@ -96,9 +96,9 @@ TEST(Seal, IsWhatOpensslMakesOfTheSameKeyNonceAndHeader) {
     const Session s = session(cipher);
     for (const Way way : {Way::kToSlave, Way::kToMaster}) {
       const auto id = static_cast<std::uint8_t>(2 * static_cast<int>(cipher) + static_cast<int>(way));
-      for (const std::size_t size : {1U, 16U, 64U, 130U, 474U}) {
+      for (std::size_t size = 1; size <= 474; ++size) {
         const Bytes header = noise(18, size), body = noise(size, 2 * size);
-        EXPECT_EQ(closed(Seal(s, way), nonce, header, body), openssl_sealed(s, id, nonce_bytes, header, body))
+        ASSERT_EQ(closed(Seal(s, way), nonce, header, body), openssl_sealed(s, id, nonce_bytes, header, body))
             << "cipher " << static_cast<int>(cipher) << ", " << size << " bytes";
       }
     }
