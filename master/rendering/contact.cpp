@@ -57,7 +57,8 @@ ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t 
   if (!goal && !history.forgotten(contact.touch_sequence)) return ContactChange::kRejected;
   const Vector3 motion = history.motion_before(contact.touch_sequence, config_.least_motion);
   const Vector3 before = spring_force(handle.x);
-  if (!take_tensor(contact, goal, motion, handle, mapping)) return ContactChange::kNone;
+  if (!take_tensor(contact, goal, motion, handle, mapping))
+    return goal ? ContactChange::kNone : ContactChange::kRejected;
   force_step_ = (spring_force(handle.x) - before).norm();
   return ContactChange::kUpdated;
 }

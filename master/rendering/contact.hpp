@@ -48,7 +48,7 @@ struct ContactHandle {
 /// What a report meant.
 enum class ContactChange : std::uint8_t {
   kNone,      // nothing new, or not enough is known yet
-  kRejected,  // not finite, or a touch that this side never commanded
+  kRejected,  // not finite, or a touch that this side never commanded, or too long ago to place it
   kUpdated,   // surfaces or stiffness
 };
 

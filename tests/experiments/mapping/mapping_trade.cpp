@@ -48,11 +48,11 @@ const std::array<Sweep, 4> kSweeps = {
       [](const proto::Mapping& m) { return 1e3 * m.dead_zone_m(); },
       {1.0, 2.5, 5.0, 7.5, 10.0}},
      {"near_sd",
-      "near = 0, 1, 2, 2.75, 4 sd",
+      "near = 0, 1, 2, 2.4, 4 sd",
       PathStrategy::kHybrid,
       [](proto::Mapping&, PathCase& c, double v) { c.near_sd = v; },
       [](const proto::Mapping&) { return PathCase{}.near_sd; },
-      {0.0, 1.0, 2.0, 2.75, 4.0}}}};
+      {0.0, 1.0, 2.0, kNearSd, 4.0}}}};
 
 std::string name_of(const Sweep& sweep) {
   return std::string(to_string(sweep.strategy)) + "_" + std::string(sweep.name);

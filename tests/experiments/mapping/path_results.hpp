@@ -19,8 +19,8 @@ struct PathSample {
 };
 
 struct PathSize {
-  int persons = 20, trials = 2;
-  static PathSize chosen();  // by LONGREACH_FULL
+  int persons = 60, trials = 2;
+  static PathSize chosen();  // by LONGREACH_FULL; 20 persons differ too much to tell modes apart surely
 };
 
 /// Runs `c` with each operator; `done` is called after each trial.

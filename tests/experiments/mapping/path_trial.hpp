@@ -14,8 +14,8 @@ namespace longreach {
 struct PathCase {
   PathStrategy strategy = PathStrategy::kHybrid;
   double rtt_s = 0.0;
-  bool ghost = false;     // he looks at where the robot is told to be, instead of where it is shown
-  double near_sd = 2.75;  // hybrid, as of PathWork
+  bool ghost = false;  // he looks at where the robot is told to be, instead of where it is shown
+  double near_sd = kNearSd;
   int person = 0, trial = 0;
   std::uint64_t seed = 1;  // person and way are the same in every case of a seed
 };

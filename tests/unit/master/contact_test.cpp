@@ -157,7 +157,7 @@ TEST(Contact, GoesOnInATouchThatIsOlderThanWhatIsRemembered) {
   EXPECT_NEAR(b.felt.foremost().reported, 1500.0, 1e-9);
   EXPECT_NEAR(b.felt.foremost().surface, 100e-4, 1e-12);
   // A plane that is new could not be placed.
-  EXPECT_EQ(b.report(contact(along(Vector3::UnitY(), 1000.0), 101.0)), ContactChange::kNone);
+  EXPECT_EQ(b.report(contact(along(Vector3::UnitY(), 1000.0), 101.0)), ContactChange::kRejected);
   EXPECT_TRUE(b.felt.known());
 }
 
