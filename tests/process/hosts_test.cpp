@@ -8,9 +8,11 @@
 #include <future>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 #include <thread>
 
 #include "tests/process/hosts_run.hpp"
+#include "tests/process/load.hpp"
 
 namespace longreach {
 namespace {
@@ -25,7 +27,20 @@ std::vector<double> numbers_in(const std::string& text, const std::string& patte
   return numbers;
 }
 
+/// The checks of the master's verdict that failed; not those of lateness where the machine stood still.
+std::string failed_checks(const std::string& output, bool machine_stood_still) {
+  static const std::regex kLate("late by over 100 ms|false holds");
+  std::istringstream lines(output);
+  std::string failed;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  FAIL") || (machine_stood_still && std::regex_search(line, kLate))) continue;
+    failed += line + "\n";
+  }
+  return failed;
+}
+
 TEST(Hosts, ConnectEngageTouchAndStopAcrossThreeSecondsAndFivePercentLossOfDatagramsAndTcp) {
+  BareLoops machine;
   HostsRun hosts({"--delay", "3s", "--loss", "5%", "--seconds", "300"});
   ASSERT_TRUE(hosts.up()) << hosts.all();
   const auto status = hosts.client({"status", "--json"});
@@ -40,9 +55,13 @@ TEST(Hosts, ConnectEngageTouchAndStopAcrossThreeSecondsAndFivePercentLossOfDatag
   EXPECT_EQ(stop->wait(seconds(120)), 0) << stop->output();
   EXPECT_NE(hosts.log().find("to=Stopped"), std::string::npos) << hosts.log();
   hosts.script().signal(SIGTERM);
-  EXPECT_EQ(hosts.script().wait(seconds(30)), 0) << hosts.all();
+  const auto ended = hosts.script().wait(seconds(30));
+  const bool stood_still = machine.end().stalls > 0;
+  const bool all_hold = hosts.output().find("verdict: all checks hold") != std::string::npos;
+  EXPECT_EQ(ended, all_hold ? 0 : 1) << hosts.all();
+  EXPECT_TRUE(all_hold || stood_still) << hosts.all();
+  EXPECT_EQ(failed_checks(hosts.output(), stood_still), "") << hosts.all();
 
-  EXPECT_NE(hosts.output().find("verdict: all checks hold"), std::string::npos) << hosts.output();
   const auto stiffness =
       numbers_in(hosts.output(), R"(displayed stiffness ([0-9.]+) N/mm, the wall ([0-9.]+) N/mm)");
   ASSERT_EQ(stiffness.size(), 2u) << hosts.output();
