@@ -10,10 +10,11 @@ constexpr double kUndershoot = 0.05;  // of an aimed move
 constexpr double kTremor_m = 0.0004;  // of its end, sd
 // Left open by the model:
 constexpr double kReached_m = 0.002;  // of a target: the radius of the scene's tool; W is twice that
-constexpr double kRun_s = 1.0;        // rate mode: a run lasts at least so long
+constexpr double kRun_s = 1.0;        // rate mode: a run lasts so long
 constexpr double kRoom_m = 0.06;      // of the handle about home
 constexpr double kStart = 0.8;  // of the room, where a relocation ends; of its time, the hand's way there
-constexpr double kAtHome_m = 0.002;  // of a handle let go
+constexpr double kAtHome_m = 0.003;  // of a handle let go
+constexpr double kLive_s = 0.05;     // what is shown is live if it is not later
 
 }  // namespace
 
@@ -61,14 +62,12 @@ double PathOperator::unseen_m(double t_s) const {
   return speed_m_per_s_ * std::clamp(t_s - began_s_, 0.0, work_.late_s);
 }
 
-// Without haste, and so slow that he sees the tool move before he has to let go; but at least what surely
-// leaves the dead zone, by twice the hand's error at its edge.
+// At least what surely leaves the dead zone, by twice the hand's error at its edge.
 double PathOperator::speed_for(double left_m) const {
   const MappingConfig& m = work_.mapping;
   const double least = 2.0 * m.kv_per_s * sd_of(m.dead_zone_m);
   const double most = std::min(m.speed_max_m_per_s, m.kv_per_s * (m.radius_max_m - m.dead_zone_m));
-  const double lasts_s = std::max(kRun_s, person_.reaction_s + work_.late_s);
-  return std::min(std::max(left_m / lasts_s, least), most);
+  return std::min(std::max(left_m / kRun_s, least), most);
 }
 
 void PathOperator::put_hand(double t_s) {
@@ -81,7 +80,7 @@ void PathOperator::put_hand(double t_s) {
 
 PathOperatorOutput PathOperator::step(const PathOperatorInput& in) {
   out_ = {};
-  away_ = away_ && in.handle_m.norm() > kAtHome_m;
+  away_ = away_ && in.handle_m.norm() > (live() ? work_.mapping.dead_zone_m : kAtHome_m);
   if (!done()) act(in);
   put_hand(in.t_s);
   out_.requests.mode = mode_;
@@ -99,7 +98,10 @@ void PathOperator::act(const PathOperatorInput& in) {
       if (!away_) look(in);
       return;
     case Phase::kMove:
-      if (reach_.over(in.t_s)) wait(in);
+      if (reach_.over(in.t_s)) wait(in, live() && !aims_[next_].target);
+      return;
+    case Phase::kGlide:
+      if (live() || !away_) wait(in, false);
       return;
     case Phase::kRelocate:
       out_.requests.clutch = true;
@@ -110,10 +112,12 @@ void PathOperator::act(const PathOperatorInput& in) {
   }
 }
 
-void PathOperator::wait(const PathOperatorInput& in) {
+bool PathOperator::live() const { return work_.late_s <= kLive_s; }
+
+void PathOperator::wait(const PathOperatorInput& in, bool foreseen) {
   ++moves_;
   phase_ = Phase::kLook;
-  until_s_ = in.t_s + work_.late_s + person_.reaction_s;
+  until_s_ = foreseen ? in.t_s : in.t_s + work_.late_s + person_.reaction_s;
 }
 
 void PathOperator::leave_behind() {
@@ -209,7 +213,7 @@ void PathOperator::steer(const PathOperatorInput& in) {
   ran_ = true;
   tried_ = aims_[next_].target && work_.strategy == PathStrategy::kRate;
   let_go();
-  wait(in);
+  phase_ = Phase::kGlide;
 }
 
 }  // namespace longreach

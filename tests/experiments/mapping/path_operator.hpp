@@ -9,14 +9,20 @@
 //
 // with d the way of the hand. Position mode: an aimed move for each aim; a relocation of 1.0 to 1.5 s where
 // the handle would leave its room. Rate mode: holds a deflection of the speed v, changes only its direction
-// from aim to aim, and lets go of the handle, which stops the robot and glides home while he waits, when the
-// distance left, as shown, is less than v (reaction + round trip); until the first round trip of the run is
-// over he takes v times its age for it, since nothing has been seen yet. Hybrid: in each line or turn rate
-// until near, then position, for which he takes the handle wherever it is. The model leaves open: v (a run
-// lasts a second, or a reaction and a round trip if that is longer: he sees the tool move before he lets go),
-// near (kNearSd: earlier is nearer to the way and slower, as `mapping-trade` shows; chosen on the 100
-// operators of the seeds 2 to 6, so that hybrid is as surely faster than position as it is nearer than rate),
-// when a target is reached (2 mm, the radius of the scene's tool), and the room of the handle (60 mm of 75).
+// from aim to aim, and lets go of the handle, which stops the robot and glides home, when the distance left,
+// as shown, is less than v (reaction + round trip); until the first round trip of the run is over he takes v
+// times its age for it, since nothing has been seen yet. Hybrid: in each line or turn rate until near, then
+// position.
+//
+// He waits from when his hand is at rest, or the handle that he let go is home. Not so where the picture is
+// live, without delay or predicted: he sees the tool come. There he goes on from an aim that is no target
+// without a wait, waits from when he lets go of the handle, and takes it for position mode wherever it is.
+//
+// The model leaves open what a live picture saves, which is chosen so that the delay slows down each way of
+// working as its bands say; v (a run lasts a second); near (kNearSd: earlier is nearer to the way and slower,
+// as `mapping-trade` shows; chosen on the 100 operators of the seeds 2 to 6, so that hybrid is as surely
+// faster than position as it is nearer than rate); when a target is reached (2 mm, the radius of the scene's
+// tool); and the room of the handle (60 mm of 75).
 
 #include <cstdint>
 #include <optional>
@@ -32,7 +38,7 @@
 namespace longreach {
 
 // Hybrid: he leaves rate mode so many sd of an aimed move's end, of the run's length, before the target.
-constexpr double kNearSd = 2.4;
+constexpr double kNearSd = 2.1;
 
 enum class PathStrategy : std::uint8_t { kRate, kPosition, kHybrid };
 constexpr int kPathStrategies = 3;
@@ -79,7 +85,7 @@ class PathOperator {
   [[nodiscard]] int relocations() const { return relocations_; }
 
  private:
-  enum class Phase : std::uint8_t { kLook, kMove, kRelocate, kSteer };
+  enum class Phase : std::uint8_t { kLook, kMove, kRelocate, kSteer, kGlide };
   struct Reach {  // of the hand, minimum jerk
     Vector3 from_m = Vector3::Zero(), to_m = Vector3::Zero();
     double begin_s = 0.0, lasts_s = 0.0;
@@ -95,8 +101,9 @@ class PathOperator {
   void steer(const PathOperatorInput& in);
   void let_go();
   void take_again(const PathOperatorInput& in);
-  void wait(const PathOperatorInput& in);
+  void wait(const PathOperatorInput& in, bool foreseen);
 
+  [[nodiscard]] bool live() const;
   [[nodiscard]] double sd_of(double length_m) const;  // of an aimed move's end, a coordinate
   [[nodiscard]] Vector3 error_of(double length_m);
   [[nodiscard]] double time_of(double length_m, double width_m) const;

@@ -4,7 +4,7 @@
 
 namespace longreach {
 
-PathSize PathSize::chosen() { return {.persons = campaign(60, 6), .trials = campaign(2, 1)}; }
+PathSize PathSize::chosen() { return {.persons = campaign(100, 6), .trials = campaign(2, 1)}; }
 
 PathSample sample_paths(const proto::LabConfig& config, PathCase c, PathSize size,
                         const std::function<void()>& done) {

@@ -19,7 +19,7 @@ struct PathSample {
 };
 
 struct PathSize {
-  int persons = 60, trials = 2;
+  int persons = 100, trials = 2;
   static PathSize chosen();  // by LONGREACH_FULL; 20 persons differ too much to tell modes apart surely
 };
 
