@@ -11,6 +11,7 @@
 #include "slave/scene/path.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/mapping/path_results.hpp"
+#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {
@@ -89,8 +90,7 @@ TEST(PathTask, HybridIsFasterThanPositionAndNearerThanRateAndTheGhostSavesTheWai
   constexpr double kRtt_s = 1.5;
   const PathSize size{.persons = 4, .trials = 1};
   const auto sample = [&](PathStrategy strategy, double rtt_s, bool ghost) {
-    const PathSample s =
-        sample_paths(task(), {.strategy = strategy, .rtt_s = rtt_s, .ghost = ghost}, size, [] {});
+    const PathSample s = sample_paths(task(), {.strategy = strategy, .rtt_s = rtt_s, .ghost = ghost}, size);
     EXPECT_EQ(s.unfinished, 0);
     for (const double e : s.target_error_m) EXPECT_LT(e, 0.002);
     for (const double e : s.error_m) EXPECT_LT(e, 0.01);
@@ -109,6 +109,32 @@ TEST(PathTask, HybridIsFasterThanPositionAndNearerThanRateAndTheGhostSavesTheWai
     EXPECT_GT(position.time_s[i], 2.0 * near.time_s[i]) << i;
     EXPECT_LT(position.time_s[i], 3.0 * near.time_s[i]) << i;
     EXPECT_LT(ghost.time_s[i], 1.1 * near.time_s[i]) << i;
+  }
+}
+
+// Few operators: no mean is surely outside, by twice its standard error.
+TEST(PathTask, TheDelaySlowsDownEachWayOfWorkingAsTheModelsBandsSay) {
+  struct Band {
+    double rtt_s, least, most;
+    int persons;
+  };
+  for (const PathStrategy strategy : {PathStrategy::kRate, PathStrategy::kPosition, PathStrategy::kHybrid}) {
+    const auto times = [&](double rtt_s, int persons) {
+      const PathSample s =
+          sample_paths(task(), {.strategy = strategy, .rtt_s = rtt_s}, {.persons = persons, .trials = 1});
+      EXPECT_EQ(s.unfinished, 0);
+      return s.time_s;
+    };
+    const int many = campaign(100, 24), few = campaign(100, 4);
+    const std::vector<double> near = times(0.0, many);
+    for (const Band& band : {Band{0.225, 1.3, 1.8, many}, {1.5, 2.0, 3.0, few}, {2.6, 2.3, 4.5, few}}) {
+      std::vector<double> slow_down = times(band.rtt_s, band.persons);
+      for (std::size_t i = 0; i < slow_down.size(); ++i) slow_down[i] /= near[i];
+      const Spread found = spread_of(slow_down);
+      const double unsure = 2.0 * found.sd / std::sqrt(band.persons);
+      EXPECT_GT(found.mean + unsure, band.least) << to_string(strategy) << ", " << band.rtt_s << " s";
+      EXPECT_LT(found.mean - unsure, band.most) << to_string(strategy) << ", " << band.rtt_s << " s";
+    }
   }
 }
 

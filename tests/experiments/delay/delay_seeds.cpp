@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <map>
-#include <thread>
 
 #include "common/config/config.hpp"
 #include "tests/experiments/delay/delay_grid.hpp"
+#include "tests/experiments/on_all_cores.hpp"
 #include "tests/experiments/trace.hpp"
 #include "tests/property/campaign.hpp"
 
@@ -58,26 +57,17 @@ Study study_of(const ExperimentRun& run) {
 /// Each run with its own seed, in a fixed place: the result does not depend on who ran it.
 std::vector<DelayResult> run_all(const ExperimentRun& run, const Study& study) {
   std::vector<DelayResult> results(study.runs());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](bool reports) {
-    for (std::size_t i = next++; i < results.size(); i = next++) {
-      if (reports && run.progress) run.progress(static_cast<double>(i) / static_cast<double>(results.size()));
-      const auto seeds = static_cast<std::size_t>(study.seeds);
-      const std::size_t wall = i / seeds, grip = wall / study.wall_n_per_m.size();
-      ExperimentRun one;
-      one.config = run.config;
-      one.seed = run.seed + i % seeds;
-      results[i] = touch_across(one, study.links[grip / study.grips.size()],
-                                study.wall_n_per_m[wall % study.wall_n_per_m.size()],
-                                study.grips[grip % study.grips.size()]);
-    }
+  const auto one = [&](std::size_t i) {
+    const auto seeds = static_cast<std::size_t>(study.seeds);
+    const std::size_t wall = i / seeds, grip = wall / study.wall_n_per_m.size();
+    ExperimentRun touch;
+    touch.config = run.config;
+    touch.seed = run.seed + i % seeds;
+    results[i] = touch_across(touch, study.links[grip / study.grips.size()],
+                              study.wall_n_per_m[wall % study.wall_n_per_m.size()],
+                              study.grips[grip % study.grips.size()]);
   };
-  {
-    std::vector<std::jthread> others;
-    for (unsigned n = 1; n < std::max(1U, std::thread::hardware_concurrency()); ++n)
-      others.emplace_back(work, false);
-    work(true);
-  }
+  on_all_cores(results.size(), one, run.progress);
   return results;
 }
 

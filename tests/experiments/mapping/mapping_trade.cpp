@@ -48,11 +48,11 @@ const std::array<Sweep, 4> kSweeps = {
       [](const proto::Mapping& m) { return 1e3 * m.dead_zone_m(); },
       {1.0, 2.5, 5.0, 7.5, 10.0}},
      {"near_sd",
-      "near = 0, 1, 2, 2.4, 4 sd",
+      "near = 0, 1, 2.1, 3, 4 sd",
       PathStrategy::kHybrid,
       [](proto::Mapping&, PathCase& c, double v) { c.near_sd = v; },
       [](const proto::Mapping&) { return PathCase{}.near_sd; },
-      {0.0, 1.0, 2.0, kNearSd, 4.0}}}};
+      {0.0, 1.0, kNearSd, 3.0, 4.0}}}};
 
 std::string name_of(const Sweep& sweep) {
   return std::string(to_string(sweep.strategy)) + "_" + std::string(sweep.name);
@@ -107,8 +107,8 @@ std::vector<Plot> mapping_trade_plots() {
 std::vector<Metric> run_mapping_trade(const ExperimentRun& run) {
   const proto::LabConfig task = path_task_config(run.config);
   const PathSize size = PathSize::chosen();
-  const double all = 5.0 * static_cast<double>(kSweeps.size()) * size.persons * size.trials;
-  int trials = 0, unfinished = 0;
+  const double all = 5.0 * static_cast<double>(kSweeps.size());
+  int done = 0, unfinished = 0;
   std::vector<Metric> metrics = {{"operators", static_cast<double>(size.persons), "simulated"},
                                  {"rtt_s", kRtt_s, "s"}};
   for (const Sweep& sweep : kSweeps) {
@@ -120,9 +120,10 @@ std::vector<Metric> run_mapping_trade(const ExperimentRun& run) {
       proto::LabConfig config = task;
       PathCase c{.strategy = sweep.strategy, .rtt_s = kRtt_s, .seed = run.seed};
       sweep.set(*config.mutable_master()->mutable_mapping(), c, value);
-      const PathSample s = sample_paths(config, c, size, [&] {
-        if (run.progress) run.progress(++trials / all);
+      const PathSample s = sample_paths(config, c, size, [&](double share) {
+        if (run.progress) run.progress((done + share) / all);
       });
+      ++done;
       unfinished += s.unfinished;
       const std::string suffix = "at_" + short_number(value);
       add_spread(metrics, name + "_time_s", suffix, s.time_s, "s");

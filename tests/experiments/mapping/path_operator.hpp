@@ -14,9 +14,10 @@
 // times its age for it, since nothing has been seen yet. Hybrid: in each line or turn rate until near, then
 // position.
 //
-// He waits from when his hand is at rest, or the handle that he let go is home. Not so where the picture is
-// live, without delay or predicted: he sees the tool come. There he goes on from an aim that is no target
-// without a wait, waits from when he lets go of the handle, and takes it for position mode wherever it is.
+// He waits from when his hand is at rest, or the handle that he let go is home (3 mm). Not so where the
+// picture is live, without delay or predicted: he sees the tool come. There he goes on from an aim that is no
+// target without a wait, waits from when he lets go of the handle, and goes on in rate mode when it is in the
+// dead zone, in position mode wherever it is.
 //
 // The model leaves open what a live picture saves, which is chosen so that the delay slows down each way of
 // working as its bands say; v (a run lasts a second); near (kNearSd: earlier is nearer to the way and slower,

@@ -1,30 +1,37 @@
 #include "tests/experiments/mapping/path_results.hpp"
 
+#include "tests/experiments/on_all_cores.hpp"
 #include "tests/property/campaign.hpp"
 
 namespace longreach {
 
 PathSize PathSize::chosen() { return {.persons = campaign(100, 6), .trials = campaign(2, 1)}; }
 
-PathSample sample_paths(const proto::LabConfig& config, PathCase c, PathSize size,
-                        const std::function<void()>& done) {
+PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
+                        const std::function<void(double)>& progress) {
+  std::vector<PathResult> results(static_cast<std::size_t>(size.persons * size.trials));
+  const auto one = [&](std::size_t i) {
+    PathCase trial = c;
+    trial.person = static_cast<int>(i) / size.trials;
+    trial.trial = static_cast<int>(i) % size.trials;
+    results[i] = run_path_trial(config, trial);
+  };
+  on_all_cores(results.size(), one, progress);
+
   PathSample sample;
-  const double share = 1.0 / size.trials;
-  for (c.person = 0; c.person < size.persons; ++c.person) {
-    double time_s = 0.0, error_m = 0.0, target_error_m = 0.0;
-    for (c.trial = 0; c.trial < size.trials; ++c.trial) {
-      const PathResult r = run_path_trial(config, c);
-      time_s += share * r.time_s;
-      error_m += share * r.error_m;
-      target_error_m += share * r.target_error_m;
-      sample.moves += share * r.moves / size.persons;
-      sample.relocations += share * r.relocations / size.persons;
-      sample.unfinished += !r.finished;
-      done();
-    }
-    sample.time_s.push_back(time_s);
-    sample.error_m.push_back(error_m);
-    sample.target_error_m.push_back(target_error_m);
+  const auto persons = static_cast<std::size_t>(size.persons);
+  sample.time_s.assign(persons, 0.0);
+  sample.error_m.assign(persons, 0.0);
+  sample.target_error_m.assign(persons, 0.0);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const PathResult& r = results[i];
+    const std::size_t person = i / static_cast<std::size_t>(size.trials);
+    sample.time_s[person] += r.time_s / size.trials;
+    sample.error_m[person] += r.error_m / size.trials;
+    sample.target_error_m[person] += r.target_error_m / size.trials;
+    sample.moves += r.moves / static_cast<double>(results.size());
+    sample.relocations += r.relocations / static_cast<double>(results.size());
+    sample.unfinished += !r.finished;
   }
   return sample;
 }

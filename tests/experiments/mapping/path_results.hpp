@@ -23,9 +23,9 @@ struct PathSize {
   static PathSize chosen();  // by LONGREACH_FULL; 20 persons differ too much to tell modes apart surely
 };
 
-/// Runs `c` with each operator; `done` is called after each trial.
-PathSample sample_paths(const proto::LabConfig& config, PathCase c, PathSize size,
-                        const std::function<void()>& done);
+/// Runs `c` with each operator, on all cores; `progress`, if any, is told the share done.
+PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
+                        const std::function<void(double)>& progress = {});
 
 /// a - b of each.
 std::vector<double> paired(const std::vector<double>& a, const std::vector<double>& b);

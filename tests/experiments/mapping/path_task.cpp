@@ -161,14 +161,14 @@ std::vector<Plot> path_task_plots() {
 std::vector<Metric> run_path_task(const ExperimentRun& run) {
   const proto::LabConfig config = path_task_config(run.config);
   const PathSize size = PathSize::chosen();
-  const int all = 2 * kPathStrategies * static_cast<int>(kDelays.size()) * size.persons * size.trials;
-  int trials = 0, unfinished = 0;
-  const auto done = [&] {
-    if (run.progress) run.progress(static_cast<double>(++trials) / all);
+  const int all = 2 * kPathStrategies * static_cast<int>(kDelays.size());
+  int done = 0, unfinished = 0;
+  const auto progress = [&](double share) {
+    if (run.progress) run.progress((done + share) / all);
   };
   std::array<Samples, 2> samples;
   std::vector<Metric> metrics = {{"operators", static_cast<double>(size.persons), "simulated"},
-                                 {"trials", static_cast<double>(all), ""}};
+                                 {"trials", static_cast<double>(all * size.persons * size.trials), ""}};
   for (const bool ghost : {false, true}) {
     Samples& s = samples[ghost ? 1 : 0];
     for (const PathStrategy strategy : kStrategies) {
@@ -176,7 +176,8 @@ std::vector<Metric> run_path_task(const ExperimentRun& run) {
         PathSample& sample = s[static_cast<std::size_t>(strategy)][d];
         sample = sample_paths(
             config, {.strategy = strategy, .rtt_s = kDelays[d].rtt_s, .ghost = ghost, .seed = run.seed}, size,
-            done);
+            progress);
+        ++done;
         unfinished += sample.unfinished;
       }
     }
