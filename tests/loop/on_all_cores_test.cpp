@@ -1,0 +1,47 @@
+// Trials on all cores: each is done once, wherever; a failure comes out.
+
+#include "tests/experiments/on_all_cores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace longreach {
+namespace {
+
+TEST(OnAllCores, DoesEachOnce) {
+  for (const std::size_t count : {0, 1, 2, 1000}) {
+    std::vector<int> done(count);
+    double share = 0.0;
+    on_all_cores(
+        count, [&](std::size_t i) { ++done[i]; },
+        [&](double now) {
+          EXPECT_GE(now, share);
+          EXPECT_LT(now, 1.0);
+          share = now;
+        });
+    EXPECT_EQ(done, std::vector<int>(count, 1));
+  }
+}
+
+TEST(OnAllCores, ThrowsWhatATrialThrowsAndBeginsNoMore) {
+  std::vector<int> done(1'000'000);
+  const auto one = [&](std::size_t i) {
+    if (i == 7) throw std::runtime_error("trial 7");
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    ++done[i];
+  };
+  try {
+    on_all_cores(done.size(), one);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "trial 7");
+  }
+  EXPECT_EQ(done.back(), 0);
+}
+
+}  // namespace
+}  // namespace longreach
