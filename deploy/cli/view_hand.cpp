@@ -83,7 +83,11 @@ void ViewHand::hold() {
     written = stream->Write(*aim, options);
   }
   if (written && going == Going::kLost) context.TryCancel();
-  if (written && going == Going::kOrderly) stream->WritesDone();
+  if (written && going == Going::kOrderly) {
+    proto::HandAim last;
+    last.set_lets_go(true);
+    stream->WriteLast(last, options);
+  }
   const grpc::Status end = stream->Finish();
   const std::lock_guard lock(mutex_);
   open_ = nullptr;

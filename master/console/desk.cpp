@@ -77,7 +77,7 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
   return grpc::Status::OK;
 }
 
-grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<proto::HandAim>* reader,
+grpc::Status DeskService::Hold(grpc::ServerContext*, grpc::ServerReader<proto::HandAim>* reader,
                                proto::Outcome* answer) {
   const std::uint64_t hand = take_handle();
   if (hand == 0) {
@@ -85,6 +85,11 @@ grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<
             "another hand is on the handle; it has to let go first, or to be silent for 0.3 s"};
   }
   for (proto::HandAim message; reader->Read(&message);) {
+    if (message.lets_go()) {
+      (void)pass(hand, {});
+      answer->set_message("the hand has let go");
+      return grpc::Status::OK;
+    }
     const auto aim = to_aim(message, reach_);
     if (!aim) {
       return {grpc::StatusCode::INVALID_ARGUMENT,
@@ -92,11 +97,8 @@ grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<
     }
     if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand has taken the handle"};
   }
-  // Broken: what it last said grows old, and that is a hold.
-  if (context->IsCancelled()) return grpc::Status::CANCELLED;
-  (void)pass(hand, {});
-  answer->set_message("the hand has let go");
-  return grpc::Status::OK;
+  // What it last said grows old, and that is a hold. A stream that breaks may look like one that was closed.
+  return {grpc::StatusCode::CANCELLED, "the hand has gone without letting go: the robot holds"};
 }
 
 bool DeskService::take_seat() {

@@ -190,7 +190,8 @@ TEST_F(View, AHandWhoseServerIsKilledIsAHold) {
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; }));
   EXPECT_TRUE(page.send(R"({"take":true})"));
   std::thread aiming([&page] { aim(page, std::chrono::minutes(2)); });
-  EXPECT_TRUE(page.send(R"({"do":"engage"})"));
+  EXPECT_TRUE(page.read_until(R"("hand_outside":true)"));
+  EXPECT_EQ(master_.engage(), "");
   EXPECT_TRUE(both_engaged()) << outputs();
   view_->signal(SIGKILL);
   EXPECT_TRUE(eventually([this] { return master_.state() == "Holding" && slave_.state() == "Holding"; }))

@@ -50,6 +50,12 @@ struct Desk {
   std::unique_ptr<proto::Desk::Stub> stub;
 };
 
+proto::HandAim last_word() {
+  proto::HandAim aim;
+  aim.set_lets_go(true);
+  return aim;
+}
+
 proto::HandAim aim_at(double x, double y, double z) {
   proto::HandAim aim;
   for (const double v : {x, y, z}) aim.add_position_m(v);
@@ -80,9 +86,20 @@ TEST(Desk, PassesAimsOnWithinReachAndTheEndInOrder) {
   EXPECT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
   EXPECT_NEAR(desk.newest().position_m.x(), 0.045, 1e-12);
   EXPECT_NEAR(desk.newest().position_m.z(), 0.06, 1e-12);
-  stream->WritesDone();
+  stream->WriteLast(last_word(), {});
   EXPECT_TRUE(stream->Finish().ok());
   EXPECT_FALSE(desk.newest().holds);
+}
+
+TEST(Desk, AStreamThatEndsWithoutLettingGoLeavesItsLastWordToGrowOld) {
+  Desk desk;
+  grpc::ClientContext context;
+  proto::Outcome outcome;
+  const auto stream = desk.stub->Hold(&context, &outcome);
+  ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
+  stream->WritesDone();
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  EXPECT_TRUE(desk.newest().holds);
 }
 
 TEST(Desk, ABrokenStreamLeavesItsLastWordToGrowOld) {
@@ -103,7 +120,7 @@ TEST(Desk, ABrokenStreamLeavesItsLastWordToGrowOld) {
     proto::Outcome outcome;
     const auto stream = desk.stub->Hold(&context, &outcome);
     stream->Write(aim_at(0.0, 0.02, 0.0));
-    stream->WritesDone();
+    stream->WriteLast(last_word(), {});
     return stream->Finish().ok();
   }));
 }
