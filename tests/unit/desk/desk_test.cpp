@@ -92,37 +92,29 @@ TEST(Desk, PassesAimsOnWithinReachAndTheEndInOrder) {
 }
 
 TEST(Desk, AStreamThatEndsWithoutLettingGoLeavesItsLastWordToGrowOld) {
-  Desk desk;
-  grpc::ClientContext context;
-  proto::Outcome outcome;
-  const auto stream = desk.stub->Hold(&context, &outcome);
-  ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
-  stream->WritesDone();
-  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
-  EXPECT_TRUE(desk.newest().holds);
-}
-
-TEST(Desk, ABrokenStreamLeavesItsLastWordToGrowOld) {
-  Desk desk;
-  {
-    grpc::ClientContext context;
-    proto::Outcome outcome;
-    const auto stream = desk.stub->Hold(&context, &outcome);
-    ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
-    ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
-    context.TryCancel();
-    EXPECT_FALSE(stream->Finish().ok());
+  for (const bool broken : {false, true}) {
+    Desk desk;
+    {
+      grpc::ClientContext context;
+      proto::Outcome outcome;
+      const auto stream = desk.stub->Hold(&context, &outcome);
+      ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
+      ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
+      if (broken) context.TryCancel();
+      if (!broken) stream->WritesDone();
+      EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    }
+    EXPECT_TRUE(desk.newest().holds) << broken;
+    // And the next hand is let on the handle when that one has been silent for long enough.
+    EXPECT_TRUE(desk.eventually([&desk](const RemoteAim&) {
+      grpc::ClientContext context;
+      proto::Outcome outcome;
+      const auto stream = desk.stub->Hold(&context, &outcome);
+      stream->Write(aim_at(0.0, 0.02, 0.0));
+      stream->WriteLast(last_word(), {});
+      return stream->Finish().ok();
+    }));
   }
-  EXPECT_TRUE(desk.newest().holds);
-  // And the next hand is let on the handle when that one has been silent for long enough.
-  EXPECT_TRUE(desk.eventually([&desk](const RemoteAim&) {
-    grpc::ClientContext context;
-    proto::Outcome outcome;
-    const auto stream = desk.stub->Hold(&context, &outcome);
-    stream->Write(aim_at(0.0, 0.02, 0.0));
-    stream->WriteLast(last_word(), {});
-    return stream->Finish().ok();
-  }));
 }
 
 TEST(Desk, RefusesASecondHandAndImpossibleAims) {
