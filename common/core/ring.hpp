@@ -1,7 +1,11 @@
 #pragma once
 // A bounded queue over storage that is allocated once, at construction: the oldest element gives way when it
 // is full. Index 0 is the oldest element.
+//
+// It goes round in no more of its storage than its greatest size so far needs, doubled when that is full, so
+// that a ring with much to spare stays in the cache.
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -12,7 +16,9 @@ namespace longreach {
 template <class T>
 class Ring {
  public:
-  explicit Ring(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
+  explicit Ring(std::size_t capacity) : slots_(capacity), round_(std::min(capacity, kFirstRound)) {
+    CHECK(capacity > 0);
+  }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
@@ -20,10 +26,12 @@ class Ring {
   [[nodiscard]] bool full() const { return size_ == slots_.size(); }
 
   /// Appends; drops the oldest element when full.
-  void push(const T& value) {
+  void push(const T& value) { extend() = value; }
+  /// Appends an element that is still to be filled in: what an older one left is in it.
+  T& extend() {
     if (full()) pop();
-    slots_[wrapped(first_ + size_)] = value;
-    ++size_;
+    if (size_ == round_) widen();
+    return slots_[wrapped(first_ + size_++)];
   }
   void pop() {
     CHECK(size_ > 0);
@@ -40,10 +48,20 @@ class Ring {
   bool operator==(const Ring&) const = default;  // also what lies there no longer
 
  private:
-  /// Of an index below twice the capacity; a division would take longer than all the rest.
-  [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i < slots_.size() ? i : i - slots_.size(); }
+  static constexpr std::size_t kFirstRound = 64;
+
+  /// Of an index below twice the round; a division would take longer than all the rest.
+  [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i < round_ ? i : i - round_; }
+  void widen() {
+    const auto begin = slots_.begin();
+    std::rotate(begin, begin + static_cast<std::ptrdiff_t>(first_),
+                begin + static_cast<std::ptrdiff_t>(round_));
+    first_ = 0;
+    round_ = std::min(2 * round_, slots_.size());
+  }
 
   std::vector<T> slots_;
+  std::size_t round_;  // slots in use
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

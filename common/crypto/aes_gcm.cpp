@@ -56,7 +56,8 @@ bool AesGcm::open(const std::uint8_t* nonce, Bytes header, Bytes sealed, std::ui
   gcm_context_data context;
   IMB_AES256_GCM_DEC(library(), expanded(key_), &context, out, sealed.data, size, nonce, header.data,
                      header.size, tag.data(), kTagBytes);
-  if (sodium_memcmp(tag.data(), sealed.data + size, kTagBytes) == 0) return true;
+  static_assert(kTagBytes == crypto_verify_16_BYTES);
+  if (crypto_verify_16(tag.data(), sealed.data + size) == 0) return true;
   sodium_memzero(out, size);
   return false;
 }

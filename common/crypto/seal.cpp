@@ -1,6 +1,9 @@
 #include "common/crypto/seal.hpp"
 
+#include <endian.h>
 #include <sodium.h>
+
+#include <cstring>
 
 #include "common/core/check.hpp"
 
@@ -12,11 +15,11 @@ constexpr std::uint64_t kDirections = 2;
 
 using NonceBytes = std::array<unsigned char, 12>;
 
-NonceBytes bytes_of(const Nonce& nonce) {
-  NonceBytes out{nonce.type};
-  for (std::size_t i = 0; i < 8; ++i)
-    out[4 + i] = static_cast<unsigned char>(nonce.sequence >> (8 * (7 - i)));
-  return out;
+// Not returned: a copy of what was just written in parts waits for the parts.
+void write(const Nonce& nonce, NonceBytes& out) {
+  const std::uint64_t sequence = htobe64(nonce.sequence);
+  out = {nonce.type};
+  std::memcpy(&out[4], &sequence, sizeof sequence);
 }
 
 const unsigned char* raw(std::span<const std::byte> bytes) {
@@ -46,7 +49,8 @@ Seal::~Seal() { sodium_memzero(key_.data(), key_.size()); }
 
 void Seal::close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const {
   CHECK(body.size() >= kTagBytes);
-  const NonceBytes n = bytes_of(nonce);
+  NonceBytes n;
+  write(nonce, n);
   unsigned char* const at = raw(body);
   const std::size_t size = body.size() - kTagBytes;
   if (cipher_ == Cipher::kAes256Gcm) {
@@ -61,7 +65,8 @@ bool Seal::open(const Nonce& nonce, std::span<const std::byte> header, std::span
                 std::span<std::byte> body) const {
   if (sealed.size() < kTagBytes) return false;
   CHECK(body.size() >= sealed.size() - kTagBytes);
-  const NonceBytes n = bytes_of(nonce);
+  NonceBytes n;
+  write(nonce, n);
   if (cipher_ == Cipher::kAes256Gcm) return aes_.open(n.data(), all(header), all(sealed), raw(body));
   return crypto_aead_chacha20poly1305_ietf_decrypt(raw(body), nullptr, nullptr, raw(sealed), sealed.size(),
                                                    raw(header), header.size(), n.data(), key_.data()) == 0;

@@ -21,7 +21,7 @@ constexpr std::size_t kCapacity = 16384;              // 3 s at 5 kHz
 
 DelayMonitor::DelayMonitor() : samples_(kCapacity), scratch_(kCapacity) {}
 
-void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt,
+void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt,
                                std::size_t bytes) {
   const auto type = static_cast<std::size_t>(header.type) - 1;
   if (type >= kDatagramTypes) return;
@@ -32,13 +32,15 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, st
     if (old.sequence > mark.sequence) mark = {old.sequence, old.sent};
     samples_.pop();
   }
-  samples_.push({.received = now,
-                 .sent = sent,
-                 .rtt_ns = rtt && *rtt >= Duration{0} ? rtt->count() : -1,
-                 .sequence = header.sequence,
-                 .bytes = static_cast<std::uint32_t>(std::min<std::size_t>(bytes, 65535)),
-                 .type = static_cast<std::uint8_t>(type),
-                 .late = header.sequence < newest_[type]});
+  // In place: a copy of what was just written in parts waits for the parts.
+  Sample& sample = samples_.extend();
+  sample.received = now;
+  sample.sent = sent;
+  sample.rtt = rtt;
+  sample.sequence = header.sequence;
+  sample.bytes = static_cast<std::uint32_t>(std::min<std::size_t>(bytes, 65535));
+  sample.type = static_cast<std::uint8_t>(type);
+  sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
   if (!first_heard_) first_heard_ = now;
   last_heard_ = now;
@@ -65,7 +67,7 @@ LinkFigures DelayMonitor::figures(Time now) const {
     squares += x * x;
     bytes += s.bytes;
     if (s.late) ++late;
-    if (s.rtt_ns >= 0) scratch_[rtts++] = s.rtt_ns;
+    if (s.rtt >= Duration{0}) scratch_[rtts++] = s.rtt.count();
   }
   const auto n = static_cast<double>(count);
   f.jitter_s = std::sqrt(std::max(0.0, squares / n - (sum / n) * (sum / n)));

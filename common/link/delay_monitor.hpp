@@ -36,13 +36,14 @@ struct LinkFigures {
   double bytes_per_s = 0.0;  // accepted bytes a second, without UDP and IP headers
 };
 
+constexpr Duration kNoRtt{-1};
+
 class DelayMonitor {
  public:
   DelayMonitor();
 
-  /// Books an accepted datagram. `rtt` where its echo allowed to compute one.
-  void on_datagram(Time now, const Header& header, PeerTime sent, std::optional<Duration> rtt,
-                   std::size_t bytes);
+  /// Books an accepted datagram. `rtt`: below zero where its echo did not allow to compute one.
+  void on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt, std::size_t bytes);
 
   /// Books when this side had sent what the peer had last heard.
   void on_echo(Time sent) { echoed_ = std::max(echoed_.value_or(sent), sent); }
@@ -57,7 +58,7 @@ class DelayMonitor {
   struct Sample {
     Time received{};
     PeerTime sent{};
-    std::int64_t rtt_ns = -1;  // -1: none
+    Duration rtt = kNoRtt;
     std::uint64_t sequence = 0;
     std::uint32_t bytes = 0;
     std::uint8_t type = 0;  // index, 0 to kDatagramTypes - 1

@@ -16,13 +16,13 @@ constexpr Duration kRttMax = seconds(600);
 
 constexpr std::size_t index_of(DatagramType type) { return static_cast<std::size_t>(type) - 1; }
 
-std::optional<Duration> round_trip(Time now, Time echo_sent, Duration held) {
+Duration round_trip(Time now, Time echo_sent, Duration held) {
   const std::int64_t age = saturating_sub(to_ns(now), to_ns(echo_sent));
   const Duration rtt{saturating_sub(age, held.count())};
   // An age at the end of the range was cut: nothing can be subtracted from it.
   const bool cut = age == std::numeric_limits<std::int64_t>::max();
   const bool plausible = !cut && held >= Duration{0} && rtt >= Duration{0} && rtt <= kRttMax;
-  return plausible ? std::optional(rtt) : std::nullopt;
+  return plausible ? rtt : kNoRtt;
 }
 
 }  // namespace
@@ -55,21 +55,17 @@ bool Endpoint::mark(const Header& header) {
   return newest;
 }
 
-std::optional<Time> Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes) {
-  std::optional<Time> echo_sent;
-  std::optional<Duration> rtt;
-  // Nobody can have heard what this side has yet to send.
-  if (stamp.echo && stamp.echo->sent_ns <= to_ns(now)) {
-    echo_sent = Time{Duration{stamp.echo->sent_ns}};
-    rtt = round_trip(now, *echo_sent, stamp.echo->held);
-    monitor_.on_echo(*echo_sent);
+void Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes) {
+  Duration rtt = kNoRtt;
+  if (const auto echoed = echo_sent(now, stamp)) {
+    rtt = round_trip(now, *echoed, stamp.echo->held);
+    monitor_.on_echo(*echoed);
   }
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
   // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link
   // would look shorter than it is.
   heard_at_ = now;
   heard_sent_ = stamp.sent;
-  return echo_sent;
 }
 
 std::optional<Header> Endpoint::number(DatagramType type, std::uint64_t sequence) {

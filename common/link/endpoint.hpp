@@ -15,6 +15,13 @@
 
 namespace longreach {
 
+/// When the receiver of this stamp had sent what its sender had last heard; none: not known.
+constexpr std::optional<Time> echo_sent(Time now, const Stamp& stamp) {
+  // Nobody can have heard what this side has yet to send.
+  if (!stamp.echo || stamp.echo->sent_ns > now.time_since_epoch().count()) return std::nullopt;
+  return Time{Duration{stamp.echo->sent_ns}};
+}
+
 class Endpoint {
  public:
   /// Begins a session, not zero. Nothing of the one before it counts any more.
@@ -26,8 +33,8 @@ class Endpoint {
   [[nodiscard]] std::optional<Rejection> judge(const Header& header) const;
   /// Uses up the number of a judged, authentic header. True: no newer one of its type came before.
   bool mark(const Header& header);
-  /// Books a marked datagram. Returns when this side had sent what the peer had last heard; none: not known.
-  std::optional<Time> learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
+  /// Books a marked datagram.
+  void learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
 
   /// Header of the next datagram. None: there is no session, or this number or a greater one of its type has
   /// left in this session, or the numbers are at their end. So no number leaves twice.

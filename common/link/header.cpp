@@ -1,18 +1,23 @@
 #include "common/link/header.hpp"
 
+#include <endian.h>
+
+#include <cstring>
+
 #include "common/core/check.hpp"
 
 namespace longreach {
 namespace {
 
 void put(std::uint64_t value, std::span<std::byte> to) {
-  for (std::size_t i = 0; i < 8; ++i) to[i] = static_cast<std::byte>(value >> (8 * (7 - i)));
+  value = htobe64(value);
+  std::memcpy(to.data(), &value, sizeof value);
 }
 
 std::uint64_t get(std::span<const std::byte> from) {
   std::uint64_t value = 0;
-  for (std::size_t i = 0; i < 8; ++i) value = (value << 8) | std::to_integer<std::uint64_t>(from[i]);
-  return value;
+  std::memcpy(&value, from.data(), sizeof value);
+  return be64toh(value);
 }
 
 constexpr bool known(std::uint8_t type) {

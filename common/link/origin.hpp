@@ -3,10 +3,10 @@
 // nowhere.
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 
 namespace longreach {
 
-using Origin = std::array<std::byte, 28>;  // holds an IPv6 socket address
+using Origin = std::array<std::uint8_t, 28>;  // holds an IPv6 socket address
 
 }  // namespace longreach

@@ -44,18 +44,15 @@ std::size_t serialise(const Message& message, std::span<std::byte> body) {
 
 }  // namespace
 
-// Written and parsed over and over. Sub-messages are `optional` in the schema, so that clearing keeps them.
+// Used over and over. What is written sets every field, so it need not be cleared; sub-messages are
+// `optional` in the schema, so that clearing what is parsed keeps them.
 struct Codec::State {
-  State() {
-    make_room(std::get<proto::MotionCommand>(messages));
-    make_room(std::get<proto::StiffnessReport>(messages));
-    make_room(std::get<proto::Telemetry>(messages));
-  }
-  template <class Message>
-  WireMessage<Message>& message_for() {
-    return std::get<WireMessage<Message>>(messages);
-  }
-  std::tuple<proto::MotionCommand, proto::StiffnessReport, proto::Telemetry> messages;
+  struct Messages : std::tuple<proto::MotionCommand, proto::StiffnessReport, proto::Telemetry> {
+    Messages() {
+      std::apply([](auto&... message) { (make_room(message), ...); }, static_cast<tuple&>(*this));
+    }
+  };
+  Messages written, parsed;
 };
 
 Codec::Codec() : state_(std::make_unique<State>()) {}
@@ -63,30 +60,26 @@ Codec::~Codec() = default;
 
 template <class Message>
 std::size_t Codec::encode(const Stamp& stamp, const Message& message, std::span<std::byte> body) {
-  WireMessage<Message>& wire = state_->message_for<Message>();
-  wire.Clear();
+  auto& wire = std::get<WireMessage<Message>>(state_->written);
   write(message, wire);
   write(stamp, *wire.mutable_stamp());
   return serialise(wire, body);
 }
 
 template <class Message>
-std::variant<Decoded<Message>, Rejection> Codec::decode(std::span<const std::byte> body) {
-  WireMessage<Message>& wire = state_->message_for<Message>();
+std::optional<Rejection> Codec::decode(std::span<const std::byte> body, Decoded<Message>& out) {
+  auto& wire = std::get<WireMessage<Message>>(state_->parsed);
   if (body.size() > kBodyMaxBytes || !wire.ParseFromArray(body.data(), static_cast<int>(body.size())))
     return Rejection::kDecode;
-  const auto stamp = wire.has_stamp() ? read_stamp(wire.stamp()) : std::nullopt;
-  if (!stamp) return Rejection::kValue;
-  const auto message = read(wire);
-  if (!message) return Rejection::kValue;
-  return Decoded<Message>{*stamp, *message};
+  const bool possible = wire.has_stamp() && read(wire.stamp(), out.stamp) && read(wire, out.message);
+  return possible ? std::nullopt : std::optional(Rejection::kValue);
 }
 
 template std::size_t Codec::encode(const Stamp&, const MotionCommand&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const StiffnessReport&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const Telemetry&, std::span<std::byte>);
-template std::variant<Decoded<MotionCommand>, Rejection> Codec::decode(std::span<const std::byte>);
-template std::variant<Decoded<StiffnessReport>, Rejection> Codec::decode(std::span<const std::byte>);
-template std::variant<Decoded<Telemetry>, Rejection> Codec::decode(std::span<const std::byte>);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<MotionCommand>&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<StiffnessReport>&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<Telemetry>&);
 
 }  // namespace longreach

@@ -6,8 +6,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
-#include <variant>
 
 #include "common/link/envelope.hpp"
 #include "common/link/header.hpp"
@@ -44,8 +44,9 @@ class Codec {
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
+  /// What `out` holds after a rejection means nothing.
   template <class Message>
-  std::variant<Decoded<Message>, Rejection> decode(std::span<const std::byte> body);
+  [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Decoded<Message>& out);
 
  private:
   struct State;

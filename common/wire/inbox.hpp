@@ -30,6 +30,7 @@ class Inbox {
 
   /// Puts the items in order; call once, after the last push and before items().
   void close() {
+    if (oldest_ == 0) return;
     std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(oldest_),
                 slots_.begin() + static_cast<std::ptrdiff_t>(size_));
     oldest_ = 0;

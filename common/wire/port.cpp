@@ -37,8 +37,7 @@ void Port::leave() {
   channel_.answer_to(Origin{});
 }
 
-void Port::receive(Time now) {
-  open_inboxes();
+void Port::drain(Time now) {
   for (int i = 0; i < kDatagramsPerReceive; ++i) {
     const auto size = channel_.receive(buffer_);
     if (!size) break;
@@ -60,7 +59,6 @@ void Port::receive(Time now) {
     if (!datagram) break;
     count(judge(now, *datagram, impairment_.origin()));
   }
-  close_inboxes();
 }
 
 std::uint64_t Port::rejected_total() const {
@@ -79,7 +77,7 @@ std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagr
   const auto read = read_header(datagram);
   if (const auto* rejection = std::get_if<Rejection>(&read)) return *rejection;
   const Header& header = std::get<Header>(read);
-  if (!takes(header.type)) return Rejection::kType;
+  if (way_of(header.type) == out_) return Rejection::kType;
   if (const auto rejection = endpoint_.judge(header)) return rejection;
   const auto sealed = datagram.subspan(kHeaderBytes);
   if (!seals_->in.open(nonce_of(header), datagram.first(kHeaderBytes), sealed, body_))
@@ -93,11 +91,11 @@ std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagr
 template <class Message>
 std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time now,
                                            const Opened& datagram) {
-  const auto decoded = codec_.decode<Message>(datagram.body);
-  if (const auto* rejection = std::get_if<Rejection>(&decoded)) return *rejection;
-  const auto& [stamp, message] = std::get<Decoded<Message>>(decoded);
-  const auto echo_sent = endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
-  inbox.push({datagram.header.sequence, stamp.sent, now, echo_sent, datagram.newest, message});
+  Decoded<Message> decoded;
+  if (const auto rejection = codec_.decode(datagram.body, decoded)) return rejection;
+  const auto& [stamp, message] = decoded;
+  endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
+  inbox.push({datagram.header.sequence, stamp.sent, now, echo_sent(now, stamp), datagram.newest, message});
   return std::nullopt;
 }
 
@@ -115,8 +113,12 @@ std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequen
   return size + kOverheadBytes;
 }
 
-bool MasterPort::takes(DatagramType type) const {
-  return type == DatagramType::kStiffnessReport || type == DatagramType::kTelemetry;
+void MasterPort::receive(Time now) {
+  reports_.open();
+  telemetry_.open();
+  drain(now);
+  reports_.close();
+  telemetry_.close();
 }
 
 std::optional<Rejection> MasterPort::accept(Time now, const Opened& datagram) {
@@ -124,29 +126,19 @@ std::optional<Rejection> MasterPort::accept(Time now, const Opened& datagram) {
                                                                 : accept_into(telemetry_, now, datagram);
 }
 
-void MasterPort::open_inboxes() {
-  reports_.open();
-  telemetry_.open();
-}
-
-void MasterPort::close_inboxes() {
-  reports_.close();
-  telemetry_.close();
-}
-
 void MasterPort::send(Time now, std::uint64_t sequence, const MotionCommand& command) {
   send_message(now, DatagramType::kMotionCommand, sequence, command);
 }
 
-bool SlavePort::takes(DatagramType type) const { return type == DatagramType::kMotionCommand; }
+void SlavePort::receive(Time now) {
+  commands_.open();
+  drain(now);
+  commands_.close();
+}
 
 std::optional<Rejection> SlavePort::accept(Time now, const Opened& datagram) {
   return accept_into(commands_, now, datagram);
 }
-
-void SlavePort::open_inboxes() { commands_.open(); }
-
-void SlavePort::close_inboxes() { commands_.close(); }
 
 std::size_t SlavePort::send(Time now, std::uint64_t sequence, const StiffnessReport& report) {
   return send_message(now, DatagramType::kStiffnessReport, sequence, report);

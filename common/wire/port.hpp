@@ -32,6 +32,11 @@ namespace longreach {
 constexpr int kDatagramsPerReceive = 1024;
 constexpr std::size_t kInboxCapacity = 256;
 
+/// Which way datagrams of this type go; a side takes those that come its way.
+constexpr Way way_of(DatagramType type) {
+  return type == DatagramType::kMotionCommand ? Way::kToSlave : Way::kToMaster;
+}
+
 /// What both sides' ports share.
 class Port {
  public:
@@ -46,8 +51,6 @@ class Port {
   /// Takes part in none.
   void leave();
 
-  void receive(Time now);
-
   /// Most that leaves, kbit/s; 0: no limit. Whoever sends asks before whether it may.
   void limit(double kbit_per_s) { budget_.configure(kbit_per_s); }
   [[nodiscard]] bool may_send(Time now) const { return budget_.allows(now); }
@@ -60,8 +63,8 @@ class Port {
   Impairment& impairment() { return impairment_; }
 
  protected:
-  /// Whether this side takes datagrams of this type.
-  [[nodiscard]] virtual bool takes(DatagramType type) const = 0;
+  /// Takes all that has come.
+  void drain(Time now);
   /// An authentic datagram: header, body in clear, whether no newer one of its type came before.
   struct Opened {
     Header header{};
@@ -70,9 +73,6 @@ class Port {
   };
   /// Decodes, books and keeps its message.
   virtual std::optional<Rejection> accept(Time now, const Opened& datagram) = 0;
-  /// Forgets what the last receive() accepted, and puts what this one accepted in order.
-  virtual void open_inboxes() = 0;
-  virtual void close_inboxes() = 0;
 
   template <class Message>
   std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Opened& datagram);
@@ -107,15 +107,13 @@ class MasterPort : public Port {
  public:
   MasterPort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToSlave) {}
+  void receive(Time now);
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
   void send(Time now, std::uint64_t sequence, const MotionCommand& command);
 
  private:
-  [[nodiscard]] bool takes(DatagramType type) const override;
   std::optional<Rejection> accept(Time now, const Opened& datagram) override;
-  void open_inboxes() override;
-  void close_inboxes() override;
 
   Inbox<Received<StiffnessReport>> reports_{kInboxCapacity};
   Inbox<Received<Telemetry>> telemetry_{kInboxCapacity};
@@ -125,16 +123,14 @@ class SlavePort : public Port {
  public:
   SlavePort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToMaster) {}
+  void receive(Time now);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
   /// Returns the size of the datagram, bytes; 0: none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
 
  private:
-  [[nodiscard]] bool takes(DatagramType type) const override;
   std::optional<Rejection> accept(Time now, const Opened& datagram) override;
-  void open_inboxes() override;
-  void close_inboxes() override;
 
   Inbox<Received<MotionCommand>> commands_{kInboxCapacity};
 };

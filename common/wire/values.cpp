@@ -26,15 +26,25 @@ bool all_within(const Field& values, double limit) {
 
 /// An enumeration whose values run from zero to `last`.
 template <class Enum>
-std::optional<Enum> to_enum(std::uint32_t value, Enum last) {
-  if (value > static_cast<std::uint32_t>(last)) return std::nullopt;
-  return static_cast<Enum>(value);
+bool read_enum(std::uint32_t value, Enum last, Enum& out) {
+  out = static_cast<Enum>(value);
+  return value <= static_cast<std::uint32_t>(last);
 }
 
 template <class Field>
 Vector3 to_vector(const Field& values) {
   return {static_cast<double>(values.Get(0)), static_cast<double>(values.Get(1)),
           static_cast<double>(values.Get(2))};
+}
+
+/// Three numbers, each of at most `limit`; none: zero.
+template <class Field>
+bool read_vector(const Field& values, double limit, Vector3& out) {
+  out.setZero();
+  if (values.empty()) return true;
+  if (values.size() != 3 || !all_within(values, limit)) return false;
+  out = to_vector(values);
+  return true;
 }
 
 template <class Field, class Vector>
@@ -58,19 +68,17 @@ void write(const ContactStiffness& contact, proto::ContactStiffness& out) {
   out.set_in_contact(contact.in_contact);
 }
 
-std::optional<ContactStiffness> read_contact(const proto::ContactStiffness& in) {
-  ContactStiffness out;
+bool read(const proto::ContactStiffness& in, ContactStiffness& out) {
   const auto& k = in.stiffness();
-  if (k.size() != 0 && k.size() != 6) return std::nullopt;
-  if (!all_within(k, kStiffnessMaxNPerM)) return std::nullopt;
-  if (k.size() == 6) {
+  out.stiffness.setZero();
+  if (!k.empty()) {
+    if (k.size() != 6 || !all_within(k, kStiffnessMaxNPerM)) return false;
     out.stiffness << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
   }
-  if (!within(in.touch_sequence(), 0.0, kSequenceMax)) return std::nullopt;
   out.touch_sequence = in.touch_sequence();
   out.touch = in.touch();
   out.in_contact = in.in_contact();
-  return out;
+  return within(out.touch_sequence, 0.0, kSequenceMax);
 }
 
 void write(const Pose& pose, proto::PoseXyzw& out) {
@@ -78,15 +86,14 @@ void write(const Pose& pose, proto::PoseXyzw& out) {
   assign(pose.q.coeffs(), *out.mutable_quaternion());
 }
 
-std::optional<Pose> read_pose(const proto::PoseXyzw& in) {
-  if (in.position_m_size() != 3 || in.quaternion_size() != 4) return std::nullopt;
-  if (!all_within(in.position_m(), 1e9) || !all_within(in.quaternion(), 1.0 + kUnitTolerance))
-    return std::nullopt;
+bool read(const proto::PoseXyzw& in, Pose& out) {
+  if (in.position_m_size() != 3 || in.quaternion_size() != 4) return false;
+  if (!all_within(in.position_m(), 1e9) || !all_within(in.quaternion(), 1.0 + kUnitTolerance)) return false;
   const auto& q = in.quaternion();
-  Pose out{to_vector(in.position_m()), Quaternion(q[3], q[0], q[1], q[2])};
-  if (!within(out.q.norm(), 1.0 - kUnitTolerance, 1.0 + kUnitTolerance)) return std::nullopt;
+  out = {to_vector(in.position_m()), Quaternion(q[3], q[0], q[1], q[2])};
+  if (!within(out.q.norm(), 1.0 - kUnitTolerance, 1.0 + kUnitTolerance)) return false;
   out.q.normalize();
-  return out;
+  return true;
 }
 
 std::uint32_t to_bits(const Clamps& c) {
@@ -97,10 +104,10 @@ std::uint32_t to_bits(const Clamps& c) {
   return bits;
 }
 
-std::optional<Clamps> to_clamps(std::uint32_t bits) {
-  if (bits >= 1u << 7) return std::nullopt;
+bool read(std::uint32_t bits, Clamps& out) {
   const auto bit = [bits](int i) { return ((bits >> i) & 1u) != 0; };
-  return Clamps{bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6)};
+  out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6)};
+  return bits < 1u << 7;
 }
 
 // An estimator that knows nothing yet may have an infinite variance: that is "not valid", not a damaged
@@ -136,8 +143,8 @@ void write(const ContactEstimate& e, proto::Telemetry& out) {
   out.set_verdicts(verdicts);
 }
 
-std::optional<ContactEstimate> read_estimate(const proto::Telemetry& in) {
-  ContactEstimate e;
+bool read(const proto::Telemetry& in, ContactEstimate& e) {
+  e = {};
   e.stiffness_n_per_m = in.stiffness_n_per_m();
   e.stiffness_sd_n_per_m = static_cast<double>(in.stiffness_sd_n_per_m());
   e.k = static_cast<double>(in.k());
@@ -146,11 +153,11 @@ std::optional<ContactEstimate> read_estimate(const proto::Telemetry& in) {
   e.depth_m = static_cast<double>(in.depth_m());
   e.valid = in.estimate_valid();
   for (const double v : {e.stiffness_n_per_m, e.stiffness_sd_n_per_m, e.k, e.lambda, e.n, e.depth_m}) {
-    if (!std::isfinite(v)) return std::nullopt;
+    if (!std::isfinite(v)) return false;
   }
-  if (!e.valid) return e;
+  if (!e.valid) return true;
   const auto& sd = in.estimate_sd();
-  if (sd.size() != 4 || !all_within(sd, 2.0 * kEstimateMax)) return std::nullopt;
+  if (sd.size() != 4 || !all_within(sd, 2.0 * kEstimateMax)) return false;
   e.secant_n_per_m = e.n != 0.0 ? e.stiffness_n_per_m / e.n : 0.0;
   e.k_sd = static_cast<double>(sd[0]);
   e.lambda_sd = static_cast<double>(sd[1]);
@@ -158,12 +165,10 @@ std::optional<ContactEstimate> read_estimate(const proto::Telemetry& in) {
   e.correlation = static_cast<double>(sd[3]);
   std::uint32_t bits = in.verdicts();
   for (Verdict* v : {&e.stiffness_verdict, &e.k_verdict, &e.lambda_verdict, &e.n_verdict}) {
-    const auto verdict = to_enum(bits & 3u, Verdict::kNotIdentifiable);
-    if (!verdict) return std::nullopt;
-    *v = *verdict;
+    if (!read_enum(bits & 3u, Verdict::kNotIdentifiable, *v)) return false;
     bits >>= 2;
   }
-  return bits == 0 ? std::optional(e) : std::nullopt;
+  return bits == 0;
 }
 
 bool link_figures_possible(const proto::Telemetry& in) {
@@ -180,13 +185,14 @@ void write(const Stamp& stamp, proto::Stamp& out) {
   out.set_echo_held_ns(stamp.echo ? stamp.echo->held.count() : 0);
 }
 
-std::optional<Stamp> read_stamp(const proto::Stamp& in) {
+bool read(const proto::Stamp& in, Stamp& out) {
   const auto possible = [](std::int64_t ns) { return ns >= -kInstantMaxNs && ns <= kInstantMaxNs; };
-  if (!possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return std::nullopt;
-  if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return std::nullopt;
-  Stamp stamp{.sent = PeerTime(Duration(in.sent_ns()))};
-  if (in.has_echo_sent_ns()) stamp.echo = Echo{in.echo_sent_ns(), Duration(in.echo_held_ns())};
-  return stamp;
+  if (!possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return false;
+  if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return false;
+  out.sent = PeerTime(Duration(in.sent_ns()));
+  out.echo.reset();
+  if (in.has_echo_sent_ns()) out.echo = Echo{in.echo_sent_ns(), Duration(in.echo_held_ns())};
+  return true;
 }
 
 void write(const MotionCommand& command, proto::MotionCommand& out) {
@@ -204,30 +210,17 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
   }
 }
 
-std::optional<MotionCommand> read(const proto::MotionCommand& in) {
-  const auto request = to_enum(in.request(), Request::kLetGo);
-  const auto mode = to_enum(in.mode(), MotionMode::kPosition);
-  if (!request || !mode) return std::nullopt;
-  if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return std::nullopt;
-  MotionCommand out;
+bool read(const proto::MotionCommand& in, MotionCommand& out) {
+  if (!read_enum(in.request(), Request::kLetGo, out.request)) return false;
+  if (!read_enum(in.mode(), MotionMode::kPosition, out.mode)) return false;
+  if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return false;
   out.engagement = in.engagement();
-  out.request = *request;
-  out.mode = *mode;
   out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
   out.grip = in.grip();
-  if (in.position_m_size() == 3 && in.rotation_rad_size() == 0) {
-    if (!all_within(in.position_m(), kGoalMaxM)) return std::nullopt;
-    out.goal_kind = GoalKind::kPosition;
-    out.position_m = to_vector(in.position_m());
-    return out;
-  }
-  if (in.rotation_rad_size() == 3 && in.position_m_size() == 0) {
-    if (!all_within(in.rotation_rad(), kGoalMaxRad)) return std::nullopt;
-    out.goal_kind = GoalKind::kOrientation;
-    out.rotation_rad = to_vector(in.rotation_rad());
-    return out;
-  }
-  return std::nullopt;
+  out.goal_kind = in.rotation_rad().empty() ? GoalKind::kPosition : GoalKind::kOrientation;
+  if (in.position_m().empty() == in.rotation_rad().empty()) return false;  // neither or both
+  return read_vector(in.position_m(), kGoalMaxM, out.position_m) &&
+         read_vector(in.rotation_rad(), kGoalMaxRad, out.rotation_rad);
 }
 
 void write(const StiffnessReport& report, proto::StiffnessReport& out) {
@@ -239,13 +232,12 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_reached_sequence(report.reached_sequence);
 }
 
-std::optional<StiffnessReport> read(const proto::StiffnessReport& in) {
-  const auto state = to_enum(in.state(), SafetyState::kFault);
-  const auto cause = to_enum(in.cause(), HoldCause::kUnanswered);
-  const auto translation = read_contact(in.translation());
-  const auto rotation = read_contact(in.rotation());
-  if (!state || !cause || !translation || !rotation) return std::nullopt;
-  return StiffnessReport{in.engagement(), *state, *cause, *translation, *rotation, in.reached_sequence()};
+bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
+  out.engagement = in.engagement();
+  out.reached_sequence = in.reached_sequence();
+  return read_enum(in.state(), SafetyState::kFault, out.state) &&
+         read_enum(in.cause(), HoldCause::kUnanswered, out.cause) &&
+         read(in.translation(), out.translation) && read(in.rotation(), out.rotation);
 }
 
 void write(const Telemetry& telemetry, proto::Telemetry& out) {
@@ -269,32 +261,21 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_load(telemetry.load);
 }
 
-std::optional<Telemetry> read(const proto::Telemetry& in) {
-  const auto state = to_enum(in.state(), SafetyState::kFault);
-  const auto cause = to_enum(in.cause(), HoldCause::kUnanswered);
-  const auto tool = read_pose(in.tool());
-  const auto goal = read_pose(in.goal());
-  const auto estimate = read_estimate(in);
-  const auto clamps = to_clamps(in.clamps());
-  if (!state || !cause || !tool || !goal || !estimate || !clamps || !link_figures_possible(in))
-    return std::nullopt;
-  if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3)
-    return std::nullopt;
+bool read(const proto::Telemetry& in, Telemetry& out) {
+  const bool possible = read_enum(in.state(), SafetyState::kFault, out.state) &&
+                        read_enum(in.cause(), HoldCause::kUnanswered, out.cause) &&
+                        read(in.tool(), out.X_WE) && read(in.goal(), out.X_WE_goal) &&
+                        read(in, out.estimate) && read(in.clamps(), out.clamps) && link_figures_possible(in);
+  if (!possible) return false;
+  if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3) return false;
   if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
       !all_within(in.moment_nm(), 1e12)) {
-    return std::nullopt;
+    return false;
   }
-  Telemetry out;
-  out.state = *state;
-  out.cause = *cause;
   out.engagement = in.engagement();
-  out.X_WE = *tool;
-  out.X_WE_goal = *goal;
   std::copy(in.joint_rad().begin(), in.joint_rad().end(), out.joint_rad.begin());
   out.F_E_W = {to_vector(in.moment_nm()), to_vector(in.force_n())};
-  out.estimate = *estimate;
   out.penetration_m = static_cast<double>(in.penetration_m());
-  out.clamps = *clamps;
   out.up_loss = static_cast<double>(in.up_loss());
   out.up_jitter_s = static_cast<double>(in.up_jitter_s());
   out.playout_delay_s = static_cast<double>(in.playout_delay_s());
@@ -302,7 +283,7 @@ std::optional<Telemetry> read(const proto::Telemetry& in) {
   out.limit_violations = in.limit_violations();
   out.late_ticks = in.late_ticks();
   out.load = in.load();
-  return out;
+  return true;
 }
 
 }  // namespace longreach

@@ -1,8 +1,7 @@
 #pragma once
 // The values of a body: structs of common/link to protobuf messages, and back with every value checked.
-// Private to the codec. `read` returns none when a value is missing, not finite or out of range.
-
-#include <optional>
+// Private to the codec. `read` is false when a value is missing, not finite or out of range; `out` then means
+// nothing.
 
 #include "common/link/envelope.hpp"
 #include "common/link/motion_command.hpp"
@@ -37,9 +36,10 @@ void write(const MotionCommand& command, proto::MotionCommand& out);
 void write(const StiffnessReport& report, proto::StiffnessReport& out);
 void write(const Telemetry& telemetry, proto::Telemetry& out);
 
-std::optional<Stamp> read_stamp(const proto::Stamp& in);
-std::optional<MotionCommand> read(const proto::MotionCommand& in);
-std::optional<StiffnessReport> read(const proto::StiffnessReport& in);
-std::optional<Telemetry> read(const proto::Telemetry& in);
+// Every field of `out` is overwritten.
+[[nodiscard]] bool read(const proto::Stamp& in, Stamp& out);
+[[nodiscard]] bool read(const proto::MotionCommand& in, MotionCommand& out);
+[[nodiscard]] bool read(const proto::StiffnessReport& in, StiffnessReport& out);
+[[nodiscard]] bool read(const proto::Telemetry& in, Telemetry& out);
 
 }  // namespace longreach

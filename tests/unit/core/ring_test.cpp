@@ -29,24 +29,31 @@ TEST(Ring, HoldsOneElement) {
   EXPECT_TRUE(ring.empty());
 }
 
+// Small ones, and those that go round in more and more of their storage.
 TEST(Ring, BehavesLikeABoundedDeque) {
   Random random(11);
-  Ring<int> ring(7);
-  std::deque<int> oracle;
-  for (int i = 0; i < 5000; ++i) {
-    if (random.chance(0.01)) {
-      ring.clear();
-      oracle.clear();
-    } else if (random.chance(0.6)) {
-      if (oracle.size() == 7) oracle.pop_front();
-      ring.push(i);
-      oracle.push_back(i);
-    } else if (!oracle.empty()) {
-      ring.pop();
-      oracle.pop_front();
+  for (const std::size_t capacity : {7, 64, 65, 300}) {
+    Ring<int> ring(capacity);
+    std::deque<int> oracle;
+    int times_full = 0;
+    for (int i = 0; i < 10'000; ++i) {
+      if (random.chance(0.05 / static_cast<double>(capacity))) {
+        ring.clear();
+        oracle.clear();
+      } else if (random.chance(0.6)) {
+        if (oracle.size() == capacity) oracle.pop_front();
+        ring.push(i);
+        oracle.push_back(i);
+      } else if (!oracle.empty()) {
+        ring.pop();
+        oracle.pop_front();
+      }
+      ASSERT_EQ(ring.size(), oracle.size());
+      ASSERT_EQ(ring.full(), oracle.size() == capacity);
+      times_full += ring.full() ? 1 : 0;
+      for (std::size_t k = 0; k < oracle.size(); ++k) ASSERT_EQ(ring[k], oracle[k]);
     }
-    ASSERT_EQ(ring.size(), oracle.size());
-    for (std::size_t k = 0; k < oracle.size(); ++k) ASSERT_EQ(ring[k], oracle[k]);
+    EXPECT_GT(times_full, 100);
   }
 }
 

@@ -99,9 +99,9 @@ TEST(Allocation, EndpointAndMonitorAllocateNothing) {
     write_header(*a.number(DatagramType::kMotionCommand, number), datagram);
     const auto read = read_header(datagram);
     const Header header = std::get<Header>(read);
-    if (!b.judge(header) && b.mark(header)) (void)b.learn(at(i), header, a.stamp_for(at(i)), datagram.size());
+    if (!b.judge(header) && b.mark(header)) b.learn(at(i), header, a.stamp_for(at(i)), datagram.size());
     const auto answer = b.number(DatagramType::kTelemetry, number);
-    if (a.mark(*answer)) (void)a.learn(at(i), *answer, b.stamp_for(at(i)), 100);
+    if (a.mark(*answer)) a.learn(at(i), *answer, b.stamp_for(at(i)), 100);
     if (i % 50 == 0) (void)a.monitor().figures(at(i));
   });
   EXPECT_EQ(n, 0U);

@@ -87,7 +87,7 @@ TEST(DelayMonitor, RoundTripIsTheMedianAndTheLeastOfTheWindow) {
   const double rtts[] = {5.0, 1.0, 9.0, 2.0, 3.0};
   for (std::uint64_t i = 0; i < 5; ++i) {
     monitor.on_datagram(at(1.0), {DatagramType::kTelemetry, 1, i + 1}, peer(0.5), from_seconds(rtts[i]), 50);
-    monitor.on_datagram(at(1.0), {DatagramType::kMotionCommand, 1, i + 1}, peer(0.5), std::nullopt, 50);
+    monitor.on_datagram(at(1.0), {DatagramType::kMotionCommand, 1, i + 1}, peer(0.5), kNoRtt, 50);
   }
   EXPECT_DOUBLE_EQ(monitor.figures(at(1.0)).rtt_s.value(), 3.0);
   EXPECT_DOUBLE_EQ(monitor.figures(at(1.0)).rtt_min_s, 1.0);
@@ -197,8 +197,8 @@ TEST(DelayMonitor, RateHoldsWhenMoreComesThanItCanKeep) {
   DelayMonitor monitor;
   std::uint64_t sequence = 0;
   for (int i = 0; i < 60000; ++i) {
-    monitor.on_datagram(at(5e-5 * i), {DatagramType::kMotionCommand, 1, ++sequence}, peer(5e-5 * i),
-                        std::nullopt, 100);
+    monitor.on_datagram(at(5e-5 * i), {DatagramType::kMotionCommand, 1, ++sequence}, peer(5e-5 * i), kNoRtt,
+                        100);
   }
   EXPECT_NEAR(monitor.figures(at(3.0)).rate_hz, 20000.0, 50.0);
   EXPECT_EQ(monitor.figures(at(3.0)).loss, 0.0);
@@ -210,7 +210,7 @@ TEST(DelayMonitor, ClearForgetsEverything) {
   monitor.clear();
   EXPECT_FALSE(monitor.last_heard());
   EXPECT_FALSE(monitor.figures(at(1.0)).rtt_s);
-  monitor.on_datagram(at(2.0), {DatagramType::kTelemetry, 2, 1}, peer(0.5), std::nullopt, 50);
+  monitor.on_datagram(at(2.0), {DatagramType::kTelemetry, 2, 1}, peer(0.5), kNoRtt, 50);
   EXPECT_EQ(monitor.figures(at(2.0)).reorder, 0.0);
   EXPECT_EQ(monitor.figures(at(2.0)).loss, 0.0);
 }
@@ -219,10 +219,10 @@ TEST(DelayMonitor, ClearForgetsWhatLeftTheWindow) {
   DelayMonitor monitor;
   for (std::uint64_t i = 1; i <= 10; ++i) {
     monitor.on_datagram(at(static_cast<double>(i)), {DatagramType::kTelemetry, 1, i},
-                        peer(static_cast<double>(i)), std::nullopt, 50);
+                        peer(static_cast<double>(i)), kNoRtt, 50);
   }
   monitor.clear();
-  monitor.on_datagram(at(11.0), {DatagramType::kTelemetry, 2, 5000}, peer(11.0), std::nullopt, 50);
+  monitor.on_datagram(at(11.0), {DatagramType::kTelemetry, 2, 5000}, peer(11.0), kNoRtt, 50);
   EXPECT_EQ(monitor.figures(at(11.0)).loss, 0.0);
 }
 

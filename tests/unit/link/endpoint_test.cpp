@@ -26,7 +26,8 @@ struct Outcome {
 Outcome receive(Endpoint& endpoint, Time now, const Header& header, const Stamp& stamp = {}) {
   if (const auto rejection = endpoint.judge(header)) return {.rejection = rejection};
   const bool newest = endpoint.mark(header);
-  return {.newest = newest, .echo_sent = endpoint.learn(now, header, stamp, 100)};
+  endpoint.learn(now, header, stamp, 100);
+  return {.newest = newest, .echo_sent = echo_sent(now, stamp)};
 }
 
 Endpoint following(std::uint64_t session) {

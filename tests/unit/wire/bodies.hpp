@@ -18,7 +18,9 @@ namespace longreach::bodies {
 template <class Message>
 std::variant<Decoded<Message>, Rejection> decode(const std::string& body) {
   Codec codec;
-  return codec.decode<Message>(std::as_bytes(std::span(body)));
+  Decoded<Message> out;
+  if (const auto rejection = codec.decode(std::as_bytes(std::span(body)), out)) return *rejection;
+  return out;
 }
 
 template <class Message>

@@ -125,16 +125,27 @@ TEST(Codec, SendsAnEstimateThatIsNotFiniteAsNotValid) {
   EXPECT_EQ(round_trip(t).estimate.stiffness_n_per_m, 0.0);
 }
 
-TEST(Codec, RemembersNothingOfTheMessageBefore) {
+template <class Message>
+void expect_that_nothing_of_it_stays(const Message& before) {
   Codec codec;
   std::array<std::byte, kBodyMaxBytes> body;
-  codec.encode(samples::stamp(), samples::command(), body);
-  const std::size_t size = codec.encode(samples::stamp(), MotionCommand{}, body);
-  const auto out =
-      std::get<Decoded<MotionCommand>>(codec.decode<MotionCommand>(std::span(body).first(size))).message;
-  EXPECT_EQ(out.engagement, 0u);
-  EXPECT_EQ(out.position_m, Vector3(Vector3::Zero()));
-  EXPECT_EQ(out.scale, 1.0);
+  codec.encode(samples::extreme_stamp(), before, body);
+  const std::size_t size = codec.encode(Stamp{}, Message{}, body);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(body.data()), size),
+            samples::body_of(Message{}, Stamp{}));
+
+  Decoded<Message> decoded;
+  const std::string full = samples::body_of(before, samples::extreme_stamp());
+  ASSERT_FALSE(codec.decode(std::as_bytes(std::span(full)), decoded));
+  ASSERT_FALSE(codec.decode(std::span(body).first(size), decoded));
+  EXPECT_EQ(samples::body_of(decoded.message, decoded.stamp), samples::body_of(Message{}, Stamp{}));
+}
+
+TEST(Codec, RemembersNothingOfTheMessageBefore) {
+  expect_that_nothing_of_it_stays(samples::command());
+  expect_that_nothing_of_it_stays(samples::turn());
+  expect_that_nothing_of_it_stays(samples::report());
+  expect_that_nothing_of_it_stays(samples::telemetry());
 }
 
 TEST(Codec, SurvivesRandomBodies) {

@@ -98,8 +98,8 @@ class FakeChannel : public Channel {
     return bytes.size();
   }
   void send(std::span<const std::byte>) override {}
-  [[nodiscard]] Origin origin() const override { return Origin{static_cast<std::byte>(next_)}; }
-  void answer_to(const Origin& origin) override { answers.push_back(std::to_integer<int>(origin[0])); }
+  [[nodiscard]] Origin origin() const override { return Origin{static_cast<std::uint8_t>(next_)}; }
+  void answer_to(const Origin& origin) override { answers.push_back(origin[0]); }
 
   std::vector<std::vector<std::byte>> queue;
   std::vector<int> answers;

@@ -10,7 +10,7 @@
 
 #include "common/crypto/seal.hpp"
 #include "common/link/header.hpp"
-#include "common/wire/codec.hpp"
+#include "common/wire/port.hpp"
 
 namespace longreach::samples {
 
@@ -123,10 +123,6 @@ inline Telemetry extreme_telemetry() {
   t.up_jitter_s = t.playout_delay_s = 1e8;
   t.rejected = t.limit_violations = t.late_ticks = std::numeric_limits<std::uint64_t>::max();
   return t;
-}
-
-constexpr Way way_of(DatagramType type) {
-  return type == DatagramType::kMotionCommand ? Way::kToSlave : Way::kToMaster;
 }
 
 /// The body, sealed as the sender of such a datagram does.
