@@ -122,6 +122,11 @@ TEST(Codec, RefusesUnknownEnumerators) {
   auto telemetry = wire_of<proto::Telemetry>(samples::telemetry());
   telemetry.set_clamps(1u << 7);
   EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
+  telemetry.set_clamps(0);
+  for (const std::uint32_t verdicts : {3u, 3u << 6, 1u << 8}) {
+    telemetry.set_verdicts(verdicts);
+    EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue) << verdicts;
+  }
 }
 
 TEST(Codec, RefusesACommandWithoutOrWithTwoGoals) {
@@ -133,8 +138,10 @@ TEST(Codec, RefusesACommandWithoutOrWithTwoGoals) {
     EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()).has_value(), size != 3) << size;
   }
   wire = wire_of<proto::MotionCommand>(samples::command());
-  wire.add_rotation_rad(0.5);
-  EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue);
+  for (int size = 1; size <= 4; ++size) {
+    wire.add_rotation_rad(0.5);
+    EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue) << size;
+  }
 }
 
 TEST(Codec, RefusesStiffnessOfAnotherShapeOrSize) {

@@ -258,14 +258,29 @@ TEST_F(PortUnderFire, ADuplicateOfTheSameTickIsDropped) {
   EXPECT_EQ(slave_.rejected()[static_cast<std::size_t>(Rejection::kReplay)], 1u);
 }
 
+template <class Items>
+void expect_the_newest_of_300(const Items& items) {
+  ASSERT_EQ(items.size(), 256u);
+  EXPECT_EQ(items.front().sequence, 145u);
+  EXPECT_EQ(items.back().sequence, 400u);
+}
+
 TEST_F(PortUnderFire, KeepsTheNewestWhenMoreArriveThanAreKept) {
-  for (std::uint64_t i = 1; i <= 300; ++i) to_slave_.a().send(datagram(samples::command(), 100 + i));
+  for (std::uint64_t i = 1; i <= 300; ++i) {
+    to_slave_.a().send(datagram(samples::command(), 100 + i));
+    to_master_.a().send(datagram(samples::report(), 100 + i));
+    to_master_.a().send(datagram(samples::telemetry(), 100 + i));
+  }
   slave_.receive(now_);
-  ASSERT_EQ(slave_.commands().size(), 256u);
-  EXPECT_EQ(slave_.commands().front().sequence, 145u);
-  EXPECT_EQ(slave_.commands().back().sequence, 400u);
+  master_.receive(now_);
+  expect_the_newest_of_300(slave_.commands());
+  expect_the_newest_of_300(master_.reports());
+  expect_the_newest_of_300(master_.telemetry());
   slave_.receive(now_);
+  master_.receive(now_);
   EXPECT_TRUE(slave_.commands().empty());
+  EXPECT_TRUE(master_.reports().empty());
+  EXPECT_TRUE(master_.telemetry().empty());
 }
 
 TEST_F(PortUnderFire, AFloodOfGarbageIsTakenInBoundedBites) {
