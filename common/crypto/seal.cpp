@@ -15,7 +15,7 @@ constexpr std::uint64_t kDirections = 2;
 
 using NonceBytes = std::array<unsigned char, 12>;
 
-// Not returned: a copy of what was just written in parts waits for the parts.
+// Not returned: a processor that copies in one go what was just written in parts waits for the parts.
 void write(const Nonce& nonce, NonceBytes& out) {
   const std::uint64_t sequence = htobe64(nonce.sequence);
   out = {nonce.type};

@@ -32,7 +32,7 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
     if (old.sequence > mark.sequence) mark = {old.sequence, old.sent};
     samples_.pop();
   }
-  // In place: a copy of what was just written in parts waits for the parts.
+  // In place: a processor that copies in one go what was just written in parts waits for the parts.
   Sample& sample = samples_.extend();
   sample.received = now;
   sample.sent = sent;

@@ -50,6 +50,14 @@ struct Desk {
   std::unique_ptr<proto::Desk::Stub> stub;
 };
 
+struct Hand {
+  explicit Hand(Desk& desk) : stream(desk.stub->Hold(&context, &outcome)) {}
+
+  grpc::ClientContext context;
+  proto::Outcome outcome;
+  std::unique_ptr<grpc::ClientWriter<proto::HandAim>> stream;
+};
+
 proto::HandAim last_word() {
   proto::HandAim aim;
   aim.set_lets_go(true);
@@ -79,15 +87,13 @@ TEST(Desk, ShowsFramesUntilTheFollowerLeaves) {
 
 TEST(Desk, PassesAimsOnWithinReachAndTheEndInOrder) {
   Desk desk;
-  grpc::ClientContext context;
-  proto::Outcome outcome;
-  const auto stream = desk.stub->Hold(&context, &outcome);
-  ASSERT_TRUE(stream->Write(aim_at(3.0, 0.0, 4.0)));
+  Hand hand(desk);
+  ASSERT_TRUE(hand.stream->Write(aim_at(3.0, 0.0, 4.0)));
   EXPECT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
   EXPECT_NEAR(desk.newest().position_m.x(), 0.045, 1e-12);
   EXPECT_NEAR(desk.newest().position_m.z(), 0.06, 1e-12);
-  stream->WriteLast(last_word(), {});
-  EXPECT_TRUE(stream->Finish().ok());
+  hand.stream->WriteLast(last_word(), {});
+  EXPECT_TRUE(hand.stream->Finish().ok());
   EXPECT_FALSE(desk.newest().holds);
 }
 
@@ -95,46 +101,39 @@ TEST(Desk, AStreamThatEndsWithoutLettingGoLeavesItsLastWordToGrowOld) {
   for (const bool broken : {false, true}) {
     Desk desk;
     {
-      grpc::ClientContext context;
-      proto::Outcome outcome;
-      const auto stream = desk.stub->Hold(&context, &outcome);
-      ASSERT_TRUE(stream->Write(aim_at(0.01, 0.0, 0.0)));
+      Hand hand(desk);
+      ASSERT_TRUE(hand.stream->Write(aim_at(0.01, 0.0, 0.0)));
       ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
-      if (broken) context.TryCancel();
-      if (!broken) stream->WritesDone();
-      EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+      if (broken) hand.context.TryCancel();
+      if (!broken) hand.stream->WritesDone();
+      EXPECT_EQ(hand.stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
     }
     EXPECT_TRUE(desk.newest().holds) << broken;
     // And the next hand is let on the handle when that one has been silent for long enough.
     EXPECT_TRUE(desk.eventually([&desk](const RemoteAim&) {
-      grpc::ClientContext context;
-      proto::Outcome outcome;
-      const auto stream = desk.stub->Hold(&context, &outcome);
-      stream->Write(aim_at(0.0, 0.02, 0.0));
-      stream->WriteLast(last_word(), {});
-      return stream->Finish().ok();
+      Hand next(desk);
+      next.stream->Write(aim_at(0.0, 0.02, 0.0));
+      next.stream->WriteLast(last_word(), {});
+      return next.stream->Finish().ok();
     }));
   }
 }
 
 TEST(Desk, RefusesASecondHandAndImpossibleAims) {
   Desk desk;
-  grpc::ClientContext first_context, second_context;
-  proto::Outcome outcome;
-  const auto first = desk.stub->Hold(&first_context, &outcome);
+  Hand first(desk);
   std::jthread kept([&first](const std::stop_token& end) {
-    while (!end.stop_requested() && first->Write(aim_at(0.01, 0.0, 0.0)))
+    while (!end.stop_requested() && first.stream->Write(aim_at(0.01, 0.0, 0.0)))
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
   });
   ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
-  const auto second = desk.stub->Hold(&second_context, &outcome);
-  const grpc::Status refused = second->Finish();
+  const grpc::Status refused = Hand(desk).stream->Finish();
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_NE(refused.error_message().find("another hand"), std::string::npos);
   kept.request_stop();
   kept.join();
-  first->Write(aim_at(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
-  EXPECT_EQ(first->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  first.stream->Write(aim_at(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
+  EXPECT_EQ(first.stream->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_TRUE(desk.newest().position_m.allFinite());
 }
 
