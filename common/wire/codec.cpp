@@ -16,18 +16,13 @@ void reserve(int numbers, Fields*... fields) {
   (fields->Reserve(numbers), ...);
 }
 
-void make_room(proto::MotionCommand& m) {
-  m.mutable_stamp();
-  reserve(3, m.mutable_position_m(), m.mutable_rotation_rad());
-}
+void make_room(proto::MotionCommand& m) { reserve(3, m.mutable_position_m(), m.mutable_rotation_rad()); }
 
 void make_room(proto::StiffnessReport& m) {
-  m.mutable_stamp();
-  reserve(6, m.mutable_translation()->mutable_stiffness(), m.mutable_rotation()->mutable_stiffness());
+  reserve(6, m.mutable_translation_n_per_m(), m.mutable_rotation_nm_per_rad());
 }
 
 void make_room(proto::Telemetry& m) {
-  m.mutable_stamp();
   for (proto::PoseXyzw* pose : {m.mutable_tool(), m.mutable_goal()})
     reserve(4, pose->mutable_position_m(), pose->mutable_quaternion());
   reserve(kMaxJoints, m.mutable_joint_rad(), m.mutable_force_n(), m.mutable_moment_nm(),
@@ -40,6 +35,26 @@ std::size_t serialise(const Message& message, std::span<std::byte> body) {
   CHECK(size <= body.size() && size <= kBodyMaxBytes);
   message.SerializeWithCachedSizesToArray(reinterpret_cast<std::uint8_t*>(body.data()));
   return size;
+}
+
+// What all bodies begin with.
+template <class Wire>
+void write(const Stamp& stamp, Wire& out) {
+  out.set_sent_ns(stamp.sent.time_since_epoch().count());
+  out.clear_echo_sent_ns();
+  if (stamp.echo) out.set_echo_sent_ns(stamp.echo->sent_ns);
+  out.set_echo_held_ns(stamp.echo ? stamp.echo->held.count() : 0);
+}
+
+template <class Wire>
+bool read(const Wire& in, Stamp& out) {
+  const auto possible = [](std::int64_t ns) { return ns >= -kInstantMaxNs && ns <= kInstantMaxNs; };
+  if (!in.has_sent_ns() || !possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return false;
+  if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return false;
+  out.sent = PeerTime(Duration(in.sent_ns()));
+  out.echo.reset();
+  if (in.has_echo_sent_ns()) out.echo = Echo{in.echo_sent_ns(), Duration(in.echo_held_ns())};
+  return true;
 }
 
 }  // namespace
@@ -62,7 +77,7 @@ template <class Message>
 std::size_t Codec::encode(const Stamp& stamp, const Message& message, std::span<std::byte> body) {
   auto& wire = std::get<WireMessage<Message>>(state_->written);
   write(message, wire);
-  write(stamp, *wire.mutable_stamp());
+  write(stamp, wire);
   return serialise(wire, body);
 }
 
@@ -71,7 +86,7 @@ std::optional<Rejection> Codec::decode(std::span<const std::byte> body, Decoded<
   auto& wire = std::get<WireMessage<Message>>(state_->parsed);
   if (body.size() > kBodyMaxBytes || !wire.ParseFromArray(body.data(), static_cast<int>(body.size())))
     return Rejection::kDecode;
-  const bool possible = wire.has_stamp() && read(wire.stamp(), out.stamp) && read(wire, out.message);
+  const bool possible = read(wire, out.stamp) && read(wire, out.message);
   return possible ? std::nullopt : std::optional(Rejection::kValue);
 }
 

@@ -54,31 +54,21 @@ void assign(const Vector& values, Field& out) {
 }
 
 // Upper triangle of the symmetric part; a zero matrix takes no bytes.
-void write(const ContactStiffness& contact, proto::ContactStiffness& out) {
-  out.mutable_stiffness()->Clear();
-  if (!contact.stiffness.isZero(0.0)) {
-    for (int row = 0; row < 3; ++row) {
-      for (int column = row; column < 3; ++column) {
-        out.add_stiffness(0.5 * (contact.stiffness(row, column) + contact.stiffness(column, row)));
-      }
-    }
+void write(const Matrix3& stiffness, Doubles& out) {
+  out.Clear();
+  if (stiffness.isZero(0.0)) return;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column)
+      out.Add(0.5 * (stiffness(row, column) + stiffness(column, row)));
   }
-  out.set_touch_sequence(contact.touch_sequence);
-  out.set_touch(contact.touch);
-  out.set_in_contact(contact.in_contact);
 }
 
-bool read(const proto::ContactStiffness& in, ContactStiffness& out) {
-  const auto& k = in.stiffness();
-  out.stiffness.setZero();
-  if (!k.empty()) {
-    if (k.size() != 6 || !all_within(k, kStiffnessMaxNPerM)) return false;
-    out.stiffness << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
-  }
-  out.touch_sequence = in.touch_sequence();
-  out.touch = in.touch();
-  out.in_contact = in.in_contact();
-  return within(out.touch_sequence, 0.0, kSequenceMax);
+bool read(const Doubles& k, Matrix3& out) {
+  out.setZero();
+  if (k.empty()) return true;
+  if (k.size() != 6 || !all_within(k, kStiffnessMaxNPerM)) return false;
+  out << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+  return true;
 }
 
 void write(const Pose& pose, proto::PoseXyzw& out) {
@@ -178,23 +168,6 @@ bool link_figures_possible(const proto::Telemetry& in) {
 
 }  // namespace
 
-void write(const Stamp& stamp, proto::Stamp& out) {
-  out.set_sent_ns(stamp.sent.time_since_epoch().count());
-  out.clear_echo_sent_ns();
-  if (stamp.echo) out.set_echo_sent_ns(stamp.echo->sent_ns);
-  out.set_echo_held_ns(stamp.echo ? stamp.echo->held.count() : 0);
-}
-
-bool read(const proto::Stamp& in, Stamp& out) {
-  const auto possible = [](std::int64_t ns) { return ns >= -kInstantMaxNs && ns <= kInstantMaxNs; };
-  if (!possible(in.sent_ns()) || !possible(in.echo_sent_ns())) return false;
-  if (in.echo_held_ns() < 0 || in.echo_held_ns() > kHeldMaxNs) return false;
-  out.sent = PeerTime(Duration(in.sent_ns()));
-  out.echo.reset();
-  if (in.has_echo_sent_ns()) out.echo = Echo{in.echo_sent_ns(), Duration(in.echo_held_ns())};
-  return true;
-}
-
 void write(const MotionCommand& command, proto::MotionCommand& out) {
   out.set_engagement(command.engagement);
   out.set_request(static_cast<std::uint32_t>(command.request));
@@ -227,17 +200,32 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_engagement(report.engagement);
   out.set_state(static_cast<std::uint32_t>(report.state));
   out.set_cause(static_cast<std::uint32_t>(report.cause));
-  write(report.translation, *out.mutable_translation());
-  write(report.rotation, *out.mutable_rotation());
   out.set_reached_sequence(report.reached_sequence);
+  write(report.translation.stiffness, *out.mutable_translation_n_per_m());
+  out.set_translation_touch_sequence(report.translation.touch_sequence);
+  out.set_translation_touch(report.translation.touch);
+  out.set_translation_in_contact(report.translation.in_contact);
+  write(report.rotation.stiffness, *out.mutable_rotation_nm_per_rad());
+  out.set_rotation_touch_sequence(report.rotation.touch_sequence);
+  out.set_rotation_touch(report.rotation.touch);
+  out.set_rotation_in_contact(report.rotation.in_contact);
 }
 
 bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.engagement = in.engagement();
   out.reached_sequence = in.reached_sequence();
+  out.translation.touch_sequence = in.translation_touch_sequence();
+  out.translation.touch = in.translation_touch();
+  out.translation.in_contact = in.translation_in_contact();
+  out.rotation.touch_sequence = in.rotation_touch_sequence();
+  out.rotation.touch = in.rotation_touch();
+  out.rotation.in_contact = in.rotation_in_contact();
   return read_enum(in.state(), SafetyState::kFault, out.state) &&
          read_enum(in.cause(), HoldCause::kUnanswered, out.cause) &&
-         read(in.translation(), out.translation) && read(in.rotation(), out.rotation);
+         read(in.translation_n_per_m(), out.translation.stiffness) &&
+         read(in.rotation_nm_per_rad(), out.rotation.stiffness) &&
+         within(out.translation.touch_sequence, 0.0, kSequenceMax) &&
+         within(out.rotation.touch_sequence, 0.0, kSequenceMax);
 }
 
 void write(const Telemetry& telemetry, proto::Telemetry& out) {

@@ -1,9 +1,8 @@
 #pragma once
-// The values of a body: structs of common/link to protobuf messages, and back with every value checked.
-// Private to the codec. `read` is false when a value is missing, not finite or out of range; `out` then means
-// nothing.
+// The values of a body but for its stamp: structs of common/link to protobuf messages, and back with every
+// value checked. Private to the codec. `read` is false when a value is missing, not finite or out of range;
+// `out` then means nothing.
 
-#include "common/link/envelope.hpp"
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
@@ -31,13 +30,11 @@ template <class Message>
 using WireMessage = typename WireMessageOf<Message>::Type;
 
 // Every field of `out` is overwritten but its stamp; its memory is used again.
-void write(const Stamp& stamp, proto::Stamp& out);
 void write(const MotionCommand& command, proto::MotionCommand& out);
 void write(const StiffnessReport& report, proto::StiffnessReport& out);
 void write(const Telemetry& telemetry, proto::Telemetry& out);
 
 // Every field of `out` is overwritten.
-[[nodiscard]] bool read(const proto::Stamp& in, Stamp& out);
 [[nodiscard]] bool read(const proto::MotionCommand& in, MotionCommand& out);
 [[nodiscard]] bool read(const proto::StiffnessReport& in, StiffnessReport& out);
 [[nodiscard]] bool read(const proto::Telemetry& in, Telemetry& out);

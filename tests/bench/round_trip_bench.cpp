@@ -19,16 +19,14 @@
 namespace longreach {
 namespace {
 
-constexpr std::size_t kCommandBytes = 95, kReportBytes = 200;
-
 class BareSockets {
  public:
   explicit BareSockets(bool drained) : drained_(drained) {
     for (udp::socket* socket : {&a_, &b_}) socket->non_blocking(true);
   }
   void round_trip() {
-    pass(a_, b_, at_b_, kCommandBytes);
-    pass(b_, a_, at_a_, kReportBytes);
+    pass(a_, b_, at_b_, command_bytes_);
+    pass(b_, a_, at_a_, report_bytes_);
   }
 
  private:
@@ -45,6 +43,13 @@ class BareSockets {
     return to.receive_from(asio::buffer(buffer_), sender, 0, error) != 0;
   }
 
+  template <class Message>
+  static std::size_t bytes_of(const Message& message) {
+    return samples::body_of(message).size() + kOverheadBytes;
+  }
+
+  const std::size_t command_bytes_ = bytes_of(samples::command()),
+                    report_bytes_ = bytes_of(samples::report());
   bool drained_;
   asio::io_context context_{1};
   udp::socket a_{context_, {asio::ip::address_v4::loopback(), 0}},

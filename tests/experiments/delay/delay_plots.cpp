@@ -49,8 +49,8 @@ Plot wall_plot(const std::string& wall, const std::string& title) {
     curve.column += "_given_mj";
     given.curves.push_back(curve);
   }
-  const auto limit = [&](const char* column, const char* title, int colour) {
-    shown.curves.push_back({.column = column, .title = title, .colour = colour, .csv = "limits_" + wall});
+  const auto limit = [&](const char* column, const char* name, int colour) {
+    shown.curves.push_back({.column = column, .title = name, .colour = colour, .csv = "limits_" + wall});
   };
   limit("direct", "limit: delay margin", 0);
   limit("position_position", "limit: coupling", 1);

@@ -146,7 +146,7 @@ TEST(Codec, RefusesACommandWithoutOrWithTwoGoals) {
 
 TEST(Codec, RefusesStiffnessOfAnotherShapeOrSize) {
   auto wire = wire_of<proto::StiffnessReport>(samples::report());
-  auto& k = *wire.mutable_translation()->mutable_stiffness();
+  auto& k = *wire.mutable_translation_n_per_m();
   k.Set(3, 1.1e12);
   EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue);
   k.Clear();
@@ -156,8 +156,19 @@ TEST(Codec, RefusesStiffnessOfAnotherShapeOrSize) {
     k.Add(1.0);
   }
   k.Clear();
-  wire.mutable_rotation()->set_touch_sequence(-1.0);
-  EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue);
+  for (const double k_max : {1e12, 1.1e12}) {
+    wire.set_rotation_nm_per_rad(5, k_max);
+    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()).has_value(), k_max > 1e12);
+  }
+  wire.clear_rotation_nm_per_rad();
+  for (const double sequence : {-1.0, 1e16}) {
+    wire.set_translation_touch_sequence(sequence);
+    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue) << sequence;
+    wire.set_translation_touch_sequence(0.0);
+    wire.set_rotation_touch_sequence(sequence);
+    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue) << sequence;
+    wire.set_rotation_touch_sequence(0.0);
+  }
 }
 
 TEST(Codec, RefusesPosesThatAreNone) {
@@ -175,18 +186,30 @@ TEST(Codec, RefusesPosesThatAreNone) {
   EXPECT_EQ(rejection_of<Telemetry>(wire.SerializeAsString()), Rejection::kValue);
 }
 
+template <class Message, class Wire>
+void refuses_impossible_instants(Wire wire) {
+  const auto rejection = [&] { return rejection_of<Message>(wire.SerializeAsString()); };
+  wire.set_sent_ns(std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(rejection(), Rejection::kValue);
+  wire.set_sent_ns(1);
+  EXPECT_FALSE(rejection());
+  wire.set_echo_sent_ns(std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(rejection(), Rejection::kValue);
+  wire.set_echo_sent_ns(1);
+  for (const std::int64_t held_ns : {std::int64_t{-1}, kHeldMaxNs + 1}) {
+    wire.set_echo_held_ns(held_ns);
+    EXPECT_EQ(rejection(), Rejection::kValue) << held_ns;
+  }
+  wire.set_echo_held_ns(kHeldMaxNs);
+  EXPECT_FALSE(rejection());
+  wire.clear_sent_ns();
+  EXPECT_EQ(rejection(), Rejection::kValue);
+}
+
 TEST(Codec, RefusesImpossibleInstants) {
-  auto wire = wire_of<proto::MotionCommand>(samples::command());
-  wire.mutable_stamp()->set_sent_ns(std::numeric_limits<std::int64_t>::min());
-  EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue);
-  wire.mutable_stamp()->set_sent_ns(1);
-  wire.mutable_stamp()->set_echo_sent_ns(std::numeric_limits<std::int64_t>::max());
-  EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue);
-  wire.mutable_stamp()->set_echo_sent_ns(1);
-  wire.mutable_stamp()->set_echo_held_ns(-1);
-  EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue);
-  wire.clear_stamp();
-  EXPECT_EQ(rejection_of<MotionCommand>(wire.SerializeAsString()), Rejection::kValue);
+  refuses_impossible_instants<MotionCommand>(wire_of<proto::MotionCommand>(samples::command()));
+  refuses_impossible_instants<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report()));
+  refuses_impossible_instants<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry()));
 }
 
 }  // namespace

@@ -46,7 +46,10 @@ TEST(Codec, KeepsEveryFieldOfTheStamp) {
 }
 
 TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
-  const StiffnessReport in = samples::report();
+  StiffnessReport in = samples::report();
+  in.rotation.touch_sequence = 1200.25;
+  in.rotation.touch = 2;
+  in.rotation.in_contact = false;
   const StiffnessReport out = round_trip(in);
   EXPECT_EQ(out.engagement, 5u);
   EXPECT_EQ(out.state, SafetyState::kEngaged);
@@ -57,6 +60,9 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
   EXPECT_EQ(out.translation.touch, 7u);
   EXPECT_TRUE(out.translation.in_contact);
   EXPECT_EQ(out.rotation.stiffness, in.rotation.stiffness);
+  EXPECT_EQ(out.rotation.touch_sequence, 1200.25);
+  EXPECT_EQ(out.rotation.touch, 2u);
+  EXPECT_FALSE(out.rotation.in_contact);
 }
 
 TEST(Codec, KeepsEveryFieldOfTelemetry) {

@@ -73,7 +73,7 @@ TEST_F(PortUnderFire, DropsGarbageOfEveryLength) {
     Rejection reason = Rejection::kVersion;
     if (length < 34 || length > 508) {
       reason = Rejection::kLength;
-    } else if (bytes[0] == std::byte{2}) {
+    } else if (bytes[0] == std::byte{3}) {
       reason = bytes[1] == std::byte{1} ? Rejection::kSession : Rejection::kType;
     }
     expect_slave_drops(bytes, reason, "garbage of " + std::to_string(length));
