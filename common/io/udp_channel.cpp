@@ -83,7 +83,7 @@ void UdpChannel::send(std::span<const std::byte> datagram) {
 
 void UdpChannel::answer_to(const Origin& origin) {
   if (fixed_peer_) return;
-  peer_ = origin == Origin{} ? std::nullopt : std::optional(origin);
+  peer_ = origin == kNowhere ? std::nullopt : std::optional(origin);
 }
 
 std::string UdpChannel::local_address() const {

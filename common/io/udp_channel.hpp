@@ -21,7 +21,7 @@ class UdpChannel : public Channel {
   explicit UdpChannel(const std::string& listen, const std::optional<std::string>& peer = std::nullopt);
 
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override;
-  [[nodiscard]] Origin origin() const override { return origin_; }
+  [[nodiscard]] const Origin& origin() const override { return origin_; }
   void answer_to(const Origin& origin) override;
   void send(std::span<const std::byte> datagram) override;
 

@@ -8,5 +8,6 @@
 namespace longreach {
 
 using Origin = std::array<std::uint8_t, 28>;  // holds an IPv6 socket address
+inline constexpr Origin kNowhere{};
 
 }  // namespace longreach

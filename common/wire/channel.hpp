@@ -17,7 +17,7 @@ class Channel {
   /// was cut); none when nothing is there. Never waits.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
   /// Where the datagram came from that receive() took last.
-  [[nodiscard]] virtual Origin origin() const { return {}; }
+  [[nodiscard]] virtual const Origin& origin() const { return kNowhere; }
   /// An authentic datagram came from there: a channel without a fixed peer sends there from now on. All zero:
   /// it sends nowhere.
   virtual void answer_to(const Origin&) {}

@@ -82,19 +82,19 @@ std::size_t Codec::encode(const Stamp& stamp, const Message& message, std::span<
 }
 
 template <class Message>
-std::optional<Rejection> Codec::decode(std::span<const std::byte> body, Decoded<Message>& out) {
+std::optional<Rejection> Codec::decode(std::span<const std::byte> body, Stamp& stamp, Message& message) {
   auto& wire = std::get<WireMessage<Message>>(state_->parsed);
   if (body.size() > kBodyMaxBytes || !wire.ParseFromArray(body.data(), static_cast<int>(body.size())))
     return Rejection::kDecode;
-  const bool possible = read(wire, out.stamp) && read(wire, out.message);
+  const bool possible = read(wire, stamp) && read(wire, message);
   return possible ? std::nullopt : std::optional(Rejection::kValue);
 }
 
 template std::size_t Codec::encode(const Stamp&, const MotionCommand&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const StiffnessReport&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const Telemetry&, std::span<std::byte>);
-template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<MotionCommand>&);
-template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<StiffnessReport>&);
-template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Decoded<Telemetry>&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, MotionCommand&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, StiffnessReport&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, Telemetry&);
 
 }  // namespace longreach

@@ -26,12 +26,6 @@ constexpr double kScaleMax = 1.0;
 constexpr std::int64_t kInstantMaxNs = 4'000'000'000'000'000'000;  // 126 years: differences cannot overflow
 constexpr std::int64_t kHeldMaxNs = 1'000'000'000'000'000'000;     // 31 years
 
-template <class Message>
-struct Decoded {
-  Stamp stamp{};
-  Message message{};
-};
-
 /// One a side and thread: it keeps the protobuf objects, so that they are allocated once. For MotionCommand,
 /// StiffnessReport and Telemetry.
 class Codec {
@@ -44,9 +38,10 @@ class Codec {
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
-  /// What `out` holds after a rejection means nothing.
+  /// What `stamp` and `message` hold after a rejection means nothing.
   template <class Message>
-  [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Decoded<Message>& out);
+  [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Stamp& stamp,
+                                                Message& message);
 
  private:
   struct State;

@@ -14,34 +14,32 @@ namespace longreach {
 template <class T>
 class Inbox {
  public:
-  explicit Inbox(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
+  explicit Inbox(std::size_t capacity) : slots_(capacity + 1) { CHECK(capacity > 0); }
 
   /// Forgets everything.
-  void open() { size_ = oldest_ = 0; }
+  void open() { size_ = next_ = 0; }
 
-  void push(const T& item) {
-    if (size_ < slots_.size()) {
-      slots_[size_++] = item;
-      return;
-    }
-    slots_[oldest_] = item;
-    oldest_ = (oldest_ + 1) % slots_.size();
+  /// Where the next item is to be written, all of it; keep() makes it one.
+  T& next() { return slots_[next_]; }
+  void keep() {
+    next_ = next_ + 1 < slots_.size() ? next_ + 1 : 0;
+    size_ = std::min(size_ + 1, slots_.size() - 1);
   }
 
-  /// Puts the items in order; call once, after the last push and before items().
+  /// Puts the items in order; call once, after the last keep() and before items().
   void close() {
-    if (oldest_ == 0) return;
-    std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(oldest_),
-                slots_.begin() + static_cast<std::ptrdiff_t>(size_));
-    oldest_ = 0;
+    if (next_ == size_) return;  // it never went round
+    std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>((next_ + 1) % slots_.size()),
+                slots_.end());
+    next_ = size_;
   }
 
   [[nodiscard]] std::span<const T> items() const { return {slots_.data(), size_}; }
 
  private:
-  std::vector<T> slots_;
+  std::vector<T> slots_;  // one more than the capacity
   std::size_t size_ = 0;
-  std::size_t oldest_ = 0;
+  std::size_t next_ = 0;
 };
 
 }  // namespace longreach

@@ -28,13 +28,13 @@ Port::Seals::Seals(const Session& session, Way way_out) : out(session, way_out),
 void Port::follow(const Session& session) {
   endpoint_.follow(session.number);
   seals_.emplace(session, out_);
-  channel_.answer_to(Origin{});
+  channel_.answer_to(kNowhere);
 }
 
 void Port::leave() {
   endpoint_.leave();
   seals_.reset();
-  channel_.answer_to(Origin{});
+  channel_.answer_to(kNowhere);
 }
 
 void Port::drain(Time now) {
@@ -54,7 +54,7 @@ void Port::drain(Time now) {
       impairment_.push(now, datagram, channel_.origin());
     }
   }
-  for (int i = 0; i < kPopsPerReceive; ++i) {
+  for (int i = 0; i < kPopsPerReceive && !impairment_.clear(); ++i) {
     const auto datagram = impairment_.pop(now);
     if (!datagram) break;
     count(judge(now, *datagram, impairment_.origin()));
@@ -91,11 +91,16 @@ std::optional<Rejection> Port::judge(Time now, std::span<const std::byte> datagr
 template <class Message>
 std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time now,
                                            const Opened& datagram) {
-  Decoded<Message> decoded;
-  if (const auto rejection = codec_.decode(datagram.body, decoded)) return rejection;
-  const auto& [stamp, message] = decoded;
+  Stamp stamp;
+  Received<Message>& received = inbox.next();
+  if (const auto rejection = codec_.decode(datagram.body, stamp, received.message)) return rejection;
   endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
-  inbox.push({datagram.header.sequence, stamp.sent, now, echo_sent(now, stamp), datagram.newest, message});
+  received.sequence = datagram.header.sequence;
+  received.sent = stamp.sent;
+  received.received = now;
+  received.echo_sent = echo_sent(now, stamp);
+  received.newest = datagram.newest;
+  inbox.keep();
   return std::nullopt;
 }
 

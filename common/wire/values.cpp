@@ -20,8 +20,9 @@ bool within(double value, double low, double high) { return value >= low && valu
 
 template <class Field>
 bool all_within(const Field& values, double limit) {
-  return std::all_of(values.begin(), values.end(),
-                     [limit](auto v) { return within(static_cast<double>(v), -limit, limit); });
+  bool all = true;  // looks at every one: quicker than to stop at the first that is not
+  for (const auto v : values) all = all & (std::abs(static_cast<double>(v)) <= limit);
+  return all;
 }
 
 /// An enumeration whose values run from zero to `last`.

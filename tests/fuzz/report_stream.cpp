@@ -77,8 +77,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     const Vector3 move = fuzz::move_of(rest);
     const auto length = std::min(std::to_integer<std::size_t>(rest[4]), rest.size() - fuzz::kRecordBytes);
     for (int k = 0; k < ticks; ++k) hand.tick(move);
-    Decoded<StiffnessReport> report;
-    if (!codec.decode(rest.subspan(fuzz::kRecordBytes, length), report)) hand.take(report.message);
+    Stamp stamp;
+    StiffnessReport report;
+    if (!codec.decode(rest.subspan(fuzz::kRecordBytes, length), stamp, report)) hand.take(report);
     rest = rest.subspan(fuzz::kRecordBytes + length);
   }
   return 0;

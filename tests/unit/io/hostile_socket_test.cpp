@@ -21,7 +21,7 @@ class Tap : public Channel {
     if (size) received.emplace_back(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(*size));
     return size;
   }
-  [[nodiscard]] Origin origin() const override { return channel_.origin(); }
+  [[nodiscard]] const Origin& origin() const override { return channel_.origin(); }
   void answer_to(const Origin& origin) override { channel_.answer_to(origin); }
   void send(std::span<const std::byte> datagram) override {
     sent.emplace_back(datagram.begin(), datagram.end());

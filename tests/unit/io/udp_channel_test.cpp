@@ -114,7 +114,7 @@ TEST(UdpChannel, AnswersNobodyUntilItIsToldWhom) {
   EXPECT_EQ(slave.peer_address(), master.local_address());
   slave.answer_to(slave.origin());
   EXPECT_EQ(slave.peer_address(), stranger.local_address());
-  slave.answer_to(Origin{});
+  slave.answer_to(kNowhere);
   EXPECT_FALSE(slave.peer_address());
   EXPECT_FALSE(master.receive(buffer));
 }
@@ -122,7 +122,7 @@ TEST(UdpChannel, AnswersNobodyUntilItIsToldWhom) {
 TEST(UdpChannel, TheCallingSideKeepsItsPeer) {
   UdpChannel slave("127.0.0.1:0");
   UdpChannel master("127.0.0.1:0", slave.local_address());
-  master.answer_to(Origin{});
+  master.answer_to(kNowhere);
   EXPECT_EQ(master.peer_address(), slave.local_address());
 }
 

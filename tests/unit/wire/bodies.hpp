@@ -16,10 +16,17 @@
 namespace longreach::bodies {
 
 template <class Message>
+struct Decoded {
+  Stamp stamp{};
+  Message message{};
+};
+
+template <class Message>
 std::variant<Decoded<Message>, Rejection> decode(const std::string& body) {
   Codec codec;
   Decoded<Message> out;
-  if (const auto rejection = codec.decode(std::as_bytes(std::span(body)), out)) return *rejection;
+  if (const auto rejection = codec.decode(std::as_bytes(std::span(body)), out.stamp, out.message))
+    return *rejection;
   return out;
 }
 

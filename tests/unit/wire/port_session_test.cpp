@@ -94,11 +94,12 @@ class FakeChannel : public Channel {
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override {
     if (next_ == queue.size()) return std::nullopt;
     const auto& bytes = queue[next_++];
+    origin_[0] = static_cast<std::uint8_t>(next_);
     std::copy_n(bytes.begin(), bytes.size(), buffer.begin());
     return bytes.size();
   }
   void send(std::span<const std::byte>) override {}
-  [[nodiscard]] Origin origin() const override { return Origin{static_cast<std::uint8_t>(next_)}; }
+  [[nodiscard]] const Origin& origin() const override { return origin_; }
   void answer_to(const Origin& origin) override { answers.push_back(origin[0]); }
 
   std::vector<std::vector<std::byte>> queue;
@@ -106,6 +107,7 @@ class FakeChannel : public Channel {
 
  private:
   std::size_t next_ = 0;
+  Origin origin_{};
 };
 
 TEST(Ports, AnswerToWhereTheNewestAuthenticDatagramCameFrom) {
