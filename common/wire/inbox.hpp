@@ -31,7 +31,6 @@ class Inbox {
     if (next_ == size_) return;  // it never went round
     std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>((next_ + 1) % slots_.size()),
                 slots_.end());
-    next_ = size_;
   }
 
   [[nodiscard]] std::span<const T> items() const { return {slots_.data(), size_}; }
