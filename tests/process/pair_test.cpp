@@ -87,6 +87,7 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   EXPECT_EQ(site_credentials(site_, RpcRole::kClient).authority,
             site_credentials(default_site(), RpcRole::kClient).authority);
   EXPECT_EQ(site_credentials(site_ + ".before-1", RpcRole::kClient).authority, before);
+  EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 0) << desk_->output();
   const auto [again, nobody] = there({"pair", "--replace", "--slave", offer.address, offer.token});
   EXPECT_EQ(again, 1);
   EXPECT_NE(nobody.find("nobody pairs at " + offer.address), std::string::npos) << nobody;
