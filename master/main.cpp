@@ -183,6 +183,6 @@ int main(int argc, char** argv) {
   app.add_option("--wall", options.wall_n_per_m,
                  "True stiffness of what will be touched, where it is known: the summary judges by it")
       ->type_name("N_PER_M")
-      ->check(CLI::PositiveNumber);
+      ->check(longreach::number_above_zero());
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });
 }

@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
       ->type_name("ADDRESS:PORT");
   app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
       ->type_name("ADDRESS:PORT")
+      ->check(longreach::address_by_its_form())
       ->capture_default_str();
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::serve(options); });
 }

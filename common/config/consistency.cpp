@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/config/guarded.hpp"
+#include "common/config/host_and_port.hpp"
 #include "common/config/number_text.hpp"
 #include "common/config/violation.hpp"
 #include "common/spatial/spatial.hpp"
@@ -51,6 +52,14 @@ Finding in_order(const Message& message, const Named& low, const Named& high) {
   return at(
       message, low.name,
       " = " + format_number(low.value) + " is not below " + high.name + " = " + format_number(high.value));
+}
+
+// A text that is an address by its form. Empty is what the default says: none, or one that is known.
+Finding is_address(const Message& message, const char* field, const std::string& text) {
+  if (host_and_port(text)) return std::nullopt;
+  const auto* descriptor = message.GetDescriptor()->FindFieldByName(field);
+  if (text.empty() && descriptor->default_value_string().empty()) return std::nullopt;
+  return at(message, field, " = \"" + text + "\"" + kNoAddress);
 }
 
 // Three numbers that say where to: long enough to be divided by their length, short enough to be squared.
@@ -244,6 +253,18 @@ Finding check_budget(const Link& link) {
                 format_number(kLeast_kbit_per_s));
 }
 
+Finding check_link(const proto::MasterLink& link) {
+  if (auto wrong = is_address(link, "slave", link.slave())) return wrong;
+  if (auto wrong = is_address(link, "listen", link.listen())) return wrong;
+  if (auto wrong = is_address(link, "slave_rpc", link.slave_rpc())) return wrong;
+  return check_budget(link);
+}
+
+Finding check_link(const proto::SlaveLink& link) {
+  if (auto wrong = is_address(link, "listen", link.listen())) return wrong;
+  return check_budget(link);
+}
+
 Finding within(const PathStep& step, Finding finding) {
   if (finding) finding->path.insert(finding->path.begin(), step);
   return finding;
@@ -306,8 +327,12 @@ Finding check_message(const Message& message) {
   if (const auto* script = dynamic_cast<const proto::Operator*>(&message)) {
     return is_direction(*script, "direction", script->direction());
   }
-  if (const auto* link = dynamic_cast<const proto::MasterLink*>(&message)) return check_budget(*link);
-  if (const auto* link = dynamic_cast<const proto::SlaveLink*>(&message)) return check_budget(*link);
+  if (const auto* link = dynamic_cast<const proto::MasterLink*>(&message)) return check_link(*link);
+  if (const auto* link = dynamic_cast<const proto::SlaveLink*>(&message)) return check_link(*link);
+  if (const auto* rpc = dynamic_cast<const proto::RpcServer*>(&message))
+    return is_address(*rpc, "listen", rpc->listen());
+  if (const auto* adapter = dynamic_cast<const proto::Adapter*>(&message))
+    return is_address(*adapter, "address", adapter->address());
   if (const auto* safety = dynamic_cast<const proto::SlaveSafety*>(&message)) return check_safety(*safety);
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* lab = dynamic_cast<const proto::LabConfig*>(&message)) return check_laboratory(*lab);

@@ -76,6 +76,8 @@ ParseError reword(const ParseError& said, std::string_view text, const Descripto
   if (auto error = unknown_field(said, text, root)) return *error;
   if (auto error = unknown_enum_value(said, text, root)) return *error;
   ParseError error = said;
+  if (error.text.starts_with("Interpreting non ascii codepoint"))
+    error.text = "a character that is not ASCII stands outside of quotes; only texts in quotes may have such";
   if (error.text.ends_with("got: ")) error.text += "the end of the file";
   if (error.text.ends_with('.')) error.text.pop_back();
   return error;

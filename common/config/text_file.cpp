@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <string_view>
 
 #include "common/config/config.hpp"
 #include "common/config/parse_error.hpp"
@@ -105,7 +106,9 @@ void load_text_file(const fs::path& file, Message& message) {
   load_text(file.string(), read_file(file), message);
 }
 
-void load_text(const std::string& name, const std::string& text, Message& message) {
+void load_text(const std::string& name, const std::string& whole, Message& message) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
   if (text.size() > kMaxBytes) throw ConfigError(name + ": is longer than 1 MiB; no configuration is");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw ConfigError(name + ": is empty; a file of defaults has at least a comment");

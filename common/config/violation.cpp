@@ -5,6 +5,7 @@
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
 #include "common/config/number_text.hpp"
+#include "common/config/utf8.hpp"
 
 namespace longreach {
 namespace {
@@ -28,6 +29,12 @@ std::optional<double> number_at(const Message& message, const PathStep& step) {
   }
 }
 
+std::string text_at(const Message& message, const PathStep& step) {
+  const Reflection* reflection = message.GetReflection();
+  return step.field->is_repeated() ? reflection->GetRepeatedString(message, step.field, step.index)
+                                   : reflection->GetString(message, step.field);
+}
+
 // What a number breaks, as the end of a sentence; nothing if it is allowed.
 std::string broken_range(double value, const FieldDescriptor& field) {
   if (!std::isfinite(value)) return " is not a finite number";
@@ -47,6 +54,10 @@ std::optional<Violation> find_in_message(const Message& message, FieldPath& path
 std::optional<Violation> find_in_element(const Message& message, FieldPath& path) {
   const PathStep step = path.back();
   if (holds_messages(*step.field)) return find_in_message(message_at(message, step), path);
+  if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+    if (is_utf8(text_at(message, step))) return std::nullopt;
+    return Violation{path, " is not UTF-8: save the file, or type the text, in that encoding"};
+  }
   const auto value = number_at(message, step);
   const std::string broken = value ? broken_range(*value, *step.field) : "";
   if (broken.empty()) return std::nullopt;

@@ -1,42 +1,14 @@
 #include "common/io/address.hpp"
 
 #include <asio/io_context.hpp>
-#include <charconv>
-#include <optional>
+
+#include "common/config/host_and_port.hpp"
 
 namespace longreach {
-namespace {
-
-struct HostAndPort {
-  std::string host;
-  std::uint16_t port = 0;
-};
-
-std::optional<HostAndPort> split(const std::string& text) {
-  const auto colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return std::nullopt;
-  HostAndPort out{text.substr(0, colon)};
-  if (out.host.front() == '[' && out.host.back() == ']') {
-    out.host = out.host.substr(1, out.host.size() - 2);
-  } else if (out.host.find(':') != std::string::npos) {
-    return std::nullopt;  // an IPv6 address needs its brackets
-  }
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, out.port);
-  const bool whole = error == std::errc{} && rest == end;
-  return whole && !out.host.empty() ? std::optional(out) : std::nullopt;
-}
-
-}  // namespace
 
 asio::ip::udp::endpoint parse_udp_address(const std::string& text) {
-  const auto parts = split(text);
-  if (!parts) {
-    throw AddressError(
-        "'" + text +
-        "' is not an address; write address:port, e.g. 127.0.0.1:47001 or [::1]:47001, with a port from 0 "
-        "to 65535");
-  }
+  const auto parts = host_and_port(text);
+  if (!parts) throw AddressError("'" + text + "'" + kNoAddress);
   asio::error_code error;
   const auto address = asio::ip::make_address(parts->host, error);
   if (!error) return {address, parts->port};

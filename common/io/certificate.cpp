@@ -143,6 +143,16 @@ std::string sign(const Certificate& authority, EVP_PKEY* key, const CertificateT
   return certificate_text(out.get());
 }
 
+template <class Read>
+bool can_be_read(const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 Certificate make_authority(const std::string& name) {
@@ -185,6 +195,19 @@ std::string certify(const Certificate& authority, const std::string& request_pem
   return sign(authority, key, terms);
 }
 
+bool is_certificate(const std::string& certificate_pem) {
+  return can_be_read([&] { (void)read_certificate(certificate_pem); });
+}
+
+bool is_key(const std::string& key_pem) {
+  return can_be_read([&] { (void)read_key(key_pem); });
+}
+
+bool belong_together(const Certificate& certificate) {
+  return X509_check_private_key(read_certificate(certificate.certificate_pem).get(),
+                                read_key(certificate.key_pem).get()) == 1;
+}
+
 std::string fingerprint(const std::string& certificate_pem) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
   unsigned size = 0;
@@ -210,7 +233,8 @@ std::string certificate_trouble(const std::string& authority_pem, const std::str
   try {
     const X509Cert authority = read_certificate(authority_pem),
                    certificate = read_certificate(certificate_pem);
-    if (!key_pem.empty() && X509_check_private_key(certificate.get(), read_key(key_pem).get()) != 1)
+    if (!key_pem.empty() && !is_key(key_pem)) return "its key cannot be read";
+    if (!key_pem.empty() && !belong_together({certificate_pem, key_pem}))
       return "it does not belong to its key";
     const Store store(X509_STORE_new());
     const StoreContext context(X509_STORE_CTX_new());

@@ -40,6 +40,12 @@ CertificateRequest make_request();
 std::string certify(const Certificate& authority, const std::string& request_pem,
                     const CertificateTerms& terms);
 
+/// Whether a text can be read as what it should be: what a damaged file does not.
+bool is_certificate(const std::string& certificate_pem);
+bool is_key(const std::string& key_pem);
+/// Whether the key is that of the certificate; both can be read.
+bool belong_together(const Certificate& certificate);
+
 /// "SHA256:5f0c...", as `openssl x509 -fingerprint -sha256` says it. Throws std::runtime_error when this is
 /// no certificate.
 std::string fingerprint(const std::string& certificate_pem);

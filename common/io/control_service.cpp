@@ -85,7 +85,9 @@ ControlService::ControlService(ControlBackend& backend) : backend_(backend), lin
 
 proto::Status ControlService::status() {
   const std::lock_guard lock(mutex_);
-  return backend_.status();
+  proto::Status status = backend_.status();
+  *status.mutable_impairment() = link_from_now();
+  return status;
 }
 
 ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
@@ -118,17 +120,19 @@ ControlService::Result<proto::Outcome> ControlService::set_config(const proto::S
 
 proto::Impairment ControlService::get_link() {
   const std::lock_guard lock(mutex_);
-  return backend_.link();
+  return link_from_now();
+}
+
+proto::Impairment ControlService::link_from_now() {
+  const std::chrono::duration<double> elapsed = Clock::now() - link_set_at_;
+  return continued(backend_.link(), elapsed.count());
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_link(const proto::SetLinkRequest& request) {
   if (std::optional<Refusal> refusal = wrong(request.impairment())) return *refusal;
   const std::lock_guard lock(mutex_);
   proto::Impairment wanted;
-  if (!request.replace()) {
-    const std::chrono::duration<double> elapsed = Clock::now() - link_set_at_;
-    wanted = continued(backend_.link(), elapsed.count());
-  }
+  if (!request.replace()) wanted = link_from_now();
   wanted.MergeFrom(request.impairment());
   if (std::optional<Refusal> refusal = wrong(wanted)) return *refusal;
   std::optional<Refusal> refusal = backend_.set_link(wanted);

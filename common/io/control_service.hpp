@@ -30,7 +30,7 @@ class ControlService {
   proto::Status status();
   Result<proto::GetConfigResponse> get_config(const proto::GetConfigRequest& request);
   Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
-  /// As it was set: windows count from then.
+  /// As it acts from now on: see continued().
   proto::Impairment get_link();
   Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
   Result<proto::Outcome> set_mode(const proto::SetModeRequest& request);
@@ -45,6 +45,8 @@ class ControlService {
 
  private:
   using Instant = std::chrono::steady_clock::time_point;
+
+  proto::Impairment link_from_now();
 
   ControlBackend& backend_;
   std::mutex mutex_;

@@ -7,7 +7,8 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
-#include <stdexcept>
+
+#include "common/config/config.hpp"
 
 namespace longreach {
 namespace {
@@ -18,8 +19,8 @@ spdlog::sink_ptr make_sink(const std::string& file, bool quiet) {
   try {
     return std::make_shared<spdlog::sinks::basic_file_sink_mt>(file);
   } catch (const spdlog::spdlog_ex& e) {
-    throw std::runtime_error("cannot write the log file '" + file + "' (" + e.what() +
-                             "); choose another with --log");
+    throw ConfigError("cannot write the log file '" + file + "' (" + e.what() +
+                      "); choose another with --log");
   }
 }
 

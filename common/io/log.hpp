@@ -7,7 +7,7 @@
 namespace longreach {
 
 /// To a file (appended, flushed a line at a time), or to standard error when `file` is empty. `quiet`:
-/// nowhere unless there is a file. Throws std::runtime_error that says what to do.
+/// nowhere unless there is a file. Throws ConfigError that says what to do.
 void set_up_log(const std::string& side, const std::string& file, bool quiet = false);
 
 }  // namespace longreach

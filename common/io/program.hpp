@@ -12,6 +12,7 @@
 #include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
 #include "common/io/manual/program_text.hpp"
+#include "common/io/option_checks.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
 #include "common/io/site.hpp"
@@ -46,7 +47,7 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--profile", options.profile, "Link profile of deploy/links whose delay and loss to imitate")
       ->type_name("NAME");
   app.add_option("--seconds", options.seconds, "End after this time")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above_zero())
       ->type_name("N");
   app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
       ->type_name("FILE");
@@ -61,7 +62,7 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
       ->type_name("DIR");
   app.add_option("--record-max-mb", options.record_max_mb, "A recording from the start ends at this size")
       ->type_name("N")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(number_between(1.0, 1e6))
       ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
                "RPC in clear and for everybody on this machine: simulated robots only");
@@ -124,6 +125,7 @@ int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
     return status;
   };
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version
@@ -139,6 +141,8 @@ int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
   } catch (const AddressError& e) {
     return complain(e, kExitBadUsage);
   } catch (const RecordingError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const NoSiteError& e) {
     return complain(e, kExitBadUsage);
   } catch (const std::exception& e) {
     return complain(e, kExitFailed);

@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "common/config/host_and_port.hpp"
 #include "common/io/control_service.hpp"
 #include "common/io/pace.hpp"
 #include "common/io/rpc_refusals.hpp"
@@ -220,16 +220,9 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
   int watchers_ = 0;
 };
 
-bool is_port(std::string_view text) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
 std::string listen_address(const std::string& listen, std::string_view side) {
   if (listen.empty()) return std::string(side == "slave" ? kSlaveRpcAddress : kMasterRpcAddress);
-  const std::size_t colon = listen.rfind(':');
-  if (colon == std::string::npos || colon == 0 || !is_port(std::string_view(listen).substr(colon + 1)))
+  if (!host_and_port(listen))
     throw std::runtime_error("the " + std::string(side) + " cannot listen for its RPC clients on '" + listen +
                              "': give rpc.listen as address:port, e.g. 127.0.0.1:47010");
   return listen;

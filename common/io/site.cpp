@@ -19,6 +19,10 @@ namespace fs = std::filesystem;
 
 constexpr std::array kRoles = {RpcRole::kSlave, RpcRole::kMaster, RpcRole::kClient};
 
+constexpr const char* kRestore =
+    "; restore it, or put the folder of the site aside: a new site is made then, which paired hosts do not "
+    "trust";
+
 CertificateUse use_of(RpcRole role) {
   switch (role) {
     case RpcRole::kSlave:
@@ -89,14 +93,26 @@ fs::path plain(const fs::path& site) {
 void require_private(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throw SiteError(
-        "cannot read " + path.string() + ": " + std::strerror(errno) +
-        "; restore it, or remove its folder: a new site is made then, which old ones do not trust");
+    throw SiteError("cannot read " + path.string() + ": " + std::strerror(errno) + kRestore);
   if (status.st_uid != ::geteuid())
     throw SiteError(path.string() + " belongs to another user; choose a folder of your own with --site DIR");
   if ((status.st_mode & 077U) != 0)
     throw SiteError(path.string() + " is open to other users; close it with chmod -R go= " +
                     (fs::is_directory(path) ? path : path.parent_path()).string());
+}
+
+/// Before anything is said about who may open it: a wrong path must not lead to advice about somebody's
+/// other files.
+void require_site(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw NoSiteError(folder.string() + " is not a folder; choose one with --site DIR");
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".crt" || entry.path().extension() == ".key") return;
+  throw NoSiteError(folder.string() +
+                    (error ? " cannot be read (" + error.message() + ")"
+                           : std::string(" is no site: it holds neither certificates nor keys")) +
+                    "; choose another folder with --site DIR, or one that is not there yet");
 }
 
 fs::path made(const fs::path& site) {
@@ -105,8 +121,29 @@ fs::path made(const fs::path& site) {
     if (fs::exists(folder)) require_private(folder);
     make(folder);
   }
+  require_site(folder);
   require_private(folder);
   return folder;
+}
+
+// gRPC says of a damaged file that the port is taken, or that the other side is to blame.
+
+std::string read_certificate_of(const fs::path& folder, const std::string& stem) {
+  const fs::path file = folder / (stem + ".crt");
+  std::string text = read_site_file(file);
+  if (!is_certificate(text))
+    throw SiteError(file.string() + " is damaged: it holds no certificate" + kRestore);
+  return text;
+}
+
+Certificate read_pair(const fs::path& folder, const std::string& stem) {
+  const fs::path file = folder / (stem + ".key");
+  Certificate out{read_certificate_of(folder, stem), read_site_file(file)};
+  if (!is_key(out.key_pem))
+    throw SiteError(file.string() + " is damaged: it holds no private key" + kRestore);
+  if (!belong_together(out))
+    throw SiteError(file.string() + " does not belong to " + stem + ".crt" + kRestore);
+  return out;
 }
 
 /// A host that was paired has what belongs to an operator, and nothing else.
@@ -144,8 +181,7 @@ std::string read_site_file(const fs::path& file) {
   std::ifstream in(file);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in || text.str().empty())
-    throw SiteError("cannot read " + file.string() + "; restore it, or remove its folder");
+  if (!in || text.str().empty()) throw SiteError("cannot read " + file.string() + kRestore);
   return text.str();
 }
 
@@ -153,14 +189,14 @@ RpcCredentials site_credentials(const fs::path& site, RpcRole role) {
   const fs::path folder = made(site);
   if (role == RpcRole::kSlave) require_origin(folder);
   const std::string stem = file_stem(role);
-  return {read_site_file(folder / "authority.crt"), read_site_file(folder / (stem + ".crt")),
-          read_site_file(folder / (stem + ".key"))};
+  const Certificate own = read_pair(folder, stem);
+  return {read_certificate_of(folder, "authority"), own.certificate_pem, own.key_pem};
 }
 
 Certificate site_authority(const fs::path& site) {
   const fs::path folder = made(site);
   require_origin(folder);
-  return {read_site_file(folder / "authority.crt"), read_site_file(folder / "authority.key")};
+  return read_pair(folder, "authority");
 }
 
 bool site_exists(const fs::path& site) {

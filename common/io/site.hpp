@@ -21,12 +21,19 @@ class SiteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What was given as the folder is none of a site: a file, or a folder of something else.
+class NoSiteError : public SiteError {
+ public:
+  using SiteError::SiteError;
+};
+
 /// $XDG_CONFIG_HOME/longreach, or ~/.config/longreach. Throws SiteError when neither is known.
 std::filesystem::path default_site();
 
 /// What the role shows to others and trusts, from the site folder; makes the folder first where there is
 /// none. Two programs may do so at once: both end up with the same. Throws SiteError when others may open the
-/// folder or a file, or when something in it is missing or cannot be read.
+/// folder or a file, or when something in it is missing or damaged; NoSiteError when the folder is of
+/// something else.
 RpcCredentials site_credentials(const std::filesystem::path& site, RpcRole role);
 
 /// The authority of the site with its key; makes the folder first where there is none. Throws SiteError,

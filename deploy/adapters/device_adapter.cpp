@@ -150,13 +150,31 @@ std::uint64_t draw_session() {
   }
 }
 
+/// 0 to 65535; -1: it is none.
+int port_of(const char* text) {
+  char* end = nullptr;
+  const long port = std::strtol(text, &end, 10);
+  return end != text && *end == '\0' && port >= 0 && port <= 65535 ? static_cast<int>(port) : -1;
+}
+
+/// NaN: it is none.
+double number_of(const char* text) {
+  char* end = nullptr;
+  const double number = std::strtod(text, &end);
+  return end != text && *end == '\0' && std::isfinite(number) ? number : NAN;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const bool pushes = argc == 4 && std::strcmp(argv[2], "--push") == 0;
-  if (argc != 2 && !pushes) {
-    std::fprintf(stderr, "usage: longreach-reference-device PORT [--push METRES]\n");
+  const int port = argc == 2 || pushes ? port_of(argv[1]) : -1;
+  const double way_m = pushes ? number_of(argv[3]) : 0.0;
+  if (port < 0 || std::isnan(way_m)) {
+    std::fprintf(
+        stderr,
+        "usage: longreach-reference-device PORT [--push METRES], PORT from 0 (any free one) to 65535\n");
     return 2;
   }
-  serve(std::atoi(argv[1]), pushes ? std::atof(argv[3]) : 0.0);
+  serve(port, way_m);
 }

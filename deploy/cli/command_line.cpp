@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "common/io/manual/program_text.hpp"
+#include "common/io/option_checks.hpp"
 #include "common/io/rpc_server.hpp"
 #include "deploy/cli/help_text.hpp"
 #include "deploy/cli/judged_words.hpp"
@@ -90,6 +91,7 @@ Grammar::Grammar() {
   record_.declare(app_);
   declare_site();
   declare_adapter();
+  refuse_empty_values(app_);
 }
 
 CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string& help, const char* more) {
@@ -236,7 +238,10 @@ Command Grammar::command() const {
       throw UsageError("--count = " + words_.count + " is not a whole number from 1");
     return watch;
   }
-  if (parsed("view")) return ViewCommand{words_.listen};
+  if (parsed("view")) {
+    if (!host_and_port(words_.listen)) throw UsageError("--listen = " + words_.listen + kNoAddress);
+    return ViewCommand{words_.listen};
+  }
   if (parsed("get")) return GetCommand{side(), words_.path};
   if (parsed("set")) return set_command();
   if (parsed("link")) {

@@ -7,28 +7,10 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/config/utf8.hpp"
+
 namespace longreach {
 namespace {
-
-/// Length of the well-formed UTF-8 character at the front (RFC 3629); 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  // Longer than needed, surrogates, beyond U+10FFFF.
-  const std::uint8_t second = byte(1);
-  if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))
-    return 0;
-  return length;
-}
 
 std::string escaped(char c) {
   switch (c) {
@@ -58,7 +40,7 @@ std::string side_json(const SideReport& report) {
 std::string json_string(std::string_view text) {
   std::string json = "\"";
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = utf8_length(text);
     if (length == 0) json += "\\ufffd";
     if (length == 1) json += escaped(text.front());
     if (length > 1) json += text.substr(0, length);

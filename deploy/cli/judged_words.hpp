@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/config/host_and_port.hpp"
 #include "common/config/number_text.hpp"
 #include "deploy/cli/invocation.hpp"
 
@@ -19,11 +20,8 @@ inline double bounded(const char* what, const std::string& text, std::optional<d
 
 inline void check_address(const char* option, const std::string& address,
                           const char* example = "127.0.0.1:47010") {
-  const std::size_t colon = address.rfind(':');
-  if (colon != std::string::npos && colon > 0) {
-    const auto port = parse_integer<std::uint16_t>(std::string_view(address).substr(colon + 1));
-    if (port && *port > 0) return;
-  }
+  const auto parts = host_and_port(address);
+  if (parts && parts->port > 0) return;
   throw UsageError(std::string(option) + " = " + address + " is not HOST:PORT, e.g. " + example);
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "common/config/config.hpp"
+#include "common/io/site.hpp"
 #include "deploy/cli/command_line.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
@@ -38,6 +39,9 @@ ExitStatus run(int argc, const char* const* argv) {
     longreach::print_error(json, error.what());
     return ExitStatus::kUsage;
   } catch (const longreach::ConfigError& error) {
+    longreach::print_error(json, error.what());
+    return ExitStatus::kUsage;
+  } catch (const longreach::NoSiteError& error) {
     longreach::print_error(json, error.what());
     return ExitStatus::kUsage;
   } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/io/recording/csv_export.hpp"
+#include "common/io/recording/mcap_reader.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
 #include "common/io/recording/recording_list.hpp"
@@ -59,6 +60,8 @@ std::string json_of(const ListedRecording& r) {
 ExitStatus list(const Options& options, const RecordCommand& command) {
   const std::filesystem::path folder =
       command.folder.empty() ? default_recordings() : std::filesystem::path(command.folder);
+  if (!command.folder.empty() && !std::filesystem::is_directory(folder))
+    throw UsageError("there is no folder " + folder.string());
   const auto recordings = list_recordings(folder);
   if (options.json) {
     std::string out;
@@ -85,13 +88,18 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   const std::filesystem::path file = command.file;
   const std::filesystem::path folder =
       command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
-  if (std::filesystem::exists(folder) && folder == file)
+  if (folder == file) {
+    (void)mcap_figures(file);  // what is no recording is called so
     throw UsageError("say with --out DIR where the tables shall go");
-  const auto tables = export_csv(file, folder);
+  }
+  const CsvExport written = export_csv(file, folder);
   std::uint64_t rows = 0;
-  for (const auto& table : tables) rows += table.rows;
-  print_done(options, std::to_string(tables.size()) + " tables with " + std::to_string(rows) + " rows in " +
-                          folder.string());
+  for (const auto& table : written.tables) rows += table.rows;
+  print_done(
+      options,
+      std::to_string(written.tables.size()) + " tables with " + std::to_string(rows) + " rows in " +
+          folder.string() +
+          (written.whole ? "" : "; the recording is cut: what came after its last whole part is lost"));
   return ExitStatus::kDone;
 }
 
@@ -102,6 +110,7 @@ ExitStatus run_record(const Options& options, const RecordCommand& command) {
     switch (command.what) {
       case RecordCommand::What::kStart: {
         const std::string name = command.name.empty() ? recording_name_now() : command.name;
+        check_recording_name(name);
         return at_both(options, "recording",
                        [&](SideClient& side) { return side.start_recording(name, command.max_mb); });
       }

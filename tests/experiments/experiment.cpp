@@ -218,9 +218,19 @@ std::string config_hash(const proto::LabConfig& config) {
 
 std::string_view commit() { return build_commit(); }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && !std::filesystem::is_directory(folder))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw ConfigError("cannot make the folder " + folder.string() + ": " + error.message() +
+                      "; choose another with --out");
+}
+
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
                                    const std::function<void(const std::string&)>& trouble) {
-  if (!run.out.empty()) std::filesystem::create_directories(run.out);
+  if (!run.out.empty()) make_folder(run.out);
   std::vector<Metric> metrics = experiment.run(run);
   if (run.out.empty()) return metrics;
   std::ofstream file(run.out / "metrics.json", std::ios::trunc);

@@ -53,8 +53,12 @@ std::string config_hash(const proto::LabConfig& config);
 /// Commit that the program was built from, with "-dirty" if the tree differed.
 std::string_view commit();
 
+/// Makes it if it is missing. Throws ConfigError that names --out.
+void make_folder(const std::filesystem::path& folder);
+
 /// Runs it. Into `run.out`, unless that is empty, go the traces, metrics.json and the plots; `trouble` is
-/// told of plots that could not be drawn. Throws std::runtime_error when a file cannot be written.
+/// told of plots that could not be drawn. Throws std::runtime_error when a file cannot be written,
+/// ConfigError when the folder cannot be made.
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
                                    const std::function<void(const std::string&)>& trouble);
 

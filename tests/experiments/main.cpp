@@ -7,6 +7,7 @@
 
 #include "common/config/config.hpp"
 #include "common/io/manual/program_text.hpp"
+#include "common/io/option_checks.hpp"
 #include "tests/experiments/campaign/sweep.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/recording/replay.hpp"
@@ -40,7 +41,9 @@ void add_run(CLI::App& app, RunOptions& o) {
   CLI::App* run =
       app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
   run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
+  run->add_option("--seed", o.seed, "Seed of every random stream")
+      ->check(whole_number())
+      ->capture_default_str();
   run->add_option("--set", o.settings,
                   "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
                   "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
@@ -112,7 +115,9 @@ void add_report(CLI::App& app, ReportOptions& o) {
       "needs no other file");
   report->add_option("--out", o.out, "Folder; made if missing")->type_name("DIR")->required();
   report->add_flag("--quick", o.quick, "Small campaigns: minutes instead of hours");
-  report->add_option("--seed", o.seed, "Seed of every random stream")->capture_default_str();
+  report->add_option("--seed", o.seed, "Seed of every random stream")
+      ->check(whole_number())
+      ->capture_default_str();
   report->add_option("--only", o.only, "Only these experiments")->type_name("NAME...");
 }
 
@@ -130,14 +135,14 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
       ->check(CLI::IsMember(identify_estimators()))
       ->capture_default_str();
   of_identify->add_option("--exponent", identify.exponent, "Exponent of fixed-exponent")
-      ->check(CLI::Range(0.5, 3.5))
+      ->check(number_between(0.5, 3.5))
       ->capture_default_str();
   of_identify
       ->add_option("--force-noise", identify.force_noise_n, "Standard deviation, N; 0: from the samples")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   of_identify->add_option("--position-noise", identify.position_noise_m, "Likewise, m")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0.0, 1.0))
       ->capture_default_str();
   solve->callback([of_identify, &kind] {
     if (kind != "identify" && of_identify->count_all() > 0)
@@ -151,7 +156,9 @@ void add_train(CLI::App& app, Options& o) {
       "Train the networks of a haptic device's forward kinematics (Levenberg-Marquardt by Ceres Solver, one "
       "thread, a few minutes); the same seed writes the same bytes. deploy/devices/ holds those of seed 1");
   train->add_option("kind", o.kind, "Device")->required()->check(CLI::IsMember(train_kinds()));
-  train->add_option("--seed", o.train_seed, "Seed of samples and first weights")->capture_default_str();
+  train->add_option("--seed", o.train_seed, "Seed of samples and first weights")
+      ->check(whole_number())
+      ->capture_default_str();
   train->add_option("--out", o.train_out, "File that is written")->type_name("FILE")->capture_default_str();
 }
 
@@ -187,10 +194,16 @@ int main(int argc, char** argv) {
   longreach::add_report(app, options.report);
   longreach::add_solve(app, options.kind, options.identify);
   longreach::add_train(app, options);
+  longreach::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version
     return app.exit(e);
+  } catch (const CLI::RequiredError& e) {
+    const bool other = app.get_subcommands().empty() && !app.remaining().empty();
+    std::fprintf(stderr, "longreach-lab: %s; --help shows the commands\n",
+                 other ? (app.remaining().front() + " is not a command").c_str() : e.what());
+    return longreach::kBadUsage;
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "longreach-lab: %s; --help shows the options\n", e.what());
     return longreach::kBadUsage;

@@ -35,7 +35,14 @@ TEST(Usage, BadOptionsAndConfigurationsEndWithStatus2AndASentenceThatNamesThem) 
       expect_one_sentence(run(name, arguments), 2, about, name + " " + arguments.back());
     };
     expect({"--no-such-option"}, "no-such-option");
-    expect({"--seconds", "-3"}, "--seconds");
+    for (const std::string text : {"-3", "0", "nan", "inf", "1x"})
+      expect({"--seconds", text}, "--seconds: " + text + " is not a number above 0");
+    for (const std::string option : {"--seconds", "--config", "--log", "--record", "--site"})
+      expect({option, ""}, option + ": is empty");
+    expect({"--record-max-mb", "nan"}, "nan is not a number from 1 to 1000000");
+    expect({"--site", "/etc/passwd"}, "/etc/passwd is not a folder");
+    expect({"--adapter", "nowhere"}, "adapter.address = \"nowhere\" is not an address");
+    expect({"--set", "rpc.listen=nowhere"}, "rpc.listen = \"nowhere\" is not an address");
     expect({"--config", "no-such-file.txtpb"}, "no-such-file.txtpb");
     expect({"--set", "loop.rate_hz=1"}, "loop.rate_hz");
     expect({"--set", "loop.rate_hz=nan"}, "loop.rate_hz");
@@ -46,7 +53,32 @@ TEST(Usage, BadOptionsAndConfigurationsEndWithStatus2AndASentenceThatNamesThem) 
   }
   expect_one_sentence(run("longreach-master", {"--set", "rendering.law=WAVE"}), 2, "laboratory only", "WAVE");
   expect_one_sentence(run("longreach-master", {"--operator", "ghost"}), 2, "ghost", "--operator ghost");
+  expect_one_sentence(run("longreach-master", {"--wall", "nan"}), 2, "--wall: nan", "--wall nan");
+  expect_one_sentence(run("longreach-slave", {"--pair", "--pair-listen", "127.0.0.1:99999"}), 2,
+                      "--pair-listen: '127.0.0.1:99999' is not an address", "--pair-listen");
   expect_one_sentence(run("longreach-master", {"--mode", "sideways"}), 2, "sideways", "--mode sideways");
+}
+
+TEST(Usage, OfTheLaboratoryToo) {
+  const auto expect = [](const std::vector<std::string>& arguments, const std::string& about) {
+    expect_one_sentence(run("longreach-lab", arguments), 2, about, arguments.back());
+  };
+  for (const std::string seed : {"-1", "1.5", "18446744073709551616", "one"})
+    expect({"run", "touch", "--seed", seed}, "--seed: " + seed + " is not a whole number");
+  expect({"report", "--out", "a", "--seed", "-1"}, "--seed: -1 is not");
+  expect({"train", "spherical", "--seed", "-1"}, "--seed: -1 is not");
+  expect({"run", "touch", "--out", ""}, "--out: is empty");
+  expect({"run", "touch", "--out", "/proc/longreach"}, "cannot make the folder /proc/longreach");
+  expect({"run", "touch", "--out", "/etc/passwd"}, "cannot make the folder /etc/passwd");
+  expect({"report", "--out", "/proc/longreach"}, "choose another with --out");
+  expect({"solve", "identify", "--exponent", "nan"}, "nan is not a number from 0.5 to 3.5");
+  expect({"nope"}, "nope is not a command");
+}
+
+TEST(Usage, ReferenceAdaptersTakeAPortAndNothingElse) {
+  for (const std::string name : {"longreach-reference-device", "longreach-reference-robot"})
+    for (const std::string port : {"99999", "-1", "abc", "--help", ""})
+      expect_one_sentence(run(name, {port}), 2, "usage: " + name + " PORT", name + " " + port);
 }
 
 TEST(Usage, AConfigurationFileWithAMistakeIsNamedWithItsLine) {

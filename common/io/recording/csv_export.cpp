@@ -164,26 +164,27 @@ std::string file_name(const std::string& topic) {
 
 }  // namespace
 
-std::vector<CsvTable> export_csv(const std::filesystem::path& recording,
-                                 const std::filesystem::path& folder) {
+CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder) {
   McapReader reader(recording);
+  auto message = reader.next();
+  if (!message)
+    throw RecordingError(recording.string() + (reader.whole() ? " holds no messages" : " is cut") +
+                         ": there is nothing to export");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw RecordingError("cannot make the folder " + folder.string() + ": " + error.message());
+  const std::uint64_t first_ns = message->log_time_ns;
   std::map<std::uint16_t, std::unique_ptr<Table>> tables;
-  std::uint64_t first_ns = 0;
-  bool any = false;
-  while (const auto message = reader.next()) {
-    if (!any) first_ns = message->log_time_ns;
-    any = true;
+  for (; message; message = reader.next()) {
     auto& table = tables[message->channel->id];
     if (!table)
       table = std::make_unique<Table>(reader.schemas().at(message->channel->schema),
                                       folder / file_name(message->channel->topic));
     table->add(*message, first_ns);
   }
-  std::vector<CsvTable> out;
-  for (const auto& [channel, table] : tables) out.push_back(table->finish());
+  CsvExport out;
+  out.whole = reader.whole();
+  for (const auto& [channel, table] : tables) out.tables.push_back(table->finish());
   return out;
 }
 

@@ -22,6 +22,14 @@ bool is_name(const std::string& name) {
 
 }  // namespace
 
+void check_recording_name(const std::string& name) {
+  constexpr std::size_t kShown = 40;
+  if (is_name(name)) return;
+  throw RecordingError("'" + (name.size() > kShown ? name.substr(0, kShown) + "..." : name) +
+                       "' is no name of a recording: letters, digits and . _ -, at most " +
+                       std::to_string(kNameMax) + ", not . or - first");
+}
+
 std::filesystem::path default_recordings() {
   const char* state = std::getenv("XDG_STATE_HOME");
   if (state != nullptr && *state == '/') return std::filesystem::path(state) / "longreach" / "recordings";
@@ -33,8 +41,7 @@ std::filesystem::path default_recordings() {
 
 std::filesystem::path recording_path(const std::filesystem::path& folder, const std::string& name,
                                      const std::string& side) {
-  if (!is_name(name))
-    throw RecordingError("'" + name + "' is no name of a recording: letters, digits and . _ -, at most 100");
+  check_recording_name(name);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw RecordingError("cannot make the folder " + folder.string() + ": " + error.message());

@@ -11,6 +11,9 @@ constexpr double kRecordMaxMb = 4096.0;  // default size of a recording: about t
 /// $XDG_STATE_HOME/longreach/recordings, else ~/.local/state/longreach/recordings. Throws RecordingError.
 std::filesystem::path default_recordings();
 
+/// Throws RecordingError for a name that is no part of a file's name.
+void check_recording_name(const std::string& name);
+
 /// FOLDER/NAME-SIDE.mcap; makes the folder when there is none. Throws RecordingError, also for a name that is
 /// none: letters, digits and . _ -, at most 100, not beginning with a dot or a dash.
 std::filesystem::path recording_path(const std::filesystem::path& folder, const std::string& name,

@@ -66,7 +66,7 @@ ReportChapter run_chapter(const Experiment& experiment, const ReportOptions& opt
 
 int write_report(const ReportOptions& options) {
   const std::vector<const Experiment*> all = chosen(options.only);
-  std::filesystem::create_directories(options.out);
+  make_folder(options.out);
   if (options.quick) {
     unsetenv(kFullSize);
   } else {

@@ -73,8 +73,9 @@ TEST(CommandLine, ValuesOfALinkThatCannotBeMeantAreRefusedWithFieldAndRange) {
   expect_refused({"link", "set", "--loss", "2"}, "0 to 1");
   expect_refused({"link", "set", "--delay", "100.1s"}, "0 to 100");
   expect_refused({"link", "set", "--delay", "-1ms"}, "delay_s");
-  for (const char* text : {"nan", "inf", "1e400", "", "fast", "1 h", "1.3 s", "2%"})
+  for (const char* text : {"nan", "inf", "1e400", "fast", "1 h", "1.3 s", "2%"})
     expect_refused({"link", "set", "--delay", text}, "delay_s");
+  expect_refused({"link", "set", "--delay", ""}, "--delay: is empty");
   expect_refused({"link", "blackout", "-2s"}, "blackout_duration_s");
   expect_refused({"link", "set"}, "nothing to set");
   expect_refused({"link", "set", "--direction", "up"}, "nothing to set");
@@ -127,8 +128,12 @@ TEST(CommandLine, RefusesWhatIsOutOfRangeAndSaysTheRange) {
   expect_refused({"--timeout", "0", "status"}, "0.05 to 600");
   expect_refused({"--timeout", "inf", "status"}, "--timeout");
   expect_refused({"mode", "sideways"}, "sideways");
-  for (const char* address : {"nowhere", ":47010", "host:", "host:0", "host:65536", "host:x", ""})
+  for (const char* address : {"nowhere", ":47010", "host:", "host:0", "host:65536", "host:x"})
     expect_refused({"--master", address, "status"}, "HOST:PORT");
+  expect_refused({"--master", "", "status"}, "--master: is empty");
+  expect_refused({"status", "--timeout", ""}, "--timeout: is empty");
+  for (const char* address : {"foo", "127.0.0.1:99999", "::1:80"})
+    expect_refused({"view", "--listen", address}, "--listen");
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {

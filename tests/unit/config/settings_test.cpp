@@ -167,7 +167,7 @@ TEST(GetField, PrintsDefaultsOfWhatIsNotSet) {
 TEST(GetField, PrintsTextThatLoadsAgain) {
   const TemporaryFolder folder;
   proto::SlaveConfig config;
-  config.mutable_link()->set_listen("a\"b\\c\n");
+  config.set_scene_file("a\"b\\c\n");
   proto::SlaveConfig loaded;
   load_text_file(folder.write("a.txtpb", get_field(config, "")), loaded);
   EXPECT_EQ(get_field(loaded, ""), get_field(config, ""));

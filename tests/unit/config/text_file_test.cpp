@@ -34,6 +34,16 @@ TEST(TextFile, LoadsWhatIsThere) {
   EXPECT_EQ(load_error("# only a comment\n"), "no error");
 }
 
+TEST(TextFile, TakesAByteOrderMarkAndSaysWhereOtherTextIsNot) {
+  EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 0.5 }"), "no error");
+  EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 7 }"), ":1:11: mapping.scale = 7 is outside 0.05 to 1");
+  EXPECT_EQ(load_error<proto::Scene>("# c\nname: \"w\xE4ll\""),
+            ":2:1: name is not UTF-8: save the file, or type the text, in that encoding");
+  EXPECT_EQ(
+      load_error("mapping {\n \xC3\xA4: 1 }"),
+      ":2:2: a character that is not ASCII stands outside of quotes; only texts in quotes may have such");
+}
+
 TEST(TextFile, NamesLineAndColumnOfARangeViolation) {
   EXPECT_EQ(load_error("# c\nmapping {\n  scale: 7\n}\n"), ":3:3: mapping.scale = 7 is outside 0.05 to 1");
   EXPECT_EQ(load_error("mapping {\n\tscale: 0 }\n"), ":2:9: mapping.scale = 0 is outside 0.05 to 1");

@@ -202,6 +202,40 @@ TEST(Validation, WantsABudgetThatFiftyCommandsASecondFitIn) {
   EXPECT_EQ(validation_error(master), "no error");
 }
 
+TEST(Validation, WantsAddressesThatAreSuchByTheirForm) {
+  const auto said = [](const std::string& text) {
+    proto::MasterConfig master;
+    master.mutable_link()->set_slave(text);
+    return validation_error(master);
+  };
+  for (const char* address : {"127.0.0.1:47001", "[::1]:0", "robot.local:65535"})
+    EXPECT_EQ(said(address), "no error");
+  for (const char* text : {"", ":", "foo", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", ":1",
+                           "127.0.0.1:1x", "::1:1", "[]:1", "[::1:1", "127.0.0.1: 1"})
+    EXPECT_TRUE(said(text).starts_with("link.slave = \"" + std::string(text) + "\" is not an address; write"))
+        << said(text);
+  proto::MasterConfig master;
+  master.mutable_rpc()->set_listen("");  // the default
+  master.mutable_device_adapter()->set_address("");
+  master.mutable_link()->set_slave_rpc("");
+  EXPECT_EQ(validation_error(master), "no error");
+  master.mutable_device_adapter()->set_address("foo");
+  EXPECT_TRUE(validation_error(master).starts_with("device_adapter.address = \"foo\""));
+  proto::SlaveConfig slave;
+  slave.mutable_rpc()->set_listen("foo");
+  EXPECT_TRUE(validation_error(slave).starts_with("rpc.listen = \"foo\""));
+}
+
+TEST(Validation, WantsTextsInUtf8) {
+  proto::Scene scene = one_wall();
+  scene.set_name("w\xC3\xA4ll");
+  EXPECT_EQ(validation_error(scene), "no error");
+  for (const char* text : {"w\xE4ll", "\xC3", "\xED\xA0\x80", "\xC0\xAF", "\xF4\x90\x80\x80"}) {
+    scene.set_name(text);
+    EXPECT_TRUE(validation_error(scene).starts_with("name is not UTF-8")) << validation_error(scene);
+  }
+}
+
 TEST(Validation, WantsAWayToHaveTwoEnds) {
   proto::Scene scene = one_wall();
   scene.mutable_path()->add_waypoint();

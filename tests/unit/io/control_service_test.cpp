@@ -100,6 +100,8 @@ TEST(ControlService, DoesNotRepeatABlackoutThatIsOverWhenAnotherFieldChanges) {
   blackout.mutable_impairment()->set_blackout_duration_s(1e-9);  // over before the next call
   EXPECT_EQ(refusal_of(service.set_link(blackout)), nullptr);
   EXPECT_EQ(side.present_link().blackout_duration_s(), 1e-9);
+  EXPECT_EQ(service.get_link().blackout_duration_s(), 0.0) << "nobody is told that it goes on";
+  EXPECT_EQ(service.status().impairment().blackout_duration_s(), 0.0);
   auto loss = link_request(false);
   loss.mutable_impairment()->set_loss(0.1);
   EXPECT_EQ(refusal_of(service.set_link(loss)), nullptr);

@@ -104,6 +104,42 @@ TEST(Site, WhatIsMissingIsNamedAndNothingIsMadeInItsPlace) {
   EXPECT_NE(refusal_of(site).find("master.crt"), std::string::npos) << "an empty file";
 }
 
+TEST(Site, WhatIsDamagedIsNamedWhicheverPartItIs) {
+  const TemporaryFolder folder;
+  const fs::path site = folder.path() / "longreach";
+  ASSERT_EQ(refusal_of(site), "");
+  const auto expect = [&](const std::string& name, const std::string& text, const std::string& why) {
+    const std::string before = read_site_file(site / name);
+    std::ofstream(site / name) << text;
+    EXPECT_NE(refusal_of(site).find(name + why), std::string::npos) << refusal_of(site);
+    std::ofstream(site / name) << before;
+    EXPECT_EQ(refusal_of(site), "");
+  };
+  expect("authority.crt", "junk", " is damaged: it holds no certificate");
+  expect("master.crt", "junk", " is damaged: it holds no certificate");
+  expect("master.key", "junk", " is damaged: it holds no private key");
+  expect("master.key", read_site_file(site / "master.key").substr(0, 100), " is damaged");
+  expect("master.key", read_site_file(site / "client.key"), " does not belong to master.crt");
+}
+
+TEST(Site, AFileOrAFolderOfSomethingElseIsNoSiteWhoeverMayOpenIt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "letter.txt") << "dear";
+  const auto expect = [](const fs::path& path, const std::string& why) {
+    try {
+      (void)site_credentials(path, RpcRole::kMaster);
+      FAIL() << path;
+    } catch (const NoSiteError& e) {
+      EXPECT_NE(std::string(e.what()).find(path.string() + why), std::string::npos) << e.what();
+      EXPECT_EQ(std::string(e.what()).find("chmod"), std::string::npos) << e.what();
+    }
+  };
+  expect(folder.path() / "letter.txt", " is not a folder");
+  expect(folder.path(), " is no site");
+  ::chmod(folder.path().c_str(), 0755);
+  expect(folder.path(), " is no site");
+}
+
 TEST(Site, APlaceThatCannotBeWrittenIsNamed) {
   EXPECT_NE(refusal_of("/proc/longreach").find("/proc/longreach"), std::string::npos)
       << refusal_of("/proc/longreach");

@@ -7,6 +7,7 @@
 
 #include "common/io/recording/mcap_writer.hpp"
 #include "common/io/recording/recording_error.hpp"
+#include "common/io/recording/recording_folder.hpp"
 #include "common/io/recording/recording_list.hpp"
 #include "proto/config.pb.h"
 #include "proto/recording.pb.h"
@@ -48,7 +49,8 @@ void write_sample(const std::filesystem::path& path) {
 TEST(CsvExport, HasARowAMessageAndAColumnANumber) {
   const TemporaryFolder folder;
   write_sample(folder.path() / "a.mcap");
-  const auto tables = export_csv(folder.path() / "a.mcap", folder.path() / "new" / "tables");
+  const auto [tables, whole] = export_csv(folder.path() / "a.mcap", folder.path() / "new" / "tables");
+  EXPECT_TRUE(whole);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[0].file, folder.path() / "new" / "tables" / "slave_link.csv");
   EXPECT_EQ(tables[0].rows, 2u);
@@ -77,7 +79,7 @@ TEST(CsvExport, TakesForeignSchemasWithListsAndTypesThatContainThemselves) {
     writer.write(writer.add_channel("odd/topic name", *proto::Scene::descriptor()), 1, scene);
     writer.finish();
   }
-  const auto tables = export_csv(folder.path() / "a.mcap", folder.path());
+  const auto tables = export_csv(folder.path() / "a.mcap", folder.path()).tables;
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].file.filename(), "odd_topic_name.csv");
   EXPECT_NE(read_all(tables[0].file).find("two"), std::string::npos);
@@ -88,6 +90,31 @@ TEST(CsvExport, SaysWhyNot) {
   EXPECT_THROW((void)export_csv(folder.path() / "none.mcap", folder.path()), RecordingError);
   write_sample(folder.path() / "a.mcap");
   EXPECT_THROW((void)export_csv(folder.path() / "a.mcap", folder.path() / "a.mcap"), RecordingError);
+}
+
+TEST(CsvExport, TellsOfACutRecordingAndMakesNothingOfOneWithoutAMessage) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap");
+  const std::string bytes = read_all(folder.path() / "a.mcap");
+  std::ofstream(folder.path() / "cut.mcap", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  EXPECT_FALSE(export_csv(folder.path() / "cut.mcap", folder.path() / "cut").whole);
+  std::ofstream(folder.path() / "head.mcap", std::ios::binary) << bytes.substr(0, 40);
+  EXPECT_THROW((void)export_csv(folder.path() / "head.mcap", folder.path() / "head"), RecordingError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "head"));
+}
+
+TEST(RecordingName, OfALongOneTheBeginningIsRepeated) {
+  EXPECT_NO_THROW(check_recording_name("drill-3"));
+  for (const std::string& name :
+       {std::string(), std::string("a/b"), std::string("-a"), std::string(400, 'a')}) {
+    try {
+      check_recording_name(name);
+      FAIL() << name;
+    } catch (const RecordingError& e) {
+      EXPECT_NE(std::string(e.what()).find("is no name of a recording"), std::string::npos);
+      EXPECT_LT(std::string(e.what()).size(), 200u) << e.what();
+    }
+  }
 }
 
 TEST(RecordingList, KnowsWhatIsWholeAndWhatIsNot) {

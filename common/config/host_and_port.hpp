@@ -1,0 +1,23 @@
+#pragma once
+// Addresses as a user writes them: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001".
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace longreach {
+
+struct HostAndPort {
+  std::string host;  // without the brackets of an IPv6 address
+  std::uint16_t port = 0;
+};
+
+/// None when it is no address by its form; whether there is such a host is not asked.
+std::optional<HostAndPort> host_and_port(const std::string& text);
+
+/// What is expected instead, as the end of a sentence.
+inline constexpr const char* kNoAddress =
+    " is not an address; write address:port, e.g. 127.0.0.1:47001 or [::1]:47001, with a port from 0 to "
+    "65535";
+
+}  // namespace longreach

@@ -1,0 +1,63 @@
+#pragma once
+// How the command lines of all programs refuse a value before it is used. For files with CLI11 alone.
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <cstdint>
+#include <string>
+
+#include "common/config/host_and_port.hpp"
+#include "common/config/number_text.hpp"
+
+namespace longreach {
+
+/// A decimal number from `low` to `high`: not NaN, which passes any comparison of CLI11's own checks.
+inline CLI::Validator number_between(double low, double high) {
+  return {[low, high](const std::string& text) {
+            const auto number = parse_number(text);
+            if (number && *number >= low && *number <= high) return std::string();
+            return text + " is not a number from " + format_number(low) + " to " + format_number(high);
+          },
+          ""};
+}
+
+inline CLI::Validator number_above_zero() {
+  return {[](const std::string& text) {
+            const auto number = parse_number(text);
+            return number && *number > 0.0 ? std::string() : text + " is not a number above 0";
+          },
+          ""};
+}
+
+/// CLI11 itself would take -1 and what is too long for the largest number.
+inline CLI::Validator whole_number() {
+  return {[](const std::string& text) {
+            return parse_integer<std::uint64_t>(text)
+                       ? std::string()
+                       : text + " is not a whole number from 0 to 18446744073709551615";
+          },
+          ""};
+}
+
+inline CLI::Validator address_by_its_form() {
+  return {[](const std::string& text) {
+            return host_and_port(text) ? std::string() : "'" + text + "'" + kNoAddress;
+          },
+          ""};
+}
+
+/// No option takes an empty text: a script whose variable is not set means a value, not the default. Called
+/// after all options are there; words without a name may be empty.
+inline void refuse_empty_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options(
+           [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_items_expected_max() > 0; }))
+    option->transform(CLI::Validator(  // which is asked before the option's own checks
+        [](const std::string& text) {
+          return text.empty() ? "is empty; give it a value, or leave the option out" : std::string();
+        },
+        ""));
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    refuse_empty_values(*command);
+}
+
+}  // namespace longreach
