@@ -53,7 +53,7 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
       y(curve.low);
       y(curve.high);
     }
-    out << " with " << style_of(curve) << " lc rgb '"
+    out << (curve.scales ? "" : " noautoscale") << " with " << style_of(curve) << " lc rgb '"
         << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
         << "' title " << in_quotes(curve.title);
   }

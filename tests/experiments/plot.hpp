@@ -19,6 +19,7 @@ struct Curve {
   std::string csv{};          // trace of its own; empty: the plot's
   std::string low{}, high{};  // columns of error bars; empty: none
   bool dashed = false;        // shows a curve that lies below it
+  bool scales = true;         // the y axis holds all of it
 };
 
 struct Panel {
