@@ -118,7 +118,8 @@ const std::vector<Experiment> kExperiments = {
      run_press_wall, press_wall_plots, "",
      "{wall_n_per_m} N/m across {rtt_s} s: direct force gives the hand {direct_port_energy_min_j*-1} J; "
      "passivity observer {tdpa_displayed_n_per_m} N/m, position-position "
-     "{position_position_displayed_n_per_m} N/m"},
+     "{position_position_displayed_n_per_m} N/m",
+     fit_press_wall},
     {"delay-seeds", "The worst of many seeds, over every round trip and every named link that has no outage.",
      run_delay_seeds, delay_seeds_plots, "",
      "{held_within_5_percent} of {held_runs} runs within 5 %, worst {displayed_error_max*100} %; limit "
@@ -179,6 +180,14 @@ const Experiment* find_experiment(std::string_view name) {
   return nullptr;
 }
 
+std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics) {
+  std::vector<Plot> plots = experiment.plots();
+  for (Plot& plot : plots) {
+    if (experiment.fit != nullptr) experiment.fit(plot, metrics);
+  }
+  return plots;
+}
+
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder) {
   // What chooses other fields comes before them.
@@ -236,7 +245,7 @@ std::vector<Metric> run_experiment(const Experiment& experiment, const Experimen
   std::ofstream file(run.out / "metrics.json", std::ios::trunc);
   file << metrics_json(experiment.name, run, metrics);
   if (!file.flush()) throw std::runtime_error("cannot write " + (run.out / "metrics.json").string());
-  for (const Plot& plot : experiment.plots()) {
+  for (const Plot& plot : plots_of(experiment, metrics)) {
     if (plot.panels.empty()) continue;  // the experiment has drawn it
     if (const std::string why = draw(run.out, plot); !why.empty()) trouble(why);
   }

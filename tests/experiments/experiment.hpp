@@ -35,7 +35,11 @@ struct Experiment {
   std::vector<Plot> (*plots)();
   std::string_view figure{};  // of the source paper (Liu et al. 2019) that it repeats; empty: none
   std::string_view answer{};  // sentence of the report: {NAME} stands for a metric, {NAME*1e3} for a multiple
+  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // each plot to what was found; may be empty
 };
+
+/// Its plots, fitted to what a run has found.
+std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics);
 
 /// All experiments, in the order in which `longreach-lab list` shows them.
 const std::vector<Experiment>& experiments();
@@ -107,6 +111,7 @@ std::vector<Metric> run_delay_sweep(const ExperimentRun& run);
 std::vector<Plot> delay_sweep_plots();
 std::vector<Metric> run_press_wall(const ExperimentRun& run);
 std::vector<Plot> press_wall_plots();
+void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics);
 std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
 std::vector<Plot> delay_seeds_plots();
 std::vector<Metric> run_singular_paths(const ExperimentRun& run);

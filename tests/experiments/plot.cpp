@@ -27,7 +27,7 @@ std::string in_quotes(std::string_view text) {
 
 std::string style_of(const Curve& curve) {
   if (!curve.low.empty()) return "yerrorlines lw 1.6 pt " + std::to_string(curve.mark);
-  if (!curve.points) return "lines lw 1.6";
+  if (!curve.points) return curve.dashed ? "lines lw 1.6 dt 2" : "lines lw 1.6";
   const std::string size = curve.size > 0.0 ? " lw 2 ps " + std::to_string(curve.size) : "";
   return "points pt " + std::to_string(curve.mark) + size;
 }
@@ -53,7 +53,7 @@ void write_panel(std::ostream& out, const Plot& plot, const Panel& panel, std::s
       y(curve.low);
       y(curve.high);
     }
-    out << " with " << style_of(curve) << " lc rgb '"
+    out << (curve.scales ? "" : " noautoscale") << " with " << style_of(curve) << " lc rgb '"
         << kColours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % kColours.size()]
         << "' title " << in_quotes(curve.title);
   }

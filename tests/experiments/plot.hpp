@@ -9,8 +9,8 @@
 namespace longreach {
 
 struct Curve {
-  std::string column;  // of the CSV file
-  std::string title;
+  std::string column;         // of the CSV file
+  std::string title;          // in the legend; empty: not there
   double factor = 1.0;        // from the column's unit to the axis's
   bool points = false;        // instead of a line
   int mark = 7;               // gnuplot's point type
@@ -18,6 +18,8 @@ struct Curve {
   double size = 0.0;          // of the points; 0: the panel's
   std::string csv{};          // trace of its own; empty: the plot's
   std::string low{}, high{};  // columns of error bars; empty: none
+  bool dashed = false;        // shows a curve that lies below it
+  bool scales = true;         // the y axis holds all of it
 };
 
 struct Panel {

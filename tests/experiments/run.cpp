@@ -1,13 +1,12 @@
 #include "tests/experiments/run.hpp"
 
-#include <unistd.h>
-
-#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "common/config/config.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/progress_line.hpp"
 #include "tests/experiments/touch.hpp"
 
 namespace longreach {
@@ -17,18 +16,6 @@ std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
-}
-
-/// Progress on a terminal only, rewritten in place.
-std::function<void(double)> progress_line(const RunOptions& o, double virtual_s) {
-  if (o.quiet || !isatty(STDERR_FILENO)) return {};
-  const auto began = std::chrono::steady_clock::now();
-  return [began, virtual_s, name = o.name](double done) {
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    std::fprintf(stderr, "\r%s: %3.0f %% of at most %g s, %.0f times faster than real time ", name.c_str(),
-                 100.0 * done, virtual_s, done * virtual_s / std::max(spent, 1e-9));
-    if (done >= 1.0) std::fprintf(stderr, "\r\033[K");
-  };
 }
 
 }  // namespace
@@ -55,11 +42,15 @@ void run(const RunOptions& o) {
   r.config = configure(o.settings, find_deploy_folder());
   r.seed = o.seed;
   r.out = o.out;
-  r.progress = progress_line(o, r.config.duration_s());
+  ProgressLine line(o.quiet);
+  r.progress = [&](double done) {
+    line.show(o.name + ": " + std::to_string(std::lround(100.0 * done)) + " %", done);
+  };
   const auto began = std::chrono::steady_clock::now();
   const auto complain = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
   const std::vector<Metric> metrics = run_experiment(chosen, r, complain);
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  line.clear();
   if (o.quiet) return;
   for (const Metric& m : metrics) {
     std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());

@@ -12,10 +12,14 @@ std::vector<std::string> train_kinds() { return {"spherical"}; }
 
 void train(const std::string& kind, std::uint64_t seed, const std::filesystem::path& out) {
   if (kind != "spherical") throw std::runtime_error("there is nothing to train by the name " + kind);
-  // Opened first: nobody wants to learn after minutes that it cannot be written.
+  // Opened first: nobody wants to learn after minutes that it cannot be written. What ends the training
+  // leaves what was there.
+  std::error_code none;
+  const bool existed = std::filesystem::exists(out, none);
   std::ofstream file(out, std::ios::binary | std::ios::app);
   if (!file) throw std::runtime_error("cannot write " + out.string());
   file.close();
+  if (!existed) std::filesystem::remove(out, none);
   SphericalTraining training;
   training.seed = seed;
   const SphericalNetworkFile network = train_spherical(

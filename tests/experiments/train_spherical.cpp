@@ -127,6 +127,8 @@ SphericalNetworkFile train_spherical(const SphericalTraining& t,
   c.workspace.common_rad = kCommon_rad;
   c.workspace.differential_rad = kDifferential_rad;
 
+  const int n = t.cells_per_axis, count = n * n * n;
+  if (progress) progress("a rough network and " + std::to_string(count) + " of subspaces to train");
   const Random random = Random(t.seed).child("spherical");
   const Sampler sample{kinematics, c.workspace};
   const auto everywhere =
@@ -136,7 +138,6 @@ SphericalNetworkFile train_spherical(const SphericalTraining& t,
 
   Vector3 reach = Vector3::Zero();
   for (const PerceptronSample& s : everywhere) reach = reach.cwiseMax(s.out.cwiseAbs());
-  const int n = t.cells_per_axis, count = n * n * n;
   c.cells.per_axis = n;
   c.cells.overlap = kOverlap;
   for (int axis = 0; axis < 3; ++axis) c.cells.width[axis] = four_digits(2.0 * reach[axis] / n);

@@ -39,7 +39,7 @@ struct AngleError {
 /// Error over `count` evenly drawn motor angles of the workspace, the same at every call; with rough network.
 AngleError network_error(const SphericalKinematics& kinematics, const SphericalNetwork& network, int count);
 
-/// `progress` is called after every network with a line about it; may be empty.
+/// `progress` is called at the beginning and after every network with a line about it; may be empty.
 SphericalNetworkFile train_spherical(const SphericalTraining& training,
                                      const std::function<void(const std::string&)>& progress);
 

@@ -32,6 +32,25 @@ TEST(ReportAnswer, RefusesWhatItCannotSay) {
     EXPECT_THROW(static_cast<void>(answer(sentence, metrics)), std::invalid_argument) << sentence;
 }
 
+TEST(PressWall, DirectForceLeavesThePanelsToTheOthersAndTheTitleSaysSo) {
+  const Experiment& press = *find_experiment("press-wall");
+  std::vector<Metric> metrics = {{"rtt_s", 2.6, "s"},
+                                 {"wall_n_per_m", 1000.0, "N/m"},
+                                 {"direct_limit_cycle", 1.0, ""},
+                                 {"direct_port_energy_min_j", -21.0, "J"},
+                                 {"direct_force_peak_n", 28.3, "N"}};
+  const Plot alone = plots_of(press, metrics).front();
+  EXPECT_EQ(alone.title, "Pressing on a wall of 1 N/mm, 2.6 s away");
+  metrics.push_back({"wave_limit_cycle", 0.0, ""});
+  const Plot all = plots_of(press, metrics).front();
+  EXPECT_EQ(all.title, alone.title + "; direct force leaves the panels, to 28.3 N and -21000 mJ");
+  for (std::size_t i = 0; i < all.panels.size(); ++i) {
+    EXPECT_TRUE(alone.panels[i].curves.front().scales);
+    EXPECT_FALSE(all.panels[i].curves.front().scales);
+    EXPECT_TRUE(all.panels[i].curves.back().scales);
+  }
+}
+
 TEST(ReportPage, HoldsEveryChapterAndSaysWhatFailed) {
   const Experiment good{"good", "Is a < b?", nullptr, nullptr, "Fig. 9", "by {gap} m"};
   const Experiment bad{"bad", "Does it run?", nullptr, nullptr, "", "never {gap}"};

@@ -1,7 +1,5 @@
 #include "tests/experiments/campaign/sweep.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +14,7 @@
 #include "tests/experiments/campaign/plan.hpp"
 #include "tests/experiments/campaign/results.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/progress_line.hpp"
 
 namespace longreach {
 namespace {
@@ -58,41 +57,33 @@ void run_cell(const Plan& plan, const CampaignFolder& folder, const fs::path& de
   folder.write(number, std::move(result));
 }
 
-/// What is told while cells run: failures always, progress on a terminal.
+/// What is told while cells run: failures always, and how far it is.
 class Progress {
  public:
-  Progress(const Grid& grid, std::size_t cells, bool quiet)
-      : grid_(grid), cells_(cells), line_(!quiet && isatty(STDERR_FILENO)) {}
+  Progress(const Grid& grid, std::size_t cells, bool quiet) : grid_(grid), cells_(cells), line_(quiet) {}
 
   void ended(std::size_t cell, const std::string& failure) {
     ++ended_;
     if (!failure.empty()) {
       ++failed_;
-      std::fprintf(stderr, "%scell %zu failed: %s: %s\n", line_ ? "\r\033[K" : "", cell,
-                   grid_.name(grid_.cell(cell)).c_str(), failure.c_str());
+      line_.clear();
+      std::fprintf(stderr, "cell %zu failed: %s: %s\n", cell, grid_.name(grid_.cell(cell)).c_str(),
+                   failure.c_str());
     }
     show();
   }
-  void show() const {
-    if (!line_) return;
-    std::fprintf(stderr, "\rsweep: %zu of %zu cells", ended_, cells_);
-    if (failed_ > 0) std::fprintf(stderr, ", %zu failed", failed_);
-    if (ended_ > 0)
-      std::fprintf(
-          stderr, ", %.0f s to go",
-          seconds_since(began_) * static_cast<double>(cells_ - ended_) / static_cast<double>(ended_));
-    std::fputs("\033[K", stderr);
+  void show() {
+    std::string what = "sweep: " + std::to_string(ended_) + " of " + std::to_string(cells_) + " cells";
+    if (failed_ > 0) what += ", " + std::to_string(failed_) + " failed";
+    line_.show(what, static_cast<double>(ended_) / static_cast<double>(cells_));
   }
-  void clear() const {
-    if (line_) std::fputs("\r\033[K", stderr);
-  }
+  void clear() { line_.clear(); }
   [[nodiscard]] std::size_t failed() const { return failed_; }
 
  private:
   const Grid& grid_;
   std::size_t cells_;
-  bool line_;
-  Clock::time_point began_ = Clock::now();
+  ProgressLine line_;
   std::size_t ended_ = 0, failed_ = 0;
 };
 

@@ -5,6 +5,7 @@
 // this machine and its load.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -162,7 +163,14 @@ std::vector<Plot> scenes_cost_plots() {
 
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
   std::vector<Metric> metrics;
-  for (const std::string& name : ready_scenes()) {
+  const std::vector<std::string> scenes = ready_scenes();
+  constexpr std::array kCounts{1, 3, 10, 30, 100, 300, 1000, 3000, 10000};
+  double done = 0.0;
+  const auto report = [&] {
+    if (run.progress) run.progress(done++ / static_cast<double>(scenes.size() + kCounts.size() + 1));
+  };
+  for (const std::string& name : scenes) {
+    report();
     proto::SlaveConfig message;
     message.set_scene_file("scenes/" + name + ".txtpb");
     resolve_files(message, find_deploy_folder());
@@ -189,7 +197,8 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
   }
   Trace trace(run.out, "scenes_cost",
               {"surfaces", "resting_us", "moving_us", "resting_asked", "moving_asked"});
-  for (const int count : {1, 3, 10, 30, 100, 300, 1000, 3000, 10000}) {
+  for (const int count : kCounts) {
+    report();
     const ContactCost resting = contact_cost(many(count, false), Vector3::Zero(), 1.0);
     const ContactCost moving = contact_cost(many(count, true), Vector3::Zero(), 1.0);
     trace.row({static_cast<double>(count), resting.us, moving.us, resting.asked, moving.asked});
@@ -197,6 +206,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone", true});
   }
   trace.close();
+  report();
   bodies_growth(run, metrics);
   return metrics;
 }

@@ -15,6 +15,8 @@ namespace {
 constexpr double kSpike_s = 30.0;  // by then the hand presses
 constexpr double kSpikeLength_s = 60.0;
 constexpr double kDuration_s = 160.0;
+constexpr const char* kStateAxis =
+    "set yrange [-0.3:3.3]\nset ytics ('idle' 0, 'observes' 1, 'engaged' 2, 'holds' 3)";
 
 /// What happened to the force, tick by tick.
 class Spike {
@@ -80,7 +82,7 @@ std::vector<Plot> spike_plots() {
            .panels = {{"contact force (N)", {{"felt_n", "at the hand"}, {"tool_n", "at the tool"}}, ""},
                       {"stiffness (N/mm)", {{"stiffness_n_per_m", "rendered", 1e-3}}, "set yrange [0:*]"},
                       {"energy (mJ)", {{"port_energy_j", "into the device", 1e3}}, ""},
-                      {"state", {{"state", "1 observes, 2 engaged, 3 holds"}}, "set yrange [0:4]"}}}};
+                      {"", {{"state", "state"}}, kStateAxis}}}};
 }
 
 std::vector<Metric> run_spike(const ExperimentRun& run) {

@@ -54,7 +54,7 @@ ReportChapter run_chapter(const Experiment& experiment, const ReportOptions& opt
     chapter.config = config_hash(run.config);
     chapter.metrics =
         run_experiment(experiment, run, [](const std::string& why) { throw std::runtime_error(why); });
-    for (const Plot& plot : experiment.plots())
+    for (const Plot& plot : plots_of(experiment, chapter.metrics))
       chapter.pictures.push_back({plot.title, text_of(run.out / (plot.name + ".svg"))});
   } catch (const std::exception& e) {
     chapter.failure = e.what();

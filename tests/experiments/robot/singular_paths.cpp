@@ -21,6 +21,7 @@ namespace {
 constexpr double kDt = 1e-3;
 constexpr double kLegS = 2.5;
 constexpr double kWaitS = 3.0;
+constexpr double kPassageS = 2.0 * kLegS + kWaitS;
 constexpr int kTicksPerRow = 5;
 
 struct Passage {
@@ -72,6 +73,20 @@ Pose between(const Pose& a, const Pose& b, double share) {
   return {a.p + share * (b.p - a.p), exp_rotation(share * turn) * a.q};
 }
 
+/// The passages' names in the first panel, and lines between them in all.
+std::string passage_marks() {
+  std::string commands;
+  for (std::size_t i = 0; i < kPassages.size(); ++i) {
+    const double n = static_cast<double>(i);
+    const std::string begin = std::to_string(n * kPassageS), middle = std::to_string((n + 0.5) * kPassageS);
+    commands += "set label " + std::to_string(i + 2) + " '" + kPassages[i].name + "' at " + middle +
+                ", graph 0.93 center\n";
+    if (i > 0)
+      commands += "set arrow from " + begin + ", graph 0 to " + begin + ", graph 1 nohead lc rgb '#666666'\n";
+  }
+  return commands;
+}
+
 }  // namespace
 
 std::vector<Plot> singular_paths_plots() {
@@ -81,13 +96,14 @@ std::vector<Plot> singular_paths_plots() {
         {.column = "joint" + std::to_string(i) + "_speed", .title = "joint " + std::to_string(i)});
   return {{.name = "singular_paths",
            .csv = "singular_paths",
-           .title = "Straight through the wrist, the elbow and the shoulder singularity of a PUMA 560",
+           .title =
+               "Straight through the wrist, the elbow and the shoulder singularity of a PUMA 560: three runs",
            .x_column = "t_s",
            .x_label = "time (s)",
-           .panels = {{"tool off its goal (mm)", {{"off_m", "distance", 1e3}}, ""},
-                      {"(mrad)", {{"turned_rad", "angle", 1e3}}, ""},
-                      {"joint speed / limit", joints, "set yrange [-1.05:1.05]"},
-                      {"conditioning", {{"conditioning", "0: singular"}}, ""}}}};
+           .panels = {{"position error (mm)", {{"off_m", "", 1e3}}, passage_marks()},
+                      {"angle error (mrad)", {{"turned_rad", "", 1e3}}, "unset label"},
+                      {"joint speed / its limit", joints, "set yrange [-1.05:1.05]"},
+                      {"conditioning (0: singular)", {{"conditioning", ""}}, ""}}}};
 }
 
 std::vector<Metric> run_singular_paths(const ExperimentRun& run) {
@@ -106,7 +122,7 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run) {
     motion.reset(middle - half);
     JointVector before = motion.joint_setpoint_rad();
     double off_max_m = 0.0, late_s = 0.0, speed_max = 0.0;
-    for (int tick = 0; tick < static_cast<int>((2.0 * kLegS + kWaitS) / kDt); ++tick, now += kDt) {
+    for (int tick = 0; tick < static_cast<int>(kPassageS / kDt); ++tick, now += kDt) {
       const double share = tick * kDt / kLegS;
       const Pose goal =
           share < 1.0 ? between(X[0], X[1], share) : between(X[1], X[2], std::min(share - 1.0, 1.0));

@@ -1,0 +1,36 @@
+#pragma once
+// How far a long command is, and how long it still takes: on a terminal one line, rewritten in place;
+// elsewhere a plain line every ten seconds, so that a short command says nothing there.
+
+#include <chrono>
+#include <ostream>
+#include <string>
+
+namespace longreach {
+
+class ProgressLine {
+ public:
+  using Clock = std::chrono::steady_clock;
+  enum class Style { kNone, kPlain, kTerminal };
+
+  static constexpr std::chrono::seconds kPlainEvery{10};
+
+  /// On standard error, as that is.
+  explicit ProgressLine(bool quiet);
+  ProgressLine(std::ostream& out, Style style, Clock::time_point began);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// `what`, e.g. "sweep: 3 of 10 cells", and the seconds to go by the share that is done.
+  void show(const std::string& what, double done, Clock::time_point now = Clock::now());
+  /// Leaves the terminal's line empty for others.
+  void clear();
+
+ private:
+  std::ostream& out_;
+  Style style_;
+  Clock::time_point began_, said_;
+};
+
+}  // namespace longreach
