@@ -56,14 +56,6 @@ class Adapters : public Station {
                  "robot_adapter.silence_s=" + silence_s});
     start_master({"--adapter", device_address_, "--set", "device_adapter.silence_s=" + silence_s});
   }
-  /// Also after a fault of a machine that is too busy for 20 ms.
-  bool engaged() {
-    return eventually([this] {
-      if (slave_.state() == "Engaged" && master_.state() == "Engaged") return true;
-      master_.engage();
-      return false;
-    });
-  }
   /// The last silence in the loop's own time: within 20 ms, but for what this machine was late.
   void expect_told_in_time(Side& side) {
     const std::uint64_t after_us = side.counter("adapter_silent_after_us");

@@ -17,13 +17,6 @@ class Hands : public Station {
   bool says(const std::string& words) {
     return eventually([&] { return master_program_->output().find(words) != std::string::npos; });
   }
-  /// As soon as it is not refused.
-  bool engaged() {
-    return eventually([this] {
-      master_.engage();
-      return slave_.state() == "Engaged" && master_.state() == "Engaged";
-    });
-  }
   double tool_x() {
     const auto s = slave_.status();
     return s && s->tool_m_size() == 3 ? s->tool_m(0) : NAN;

@@ -105,8 +105,12 @@ bool Station::eventually(const std::function<bool()>& holds, std::chrono::second
   return true;
 }
 
-bool Station::both_engaged() {
-  return eventually([this] { return slave_.state() == "Engaged" && master_.state() == "Engaged"; });
+bool Station::both_engaged(std::chrono::seconds timeout) {
+  return eventually([this] { return slave_.state() == "Engaged" && master_.state() == "Engaged"; }, timeout);
+}
+
+bool Station::engaged() {
+  return eventually([this] { return master_.engage().empty() && both_engaged(std::chrono::seconds(10)); });
 }
 
 std::string Station::outputs() const {

@@ -46,7 +46,10 @@ class Station : public ::testing::Test {
   /// took.
   static bool eventually(const std::function<bool()>& holds,
                          std::chrono::seconds timeout = std::chrono::seconds(60));
-  bool both_engaged();
+  bool both_engaged(std::chrono::seconds timeout = std::chrono::seconds(60));
+  /// Engages as soon as that is not refused, and again only when it comes to nothing: every engagement begins
+  /// anew.
+  bool engaged();
   /// What both programs printed, for messages of failing tests.
   std::string outputs() const;
 
