@@ -96,9 +96,7 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   expect_told_in_time(master_);
   const std::string why = master_.engage();
   EXPECT_NE(why.find("has gone silent; start it again"), std::string::npos) << why;
-  EXPECT_TRUE(eventually([this] {
-    return master_program_->output().find("has gone silent; start it again") != std::string::npos;
-  })) << outputs();
+  EXPECT_TRUE(says(*master_program_, "has gone silent; start it again")) << outputs();
   // Back again, it is not engaged by itself.
   start_again(device_, "device", device_address_);
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
@@ -186,12 +184,10 @@ TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
   start_master({"--adapter", "127.0.0.1:9", "--engage"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Fault"; }))
       << outputs();
-  EXPECT_TRUE(eventually([this] {
-    return slave_program_->output().find(
-               "the adapter of the robot at 127.0.0.1:9 does not answer; start it") != std::string::npos &&
-           master_program_->output().find(
-               "the adapter of the haptic device at 127.0.0.1:9 does not answer") != std::string::npos;
-  })) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "the adapter of the robot at 127.0.0.1:9 does not answer; start it"))
+      << outputs();
+  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at 127.0.0.1:9 does not answer"))
+      << outputs();
 }
 
 }  // namespace

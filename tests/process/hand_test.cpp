@@ -14,9 +14,6 @@ class Hands : public Station {
   Hands() { ::setenv("SPNAV_SOCKET", path_.c_str(), 1); }
   ~Hands() override { ::unsetenv("SPNAV_SOCKET"); }
 
-  bool says(const std::string& words) {
-    return eventually([&] { return master_program_->output().find(words) != std::string::npos; });
-  }
   double tool_x() {
     const auto s = slave_.status();
     return s && s->tool_m_size() == 3 ? s->tool_m(0) : NAN;
@@ -29,7 +26,8 @@ class Hands : public Station {
 TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master({"--operator", "spacemouse", "--mode", "rate"});
-  ASSERT_TRUE(says("no SpaceMouse is there; plug it in and start spacenavd, then engage")) << outputs();
+  ASSERT_TRUE(says(*master_program_, "no SpaceMouse is there; plug it in and start spacenavd, then engage"))
+      << outputs();
   EXPECT_TRUE(eventually([this] { return master_.engage().find("plug it in") != std::string::npos; }));
 
   FakeDaemon daemon(path_);
@@ -54,7 +52,7 @@ TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   // Plugged in again while it is pushed: nothing, also when it is engaged, before it was let go of.
   daemon.plugged_in();
   daemon.motion({0, 0, -350, 0, 0, 0});
-  ASSERT_TRUE(says("the puck is not at rest; let go of it once")) << outputs();
+  ASSERT_TRUE(says(*master_program_, "the puck is not at rest; let go of it once")) << outputs();
   daemon.motion({0, 0, 0, 0, 0, 0});
   ASSERT_TRUE(engaged()) << outputs();
   EXPECT_NEAR(tool_x(), rest_m, 1e-4);

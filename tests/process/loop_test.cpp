@@ -135,8 +135,7 @@ TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {
   start_master({"--operator", "none", "--engage"});
   const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
                            ": it does not answer; start longreach-slave there";
-  ASSERT_TRUE(eventually([&] { return master_program_->output().find(said) != std::string::npos; }))
-      << outputs();
+  ASSERT_TRUE(says(*master_program_, said)) << outputs();
   start_slave();
   EXPECT_TRUE(both_engaged()) << outputs();
 }
@@ -146,17 +145,13 @@ TEST_F(Station, AMasterOfAnotherSiteGetsNothing) {
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
   const TemporaryFolder elsewhere;
   start_master({"--operator", "none", "--engage", "--site", (elsewhere.path() / "site").string()});
-  ASSERT_TRUE(eventually([this] {
-    return master_program_->output().find("does not trust this program's certificate") != std::string::npos;
-  })) << outputs();
+  ASSERT_TRUE(says(*master_program_, "does not trust this program's certificate")) << outputs();
   EXPECT_EQ(slave_.state(), "Idle");
   EXPECT_EQ(slave_.counter("accepted"), 0u);
   // In clear it gets nothing, either.
   start_master({"--operator", "none", "--engage", "--insecure"});
-  ASSERT_TRUE(eventually([this] {
-    return master_program_->output().find("no session") != std::string::npos;
-  })) << outputs();
-  EXPECT_NE(master_program_->output().find("INSECURE"), std::string::npos) << outputs();
+  ASSERT_TRUE(says(*master_program_, "no session")) << outputs();
+  EXPECT_TRUE(says(*master_program_, "INSECURE")) << outputs();
   EXPECT_EQ(slave_.state(), "Idle");
   start_master({"--operator", "none", "--engage"});
   EXPECT_TRUE(both_engaged()) << outputs();

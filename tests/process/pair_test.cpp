@@ -22,8 +22,7 @@ class Pairing : public Station {
     desk_ = std::make_unique<RunningProgram>(
         "longreach-slave", std::vector<std::string>{"--pair", "--pair-listen", "127.0.0.1:0"});
     const std::string command = "longreach pair --slave ";
-    EXPECT_TRUE(eventually([&] { return desk_->output().find("Waiting") != std::string::npos; }))
-        << desk_->output();
+    EXPECT_TRUE(says(*desk_, "Waiting")) << desk_->output();
     const std::string said = desk_->output();
     std::istringstream words(said.substr(std::min(said.find(command), said.size() - 1) + command.size()));
     Offer offer;

@@ -86,13 +86,10 @@ TEST_F(Recording, OnAFullDiskEndsWithAnEventAndChangesNothingElse) {
     EXPECT_TRUE(status->recording().failed());
     EXPECT_EQ(status->recording().ended(), "it could not be written any more: File too large");
   }
-  const auto event = [](const RunningProgram& program) {
-    return program.output().find("warn") != std::string::npos &&
-           program.output().find("because=\"it could not be written any more: File too large\"") !=
-               std::string::npos;
-  };
-  EXPECT_TRUE(event(*slave_program_)) << outputs();
-  EXPECT_TRUE(event(*master_program_)) << outputs();
+  for (const RunningProgram* program : {slave_program_.get(), master_program_.get()}) {
+    EXPECT_TRUE(says(*program, "because=\"it could not be written any more: File too large\"")) << outputs();
+    EXPECT_TRUE(says(*program, "warn")) << outputs();
+  }
   // Both loops go on.
   const auto ticks = slave_.counter("ticks");
   EXPECT_TRUE(eventually([&] { return slave_.counter("ticks") > ticks + 1000; }));

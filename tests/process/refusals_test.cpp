@@ -45,9 +45,6 @@ class Refusals : public Station {
     ASSERT_EQ(after->tool_m_size(), 3);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(after->tool_m(i), before_.tool_m(i), 1e-4);
   }
-  bool slave_logs(const std::string& text) {
-    return eventually([&] { return slave_program_->output().find(text) != std::string::npos; });
-  }
   [[nodiscard]] std::uint64_t session() const {
     const auto first = tap_.recorded(Toward::kSlave).back();
     std::uint64_t number = 0;
@@ -84,10 +81,8 @@ TEST_F(Refusals, ASecondMaster) {
       "longreach-master", {"--set", "link.slave=" + link_address(), "--set", "link.slave_rpc=" + slave_rpc(),
                            "--set", "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0", "--view",
                            "plain", "--operator", "none", "--engage"});
-  ASSERT_TRUE(eventually([&] {
-    return second.output().find("another master has the robot") != std::string::npos;
-  })) << second.output();
-  EXPECT_TRUE(slave_logs("lease refused=127.0.0.1:")) << outputs();
+  ASSERT_TRUE(says(second, "another master has the robot")) << second.output();
+  EXPECT_TRUE(says(*slave_program_, "lease refused=127.0.0.1:")) << outputs();
   expect_undisturbed();
 }
 
@@ -103,7 +98,8 @@ TEST_F(Refusals, EveryWrongCertificate) {
     EXPECT_FALSE(answer.has_secret());
     EXPECT_TRUE(eventually([&] { return slave_.counter("rpc_refused") > refused; }));
   }
-  EXPECT_TRUE(slave_logs("rpc refused=connection because=\"certificate verify failed\"")) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "rpc refused=connection because=\"certificate verify failed\""))
+      << outputs();
   expect_undisturbed();
 }
 
@@ -141,7 +137,8 @@ TEST_F(Refusals, AStolenSessionNumberUnderAClientsCertificate) {
   };
   EXPECT_EQ(call(slave_rpc(), test_site(RpcRole::kClient), close).error_code(),
             grpc::StatusCode::PERMISSION_DENIED);
-  EXPECT_TRUE(slave_logs("because=\"only a master of this site may open a session\"")) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "because=\"only a master of this site may open a session\""))
+      << outputs();
   // Not even a master is told the secret of a session that it names.
   proto::OpenSessionResponse kept;
   EXPECT_TRUE(open_session(slave_rpc(), test_site(RpcRole::kMaster), session(), false, kept).ok());

@@ -71,8 +71,7 @@ TEST_F(SafetyOfPrograms, ASlaveKilledInContactLeavesAHandWithoutForceThatIsToldW
       return now && now->stiffness_n_per_m() < 10.0 && now->force_n() < 0.2;
     })) << outputs();
     EXPECT_EQ(master_.status()->cause(), "link silent");
-    EXPECT_NE(master_program_->output().find("to=Holding cause=\"link silent\""), std::string::npos)
-        << outputs();
+    EXPECT_TRUE(says(*master_program_, "to=Holding cause=\"link silent\"")) << outputs();
     EXPECT_NE(master_.engage(), "");
   }
 }
@@ -105,12 +104,10 @@ TEST_F(SafetyOfPrograms, EngagedAgainAndAgainTheRobotIsCommandedNoStep) {
 TEST_F(SafetyOfPrograms, AGapTimerTooShortForTheMasterIsRefusedWithASentence) {
   start_slave({"--set", "safety.gap_s=0.04"});
   start_master({"--operator", "none", "--engage", "--set", "link.send_hz=50"});
-  ASSERT_TRUE(eventually([this] {
-    return master_program_->output().find(
-               "safety.gap_s = 0.04 is less than three send periods of a master with link.send_hz = 50: set "
-               "it to "
-               "0.06 or more at the slave, or link.send_hz higher at the master") != std::string::npos;
-  })) << outputs();
+  ASSERT_TRUE(says(*master_program_,
+                   "safety.gap_s = 0.04 is less than three send periods of a master with link.send_hz = 50: "
+                   "set it to 0.06 or more at the slave, or link.send_hz higher at the master"))
+      << outputs();
   EXPECT_EQ(slave_.state(), "Idle");
   start_master({"--operator", "none", "--engage"});
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -124,6 +121,7 @@ TEST_F(SafetyOfPrograms, ADeadMansSwitchRefusesToEngageWithoutAHand) {
   start_slave();
   start_master({"--operator", "none", "--set", "safety.presence=HOLD"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Observing"; })) << outputs();
+  ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
   EXPECT_NE(master_.engage().find("no hand is on the handle"), std::string::npos);
   EXPECT_EQ(slave_.state(), "Observing");
 }

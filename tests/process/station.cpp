@@ -113,6 +113,10 @@ bool Station::engaged() {
   return eventually([this] { return master_.engage().empty() && both_engaged(std::chrono::seconds(10)); });
 }
 
+bool Station::says(const RunningProgram& program, const std::string& words) {
+  return eventually([&] { return program.output().find(words) != std::string::npos; });
+}
+
 std::string Station::outputs() const {
   std::string text;
   if (slave_program_) text += "slave:\n" + slave_program_->output();

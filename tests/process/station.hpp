@@ -50,6 +50,8 @@ class Station : public ::testing::Test {
   /// Engages as soon as that is not refused, and again only when it comes to nothing: every engagement begins
   /// anew.
   bool engaged();
+  /// Waits for words in what a program prints; its log may come later than what its RPC service tells.
+  static bool says(const RunningProgram& program, const std::string& words);
   /// What both programs printed, for messages of failing tests.
   std::string outputs() const;
 

@@ -23,8 +23,7 @@ class View : public Station {
                                           "--slave", "127.0.0.1:" + std::to_string(ports_.slave_rpc), "view"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     view_ = std::make_unique<RunningProgram>("longreach", arguments);
-    ASSERT_TRUE(eventually([this] { return view_->output().find("(Ctrl-C ends it)") != std::string::npos; }))
-        << view_->output();
+    ASSERT_TRUE(says(*view_, "(Ctrl-C ends it)")) << view_->output();
     const std::string said = view_->output();
     const std::size_t begin = said.find("http://");
     address_ = said.substr(begin, said.find("  (") - begin);
@@ -93,11 +92,9 @@ TEST_F(View, APageSaysThatTheMasterIsAwayAndGoesOnWhenItIsBack) {
   start_master({"--operator", "none"});
   start_view();
   const auto page = driver("away");
-  ASSERT_TRUE(eventually([&] { return page->output().find("seen: observing") != std::string::npos; }))
-      << page->output();
+  ASSERT_TRUE(says(*page, "seen: observing")) << page->output();
   master_program_->signal(SIGKILL);
-  ASSERT_TRUE(eventually([&] { return page->output().find("says why") != std::string::npos; }))
-      << page->output();
+  ASSERT_TRUE(says(*page, "says why")) << page->output();
   start_master({"--operator", "none"});
   finish(*page);
 }
