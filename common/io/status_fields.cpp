@@ -52,6 +52,20 @@ std::string_view to_string(HoldCause cause) {
       return "robot does not follow";
     case HoldCause::kUnanswered:
       return "slave did not answer";
+    case HoldCause::kStalled:
+      return "this side stood still";
+    case HoldCause::kOverrun:
+      return "ticks late";
+    case HoldCause::kDelayRose:
+      return "link delay rose";
+    case HoldCause::kHandStale:
+      return "hand stale";
+    case HoldCause::kSensorFault:
+      return "force sensor implausible";
+    case HoldCause::kSensorSign:
+      return "sign or frame of the force sensor";
+    case HoldCause::kNoRelief:
+      return "force does not fall";
     case HoldCause::kCount:
       break;
   }

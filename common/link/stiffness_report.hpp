@@ -26,6 +26,13 @@ enum class HoldCause : std::uint8_t {
   kRobotRestless,  // the robot moves where it should rest
   kRobotAstray,    // the robot does not follow its setpoints
   kUnanswered,     // the slave did not confirm an engagement
+  kStalled,        // this side stood still for longer than its gap timer
+  kOverrun,        // more than half of the ticks of a second came late
+  kDelayRose,      // the round trip exceeds its least since the engagement by more than the bound
+  kHandStale,      // the state of the hand is too old
+  kSensorFault,    // the force sensor says what no contact could do
+  kSensorSign,     // the force grows along the motion that should relieve it
+  kNoRelief,       // the force does not fall as the robot gives way
   kCount
 };
 

@@ -222,7 +222,7 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.rotation.touch = in.rotation_touch();
   out.rotation.in_contact = in.rotation_in_contact();
   return read_enum(in.state(), SafetyState::kFault, out.state) &&
-         read_enum(in.cause(), HoldCause::kUnanswered, out.cause) &&
+         read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
          read(in.translation_n_per_m(), out.translation.stiffness) &&
          read(in.rotation_nm_per_rad(), out.rotation.stiffness) &&
          within(out.translation.touch_sequence, 0.0, kSequenceMax) &&
@@ -252,7 +252,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
   const bool possible = read_enum(in.state(), SafetyState::kFault, out.state) &&
-                        read_enum(in.cause(), HoldCause::kUnanswered, out.cause) &&
+                        read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
                         read(in.tool(), out.X_WE) && read(in.goal(), out.X_WE_goal) &&
                         read(in, out.estimate) && read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;

@@ -83,7 +83,14 @@ std::string_view cause_in_words(HoldCause cause) {
       "another master has taken the robot",
       "the robot moves though it should rest",
       "the robot does not follow",
-      "the slave did not answer"};
+      "the slave did not answer",
+      "the computer of one side stood still",
+      "the computer of one side does not keep its rate",
+      "the delay of the link has risen",
+      "nothing new has come from the hand",
+      "the force sensor says what no contact could do",
+      "the force grows as the robot gives way: sign or frame of the force sensor?",
+      "the force does not fall as the robot gives way"};
   return name_of(cause, kNames);
 }
 

@@ -102,7 +102,7 @@ void write(const StiffnessReport& report, recording::StiffnessReport& out) {
 StiffnessReport read(const recording::StiffnessReport& in) {
   return {in.engagement(),
           read_enum(in.state(), SafetyState::kFault),
-          read_enum(in.cause(), HoldCause::kUnanswered),
+          read_enum(in.cause(), HoldCause::kNoRelief),
           read(in.translation()),
           read(in.rotation()),
           in.reached_sequence()};
@@ -186,7 +186,7 @@ void write(const Telemetry& t, recording::Telemetry& out) {
 Telemetry read(const recording::Telemetry& in) {
   Telemetry t;
   t.state = read_enum(in.state(), SafetyState::kFault);
-  t.cause = read_enum(in.cause(), HoldCause::kUnanswered);
+  t.cause = read_enum(in.cause(), HoldCause::kNoRelief);
   t.engagement = in.engagement();
   t.X_WE = read(in.tool());
   t.X_WE_goal = read(in.goal());

@@ -81,7 +81,7 @@ ContactStiffness sample_stiffness(Numbers& n) {
 }
 
 StiffnessReport sample_report(Numbers& n) {
-  return {9, SafetyState::kFault, HoldCause::kUnanswered, sample_stiffness(n), sample_stiffness(n), ~0ULL};
+  return {9, SafetyState::kFault, HoldCause::kNoRelief, sample_stiffness(n), sample_stiffness(n), ~0ULL};
 }
 
 Telemetry sample_telemetry(Numbers& n) {

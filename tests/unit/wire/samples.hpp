@@ -102,14 +102,14 @@ inline StiffnessReport extreme_report() {
   c.stiffness.setConstant(-kStiffnessMaxNPerM);
   c.touch_sequence = 9e15;
   c.touch = std::numeric_limits<std::uint32_t>::max();
-  return {std::numeric_limits<std::uint32_t>::max(), SafetyState::kFault, HoldCause::kUnanswered, c, c,
+  return {std::numeric_limits<std::uint32_t>::max(), SafetyState::kFault, HoldCause::kNoRelief, c, c,
           std::numeric_limits<std::uint64_t>::max()};
 }
 
 inline Telemetry extreme_telemetry() {
   Telemetry t = telemetry();
   t.state = SafetyState::kFault;
-  t.cause = HoldCause::kUnanswered;
+  t.cause = HoldCause::kNoRelief;
   t.engagement = std::numeric_limits<std::uint32_t>::max();
   const double big = std::numeric_limits<double>::max();
   t.estimate = {-big, big, -big, big, -big, big, true};
