@@ -252,9 +252,9 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
   const bool possible = read_enum(in.state(), SafetyState::kFault, out.state) &&
-                        read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
-                        read(in.tool(), out.X_WE) && read(in.goal(), out.X_WE_goal) &&
-                        read(in, out.estimate) && read(in.clamps(), out.clamps) && link_figures_possible(in);
+                        read_enum(in.cause(), HoldCause::kNoRelief, out.cause) && read(in.tool(), out.X_WE) &&
+                        read(in.goal(), out.X_WE_goal) && read(in, out.estimate) &&
+                        read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;
   if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3) return false;
   if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
