@@ -78,6 +78,7 @@ void Laboratory::step_slave() {
   SlaveInput in;
   in.now = now;
   in.robot = arm_.read(now);
+  if (tamperer_) tamperer_(now, in.robot);
   in.commands = slave_port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();

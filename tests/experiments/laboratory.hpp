@@ -71,6 +71,8 @@ class Laboratory {
   /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
   /// slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
+  /// What stands between the robot and the slave: may change what the robot says of itself, in each tick.
+  void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
 
  private:
   [[nodiscard]] Time master_now() const { return Time{std::chrono::seconds(100)} + elapsed_; }
@@ -99,6 +101,7 @@ class Laboratory {
   bool let_go_ = false;
   bool slave_lives_ = true, master_lives_ = true;
   std::function<void(MemoryChannelPair&)> intruder_{};
+  std::function<void(Time, RobotState&)> tamperer_{};
   std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
