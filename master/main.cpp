@@ -97,7 +97,7 @@ int operate(const MasterOptions& options) {
       with_shorthands(options), [](proto::MasterConfig& c) { resolve_files(c, find_deploy_folder()); });
   require_device(to_struct(config).device);
   if (options.check) {
-    std::fputs(get_field(config, "").c_str(), stdout);
+    std::fputs(get_field(config, "", &config).c_str(), stdout);
     return 0;
   }
   auto& stop = stop_requested();

@@ -53,7 +53,11 @@ bool moves_script(const Assignments& assignments) {
 }  // namespace
 
 MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings)
-    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("master", log_end) {}
+    : shell_(shell),
+      start_(config),
+      config_(config),
+      recordings_(std::move(recordings)),
+      recording_("master", log_end) {}
 
 MasterSnapshot MasterService::snapshot() {
   const std::lock_guard lock(reading_);
@@ -82,8 +86,12 @@ std::unique_ptr<google::protobuf::Message> MasterService::config() {
   return std::make_unique<proto::MasterConfig>(config_);
 }
 
+std::unique_ptr<google::protobuf::Message> MasterService::start_config() {
+  return std::make_unique<proto::MasterConfig>(start_);
+}
+
 std::optional<Refusal> MasterService::set_config(const Assignments& assignments) {
-  auto planned = plan_change(config_, assignments);
+  auto planned = plan_change({start_, config_}, assignments);
   if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
   const auto& change = std::get<ConfigChange>(planned);
   const auto& after = static_cast<const proto::MasterConfig&>(*change.after);

@@ -12,10 +12,12 @@ namespace longreach {
 
 class MasterService : public ControlBackend {
  public:
+  /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
   MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
   std::unique_ptr<google::protobuf::Message> config() override;
+  std::unique_ptr<google::protobuf::Message> start_config() override;
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
@@ -49,6 +51,7 @@ class MasterService : public ControlBackend {
   bool attach(MasterTape* tape);
 
   MasterShell& shell_;
+  const proto::MasterConfig start_;
   proto::MasterConfig config_;
   std::uint32_t config_number_ = 0;  // of those that the loop was handed
   RecordingPlace recordings_;

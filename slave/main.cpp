@@ -96,7 +96,7 @@ int serve(const SlaveOptions& options) {
       with_shorthands(options),
       [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
   if (options.check) {
-    std::fputs(get_field(config, "").c_str(), stdout);
+    std::fputs(get_field(config, "", &config).c_str(), stdout);
     return 0;
   }
   auto& stop = stop_requested();

@@ -8,7 +8,6 @@
 #include "common/io/adapter_channel.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/link/estimate_words.hpp"
-#include "slave/ceiling.hpp"
 
 namespace longreach {
 namespace {
@@ -91,21 +90,18 @@ std::unique_ptr<google::protobuf::Message> SlaveService::config() {
   return std::make_unique<proto::SlaveConfig>(config_);
 }
 
+std::unique_ptr<google::protobuf::Message> SlaveService::start_config() {
+  return std::make_unique<proto::SlaveConfig>(start_);
+}
+
 std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) {
-  auto planned = plan_change(config_, assignments);
+  auto planned = plan_change({start_, config_}, assignments);
   if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
   const auto& change = std::get<ConfigChange>(planned);
   const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
-  const SlaveConfig plain = to_struct(after);
-  if (const auto path = loosened(to_struct(start_), plain)) {
-    return Refusal{Refusal::Kind::kPrecondition,
-                   std::string(*path) +
-                       " can only be tightened from what the slave was started with; to loosen it, "
-                       "edit the slave's own file and restart"};
-  }
   if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
-  SlaveChange command{plain, !change.not_while_engaged.empty(),
+  SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
                       !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
                       config_number_ + 1};
   recording_.add_config(++config_number_, recorded_text(after));

@@ -18,6 +18,7 @@ class SlaveService : public ControlBackend {
 
   proto::Status status() override;
   std::unique_ptr<google::protobuf::Message> config() override;
+  std::unique_ptr<google::protobuf::Message> start_config() override;
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;

@@ -46,8 +46,10 @@ void set_field(google::protobuf::Message& message, std::string_view path, std::s
 
 /// A field or sub-message as text; the whole for an empty path. Fields that are not set print their default.
 /// The text of a field is accepted by set_field, that of a message by load_text_file. Throws ConfigError for
-/// an unknown path.
-std::string get_field(const google::protobuf::Message& message, std::string_view path);
+/// an unknown path. `start`, of the same type: what its side was started with; a comment says then what
+/// clients may set a field to.
+std::string get_field(const google::protobuf::Message& message, std::string_view path,
+                      const google::protobuf::Message* start = nullptr);
 
 /// A setting "path=value" for a laboratory run: as set_field, but `master.` or `slave.` may be left out where
 /// only one of them (or the LabConfig itself) has the path. What both sides have and must agree on,

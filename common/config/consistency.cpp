@@ -349,12 +349,12 @@ Finding check_message(const Message& message) {
 // not part of the laboratory's.
 Finding check_program(const Message& message) {
   const auto* master = dynamic_cast<const proto::MasterConfig*>(&message);
-  if (!master || master->rendering().law() <= proto::Rendering::NAIVE) return std::nullopt;
+  if (!master || master->rendering().law() == proto::Rendering::STIFFNESS) return std::nullopt;
   const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
   return within(section, at(master->rendering(), "law",
                             " = " + proto::Rendering::Law_Name(master->rendering().law()) +
-                                " works in the laboratory only, which has the slave's end of it; a program "
-                                "takes STIFFNESS or NAIVE"));
+                                " is a law to compare with, in the laboratory only; a program takes "
+                                "STIFFNESS"));
 }
 
 Finding find_in_parts(const Message& message) {

@@ -81,6 +81,12 @@ const Message& message_at(const Message& parent, const PathStep& step) {
   return reflection->GetMessage(parent, step.field);
 }
 
+const Message& holder(const Message& root, const FieldPath& path) {
+  const Message* at = &root;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) at = &message_at(*at, path[i]);
+  return *at;
+}
+
 Message& mutable_message_at(Message& parent, const PathStep& step) {
   const auto* reflection = parent.GetReflection();
   if (step.field->is_repeated()) return *reflection->MutableRepeatedMessage(&parent, step.field, step.index);

@@ -42,6 +42,9 @@ bool holds_messages(const google::protobuf::FieldDescriptor& field);
 const google::protobuf::Message& message_at(const google::protobuf::Message& parent, const PathStep& step);
 google::protobuf::Message& mutable_message_at(google::protobuf::Message& parent, const PathStep& step);
 
+/// The message that holds the last step of a path.
+const google::protobuf::Message& holder(const google::protobuf::Message& root, const FieldPath& path);
+
 /// `name` of a message that has such a field; else empty.
 std::string name_of(const google::protobuf::Message& message);
 

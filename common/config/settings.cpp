@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/config/ceiling.hpp"
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
 #include "common/config/violation.hpp"
@@ -15,13 +16,6 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
-
-// The message that holds the last step of `path`.
-const Message& holder(const Message& root, const FieldPath& path) {
-  const Message* at = &root;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) at = &message_at(*at, path[i]);
-  return *at;
-}
 
 Message& mutable_holder(Message& root, const FieldPath& path) {
   Message* at = &root;
@@ -47,41 +41,60 @@ bool is_of_file(const FieldDescriptor& field) {
 }
 
 /// Prints fields with their defaults where they are not set; of what a file describes only what is there.
+/// `start`, the same part of what the side was started with: what clients may set is noted. None: it is not.
 struct Printer {
   bool of_file = false;
   std::string text{};
 
-  void message(const Message& message, const std::string& indent) {
+  void message(const Message& message, const Message* start, const std::string& indent) {
     const auto* type = message.GetDescriptor();
-    for (int i = 0; i < type->field_count(); ++i) field(message, type->field(i), indent);
+    for (int i = 0; i < type->field_count(); ++i) field(message, start, type->field(i), indent);
   }
 
-  void field(const Message& message, const FieldDescriptor* field, const std::string& indent) {
-    if (holds_messages(*field)) return nested(message, field, indent);
+  void field(const Message& message, const Message* start, const FieldDescriptor* field,
+             const std::string& indent) {
+    if (field->options().GetExtension(proto::change) == proto::AT_START) start = nullptr;
+    if (holds_messages(*field)) return nested(message, start, field, indent);
     if (field->is_repeated() && message.GetReflection()->FieldSize(message, field) == 0) return;
     std::string value = value_text(message, {field, -1});
     if (field->is_repeated()) value = "[" + value + "]";
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
       google::protobuf::TextFormat::PrintFieldValueToString(message, field, -1, &value);
     }
-    text += indent + field->name() + ": " + value + "\n";
+    const std::string room = start != nullptr ? room_below_ceiling(*start, {field, -1}) : "";
+    text += indent + field->name() + ": " + value + (room.empty() ? "" : "  # may be set: " + room) + "\n";
   }
 
  private:
-  void nested(const Message& message, const FieldDescriptor* field, const std::string& indent) {
+  void nested(const Message& message, const Message* start, const FieldDescriptor* field,
+              const std::string& indent) {
     const Reflection* reflection = message.GetReflection();
     const bool outside = of_file;
     of_file = of_file || is_of_file(*field);
     const bool there = field->is_repeated() || !of_file || reflection->HasField(message, field);
     const int size = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
+    if (field->is_repeated()) start = nullptr;  // clients change no lists
     for (int i = 0; there && i < size; ++i) {
+      const PathStep step{field, field->is_repeated() ? i : -1};
       text += indent + field->name() + " {\n";
-      this->message(message_at(message, {field, field->is_repeated() ? i : -1}), indent + "  ");
+      this->message(message_at(message, step), start == nullptr ? nullptr : &message_at(*start, step),
+                    indent + "  ");
       text += indent + "}\n";
     }
     of_file = outside;
   }
 };
+
+// The part of `start` that a path leads to; none where nothing in it may be set.
+const Message* part_at(const Message* start, const FieldPath& path) {
+  for (const PathStep& step : path) {
+    if (start == nullptr || step.field->is_repeated() ||
+        step.field->options().GetExtension(proto::change) == proto::AT_START)
+      return nullptr;
+    start = &message_at(*start, step);
+  }
+  return start;
+}
 
 }  // namespace
 
@@ -98,10 +111,10 @@ void set_field(Message& message, std::string_view path, std::string_view value) 
   message.GetReflection()->Swap(&message, changed.get());
 }
 
-std::string get_field(const Message& message, std::string_view path) {
+std::string get_field(const Message& message, std::string_view path, const Message* start) {
   Printer print;
   if (path.empty()) {
-    print.message(message, "");
+    print.message(message, start, "");
     return print.text;
   }
   const PathLookup found = find_path(message, path);
@@ -112,9 +125,9 @@ std::string get_field(const Message& message, std::string_view path) {
   print.of_file =
       std::ranges::any_of(found.path, [](const PathStep& step) { return is_of_file(*step.field); });
   if (last.field->is_repeated() && last.index < 0) {
-    print.field(at, last.field, "");
+    print.field(at, nullptr, last.field, "");
   } else {
-    print.message(message_at(at, last), "");
+    print.message(message_at(at, last), part_at(start, found.path), "");
   }
   return print.text;
 }

@@ -1,5 +1,6 @@
 #include "common/io/config_change.hpp"
 
+#include "common/config/ceiling.hpp"
 #include "common/config/config.hpp"
 
 namespace longreach {
@@ -13,8 +14,8 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::variant<ConfigChange, Refusal> plan_change(const google::protobuf::Message& before,
-                                                const Assignments& assignments) {
+std::variant<ConfigChange, Refusal> plan_change(const SideConfig& config, const Assignments& assignments) {
+  const google::protobuf::Message& before = config.present;
   ConfigChange change;
   change.after.reset(before.New());
   change.after->CopyFrom(before);
@@ -29,6 +30,8 @@ std::variant<ConfigChange, Refusal> plan_change(const google::protobuf::Message&
         Refusal::Kind::kPrecondition,
         joined(fixed) + " is read once at start; write it into the configuration file and restart"};
   }
+  if (auto beyond = beyond_ceiling(config.start, *change.after))
+    return Refusal{Refusal::Kind::kPrecondition, *std::move(beyond)};
   change.not_while_engaged = joined(refused_changes(before, *change.after, true));
   return change;
 }

@@ -18,9 +18,13 @@ struct ConfigChange {
   std::string not_while_engaged;  // fields that forbid the change while engaged, in words; empty: none
 };
 
-/// Nothing has changed yet: `after` is a copy of `before` with the assignments.
-std::variant<ConfigChange, Refusal> plan_change(const google::protobuf::Message& before,
-                                                const Assignments& assignments);
+struct SideConfig {
+  const google::protobuf::Message& start;  // what the side was started with: the ceiling of its limits
+  const google::protobuf::Message& present;
+};
+
+/// Nothing has changed yet: `after` is a copy of the present configuration with the assignments.
+std::variant<ConfigChange, Refusal> plan_change(const SideConfig& config, const Assignments& assignments);
 
 enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master is there
 

@@ -35,6 +35,8 @@ class ControlBackend {
   virtual proto::Status status() = 0;
   /// A copy of the effective configuration (MasterConfig or SlaveConfig).
   virtual std::unique_ptr<google::protobuf::Message> config() = 0;
+  /// What the side was started with: the ceiling of its limits.
+  virtual std::unique_ptr<google::protobuf::Message> start_config() = 0;
   virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
   virtual proto::Impairment link() = 0;
   /// The complete, validated impairment of what this side receives.

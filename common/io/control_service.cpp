@@ -95,7 +95,7 @@ ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
   const std::lock_guard lock(mutex_);
   try {
     proto::GetConfigResponse response;
-    response.set_text(get_field(*backend_.config(), request.path()));
+    response.set_text(get_field(*backend_.config(), request.path(), backend_.start_config().get()));
     return response;
   } catch (const ConfigError& error) {
     return invalid(error.what());

@@ -55,7 +55,8 @@ Example: longreach adapter check --robot 127.0.0.1:47111 --move 0.01)";
 
 inline constexpr const char* kSetMore =
     R"(Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only
-at start; the refusal says so.
+at start. What a side was started with is the ceiling of its limits: they can only be tightened.
+`longreach get` notes what may be set; a refusal says why not.
 Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";
 
 inline constexpr const char* kViewMore =

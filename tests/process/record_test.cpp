@@ -129,7 +129,7 @@ TEST_F(Recording, IsReplayedBitForBitAfterAllThatMayChangeOnTheWay) {
   EXPECT_EQ(slave_.set("command.force_guard_n", "10"), "");
   EXPECT_EQ(master_.set("mapping.mode", "RATE"), "");
   EXPECT_EQ(master_.set("mapping.scale", "0.5"), "");
-  EXPECT_EQ(master_.set("rendering.contact_damping_n_s_per_m", "2"), "");
+  EXPECT_EQ(master_.set("rendering.force_max_n", "12"), "");
   EXPECT_EQ(master_.engage(), "");
   ASSERT_TRUE(both_engaged()) << outputs();
   const auto ticks = slave_.counter("ticks");

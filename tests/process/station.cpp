@@ -43,15 +43,28 @@ std::string Side::stop() {
   return stub_->Stop(&context, {}, &outcome).error_message();
 }
 
-std::string Side::set(const std::string& path, const std::string& value) {
+std::string Side::set(const std::string& path, const std::string& value) { return set({{path, value}}); }
+
+std::string Side::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
   grpc::ClientContext context;
   limit(context);
   proto::SetConfigRequest request;
-  auto* assignment = request.add_assignment();
-  assignment->set_path(path);
-  assignment->set_value(value);
+  for (const auto& [path, value] : assignments) {
+    auto* assignment = request.add_assignment();
+    assignment->set_path(path);
+    assignment->set_value(value);
+  }
   proto::Outcome outcome;
   return stub_->SetConfig(&context, request, &outcome).error_message();
+}
+
+std::string Side::get(const std::string& path) {
+  grpc::ClientContext context;
+  limit(context);
+  proto::GetConfigRequest request;
+  request.set_path(path);
+  proto::GetConfigResponse response;
+  return stub_->GetConfig(&context, request, &response).ok() ? response.text() : "unreachable";
 }
 
 std::string Side::set_delay(double delay_s) {

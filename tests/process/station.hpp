@@ -26,6 +26,10 @@ class Side {
   std::string engage();
   std::string stop();
   std::string set(const std::string& path, const std::string& value);
+  /// All of them or none.
+  std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
+  /// The effective configuration or a part of it.
+  std::string get(const std::string& path);
   std::string set_delay(double delay_s);
 
   std::string state();

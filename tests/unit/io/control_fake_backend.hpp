@@ -61,6 +61,7 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return std::make_unique<proto::SlaveConfig>(config_);
   }
+  std::unique_ptr<google::protobuf::Message> start_config() override { return config(); }
   std::optional<Refusal> set_config(const Assignments& assignments) override {
     const Inside inside(*this);
     proto::SlaveConfig wanted = config_;

@@ -1,0 +1,98 @@
+#include "common/config/ceiling.hpp"
+
+#include <limits>
+
+#include "common/config/differences.hpp"
+#include "common/config/field_text.hpp"
+#include "common/config/number_text.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+proto::Remote remote(const FieldDescriptor& field) { return field.options().GetExtension(proto::remote); }
+
+double number(const Message& message, const FieldDescriptor* field) {
+  const auto* reflection = message.GetReflection();
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return reflection->GetDouble(message, field);
+    case FieldDescriptor::CPPTYPE_UINT32:
+      return reflection->GetUInt32(message, field);
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return reflection->GetEnumValue(message, field);
+    default:
+      return std::numeric_limits<double>::quiet_NaN();  // has no order: nothing is tighter
+  }
+}
+
+// The limit that a number stands for; `zero` where 0 is found by the program.
+double limit(const Message& message, const FieldDescriptor* field, double zero) {
+  const double value = number(message, field);
+  return value == 0.0 && field->options().HasExtension(proto::automatic) ? zero : value;
+}
+
+double ceiling(const Message& start, const FieldDescriptor* field) {
+  return limit(start, field, field->options().GetExtension(proto::automatic));
+}
+
+bool allowed(const Message& start, const Message& after, const FieldDescriptor* field) {
+  switch (remote(*field)) {
+    case proto::FREELY:
+      return true;
+    case proto::TIGHTER_DOWN:
+      return limit(after, field, std::numeric_limits<double>::infinity()) <= ceiling(start, field);
+    case proto::TIGHTER_UP:
+      return number(after, field) >= ceiling(start, field);
+    default:
+      return false;
+  }
+}
+
+std::string ceiling_text(const Message& start, const PathStep& step) {
+  if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_ENUM) return value_text(start, step);
+  return format_number(ceiling(start, step.field));
+}
+
+std::string why(const Message& start, const Message& after, const FieldPath& path) {
+  constexpr const char* kInstead = "; change it in the file at that side and restart";
+  const std::string name = path_text(start, path);
+  const FieldDescriptor* field = path.back().field;
+  if (holds_messages(*field)) return name + " is not changed from afar" + kInstead;
+  const std::string text = value_text(holder(start, path), path.back());
+  if (remote(*field) == proto::NEVER)
+    return name + " is not changed from afar: it is " + (text.empty() ? "not set" : text) + kInstead;
+  return name + " = " + value_text(holder(after, path), path.back()) + " is looser than " +
+         ceiling_text(holder(start, path), path.back()) +
+         ", which this side was started with; from afar it can only be tightened" + kInstead;
+}
+
+}  // namespace
+
+std::optional<std::string> beyond_ceiling(const Message& start, const Message& after) {
+  for (const auto& [path, change] : differences(start, after)) {
+    const bool single = !path.back().field->is_repeated();
+    const bool free = remote(*path.back().field) == proto::FREELY;
+    if (change == proto::AT_START ||
+        !(single ? allowed(holder(start, path), holder(after, path), path.back().field) : free))
+      return why(start, after, path);
+  }
+  return std::nullopt;
+}
+
+std::string room_below_ceiling(const Message& start, const PathStep& step) {
+  switch (remote(*step.field)) {
+    case proto::FREELY:
+      return "anything";
+    case proto::TIGHTER_DOWN:
+      return ceiling_text(start, step) + " or less";
+    case proto::TIGHTER_UP:
+      return ceiling_text(start, step) + " or more";
+    default:
+      return "";
+  }
+}
+
+}  // namespace longreach
