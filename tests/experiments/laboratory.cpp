@@ -69,7 +69,7 @@ void Laboratory::step() {
 
 void Laboratory::step_slave() {
   const Time now = slave_now();
-  if (!slave_lives_) {
+  if (!slave_lives_ || elapsed_ <= slave_thaws_) {
     arm_.read(now);
     return;
   }
@@ -101,6 +101,11 @@ void Laboratory::step_slave() {
 void Laboratory::step_master() {
   if (!master_lives_) return;
   const Time now = master_now();
+  if (elapsed_ <= master_thaws_) {
+    if (driven_) devices_.set_target(*driven_);
+    devices_.read(now);
+    return;
+  }
   master_port_.receive(now);
   const Endpoint& endpoint = master_port_.endpoint();
   const HandleState handle = devices_.read(now);

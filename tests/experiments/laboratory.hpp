@@ -64,6 +64,10 @@ class Laboratory {
   /// One side ends from now on, as a program does that is killed; robot and devices go on by themselves.
   void kill_slave() { slave_lives_ = false; }
   void kill_master() { master_lives_ = false; }
+  /// One side's loop stands still for this long from now on, as a program that is stopped: what comes lies in
+  /// its socket, and then a tick comes late. Robot, devices, hand and the other side go on.
+  void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
+  void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
   /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
   void record(const std::filesystem::path& file);
   /// Ends the file. Throws RecordingError when it could not be written.
@@ -100,6 +104,7 @@ class Laboratory {
   std::optional<double> rtt_s_{};
   bool let_go_ = false;
   bool slave_lives_ = true, master_lives_ = true;
+  Duration slave_thaws_{0}, master_thaws_{0};
   std::function<void(MemoryChannelPair&)> intruder_{};
   std::function<void(Time, RobotState&)> tamperer_{};
   std::unique_ptr<LabRecording> recording_{};
