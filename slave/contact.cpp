@@ -51,7 +51,7 @@ void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig
 }
 
 void SlaveContact::step(const ContactInput& input) {
-  reading_ = detector_.step(input.force_n, input.dt);
+  reading_ = detector_.step(input.force_n, input.dt, input.doubt_n);
   if (reading_.began) begin(input);
   force_ = {};
   penetration_m_ = 0.0;

@@ -25,6 +25,7 @@ struct ContactInput {
   double scale = 1.0;                 // k_scale: a force at the hand is this much at the tool
   double dt = 0.0;                    // s
   bool guarded = false;               // the force guard held the tool in the last step
+  double doubt_n = 0.0;               // what of the force may be none
 };
 
 /// For a contact by rotation: places are rotation vectors, N are N m, m are rad.
@@ -57,7 +58,7 @@ class SlaveContact {
   [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
   /// Of the surface, beneath the tool, in W.
   [[nodiscard]] Vector3 surface_point() const { return tool_m_ + (inward_m_ - surface_m_) * reading_.normal; }
-  [[nodiscard]] ContactForce force() const { return force_; }  // for the force guard
+  [[nodiscard]] const ContactForce& force() const { return force_; }  // for the force guard
   [[nodiscard]] ContactEstimate estimate() const;
   [[nodiscard]] ContactStiffness report() const;
 

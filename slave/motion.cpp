@@ -59,6 +59,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   clamps.tool_speed = wanted.tool_speed;
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;
+  no_relief_ = wanted.no_relief;
 
   if (!limiter_.at_rest()) {
     const InverseResult found = invert(wanted.X_WE, input);

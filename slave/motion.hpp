@@ -41,6 +41,8 @@ class SlaveMotion {
   [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
+  /// The tool would give way to a force that has not answered to that.
+  [[nodiscard]] bool no_relief() const { return no_relief_; }
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its limit of jerk
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
@@ -65,6 +67,7 @@ class SlaveMotion {
   JointVector home_rad_ =
       JointVector::Zero();  // of the branch that the arm was last in, away from singular poses
   std::uint64_t failures_ = 0;
+  bool no_relief_ = false;
 };
 
 }  // namespace longreach

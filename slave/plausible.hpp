@@ -1,6 +1,6 @@
 #pragma once
-// What the slave's node believes: a robot's state of finite numbers, and goals that somebody could have
-// meant.
+// What the slave's node believes: joints of finite numbers, and goals that somebody could have meant. The
+// force has its own witness (slave/sensing/sensor_watch.hpp).
 
 #include "common/link/motion_command.hpp"
 #include "slave/robot/robot.hpp"
@@ -8,8 +8,7 @@
 namespace longreach {
 
 inline bool finite(const RobotState& robot) {
-  return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite() && robot.F_F_W.force.allFinite() &&
-         robot.F_F_W.moment.allFinite();
+  return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite();
 }
 
 inline bool possible(const MotionCommand& command) {

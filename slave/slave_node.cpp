@@ -9,6 +9,9 @@
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
 #include "slave/robot_watch.hpp"
+#include "slave/sensing/growth_watch.hpp"
+#include "slave/sensing/sensor_watch.hpp"
+#include "slave/sensing/sign_trial.hpp"
 #include "slave/sensing/tool_load.hpp"
 #include "slave/slave_reports.hpp"
 #include "slave/slave_safety.hpp"
@@ -19,6 +22,14 @@ namespace {
 constexpr double kDtMax = 0.02;            // a later tick moves no further than this
 constexpr double kReachedM = 1e-3;         // a goal counts as reached
 constexpr double kSetpointLostRad = 0.05;  // more than any servo lag: the joints are elsewhere
+constexpr double kZeroMax = 0.5;           // of the guard, that a zero may take for the sensor's bias
+constexpr double kNear = 0.9;              // of the guard, or of what a hold comes down to
+constexpr double kLatelyS = 0.05;          // a growth that is still going on
+constexpr double kHeldS = 1.0;             // likewise, before the hold in which the robot rests
+
+GrowthBounds growth_bounds(const SlaveConfig& c) {
+  return {c.command.guard_stiffness_n_per_m, c.sensing.force_noise_n, c.sensing.bandwidth_hz};
+}
 
 }  // namespace
 
@@ -31,7 +42,11 @@ struct SlaveNode::State {
         motion(config.command, config.robot),
         watch(config.robot),
         servo(config.robot.servo_hz),
-        sensor(config.sensing),
+        limits(config.command),
+        noise_n(config.sensing.force_noise_n),
+        witness(config.sensing, config.command),
+        growth(growth_bounds(config)),
+        sensor(config.sensing, kZeroMax * config.command.force_guard_n),
         contact(config.sensing, config.estimator),
         turn_contact(rotational(config.sensing), rotational(config.estimator)),
         playout(config.playout),
@@ -43,7 +58,10 @@ struct SlaveNode::State {
   void begin_engagement(const RobotState& robot);
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
-  void feel(const RobotState& robot, double dt);
+  void look(const RobotState& robot, Time now);
+  void feel(double dt);
+  void doubt(double dt);
+  [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
   [[nodiscard]] ContactForce pressed() const;
   void book_reached();
   void show(const Clamps& clamps, std::uint64_t rejected_values);
@@ -56,6 +74,11 @@ struct SlaveNode::State {
   RobotWatch watch;
   ServoLag servo;
   Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
+  CommandConfig limits;
+  double noise_n;
+  SensorWatch witness;
+  GrowthWatch growth;
+  SignTrial trial;
   ToolCompensation sensor;
   SlaveContact contact;
   SlaveContact turn_contact;  // places are rotation vectors from the anchor, in W
@@ -68,6 +91,11 @@ struct SlaveNode::State {
   bool robot_ok = true;
   bool robot_seen = false;
   bool robot_was_ok = false;
+  RobotState robot_before{};  // its last sample that was a new one
+  std::optional<Time> sampled_at{};
+  ToolKinematics tool{};
+  Twist V_WE{};
+  bool sensor_ok = true;
   Pose X_WE_anchor{};
   double scale = 1.0;  // k_scale as last sent
   bool grip = false;   // likewise: a hold or a silence drops nothing
@@ -89,7 +117,11 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.reports.configure(config.link);
   s.safety.configure(config.safety);
   s.motion.configure(config.command);
-  s.sensor.configure(config.sensing);
+  s.limits = config.command;
+  s.noise_n = config.sensing.force_noise_n;
+  s.witness.configure(config.sensing, config.command);
+  s.growth.configure(growth_bounds(config));
+  s.sensor.configure(config.sensing, kZeroMax * config.command.force_guard_n);
   s.contact.configure(config.sensing, config.estimator);
   s.turn_contact.configure(rotational(config.sensing), rotational(config.estimator));
   s.playout.configure(config.playout);
@@ -108,17 +140,19 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   }
   s.robot_was_ok = s.robot_ok;
   s.watch_robot(input.robot);
+  if (s.robot_ok) s.look(input.robot, input.now);
   if (s.decide(input)) s.begin_engagement(input.robot);
   s.take_goals(input.commands);
 
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
-  if (s.robot_ok) s.feel(input.robot, dt);
+  if (s.robot_ok && s.sensor_ok) s.feel(dt);
   Clamps clamps;
   // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
   // was missed is caught up within them.
   if (dt > 0.0) {
-    clamps = s.motion.step({s.safety.brakes() ? std::nullopt : X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
+    const bool brakes = s.safety.brakes() || s.trial.verdict() != SignTrial::Verdict::kNone;
+    clamps = s.motion.step({brakes ? std::nullopt : X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
     s.lead_m = s.servo.step(s.motion.X_WE().p, 1.0 / s.loop_hz);
   }
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
@@ -152,6 +186,10 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.robot_ok = robot_ok;
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
+  in.sensor_fault = robot_ok && !sensor_ok;
+  in.sensor_sign = trial.verdict() == SignTrial::Verdict::kSign;
+  in.no_relief = motion.no_relief() || trial.verdict() == SignTrial::Verdict::kNoRelief;
+  in.sensor_ready = sensor.ready();
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -169,7 +207,8 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   const SafetyState before = safety.state();
   const bool begins = safety.step(in);
   // A robot that went its own way stays where it is: nothing calls it back.
-  if (safety.state() == SafetyState::kFault && before != SafetyState::kFault && robot_ok)
+  const bool sensed = safety.cause() == HoldCause::kSensorFault || safety.cause() == HoldCause::kSensorSign;
+  if (safety.state() == SafetyState::kFault && before != SafetyState::kFault && robot_ok && !sensed)
     motion.reset(input.robot.joint_rad);
   return begins;
 }
@@ -188,7 +227,8 @@ void SlaveNode::State::begin_engagement(const RobotState& robot) {
   }
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
-  if (!contact.in_contact() && !turn_contact.in_contact()) sensor.zero();
+  growth.reset();
+  trial.reset();
   turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
@@ -235,37 +275,81 @@ Pose SlaveNode::State::play(Time now) {
   return X_WE;
 }
 
-void SlaveNode::State::feel(const RobotState& robot, double dt) {
-  view.F_E_W = robot.F_F_W;
+// Judges what the robot says, before anything believes it. A sample that repeats the one before while the arm
+// moves is none.
+void SlaveNode::State::look(const RobotState& robot, Time now) {
   if (!needs.contact && !needs.rotation) {
+    sensor_ok = robot.F_F_W.force.allFinite() && robot.F_F_W.moment.allFinite();
+    if (sensor_ok) view.F_E_W = robot.F_F_W;
     view.X_WE = motion.kinematics().forward(robot.joint_rad);
     return;
   }
-  const ToolKinematics tool = motion.kinematics().forward_with_jacobian(robot.joint_rad);
+  const bool rests = robot.joint_rad_per_s.isZero(0.0);
+  const bool repeated = !rests && sampled_at && robot.joint_rad == robot_before.joint_rad &&
+                        robot.joint_rad_per_s == robot_before.joint_rad_per_s &&
+                        robot.F_F_W.force == robot_before.F_F_W.force;
+  if (repeated) return;
+  const double elapsed_s = sampled_at ? to_seconds(now - *sampled_at) : 1.0 / loop_hz;
+  sampled_at = now;
+  robot_before = robot;
+  tool = motion.kinematics().forward_with_jacobian(robot.joint_rad);
   view.X_WE = tool.X_WE;
-  const Twist V_WE{tool.J.topRows<3>() * robot.joint_rad_per_s,
-                   tool.J.bottomRows<3>() * robot.joint_rad_per_s};
-  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, dt);
-  if (!sensor.ready()) return;
-  const bool follows = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
+  V_WE = {tool.J.topRows<3>() * robot.joint_rad_per_s, tool.J.bottomRows<3>() * robot.joint_rad_per_s};
+  sensor_ok = believable(robot, elapsed_s);
+}
+
+bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
+  const Quaternion q_EW = tool.X_WE.q.conjugate();
+  const SensorWatch::Motion moved{tool.X_WE.p, V_WE.linear.norm(), elapsed_s};
+  if (!witness.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
+  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, elapsed_s);
+  return witness.felt(view.F_E_W.force, moved, sensor.doubt_n());
+}
+
+void SlaveNode::State::feel(double dt) {
+  const bool engaged = safety.state() == SafetyState::kEngaged;
+  const bool follows = engaged || safety.state() == SafetyState::kHolding;
+  if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
   if (needs.contact) {
     contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
-                  view.clamps.force_guard});
+                  view.clamps.force_guard, sensor.doubt_n()});
+    doubt(dt);
   }
   if (needs.rotation) {
     const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
-    turn_contact.step(
-        {turn, V_WE.angular, view.F_E_W.moment, follows ? played_turn_sequence : 0.0, scale, dt, false});
+    turn_contact.step({turn, V_WE.angular, view.F_E_W.moment, follows ? played_turn_sequence : 0.0, scale, dt,
+                       false, sensor.doubt_nm()});
   }
-  if (contact.in_contact() || turn_contact.in_contact()) sensor.abandon();
+  // Between engagements the zero is renewed.
+  if (engaged || contact.in_contact() || turn_contact.in_contact()) {
+    sensor.abandon();
+  } else if (!sensor.zeroing()) {
+    sensor.zero();
+  }
 }
 
-// What the reflexes know: no force where they must not move the robot, because it is stopped or not ok.
+// A force near its bound that grows where it should not: the robot rests till it is clear why.
+void SlaveNode::State::doubt(double dt) {
+  growth.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt});
+  const SafetyState now = safety.state();
+  const bool holds = now == SafetyState::kHolding;
+  if (!holds && now != SafetyState::kEngaged) return;
+  const double bound_n = holds ? hold_limit_n(limits) : kNear * limits.force_guard_n;
+  const bool lately = !growth.direction().isZero(0.0) && growth.age_s() < (holds ? kHeldS : kLatelyS);
+  if (lately && contact.force().force_n > bound_n) trial.begin(growth);
+  trial.step(growth, noise_n, dt);
+}
+
+// What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its
+// sensor is not believed.
 ContactForce SlaveNode::State::pressed() const {
   const bool moves = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
   ContactForce force = contact.force();
-  if (!moves || !robot_ok) force.force_n = 0.0;
+  if (!moves || !robot_ok || !sensor_ok) force.force_n = 0.0;
   force.lead_m = -force.reaction.dot(lead_m);
+  force.grows = growth.direction();
+  force.grows_lead_m = force.grows.dot(lead_m);
+  force.trusted = trial.verdict() == SignTrial::Verdict::kNone;
   return force;
 }
 

@@ -6,10 +6,13 @@ namespace longreach {
 
 enum class SlaveSafety::Demand : std::uint8_t {
   kRobotFault,
+  kSensorFault,
+  kSensorSign,
   kRobotRestless,
   kRobotAstray,
   kStop,
   kEngagement,
+  kNoRelief,
   kTaken,
   kRestarted,
   kSilent,
@@ -42,10 +45,13 @@ struct SlaveSafety::Rule {
 
 const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {kAny, Demand::kRobotFault, State::kFault, Cause::kRobotFault},
+    {kAny, Demand::kSensorFault, State::kFault, Cause::kSensorFault},
+    {kMoved, Demand::kSensorSign, State::kFault, Cause::kSensorSign},
     {kAtRest, Demand::kRobotRestless, State::kFault, Cause::kRobotRestless},
     {kMoved, Demand::kRobotAstray, State::kFault, Cause::kRobotAstray},
     {kAny & ~in(State::kFault), Demand::kStop, State::kStopped, Cause::kOperator},
     {kAny, Demand::kEngagement, State::kEngaged, Cause::kNone},
+    {in(State::kEngaged) | in(State::kHolding), Demand::kNoRelief, State::kHolding, Cause::kNoRelief},
     {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kTaken},
     {in(State::kEngaged), Demand::kRestarted, State::kHolding, Cause::kPeerRestarted},
     {in(State::kEngaged), Demand::kSilent, State::kHolding, Cause::kLinkSilent},
@@ -74,6 +80,12 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
   switch (demand) {
     case Demand::kRobotFault:
       return !in.robot_ok;
+    case Demand::kSensorFault:
+      return in.sensor_fault;
+    case Demand::kSensorSign:
+      return in.sensor_sign;
+    case Demand::kNoRelief:
+      return in.no_relief;
     case Demand::kRobotRestless:
       return in.robot_restless;
     case Demand::kRobotAstray:
@@ -130,7 +142,7 @@ bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
 bool SlaveSafety::accepts(const SlaveSafetyInput& in) const {
   if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent)
     return false;
-  return !in.stop && !silent(in) && !in.robot_restless &&
+  return !in.stop && !silent(in) && !in.robot_restless && in.sensor_ready &&
          to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
 }
 
@@ -152,7 +164,7 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
     cause_ = HoldCause::kNone;
   } else if (rule.to == State::kFault) {
     if (state_ != State::kFault) cause_ = rule.cause;
-  } else if (cause_ == HoldCause::kNone) {
+  } else if (cause_ == HoldCause::kNone || rule.demand == Demand::kNoRelief) {
     cause_ = rule.cause;
   }
   if (state_ == State::kEngaged && rule.to != State::kEngaged) {

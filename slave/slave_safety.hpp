@@ -4,10 +4,14 @@
 //
 //   state                      condition                                 next       cause
 //   any                        the robot is not ok                       Fault      robot fault
+//   any                        the force sensor says what no contact does Fault   force sensor fault
+//   Engaged, Holding, Stopped  a force grows by what should relieve it   Fault    force sensor sign
 //   Holding, Stopped, Fault    the robot moves on, its setpoint does not Fault      robot does not rest
 //   Engaged, Holding, Stopped  the robot is not where its setpoints lead Fault      robot does not follow
 //   any but Fault              a stop is asked for, on either side       Stopped    operator
 //   any                        a new engagement is asked for             Engaged    -
+//   Engaged, Holding           the force does not fall as the robot      Holding  no relief
+//                              gives way
 //   Engaged                    another master has taken the robot        Holding    taken by another master
 //   Engaged                    the master began a new session            Holding    other side restarted
 //   Engaged                    silence > gap timer                       Holding    link silent
@@ -22,11 +26,12 @@
 // in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests and nobody
 // on this side who asks for a stop. It is the only way out of Stopped and Fault. A hold may end by itself
 // only if silence or a released handle was its cause, within resume_s, and if nothing else asked for a hold
-// meanwhile; the same engagement then goes on. Gap timer: gap_s, or of a master that sends f times a second
+// meanwhile; the same engagement then goes on. An engagement also
+// finds a sensor that is zeroed. Gap timer: gap_s, or of a master that sends f times a second
 // max(0.1 s, 30/f). Setpoints come later than the path that they smooth, so the path brakes that much before
 // the gap timer ends, and the setpoint when it does. Age = now - when this side had sent what the master last
 // heard: no clocks are compared. The cause is the first since Engaged; a fault has its own, the first of its
-// kind.
+// kind, and so has a hold whose force does not fall.
 
 #include <cstdint>
 #include <optional>
@@ -43,9 +48,13 @@ struct SlaveSafetyInput {
   std::optional<Time> last_heard{};      // any valid datagram
   std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
   bool taken = false;                    // the newest of them by taking the robot from another master
-  bool robot_ok = true;                  // it says so and its state is finite
+  bool robot_ok = true;                  // it says so and its joints are finite
   bool robot_restless = false;           // it moves on though its setpoint rests
   bool robot_astray = false;             // it is not where its setpoints lead
+  bool sensor_fault = false;             // its force sensor says what no contact could do
+  bool sensor_sign = false;              // the force grows along what should relieve it
+  bool no_relief = false;                // the force does not answer to relief
+  bool sensor_ready = true;              // and is zeroed
   bool stop = false;                     // asked for on this side
   double send_hz = 300.0;                // of the master
   double lag_s = 0.0;                    // of the setpoint behind the path

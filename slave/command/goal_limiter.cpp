@@ -11,6 +11,9 @@ constexpr double kHoldAim = 0.95;        // of the hold limit, so that it is met
 constexpr double kSeen_n = 0.5;          // of force, that sensor noise does not make
 constexpr double kSofter = 0.1;          // of a known stiffness, that a contact may seem to have
 constexpr double kSoft_n_per_m = 100.0;  // likewise of an unknown one
+constexpr double kBraking = 0.8;         // of the acceleration, for the end of the way
+constexpr double kCalm_s = 0.05;         // below the guard: the force has gone
+constexpr double kAlong = 0.3;           // cosine: not across
 
 bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
 
@@ -44,16 +47,17 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   LimiterOutput out;
   X_WE_before_ = X_WE_;
   if (!input.X_WE_goal || !finite(*input.X_WE_goal)) {
-    brake(input.contact, input.dt);
+    out.no_relief = brake(input.contact, input.dt);
     out.X_WE = X_WE_;
     return out;
   }
   bleed_.reset();
+  forget_relief(input.contact, input.dt);
   const Pose goal = inside(*input.X_WE_goal, out);
   observe_goal(goal, input.dt);
 
   VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
-  linear.caps = {guard(input.contact), workspace(input.dt)};
+  linear.caps = {guard(input.contact), workspace(input.dt), growth(input.contact)};
   const VectorStep along =
       pursue(linear, {config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, input.dt});
   const VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};
@@ -61,23 +65,47 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
       pursue(angular, {config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
 
   out.tool_speed = along.limited || about.limited;
-  out.force_guard = along.capped[0];
+  out.force_guard = along.capped[0] || along.capped[2];
   out.workspace = out.workspace || along.capped[1];
   V_WE_ = {about.velocity, along.velocity};
+  const bool pressed = input.contact.in_contact && input.contact.force_n > config_.force_guard_n;
+  if (pressed && along.capped[0]) give_way(input.contact, input.dt);
+  out.no_relief = pressed && !relief_.may_go_on(input.contact.force_n);
   X_WE_.p += along.velocity * input.dt;
   X_WE_.q = (exp_rotation(about.velocity * input.dt) * X_WE_.q).normalized();
   out.X_WE = X_WE_;
   return out;
 }
 
-void GoalLimiter::brake(const ContactForce& contact, double dt) {
-  const Vector3 back = hold_off(contact) * contact.reaction;
+// True: the tool would give way, but the force has not answered.
+bool GoalLimiter::brake(const ContactForce& contact, double dt) {
+  const double wanted = hold_off(contact);
+  const Vector3 back = std::min(wanted, give_way_max(contact)) * contact.reaction;
   V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
   V_WE_.angular -= clamp_norm(V_WE_.angular, config_.acceleration_max_rad_per_s2 * dt);
   X_WE_.p += V_WE_.linear * dt;
   X_WE_.q = (exp_rotation(V_WE_.angular * dt) * X_WE_.q).normalized();
   X_WE_goal_.reset();
   V_WE_goal_ = {};
+  if (wanted > 0.0) give_way(contact, dt);
+  return wanted > 0.0 && !relief_.may_go_on(contact.force_n);
+}
+
+// Speed from which it can still end within what is left of its way.
+double GoalLimiter::give_way_max(const ContactForce& contact) const {
+  if (!contact.trusted || contact.grows.dot(contact.reaction) > kAlong) return 0.0;
+  const double left_m = relief_.may_go_on(contact.force_n) ? relief_.left_m(contact.force_n) : 0.0;
+  return std::sqrt(kBraking * 2.0 * config_.acceleration_max_m_per_s2 * left_m);
+}
+
+void GoalLimiter::give_way(const ContactForce& contact, double dt) {
+  relief_.go(V_WE_.linear.dot(contact.reaction) * dt, contact.force_n);
+}
+
+void GoalLimiter::forget_relief(const ContactForce& contact, double dt) {
+  const bool calm = !contact.in_contact || contact.force_n <= config_.force_guard_n;
+  calm_s_ = calm ? calm_s_ + dt : 0.0;
+  if (calm_s_ > kCalm_s) relief_.reset();
 }
 
 Pose GoalLimiter::inside(const Pose& goal, LimiterOutput& out) const {
@@ -131,9 +159,26 @@ VelocityCap GoalLimiter::guard(const ContactForce& contact) const {
   // In braking distances of the stiffest surface: what is left, or what is too much of what is still coming.
   const double k = config_.guard_stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
   const double left_m = (config_.force_guard_n - contact.force_n) / k - coming_m;
-  const double braking = std::sqrt(2.0 * config_.acceleration_max_m_per_s2 *
-                                   std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
+  const double braking = approach(left_m, coming_m);
   cap.speed = (left_m > 0.0 ? braking : -braking) - bleed_off(contact, config_.force_guard_n);
+  cap.speed = std::max(cap.speed, -give_way_max(contact));
+  return cap;
+}
+
+double GoalLimiter::approach(double left_m, double coming_m) const {
+  return std::sqrt(2.0 * config_.acceleration_max_m_per_s2 *
+                   std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
+}
+
+// Whatever the sensor says of the direction.
+VelocityCap GoalLimiter::growth(const ContactForce& contact) const {
+  VelocityCap cap;
+  if (!contact.in_contact || contact.grows.isZero(0.0)) return cap;
+  cap.active = true;
+  cap.direction = contact.grows;
+  const double left_m = (config_.force_guard_n - contact.force_n) / config_.guard_stiffness_n_per_m -
+                        std::max(contact.grows_lead_m, 0.0);
+  cap.speed = left_m > 0.0 ? approach(left_m, 0.0) : 0.0;
   return cap;
 }
 

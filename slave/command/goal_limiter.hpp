@@ -7,13 +7,16 @@
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
 //   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
 //   the contact is not lost. Without a goal, so in a hold, it does so down to the hold limit, within 1 s as
-//   far as speed and acceleration allow; k is then what is seen on that way.
+//   far as speed and acceleration allow; k is then what is seen on that way. Giving way ends where the force
+//   does not answer to it (relief.hpp). Where the force was seen to grow in another direction than into the
+//   contact, the speed in that direction is bounded likewise, and the tool does not give way along it.
 // A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
 // Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
 
 #include <optional>
 
 #include "slave/command/command_config.hpp"
+#include "slave/command/relief.hpp"
 #include "slave/command/vector_limit.hpp"
 
 namespace longreach {
@@ -25,6 +28,9 @@ struct ContactForce {
   double force_n = 0.0;                // measured along it
   double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
   double lead_m = 0.0;                 // of the setpoint into the contact, still to come by the servo's lag
+  Vector3 grows = Vector3::Zero();     // unit, in which the force grows though it should not; zero: none
+  double grows_lead_m = 0.0;           // of the setpoint in that direction
+  bool trusted = true;                 // false: the tool gives way to nothing
 };
 
 struct LimiterInput {
@@ -38,6 +44,7 @@ struct LimiterOutput {
   bool tool_speed = false;  // speed or acceleration kept the setpoint from its goal
   bool workspace = false;
   bool force_guard = false;
+  bool no_relief = false;  // the tool would give way, but the force has not answered
 };
 
 class GoalLimiter {
@@ -65,12 +72,17 @@ class GoalLimiter {
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
 
  private:
-  void brake(const ContactForce& contact, double dt);
+  bool brake(const ContactForce& contact, double dt);
   [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
   [[nodiscard]] double hold_off(const ContactForce& contact);
+  [[nodiscard]] double give_way_max(const ContactForce& contact) const;
+  void give_way(const ContactForce& contact, double dt);
+  void forget_relief(const ContactForce& contact, double dt);
   Pose inside(const Pose& goal, LimiterOutput& out) const;
   void observe_goal(const Pose& goal, double dt);
   VelocityCap guard(const ContactForce& contact) const;
+  VelocityCap growth(const ContactForce& contact) const;
+  [[nodiscard]] double approach(double left_m, double coming_m) const;
   VelocityCap workspace(double dt) const;
 
   CommandConfig config_;
@@ -83,7 +95,9 @@ class GoalLimiter {
     double from_n, from_m;  // force and place on the way out where it began
   };
   std::optional<Bleed> bleed_{};  // in a hold
-  Twist V_WE_goal_{};             // as far as the limits allow to believe it
+  Relief relief_{};
+  double calm_s_ = 0.0;  // below the guard
+  Twist V_WE_goal_{};    // as far as the limits allow to believe it
 };
 
 }  // namespace longreach

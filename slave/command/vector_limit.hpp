@@ -33,13 +33,13 @@ struct VectorPursuit {
   Vector3 velocity = Vector3::Zero();       // of the last step
   Vector3 goal_velocity = Vector3::Zero();  // of the goal in this step
   Vector3 error = Vector3::Zero();          // goal now minus position before the step
-  std::array<VelocityCap, 2> caps{};
+  std::array<VelocityCap, 3> caps{};
 };
 
 struct VectorStep {
   Vector3 velocity = Vector3::Zero();  // for this step; changed by at most acceleration * dt
   bool limited = false;                // speed or acceleration was in the way
-  std::array<bool, 2> capped{};        // which cap was
+  std::array<bool, 3> capped{};        // which cap was
 };
 
 VectorStep pursue(const VectorPursuit& pursuit, const VectorLimits& limits);

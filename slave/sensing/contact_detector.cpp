@@ -11,7 +11,7 @@ constexpr double kNormalMemoryS = 2.0;
 
 }  // namespace
 
-ContactReading ContactDetector::step(const Vector3& force_n, double dt) {
+ContactReading ContactDetector::step(const Vector3& force_n, double dt, double doubt_n) {
   const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
   const Vector3 next = filtered_n_ + share * (force_n - filtered_n_);
   if (next.allFinite()) {
@@ -24,7 +24,8 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt) {
   const double force = filtered_n_.stableNorm();
   const bool before = in_contact_;
   // Released below the touch threshold even if the configuration has them the wrong way round.
-  in_contact_ = before ? force >= std::min(config_.release_n, config_.touch_n) : force > config_.touch_n;
+  in_contact_ =
+      before ? force >= std::min(config_.release_n, config_.touch_n) : force > config_.touch_n + doubt_n;
   reading.in_contact = in_contact_;
   reading.began = in_contact_ && !before;
   reading.ended = before && !in_contact_;

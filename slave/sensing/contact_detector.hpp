@@ -26,7 +26,8 @@ class ContactDetector {
 
   void configure(const SensingConfig& config) { config_ = config; }
 
-  ContactReading step(const Vector3& force_n, double dt);
+  /// `doubt_n`: what of the force may be none; so much more makes a contact.
+  ContactReading step(const Vector3& force_n, double dt, double doubt_n = 0.0);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 

@@ -1,9 +1,19 @@
 #include "slave/sensing/tool_load.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace longreach {
+namespace {
+
+constexpr double kLaterZero = 0.2;     // of the bound: drift
+constexpr double kIrregular = 1.5;     // times the usual time between samples
+constexpr double kUsual = 0.05;        // of a new one in the usual
+constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
+constexpr double kDoubt_s = 0.02;      // longer than the filter that decides on a touch
+
+}  // namespace
 
 Wrench tool_wrench(const ToolLoadConfig& tool, const SensorMotion& motion) {
   const Vector3 &c = tool.com_m, &w = motion.angular, &turn = motion.angular_acceleration;
@@ -40,13 +50,44 @@ void ToolCompensation::average(const Wrench& left, double dt) {
   ++samples_;
   time_s_ += dt;
   if (time_s_ < config_.zero_s) return;
-  bias_ = {sum_.moment / samples_, sum_.force / samples_};
-  zeroing_ = false;
+  const Vector3 mean_n = sum_.force / samples_;
+  if (!zeroed_) first_n_ = clamp_norm(mean_n, zero_max_n_);
+  bias_ = {sum_.moment / samples_,
+           first_n_ + clamp_norm(mean_n - first_n_, zeroed_ ? kLaterZero * zero_max_n_ : 0.0)};
+  zeroing_ = first_ = false;
   zeroed_ = true;
+}
+
+void AccelerationDoubt::step(const Twist& V_WF, double dt) {
+  if (!last_ || !(dt > 0.0)) {
+    last_ = V_WF;
+    usual_s_ = dt;
+    return;
+  }
+  if (!(usual_s_ > 0.0)) usual_s_ = dt;
+  unsettled_s_ = dt > kIrregular * usual_s_ ? kUnsettled_s : unsettled_s_ - dt;
+  const double kept = std::exp(-dt / kDoubt_s), over_s = std::min(dt, usual_s_);
+  m_per_s2_ *= kept;
+  rad_per_s2_ *= kept;
+  if (unsettled_s_ > 0.0) {
+    m_per_s2_ = std::max(m_per_s2_, (V_WF.linear - last_->linear).norm() / over_s);
+    rad_per_s2_ = std::max(rad_per_s2_, (V_WF.angular - last_->angular).norm() / over_s);
+  }
+  usual_s_ += kUsual * (std::min(dt, kIrregular * usual_s_) - usual_s_);
+  last_ = V_WF;
+}
+
+double ToolCompensation::doubt_n() const {
+  return config_.tool.mass_kg * (doubt_.m_per_s2() + config_.tool.com_m.norm() * doubt_.rad_per_s2());
+}
+
+double ToolCompensation::doubt_nm() const {
+  return config_.tool.com_m.norm() * doubt_n() + config_.tool.inertia_kg_m2.maxCoeff() * doubt_.rad_per_s2();
 }
 
 Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt) {
   if (!(config_.tool.mass_kg > 0.0) && !(config_.zero_s > 0.0)) return reading;
+  doubt_.step(V_WF, dt);
   const Quaternion q_FW = q_WF.conjugate();
   const Wrench tool =
       tool_wrench(config_.tool, motion_.step(q_WF, V_WF, config_.gravity_m_per_s2, config_.bandwidth_hz, dt));

@@ -5,8 +5,12 @@
 //   a_c = a + α × c + ω × (ω × c)
 //   f = m (g - a_c),   τ = c × f - I α - ω × I ω
 // What is left when this is subtracted is what the environment does, and the sensor's bias. Zeroing takes the
-// mean of that, over `zero_s` in which nothing is touched, for the bias.
+// mean of that, over `zero_s` in which nothing is touched, for the bias; no more of it than a bound, and
+// later zeros no more than a fifth of that besides, so that it hides no greater force. Where samples came
+// irregularly, the acceleration is known no better than from one of them to the next: the doubt is what the
+// tool would do by it.
 
+#include <limits>
 #include <optional>
 
 #include "common/spatial/spatial.hpp"
@@ -38,17 +42,39 @@ class SensorMotionEstimate {
   Twist acceleration_{};  // in W
 };
 
+/// Of an acceleration from velocities that come irregularly.
+class AccelerationDoubt {
+ public:
+  /// V_WF, `dt` after the last.
+  void step(const Twist& V_WF, double dt);
+  [[nodiscard]] double m_per_s2() const { return m_per_s2_; }
+  [[nodiscard]] double rad_per_s2() const { return rad_per_s2_; }
+
+ private:
+  std::optional<Twist> last_{};
+  double usual_s_ = 0.0;
+  double unsettled_s_ = 0.0;
+  double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
+};
+
 /// Removes it.
 class ToolCompensation {
  public:
-  explicit ToolCompensation(const SensingConfig& config) : config_(config) {}
-  void configure(const SensingConfig& config) { config_ = config; }
+  /// No force greater than `zero_max_n` is ever taken for a bias.
+  explicit ToolCompensation(const SensingConfig& config,
+                            double zero_max_n = std::numeric_limits<double>::infinity())
+      : config_(config), zero_max_n_(zero_max_n), zeroing_(config.zero_s > 0.0), first_(zeroing_) {}
+  void configure(const SensingConfig& config, double zero_max_n) {
+    config_ = config;
+    zero_max_n_ = zero_max_n;
+    if (!(config.zero_s > 0.0)) abandon();
+  }
 
   /// Begins to average; nothing must be touched until it is over. What was zeroed before holds till then.
   /// Nothing where zero_s = 0.
   void zero();
-  /// Something was touched: what was zeroed before stays.
-  void abandon() { zeroing_ = false; }
+  /// Something was touched, or may be from now on: what was zeroed before stays.
+  void abandon() { zeroing_ = first_ = false; }
 
   /// What the environment does to the tool, W: `reading` (in W) less tool and bias, at a sensor of
   /// orientation `q_WF` and velocity `V_WF`, `dt` after the last. What is not finite is handed on and
@@ -56,19 +82,25 @@ class ToolCompensation {
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt);
 
   /// False while the first zero is still being taken: what is left holds the bias.
-  [[nodiscard]] bool ready() const { return zeroed_ || !zeroing_; }
+  [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the sensor's frame
+  /// What of force and moment may be by an acceleration that is not known.
+  [[nodiscard]] double doubt_n() const;
+  [[nodiscard]] double doubt_nm() const;
 
  private:
   void average(const Wrench& left, double dt);
 
   SensingConfig config_;
+  double zero_max_n_;
   SensorMotionEstimate motion_{};
+  AccelerationDoubt doubt_{};
   Wrench bias_{}, sum_{};
+  Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
   double time_s_ = 0.0;
   int samples_ = 0;
-  bool zeroing_ = false, zeroed_ = false;
+  bool zeroing_, first_, zeroed_ = false;
 };
 
 }  // namespace longreach

@@ -254,7 +254,7 @@ TEST(SlaveNode, GoesToFaultOnANonFiniteRobotStateAndKeepsASaneSetpoint) {
     loop.use_broken = true;
     loop.run(0.5);
     EXPECT_EQ(loop.view().state, SafetyState::kFault) << what;
-    EXPECT_EQ(loop.view().cause, HoldCause::kRobotFault);
+    EXPECT_EQ(loop.view().cause, what == 1 ? HoldCause::kSensorFault : HoldCause::kRobotFault);
     EXPECT_TRUE(loop.view().X_WE.p.allFinite());
     const double stopped = loop.travelled();
     loop.use_broken = false;

@@ -43,7 +43,8 @@ struct Tick {
   Ask ask = Ask::kNothing;
   Heard heard = Heard::kNow;
   bool robot_fault = false, restless = false, astray = false, stop = false;
-  int session = 0;        // 0: the same, 1: another, 2: another that has taken the robot
+  int session = 0;  // 0: the same, 1: another, 2: another that has taken the robot
+  bool sensor_fault = false, sensor_sign = false, no_relief = false;
   bool old_news = false;  // what the master last heard of this side is older than the bound
 };
 
@@ -140,12 +141,15 @@ Expected expected(Start start, const Tick& t) {
   const auto to_fault = [&](Cause own) { return Expected{State::kFault, fault ? at.cause : own}; };
   const auto to_hold = [&](Cause own) { return Expected{State::kHolding, own}; };
   if (t.robot_fault) return to_fault(Cause::kRobotFault);
+  if (t.sensor_fault) return to_fault(Cause::kSensorFault);
+  if (t.sensor_sign && (engaged || holding || stopped)) return to_fault(Cause::kSensorSign);
   if (t.restless && (holding || stopped || fault)) return to_fault(Cause::kRobotRestless);
   if (t.astray && (engaged || holding || stopped)) return to_fault(Cause::kRobotAstray);
   if ((t.stop || t.ask == Ask::kStop) && !fault)
     return {State::kStopped, at.cause == Cause::kNone ? Cause::kOperator : at.cause};
   if (f.asks_new && !f.silent && !t.restless)
     if (!fault || !(t.stop || t.ask == Ask::kStop)) return {State::kEngaged, Cause::kNone, true};
+  if (t.no_relief && (engaged || holding)) return to_hold(Cause::kNoRelief);
   if (engaged) {
     if (t.session == 2) return to_hold(Cause::kTaken);
     if (t.session == 1) return to_hold(Cause::kPeerRestarted);
@@ -170,7 +174,14 @@ std::vector<Tick> all_ticks() {
       for (unsigned bits = 0; bits < 32; ++bits) {
         for (int session = 0; session < 3; ++session) {
           const auto bit = [&](unsigned n) { return (bits >> n & 1U) != 0; };
-          all.push_back({ask, heard, bit(0), bit(1), bit(2), bit(3), session, bit(4)});
+          Tick tick{ask, heard, bit(0), bit(1), bit(2), bit(3), session};
+          tick.old_news = bit(4);
+          for (unsigned sensor = 0; sensor < 4; ++sensor) {  // one of them at a time
+            tick.sensor_fault = sensor == 1;
+            tick.sensor_sign = sensor == 2;
+            tick.no_relief = sensor == 3;
+            all.push_back(tick);
+          }
         }
       }
     }
@@ -183,7 +194,8 @@ std::string name(Start start, const Tick& t) {
          std::to_string(static_cast<int>(t.ask)) + " heard " + std::to_string(static_cast<int>(t.heard)) +
          " fault, restless, astray, stop " + std::to_string(t.robot_fault) + std::to_string(t.restless) +
          std::to_string(t.astray) + std::to_string(t.stop) + " session " + std::to_string(t.session) +
-         " old news " + std::to_string(t.old_news);
+         " old news " + std::to_string(t.old_news) + " sensor " + std::to_string(t.sensor_fault) +
+         std::to_string(t.sensor_sign) + std::to_string(t.no_relief);
 }
 
 bool apply(Machine& m, const Tick& t) {
@@ -191,6 +203,9 @@ bool apply(Machine& m, const Tick& t) {
   in.robot_ok = !t.robot_fault;
   in.robot_restless = t.restless;
   in.robot_astray = t.astray;
+  in.sensor_fault = t.sensor_fault;
+  in.sensor_sign = t.sensor_sign;
+  in.no_relief = t.no_relief;
   in.stop = t.stop;
   if (t.session != 0) ++in.peer_session_count;
   in.taken = t.session == 2;
@@ -229,7 +244,7 @@ TEST(SlaveSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 9 * (7 + 3) * 32 * 3);
+  EXPECT_EQ(count, 9 * (7 + 3) * 32 * 3 * 4);
 }
 
 // Severity alone: of two demands in one tick, the state is the more severe of what each would lead to.

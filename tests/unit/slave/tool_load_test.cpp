@@ -166,6 +166,32 @@ TEST(ToolCompensation, KeepsTheLastZeroWhenTheNextIsAbandonedOrReadsNonsense) {
   EXPECT_EQ(compensation.bias().force.x(), 2.0);
 }
 
+TEST(ToolCompensation, AZeroThatIsTakenWhileSomethingPressesHidesNoMoreThanItsBound) {
+  SensingConfig config;
+  config.zero_s = 0.01;
+  ToolCompensation compensation(config, 10.0);
+  const auto read = [&](double force_n) {
+    compensation.zero();
+    for (int n = 0; n < 20; ++n)
+      compensation.step({Vector3::Zero(), Vector3(force_n, 0.0, 0.0)}, Quaternion::Identity(), {}, 1e-3);
+    return compensation.bias().force.x();
+  };
+  EXPECT_EQ(read(-30.0), -10.0);
+  EXPECT_EQ(read(-4.0), -8.0) << "later zeros move by a fifth";
+  EXPECT_EQ(read(-30.0), -12.0);
+  EXPECT_EQ(read(-11.0), -11.0);
+}
+
+TEST(ToolCompensation, AZeroThatIsAskedForLaterMakesNothingUnready) {
+  SensingConfig config;
+  ToolCompensation compensation(config);
+  config.zero_s = 100.0;
+  compensation.configure(config, 10.0);
+  compensation.zero();
+  EXPECT_TRUE(compensation.zeroing());
+  EXPECT_TRUE(compensation.ready());
+}
+
 TEST(ToolCompensation, HandsOnWhatASensorWithoutToolAndZeroReads) {
   ToolCompensation compensation(SensingConfig{});
   compensation.zero();
