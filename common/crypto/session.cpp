@@ -12,6 +12,19 @@ void start_sodium() { CHECK(sodium_init() >= 0); }
 
 }  // namespace
 
+Secret::Secret(Secret&& from) noexcept : array(from) { sodium_memzero(from.data(), from.size()); }
+
+Secret& Secret::operator=(Secret&& from) noexcept {
+  if (this == &from) return *this;
+  array::operator=(from);
+  sodium_memzero(from.data(), from.size());
+  return *this;
+}
+
+Secret::~Secret() { sodium_memzero(data(), size()); }
+
+void wipe(std::string& text) { sodium_memzero(text.data(), text.size()); }
+
 bool has_aes256gcm() { return AesGcm::available(); }
 
 Session draw_session(Cipher cipher) {

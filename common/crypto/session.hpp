@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace longreach {
 
@@ -16,7 +17,16 @@ enum class Cipher : std::uint8_t {
 };
 
 constexpr std::size_t kSecretBytes = 32;
-using Secret = std::array<std::byte, kSecretBytes>;
+
+/// Leaves nothing of itself in memory: neither where it ends nor where it was moved from.
+struct Secret : std::array<std::byte, kSecretBytes> {
+  Secret() : array{} {}
+  Secret(const Secret&) = default;
+  Secret(Secret&& from) noexcept;
+  Secret& operator=(const Secret&) = default;
+  Secret& operator=(Secret&& from) noexcept;
+  ~Secret();
+};
 
 struct Session {
   std::uint64_t number = 0;  // 0: none
@@ -26,6 +36,9 @@ struct Session {
 
 /// Whether this processor has the instructions that libsodium's AES-256-GCM needs.
 bool has_aes256gcm();
+
+/// Overwrites a copy that has served.
+void wipe(std::string& text);
 
 /// A number other than zero and a secret that nobody can guess.
 Session draw_session(Cipher cipher);

@@ -18,6 +18,7 @@ class Mailbox {
   /// be.
   std::optional<Reply> post(Command command, std::chrono::milliseconds timeout) {
     const std::lock_guard lock(posting_);
+    const Emptied emptied{command_};
     command_ = std::move(command);
     state_.store(State::kPosted, std::memory_order_release);
     const auto deadline = std::chrono::steady_clock::now() + timeout;
@@ -45,6 +46,11 @@ class Mailbox {
   }
 
  private:
+  /// What a command held, a session's secret among it, ends with its post.
+  struct Emptied {
+    Command& command;
+    ~Emptied() { command = Command{}; }
+  };
   enum class State { kEmpty, kPosted, kTaken, kAnswered };
 
   std::mutex posting_;  // among those who post

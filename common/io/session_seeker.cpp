@@ -156,6 +156,7 @@ std::string SessionSeeker::seek(std::uint64_t present) {
     return "no session with the slave at " + address_ +
            ": its answer cannot be used; use programs of one version";
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
+  wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn
   return adopt_(session) ? ""
                          : "no session with the slave at " + address_ + ": the control loop did not take it";
