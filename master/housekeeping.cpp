@@ -13,21 +13,6 @@ namespace {
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(20);
 
-bool asks(const OperatorRequests& r) {
-  return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0 ||
-         r.load.has_value();
-}
-
-/// What keys and pad ask for together; a stop wins.
-OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
-  keys.stop = keys.stop || pad.stop;
-  keys.engage = (keys.engage || pad.engage) && !keys.stop;
-  if (!keys.mode) keys.mode = pad.mode;
-  if (!keys.load) keys.load = pad.load;
-  keys.scale_steps += pad.scale_steps;
-  return keys;
-}
-
 }  // namespace
 
 bool scripted(const MasterConfig& config) {
@@ -75,21 +60,17 @@ void Chronicle::write(const MasterSnapshot& s, const std::string& trouble, const
 
 Housekeeping::Housekeeping(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
                            MasterService& service)
-    : options_(options), config_(config), shell_(shell), service_(service), view_(options.view) {
-  const bool pad = PadOperator::is_for(config.operator_.kind);
-  if (pad) {
-    pad_.emplace(config);
-    shell.hand().write({.present = false});  // until it has been looked for
-  }
-  if (pad || config.operator_.kind == OperatorKind::kKeyboard) {
-    keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
-  }
-}
+    : options_(options),
+      config_(config),
+      service_(service),
+      view_(options.view),
+      hand_(std::in_place, config, shell, service) {}
 
 void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeker) {
   while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
     std::this_thread::sleep_for(kPollPeriod);
     const MasterSnapshot s = service_.snapshot();
+    watch_.look(s.side.loop.ticks);
     std::string trouble = seeker.trouble();
     if (trouble.empty()) trouble = hand_trouble(s);
     service_.put_trouble(trouble, seeker.taken_by());
@@ -98,43 +79,22 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
     shown.trouble = trouble;
     shown.seconds = seconds();
     if (options_.seconds) shown.seconds_left = *options_.seconds - shown.seconds;
-    shown.show_keys = poll_hand(s.view);
-    if (pad_) shown.pad_keys = pad_->key_line();
+    const HandPoll::Seen hand = hand_->seen();
+    shown.show_keys = hand.show_keys;
+    shown.pad_keys = hand.pad_keys;
+    quit_ = hand.quit;
     view_.show(shown);
   }
   view_.close();
-  keyboard_.reset();
+  hand_.reset();
 }
 
 /// Why there is nothing in the hand, and what to do.
 std::string Housekeeping::hand_trouble(const MasterSnapshot& s) const {
   const std::string adapter = adapter_trouble(s.adapter, "haptic device", config_.device_adapter.address);
-  if (!adapter.empty() || !pad_ || s.hand_outside) return adapter;
-  const std::string pad = pad_->trouble();
+  if (!adapter.empty() || !hand_->has_pad() || s.hand_outside) return adapter;
+  const std::string pad = hand_->seen().pad_trouble;
   return pad.empty() && s.hand_lost ? "the hand takes up the handle; engage in a moment" : pad;
-}
-
-/// Returns whether the keys shall be listed.
-bool Housekeeping::poll_hand(const MasterView& view) {
-  if (!keyboard_) return false;
-  const KeyboardState state = keyboard_->poll(view.mode);
-  OperatorRequests requests = state.requests;
-  if (pad_) {
-    const double now_s = seconds();
-    const double felt = view.spring_force_n.norm() / config_.rendering.force_max_n;
-    const AxisHandState& pad = pad_->poll(view.mode, felt, now_s - std::exchange(polled_s_, now_s));
-    HandLevel level = pad.level;
-    level.clutch = level.clutch || requests.clutch;
-    shell_.hand().write(level);
-    requests = both(requests, pad.requests);
-  } else {
-    shell_.hand().write({.target_m = state.target_m, .clutch = requests.clutch});
-  }
-  if (asks(requests)) {
-    if (const auto refusal = service_.request(requests)) spdlog::warn("key refused=\"{}\"", refusal->message);
-  }
-  quit_ = quit_ || state.quit;
-  return state.show_keys;
 }
 
 }  // namespace longreach

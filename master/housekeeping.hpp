@@ -1,15 +1,15 @@
 #pragma once
-// The thread beside the loop: keys and pads in, view and log out, until the run is over.
+// The thread beside the loop: view and log out, until the run is over; beside it the one that asks the hand.
 
 #include <atomic>
 #include <optional>
 #include <string>
 
 #include "common/io/real_time_loop.hpp"
+#include "common/io/service_watch.hpp"
 #include "common/io/session_seeker.hpp"
-#include "master/console/keyboard.hpp"
 #include "master/console/terminal_view.hpp"
-#include "master/drivers/pad_operator.hpp"
+#include "master/hand_poll.hpp"
 #include "master/master_service.hpp"
 
 namespace longreach {
@@ -49,17 +49,14 @@ class Housekeeping {
  private:
   [[nodiscard]] double seconds() const { return to_seconds(monotonic_now() - began_); }
   [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const;
-  bool poll_hand(const MasterView& view);
 
   RunOptions options_;
   const MasterConfig& config_;
-  MasterShell& shell_;
   MasterService& service_;
   TerminalView view_;
-  std::optional<Keyboard> keyboard_;
-  std::optional<PadOperator> pad_;
-  double polled_s_ = 0.0;
+  std::optional<HandPoll> hand_;
   Chronicle chronicle_;
+  ServiceWatch watch_;
   Time began_ = monotonic_now();
   bool quit_ = false;
 };

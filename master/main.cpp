@@ -66,7 +66,7 @@ ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, doub
 int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
           const MasterConfig& config) {
   const Summary result = summary.finish(picture(last, config));
-  if (options.view != "none") std::fputs(result.text().c_str(), stdout);
+  if (options.view != "none") put(STDOUT_FILENO, result.text());
   const LoopFigures& loop = last.side.loop;
   spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
                loop.ticks, loop.missed_ticks, loop.ticks_late_100ms, 1e6 * loop.lateness_quantile_s(0.99),
@@ -115,7 +115,7 @@ int operate(const MasterOptions& options) {
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz);
   Housekeeping housekeeping({view_kind(options.view), options.seconds}, plain, shell, service);
   // The live view owns the terminal; it shows what the log would say.
-  if (housekeeping.live() && isatty(STDERR_FILENO) == 1) set_up_log("master", options.log, true);
+  if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();
 
   RunSummary summary(
       {.ke = plain.rendering.ke, .contact_expected = scripted(plain), .wall_n_per_m = options.wall_n_per_m});

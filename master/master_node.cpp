@@ -182,6 +182,7 @@ void MasterNode::State::decide(const MasterInput& input) {
                                   .taken = input.taken,
                                   .device_ok = handle.ok,
                                   .held = handle.held,
+                                  .hand_stale = input.hand_stale,
                                   .engage = input.requests.engage,
                                   .hold = input.requests.hold,
                                   .stop = input.requests.stop,

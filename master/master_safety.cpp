@@ -15,6 +15,7 @@ enum class MasterSafety::Demand : std::uint8_t {
   kRestarted,
   kHold,
   kLetGo,
+  kHandStale,
   kSilent,
   kSlaveHolds,
   kSlaveEngaged,
@@ -56,6 +57,7 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {kFollowing, true, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
     {kFollowing, true, Demand::kHold, State::kHolding, Cause::kOperator, Request::kHold},
     {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
+    {kFollowing, true, Demand::kHandStale, State::kHolding, Cause::kHandStale, Request::kHold},
     {kFollowing, true, Demand::kSilent, State::kHolding, Cause::kLinkSilent, Request::kEngage},
     {in(State::kEngaged), true, Demand::kSlaveHolds, State::kHolding, Cause::kPeerHolds, Request::kEngage},
     {kFollowing, true, Demand::kSlaveEngaged, State::kEngaged, Cause::kNone, Request::kEngage},
@@ -119,6 +121,8 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
       return in.hold;
     case Demand::kLetGo:
       return let_go_;
+    case Demand::kHandStale:
+      return in.hand_stale;
     case Demand::kSilent:
       return stale_;
     case Demand::kSlaveHolds:
@@ -136,7 +140,8 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
 bool MasterSafety::engages(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
   const bool by_itself = config_.engage_at_start && !told_ && rests && !active();
-  return (in.engage || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.taken && !in.stop;
+  return (in.engage || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.hand_stale &&
+         !in.taken && !in.stop;
 }
 
 // Of the present engagement.

@@ -12,6 +12,7 @@
 //   active            the slave began a new session                 Holding    other side restarted  hold
 //   active            the operator asks for a hold                  Holding    operator              hold
 //   active            no hand for presence_s (presence = HOLD)      Holding    handle let go         let go
+//   active            what is known of the hand is too old          Holding    hand stale            hold
 //   active            silence > silence_s                           Holding    link silent           engage
 //   Engaged           the slave says that it holds                  Holding    other side holds      engage
 //   active            the slave says that it is engaged             Engaged    -                     engage
@@ -20,10 +21,10 @@
 //
 // Active: in Observing, Engaged or Holding, while an engagement is requested. A hold for longer than resume_s
 // requests hold and so is active no more: only a new engagement goes on. The operator may engage when the
-// slave is heard and, with presence = HOLD, a hand is on the handle; whatever state it was, this is the only
-// way out of Stopped and Fault. What the slave says counts if it says it of this engagement's number. A stop
-// is requested in Fault, too, and until the next engagement. The cause is the first since Engaged, but that a
-// robot was taken explains a silence; a fault has its own.
+// slave is heard, the hand is known and, with presence = HOLD, on the handle; whatever state it was, this is
+// the only way out of Stopped and Fault. What the slave says counts if it says it of this engagement's
+// number. A stop is requested in Fault, too, and until the next engagement. The cause is the first since
+// Engaged, but that a robot was taken explains a silence; a fault has its own.
 
 #include <cstdint>
 #include <optional>
@@ -41,8 +42,9 @@ struct MasterSafetyInput {
   std::uint32_t peer_restarts = 0;   // sessions of the slave after its first
   bool taken = false;                // another master has the robot: a level
   bool device_ok = true;
-  bool held = true;     // a hand is on the handle
-  bool engage = false;  // asked for in this tick
+  bool held = true;         // a hand is on the handle
+  bool hand_stale = false;  // what is known of it is too old: a level
+  bool engage = false;      // asked for in this tick
   bool hold = false;
   bool stop = false;
   std::optional<double> rtt_s{};  // of the link, once known

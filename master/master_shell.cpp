@@ -65,6 +65,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.restarts();
   in.taken = robbed_;
+  in.hand_stale = hand_stale_;
   in.rtt_s = snapshot_.side.link.rtt_s;
   in.may_send = port_.may_send(now);
 
@@ -117,15 +118,18 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
 }
 
 HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
+  hand_stale_ = false;
   const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
   // A hand from outside moves the simulated handle, whoever had it.
   if (const auto target = adapter_ ? std::nullopt : remote_.step(remote, requests)) {
     lost_ = false;
+    hand_stale_ = remote_.fell_silent();
     return displaced(*target);
   }
   const OperatorKind kind = config_.operator_.kind;
   if (kind == OperatorKind::kKeyboard || PadOperator::is_for(kind)) {
     const HandLevel& level = hand_.read();
+    hand_stale_ = to_seconds(now - level.said) > kHandAgeMax_s;
     // Taken again, it counts when the hand has brought the handle to where it wants it: else the robot would
     // move by what was left of the deflection.
     lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle)));
@@ -166,7 +170,7 @@ HandTarget MasterShell::displaced(const HandTarget& target) {
 
 HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) {
   HandTarget target;
-  if (!level.present) {  // taken again, the handle is where it then is
+  if (!level.present || hand_stale_) {  // taken again, the handle is where it then is
     target.grip = Grip::kReleased;
     held_m_ = handle.p_MH;
     held_rad_ = log_rotation(handle.q_MH);

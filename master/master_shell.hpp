@@ -90,7 +90,8 @@ class MasterShell {
   MasterNode node_;
   Vector3 held_m_ = Vector3::Zero();  // where the hand at keyboard, gamepad or SpaceMouse is
   Vector3 held_rad_ = Vector3::Zero();
-  bool lost_ = false;  // as MasterSnapshot::hand_lost
+  bool lost_ = false;        // as MasterSnapshot::hand_lost
+  bool hand_stale_ = false;  // in this tick
   RemoteHand remote_;
   SideObserver observer_;
   bool robbed_ = false;              // until the next session

@@ -147,6 +147,7 @@ void write(const MasterInput& input, recording::MasterInput& out) {
   if (input.last_heard) out.set_last_heard_ns(to_ns(*input.last_heard));
   out.set_peer_restarts(input.peer_restarts);
   out.set_taken(input.taken);
+  out.set_hand_stale(input.hand_stale);
   if (input.rtt_s) out.set_rtt_s(*input.rtt_s);
   out.set_may_send(input.may_send);
 }
@@ -159,6 +160,7 @@ MasterInput read(const recording::MasterInput& in) {
   if (in.has_last_heard_ns()) out.last_heard = to_time(in.last_heard_ns());
   out.peer_restarts = in.peer_restarts();
   out.taken = in.taken();
+  out.hand_stale = in.hand_stale();
   if (in.has_rtt_s()) out.rtt_s = in.rtt_s();
   out.may_send = in.may_send();
   return out;

@@ -3,7 +3,8 @@
 namespace longreach {
 
 std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRequests& requests) {
-  const bool silent = to_seconds(in.now - in.aim.said) > kSilence_s;
+  const bool silent = to_seconds(in.now - in.aim.said) > kHandAgeMax_s;
+  fell_silent_ = false;
   const bool held = holds_;
   holds_ = in.aim.holds && !silent;
   if (holds_) {
@@ -15,7 +16,7 @@ std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRe
   if (held) {
     gone_ = true;
     engagement_ = in.engagement;
-    requests.hold = in.aim.holds;
+    fell_silent_ = in.aim.holds;
   }
   gone_ = gone_ && in.engagement == engagement_;
   if (!gone_) return std::nullopt;

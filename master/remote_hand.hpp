@@ -1,6 +1,6 @@
 #pragma once
 // A hand that comes from outside by messages: it holds the handle while they come. A hand that falls silent
-// for `silence_s` lets go, and the robot holds; one that lets go in order just lets go. Either way nobody
+// for kHandAgeMax_s lets go, and the robot holds; one that lets go in order just lets go. Either way nobody
 // holds the handle then until the next engagement, so that no script or keyboard goes on where a person
 // stopped.
 //
@@ -14,6 +14,10 @@
 #include "master/master_node.hpp"
 
 namespace longreach {
+
+/// How old what is known of a hand may be: hands here are asked at 50 Hz, those from outside tell by
+/// themselves.
+inline constexpr double kHandAgeMax_s = 0.3;
 
 /// The newest message of the hand.
 struct RemoteAim {
@@ -35,7 +39,6 @@ struct RemoteHandInput {
 
 class RemoteHand {
  public:
-  static constexpr double kSilence_s = 0.3;
   static constexpr double kSpeed_m_per_s = 0.2;
   static constexpr double kSpeed_rad_per_s = 1.5;
 
@@ -45,6 +48,8 @@ class RemoteHand {
   std::optional<HandTarget> step(const RemoteHandInput& in, OperatorRequests& requests);
 
   [[nodiscard]] bool holds() const { return holds_; }
+  /// In this tick, without having let go.
+  [[nodiscard]] bool fell_silent() const { return fell_silent_; }
 
  private:
   void take(const RemoteHandInput& in);
@@ -52,6 +57,7 @@ class RemoteHand {
 
   double period_s_;
   bool holds_ = false;
+  bool fell_silent_ = false;
   bool gone_ = false;             // it held the handle, and nobody has since
   std::uint32_t engagement_ = 0;  // when it went
   bool gripped_ = false;

@@ -13,6 +13,7 @@
 #include "common/io/program.hpp"
 #include "common/io/real_time_loop.hpp"
 #include "common/io/rpc_server.hpp"
+#include "common/io/service_watch.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/io/stop_signal.hpp"
 #include "slave/robot/inverse.hpp"
@@ -124,13 +125,16 @@ int serve(const SlaveOptions& options) {
     }
   });
   Chronicle chronicle(plain.robot_adapter.address);
+  ServiceWatch watch;
   const Time began = monotonic_now();
   const auto over = [&] {
     return options.seconds && to_seconds(monotonic_now() - began) >= *options.seconds;
   };
   while (!stop && !over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    chronicle.write(service.snapshot());
+    const SlaveSnapshot now = service.snapshot();
+    chronicle.write(now);
+    watch.look(now.side.loop.ticks);
   }
   end = true;
   loop_thread.join();

@@ -2,6 +2,8 @@
 // What both programs do in the same way around their loop: options, configuration, exit status. For main.cpp
 // alone: CLI11 takes seconds to compile.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
@@ -11,8 +13,11 @@
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
+#include "common/io/core_dumps.hpp"
+#include "common/io/log.hpp"
 #include "common/io/manual/program_text.hpp"
 #include "common/io/option_checks.hpp"
+#include "common/io/outlet.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
 #include "common/io/site.hpp"
@@ -34,6 +39,7 @@ struct ProgramOptions {
   double record_max_mb = kRecordMaxMb;
   bool insecure = false;
   bool check = false;
+  bool core_dumps = false;
 };
 
 inline void add_program_options(CLI::App& app, ProgramOptions& options, const std::string& version) {
@@ -66,6 +72,8 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
       ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
                "RPC in clear and for everybody on this machine: simulated robots only");
+  app.add_flag("--core-dumps", options.core_dumps,
+               "Permit core dumps and debuggers, which see the secret of the session");
   app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
 }
 
@@ -74,13 +82,13 @@ inline std::filesystem::path site_of(const ProgramOptions& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Throws SiteError.
+/// Before the first secret is had: forbids core dumps as the options say. Throws SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
+  if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
-    std::fputs(
+    put(STDERR_FILENO,
         "INSECURE: RPC is neither encrypted nor authenticated; whoever is on this machine can take the "
-        "robot\n",
-        stderr);
+        "robot\n");
     return {};
   }
   return {site_credentials(site_of(options), role)};
@@ -122,7 +130,8 @@ Message load_config(const ProgramOptions& options, const Resolve& resolve) {
 template <class Run>
 int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
   const auto complain = [&app](const std::exception& e, int status) {
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
+    close_log();
+    put(STDERR_FILENO, app.get_name() + ": " + e.what() + "\n");
     return status;
   };
   refuse_empty_values(app);

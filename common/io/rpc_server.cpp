@@ -13,6 +13,8 @@
 
 #include "common/config/host_and_port.hpp"
 #include "common/io/control_service.hpp"
+#include "common/io/doorkeeper.hpp"
+#include "common/io/log.hpp"
 #include "common/io/pace.hpp"
 #include "common/io/rpc_refusals.hpp"
 #include "common/io/status_fields.hpp"
@@ -174,6 +176,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
   proto::Status status() {
     proto::Status out = service_.status();
     add_count(out, "rpc_refused", rpc_refusals());
+    add_count(out, "log_lost", log_lost());
     return out;
   }
 
@@ -230,17 +233,17 @@ std::string listen_address(const std::string& listen, std::string_view side) {
 
 void configure(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(kRequestMaxBytes);
-  // A second program on the same port must fail, not share it.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // Generous: a client may itself be many seconds away.
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 60'000);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
+  // Over 10 s each way a handshake takes 20 s.
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 45'000);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
   builder.SetResourceQuota(grpc::ResourceQuota("longreach-control").SetMaxThreads(kThreadsMax));
 }
 
-/// gRPC 1.51 never answers again once connections have used up the descriptors, of which 1024 are usual.
+/// Of which 1024 are usual.
 void raise_descriptor_limit() {
   constexpr rlim_t kDescriptors = 65'536;
   rlimit limit{};
@@ -263,7 +266,17 @@ struct RpcServer::State {
   State(ControlBackend& backend, std::string_view side, bool secured) : control(backend, side, secured) {}
   GrpcControl control;
   std::unique_ptr<grpc::Server> server;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
+  std::unique_ptr<ListeningSocket> socket;
+  std::unique_ptr<Doorkeeper> door;
   std::string address;
+
+  void let_in(int fd) {
+    grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+    connection.listener_fd = socket->fd();
+    connection.fd = fd;
+    acceptor->HandleNewConnection(&connection);
+  }
 };
 
 RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
@@ -275,25 +288,28 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
                              " in clear: leave out --insecure, or set rpc.listen to an address on loopback");
   raise_descriptor_limit();
   take_rpc_log();
+  state_->socket = std::make_unique<ListeningSocket>(address);
   grpc::ServerBuilder builder;
   configure(builder);
-  int port = 0;
-  builder.AddListeningPort(address, server_credentials(security), &port);
+  state_->acceptor = builder.experimental().AddExternalConnectionAcceptor(
+      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server_credentials(security));
   builder.RegisterService(&state_->control);
   for (grpc::Service* service : more) builder.RegisterService(service);
-  state_->server = builder.BuildAndStart();
-  if (!state_->server || port == 0)
+  if (state_->socket->fd() >= 0) state_->server = builder.BuildAndStart();
+  if (!state_->server)
     throw std::runtime_error(
         "the " + std::string(side) + " cannot listen for its RPC clients on " + address +
         ": end the program that uses this port, or set rpc.listen to a free port on an address "
         "of this machine");
-  state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(port);
+  state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(state_->socket->port());
+  state_->door = std::make_unique<Doorkeeper>(*state_->socket, [this](int fd) { state_->let_in(fd); });
 }
 
 RpcServer::~RpcServer() { stop(); }
 
 void RpcServer::stop() {
   if (!state_->server) return;
+  state_->door.reset();
   state_->control.begin_stop();
   state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);
   state_->server->Wait();

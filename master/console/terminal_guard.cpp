@@ -1,11 +1,15 @@
 #include "master/console/terminal_guard.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 
 namespace longreach {
@@ -14,9 +18,12 @@ namespace {
 constexpr std::array<char, 19> kLeaveScreen = {'\x1b', '[',    '?', '7', 'h', '\x1b', '[', '?', '2', '5',
                                                'h',    '\x1b', '[', '?', '1', '0',    '4', '9', 'l'};
 
+constexpr int kTries = 20;
+constexpr int kTryPause_ms = 10;
+
 std::atomic<int> mode_fd{-1};
-std::atomic<int> screen_fd{-1};
-termios kept_mode{};  // written before mode_fd says that it is there
+std::atomic<int> screen_fd{-1};  // never waits
+termios kept_mode{};             // written before mode_fd says that it is there
 
 // Only what POSIX allows inside of a signal.
 void give_back_all() {
@@ -58,15 +65,27 @@ void give_back_terminal_mode() {
 }
 
 void keep_screen(int fd) {
-  screen_fd = fd;
+  // Opened anew, for `fd` may not be made one that never waits: the shell has it, too.
+  std::array<char, 32> path{};
+  std::snprintf(path.data(), path.size(), "/proc/self/fd/%d", fd);
+  const int anew = ::open(path.data(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  screen_fd = anew >= 0 ? anew : ::fcntl(fd, F_DUPFD_CLOEXEC, 3);
   watch();
 }
 
 void give_back_screen() {
   const int fd = screen_fd.exchange(-1);
   if (fd < 0) return;
-  // Nothing can be done about a terminal that is gone.
-  [[maybe_unused]] const ssize_t written = ::write(fd, kLeaveScreen.data(), kLeaveScreen.size());
+  std::size_t written = 0;
+  for (int i = 0; i < kTries && written < kLeaveScreen.size(); ++i) {
+    const ssize_t n = ::write(fd, kLeaveScreen.data() + written, kLeaveScreen.size() - written);
+    if (n > 0) written += static_cast<std::size_t>(n);
+    if (n < 0 && errno != EAGAIN && errno != EINTR) break;  // nothing can be done about one that is gone
+    if (n > 0) continue;
+    if (i == kTries / 2) ::tcflush(fd, TCOFLUSH);  // nobody reads: makes room
+    ::poll(nullptr, 0, kTryPause_ms);
+  }
+  ::close(fd);
 }
 
 }  // namespace longreach

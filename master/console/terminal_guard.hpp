@@ -1,8 +1,9 @@
 #pragma once
 // Gives the terminal back as it was, however the program ends: line mode, echo, cursor and screen. What is
 // kept here is given back by the calls below, at exit, and by signals that end the program; those then take
-// their course. A signal for which the program has its own answer is left to it. One terminal a program. Not
-// for several threads.
+// their course. A signal for which the program has its own answer is left to it. A terminal that nobody reads
+// delays the end by 0.2 s at most; what lies there unread goes. One terminal a program. Not for several
+// threads.
 
 struct termios;
 

@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kLivePeriodS = 0.1;
 constexpr double kPlainPeriodS = 1.0;
+constexpr std::size_t kPlainMaxBytes = 64 << 10;
+constexpr std::chrono::milliseconds kScreenPatience{200};
 constexpr std::string_view kEnter =
     "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J";  // other screen, no cursor, no wrap, empty
 
@@ -54,16 +56,23 @@ TerminalView::TerminalView(ViewKind kind, int fd)
     : fd_(fd), live_(kind == ViewKind::kAuto && can_redraw(fd)), plain_(kind != ViewKind::kNone && !live_) {
   const char* no_color = std::getenv("NO_COLOR");  // no-color.org
   color_ = live_ && (no_color == nullptr || *no_color == '\0');
+  if (live_ || plain_) outlet_.emplace(fd_, live_ ? 0 : kPlainMaxBytes);
   if (!live_) return;
   keep_screen(fd_);
-  write_all(std::string(kEnter));
+  outlet_->offer(std::string(kEnter));
+  outlet_->drain(kScreenPatience);  // before a signal may give it back
 }
 
 TerminalView::~TerminalView() { close(); }
 
 void TerminalView::close() {
-  if (live_) give_back_screen();
+  if (live_) {
+    outlet_->clear();
+    outlet_->drain(kScreenPatience);
+    give_back_screen();
+  }
   live_ = plain_ = false;
+  outlet_.reset();
 }
 
 void TerminalView::show(const ConsoleSnapshot& snapshot) {
@@ -71,21 +80,11 @@ void TerminalView::show(const ConsoleSnapshot& snapshot) {
   const double period_s = live_ ? kLivePeriodS : kPlainPeriodS;
   next_s_ = (std::floor(snapshot.seconds / period_s + 1e-6) + 1.0) * period_s - 1e-6;
   if (plain_) {
-    write_all(render_line(snapshot) + "\n");
+    outlet_->offer(render_line(snapshot) + "\n");
     return;
   }
   const ScreenSize size = size_of(fd_);
-  write_all(in_place(render(snapshot, size.columns, color_), size.rows));
-}
-
-void TerminalView::write_all(const std::string& text) const {
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const ssize_t n = ::write(fd_, rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return;  // a view that cannot be shown is no reason to stop
-    rest.remove_prefix(static_cast<std::size_t>(n));
-  }
+  outlet_->offer(in_place(render(snapshot, size.columns, color_), size.rows));
 }
 
 }  // namespace longreach

@@ -1,11 +1,13 @@
 #pragma once
 // A calm live view of the master in the terminal. render() is the picture as text, a pure function;
 // TerminalView puts it on the screen: redrawn in place, at most ten times a second, in one write so that it
-// does not flicker; or, where that is not possible, one plain line a second. The view belongs to the thread
-// that calls show(), never to the loop: a slow terminal makes it wait.
+// does not flicker; or, where that is not possible, one plain line a second. A terminal or a pipe that takes
+// nothing makes nobody wait: pictures that it has no room for are left out, whole ones.
 
+#include <optional>
 #include <string>
 
+#include "common/io/outlet.hpp"
 #include "master/console/snapshot.hpp"
 
 namespace longreach {
@@ -30,19 +32,19 @@ class TerminalView {
 
   /// Call it as often as convenient: what comes too early by `snapshot.seconds` is not drawn.
   void show(const ConsoleSnapshot& snapshot);
-  /// Gives the screen back; later calls of show() draw nothing. For the summary that follows.
+  /// Gives the screen back, whether or not somebody reads it; later calls of show() draw nothing. For the
+  /// summary that follows.
   void close();
 
   [[nodiscard]] bool live() const { return live_; }
 
  private:
-  void write_all(const std::string& text) const;
-
   int fd_;
   bool live_ = false;
   bool plain_ = false;
   bool color_ = false;
   double next_s_ = 0.0;
+  std::optional<Outlet> outlet_;
 };
 
 }  // namespace longreach

@@ -1,6 +1,7 @@
 #pragma once
 // What a person holds at keyboard, gamepad or SpaceMouse, as a level.
 
+#include "common/core/time.hpp"
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
@@ -10,6 +11,7 @@ struct HandLevel {
   Vector3 target_rad = Vector3::Zero();  // likewise, rotation vector
   bool clutch = false;
   bool present = true;  // false: the thing in the hand is unplugged
+  Time said{};          // when the hand was asked for it
 };
 
 }  // namespace longreach

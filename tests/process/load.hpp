@@ -23,6 +23,7 @@ class IdleConnections {
   IdleConnections(const IdleConnections&) = delete;
   IdleConnections& operator=(const IdleConnections&) = delete;
   [[nodiscard]] int connected() const { return static_cast<int>(sockets_.size()); }
+  [[nodiscard]] int socket(std::size_t i) const { return sockets_[i]; }
 
  private:
   std::vector<int> sockets_;

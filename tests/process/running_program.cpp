@@ -22,19 +22,20 @@ namespace longreach {
 namespace {
 
 /// Between fork and exec: async-signal-safe calls only.
-[[noreturn]] void become(char* const* arguments, int output) {
+[[noreturn]] void become(char* const* arguments, int output, const Streams& streams) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int null = ::open("/dev/null", O_RDONLY);
-  ::dup2(null, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  ::dup2(streams.in < 0 ? null : streams.in, STDIN_FILENO);
+  ::dup2(streams.out < 0 ? output : streams.out, STDOUT_FILENO);
+  ::dup2(streams.err < 0 ? output : streams.err, STDERR_FILENO);
   ::execv(arguments[0], arguments);
   _exit(127);
 }
 
 }  // namespace
 
-RunningProgram::RunningProgram(const std::string& name, const std::vector<std::string>& arguments) {
+RunningProgram::RunningProgram(const std::string& name, const std::vector<std::string>& arguments,
+                               const Streams& streams) {
   static std::atomic<int> count{0};
   file_ = std::filesystem::temp_directory_path() /
           ("longreach-" + std::to_string(getpid()) + "-" + std::to_string(++count) + ".txt");
@@ -47,7 +48,7 @@ RunningProgram::RunningProgram(const std::string& name, const std::vector<std::s
   ::setenv("LONGREACH_HOME", LONGREACH_DEPLOY, 1);
   (void)test_site(RpcRole::kClient);
   pid_ = ::fork();
-  if (pid_ == 0) become(pointers.data(), output);
+  if (pid_ == 0) become(pointers.data(), output, streams);
   ::close(output);
   if (pid_ < 0) throw std::runtime_error("cannot fork");
 }

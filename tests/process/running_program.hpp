@@ -12,14 +12,22 @@
 
 namespace longreach {
 
+/// Descriptors that a program gets; -1: nothing to read, and output that is kept.
+struct Streams {
+  int in = -1, out = -1, err = -1;
+};
+
 class RunningProgram {
  public:
-  /// `name`: of one of the programs in the build's bin folder, or an absolute path.
-  RunningProgram(const std::string& name, const std::vector<std::string>& arguments);
+  /// `name`: of one of the programs in the build's bin folder, or an absolute path. `streams` stay the
+  /// caller's.
+  RunningProgram(const std::string& name, const std::vector<std::string>& arguments,
+                 const Streams& streams = {});
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
   void signal(int number) const;
   /// Exit status, or 128 + signal; none when it still runs after `timeout`.
   std::optional<int> wait(std::chrono::milliseconds timeout);

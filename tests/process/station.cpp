@@ -91,14 +91,14 @@ std::uint64_t Side::counter(const std::string& name) {
   return 0;
 }
 
-void Station::start_slave(const std::vector<std::string>& more) {
+void Station::start_slave(const std::vector<std::string>& more, const Streams& streams) {
   std::vector<std::string> arguments = {"--set", "link.listen=" + link_address(), "--set",
                                         "rpc.listen=127.0.0.1:" + std::to_string(ports_.slave_rpc)};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  slave_program_ = std::make_unique<RunningProgram>("longreach-slave", arguments);
+  slave_program_ = std::make_unique<RunningProgram>("longreach-slave", arguments, streams);
 }
 
-void Station::start_master(const std::vector<std::string>& more) {
+void Station::start_master(const std::vector<std::string>& more, const Streams& streams) {
   std::vector<std::string> arguments = {
       "--set",  "link.slave=" + link_address(),
       "--set",  "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc),
@@ -106,7 +106,7 @@ void Station::start_master(const std::vector<std::string>& more) {
       "--set",  "rpc.listen=127.0.0.1:" + std::to_string(ports_.master_rpc),
       "--view", "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  master_program_ = std::make_unique<RunningProgram>("longreach-master", arguments);
+  master_program_ = std::make_unique<RunningProgram>("longreach-master", arguments, streams);
 }
 
 bool Station::eventually(const std::function<bool()>& holds, std::chrono::seconds timeout) {

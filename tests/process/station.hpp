@@ -42,8 +42,8 @@ class Side {
 
 class Station : public ::testing::Test {
  protected:
-  void start_slave(const std::vector<std::string>& more = {});
-  void start_master(const std::vector<std::string>& more = {});
+  void start_slave(const std::vector<std::string>& more = {}, const Streams& streams = {});
+  void start_master(const std::vector<std::string>& more = {}, const Streams& streams = {});
   [[nodiscard]] std::string link_address() const { return "127.0.0.1:" + std::to_string(ports_.link); }
 
   /// Asks until it holds; false when it did not within the time. Polls, and asserts nothing about how long it

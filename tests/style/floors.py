@@ -34,7 +34,7 @@ def floor(path):
     if path == 'commit.hpp':   # written by the build
         return 0
     if folder in ('master', 'slave'):
-        if name == 'main.cpp' or name.startswith('housekeeping.'):
+        if name == 'main.cpp' or name.startswith(('housekeeping.', 'hand_poll.')):
             return PROGRAM
         if re.search(r'_(service|shell|tape)\.[ch]pp$', name):
             return SERVICE

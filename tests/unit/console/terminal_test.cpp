@@ -1,4 +1,5 @@
 // On a pseudo terminal: the keyboard and the view change it and give it back, however the program ends.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -8,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "master/console/keyboard.hpp"
 #include "master/console/terminal_view.hpp"
@@ -151,6 +154,43 @@ TEST(TerminalView, RedrawsInPlaceAndNotMoreOftenThanTenTimesASecond) {
   EXPECT_LT(std::count(frame.begin(), frame.end(), '\n'), 24);
 }
 
+/// Frames until the terminal takes no more, and then as many again.
+void draw_unread(TerminalView& view) {
+  ConsoleSnapshot snapshot;
+  for (int i = 1; i <= 400; ++i) {
+    snapshot.seconds = 0.1 * i;
+    view.show(snapshot);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(TerminalView, ATerminalThatNobodyReadsDelaysNobodyAndIsGivenBackAllTheSame) {
+  ::setenv("TERM", "xterm", 1);
+  const Pty pty;
+  const int flags = ::fcntl(pty.inner, F_GETFL);
+  {
+    TerminalView view(ViewKind::kAuto, pty.inner);
+    draw_unread(view);
+    pollfd room{pty.inner, POLLOUT, 0};
+    EXPECT_EQ(::poll(&room, 1, 0), 0);  // it is full: a write would wait
+    EXPECT_EQ(::fcntl(pty.inner, F_GETFL), flags);
+  }
+  EXPECT_NE(pty.seen().find("\x1b[?1049l"), std::string::npos);
+  EXPECT_EQ(::fcntl(pty.inner, F_GETFL), flags);
+}
+
+TEST(TerminalGuard, ASignalEndsAProgramWhoseTerminalNobodyReads) {
+  const Pty pty;
+  const termios before = pty.mode();
+  const int status = run_child(pty, [&pty] {
+    TerminalView view(ViewKind::kAuto, pty.inner);
+    draw_unread(view);
+    std::raise(SIGTERM);
+  });
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+  EXPECT_TRUE(same(pty.mode(), before));
+}
+
 TEST(TerminalView, WritesOnePlainLineASecondIntoAPipe) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
@@ -161,6 +201,7 @@ TEST(TerminalView, WritesOnePlainLineASecondIntoAPipe) {
     snapshot.seconds = 1e-3 * tick;
     view.show(snapshot);
   }
+  view.close();
   ::close(ends[1]);
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(ends[0], bytes.data(), bytes.size());

@@ -1,12 +1,20 @@
 #include "common/io/log.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <thread>
+
+#include "common/io/outlet.hpp"
 
 namespace longreach {
 namespace {
@@ -16,7 +24,7 @@ TEST(Log, WritesOneEventALineWithTimeLevelAndSide) {
   set_up_log("slave", file.string());
   spdlog::info("state from={} to={}", "Idle", "Observing");
   spdlog::warn("stopped");
-  set_up_log("slave", "", true);
+  close_log();
   std::ifstream in(file);
   std::string first, second, third;
   std::getline(in, first);
@@ -26,6 +34,68 @@ TEST(Log, WritesOneEventALineWithTimeLevelAndSide) {
   EXPECT_TRUE(std::regex_match(first, std::regex(time + "info slave state from=Idle to=Observing"))) << first;
   EXPECT_TRUE(std::regex_match(second, std::regex(time + "warning slave stopped"))) << second;
   std::filesystem::remove(file);
+}
+
+std::string read_now(int fd) {
+  std::array<char, 1 << 17> bytes{};
+  const ssize_t n = ::read(fd, bytes.data(), bytes.size());
+  return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
+}
+
+TEST(Log, AReaderThatStopsReadingDelaysNobodyAndIsToldWhatIsMissing) {
+  const auto pipe =
+      std::filesystem::temp_directory_path() / ("longreach-log-pipe-" + std::to_string(getpid()));
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  const std::uint64_t before = log_lost();
+  set_up_log("slave", pipe.string());
+  const std::string words(1000, 'x');
+  for (int i = 0; i < 1000; ++i)
+    spdlog::info("line={} {}", i, words);  // 1 MB into 64 KiB: would never return
+  EXPECT_GT(log_lost(), before + 300);
+  EXPECT_LT(log_lost(), before + 1000);
+  std::string read;
+  for (int i = 0; i < 10'000 && read.find("line=999 ") == std::string::npos; ++i) {
+    read += read_now(reader);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ::close(reader);
+  std::filesystem::remove(pipe);
+  EXPECT_NE(read.find("info slave line=0 "), std::string::npos);
+  const std::string lost = std::to_string(log_lost() - before);
+  EXPECT_TRUE(std::regex_search(read, std::regex("Z warning slave log lost=" + lost + "\n"))) << lost;
+  EXPECT_NE(read.find("line=999 "), std::string::npos);
+}
+
+TEST(Log, AFullDiskLosesLinesAndIsSaidToHave) {
+  const std::uint64_t before = log_lost();
+  set_up_log("slave", "/dev/full");
+  spdlog::info("one");
+  spdlog::info("two");
+  close_log();
+  EXPECT_EQ(log_lost(), before + 2);
+}
+
+TEST(Outlet, KeepsTheNewestWhereNobodyReadsAndEndsAllTheSame) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  const std::string too_much(1 << 17, 'a');  // twice what a pipe takes
+  {
+    Outlet outlet(ends[1], 0);
+    outlet.offer(too_much);
+    EXPECT_FALSE(outlet.drain(std::chrono::milliseconds(50)));
+    outlet.offer("second");
+    outlet.offer("third");
+    EXPECT_EQ(outlet.lost(), 1u);
+    std::string read;
+    while (read.size() < too_much.size() + 5) read += read_now(ends[0]);
+    EXPECT_EQ(read, too_much + "third");
+  }
+  EXPECT_FALSE(put(ends[1], too_much));
+  EXPECT_FALSE(put(ends[1], "behind it"));
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 TEST(Log, SaysWhatToDoWhenTheFileCannotBeWritten) {

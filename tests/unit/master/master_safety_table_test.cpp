@@ -40,7 +40,7 @@ struct Tick {
   Slave slave = Slave::kSaysNothing;
   bool heard = true;  // within silence_s
   bool device_fault = false, stop = false, engage = false, hold = false;
-  bool taken = false, restarted = false, let_go = false;
+  bool taken = false, restarted = false, let_go = false, hand_stale = false;
 };
 
 struct Machine {
@@ -121,7 +121,7 @@ bool wins(const Tick& t, const Expected& at, Expected& then) {
   } else if (t.stop) {
     then = fault ? Expected{at.state, at.cause, Request::kStop}
                  : Expected{State::kStopped, first, Request::kStop};
-  } else if (t.engage && t.heard && !t.taken && !t.let_go) {
+  } else if (t.engage && t.heard && !t.taken && !t.let_go && !t.hand_stale) {
     then = {State::kObserving, Cause::kNone, Request::kEngage};
   } else {
     return false;
@@ -151,6 +151,7 @@ Expected expected(Start start, const Tick& t) {
   if (asked && t.restarted) return hold(Cause::kPeerRestarted, Request::kHold);
   if (asked && t.hold) return hold(Cause::kOperator, Request::kHold);
   if (asked && t.let_go) return hold(Cause::kHandleLetGo, Request::kLetGo);
+  if (asked && t.hand_stale) return hold(Cause::kHandStale, Request::kHold);
   if (asked && !t.heard) return hold(Cause::kLinkSilent, Request::kEngage);
   if (at.state == State::kEngaged && says == Slave::kHolding)
     return hold(Cause::kPeerHolds, Request::kEngage);
@@ -180,6 +181,7 @@ bool apply(Machine& m, const Tick& t) {
   m.in.engage = t.engage;
   m.in.hold = t.hold;
   m.in.taken = t.taken;
+  m.in.hand_stale = t.hand_stale;
   if (t.restarted) ++m.in.peer_restarts;
   if (t.heard) return m.hear();
   m.in.last_heard = m.in.last_heard ? std::optional<Time>(m.in.now - milliseconds(600)) : std::nullopt;
@@ -188,18 +190,19 @@ bool apply(Machine& m, const Tick& t) {
 
 std::string name(Start start, const Tick& t) {
   return "start " + std::to_string(static_cast<int>(start)) + " slave " +
-         std::to_string(static_cast<int>(t.slave)) + " heard " + std::to_string(t.heard) +
-         " device fault, stop, engage, hold " + std::to_string(t.device_fault) + std::to_string(t.stop) +
-         std::to_string(t.engage) + std::to_string(t.hold) + " taken, restarted, let go " +
-         std::to_string(t.taken) + std::to_string(t.restarted) + std::to_string(t.let_go);
+         std::to_string(static_cast<int>(t.slave)) + " heard " + std::to_string(t.heard) + " hand stale " +
+         std::to_string(t.hand_stale) + " device fault, stop, engage, hold " +
+         std::to_string(t.device_fault) + std::to_string(t.stop) + std::to_string(t.engage) +
+         std::to_string(t.hold) + " taken, restarted, let go " + std::to_string(t.taken) +
+         std::to_string(t.restarted) + std::to_string(t.let_go);
 }
 
 TEST(MasterSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
   for (const Start start : kStarts) {
     for (const Slave slave : kSlaves) {
-      for (unsigned bits = 0; bits < 256; ++bits) {
+      for (unsigned bits = 0; bits < 512; ++bits) {
         const auto bit = [&](unsigned n) { return (bits >> n & 1U) != 0; };
-        const Tick t{slave, bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7)};
+        const Tick t{slave, bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7), bit(8)};
         Machine m = machine_at(start);
         const Expected at = kAt[static_cast<std::size_t>(start)];
         ASSERT_EQ(m.safety.state(), at.state) << name(start, t);
@@ -213,7 +216,7 @@ TEST(MasterSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
         ASSERT_EQ(m.safety.request(), then.request) << name(start, t);
         ASSERT_EQ(begun, then.begun) << name(start, t);
         const bool anew = then.state == State::kObserving && then.request == Request::kEngage && t.engage &&
-                          t.heard && !t.taken && !t.let_go;
+                          t.heard && !t.taken && !t.let_go && !t.hand_stale;
         ASSERT_EQ(m.safety.engagement() > number, anew) << name(start, t);
       }
     }

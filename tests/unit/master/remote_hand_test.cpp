@@ -54,7 +54,7 @@ TEST(RemoteHand, LetsGoInOrderWithoutAHold) {
   const auto target = h.tick();
   ASSERT_TRUE(target);
   EXPECT_EQ(target->grip, Grip::kReleased);
-  EXPECT_FALSE(h.requests.hold);
+  EXPECT_FALSE(h.hand.fell_silent());
 }
 
 TEST(RemoteHand, SilenceLetsGoAndHoldsOnce) {
@@ -65,11 +65,11 @@ TEST(RemoteHand, SilenceLetsGoAndHoldsOnce) {
   for (int i = 1; i <= 1000; ++i) {
     const auto target = h.tick(false);
     ASSERT_TRUE(target);
-    const bool silent = i * kPeriod_s > RemoteHand::kSilence_s;
+    const bool silent = i * kPeriod_s > kHandAgeMax_s;
     if (i != 300) {
       EXPECT_EQ(target->grip == Grip::kReleased, silent) << i;
     }
-    holds += h.requests.hold ? 1 : 0;
+    holds += h.hand.fell_silent() ? 1 : 0;
   }
   EXPECT_EQ(holds, 1);
 }

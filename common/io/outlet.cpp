@@ -1,0 +1,136 @@
+#include "common/io/outlet.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <condition_variable>
+#include <csignal>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace longreach {
+
+struct Outlet::State {
+  State(int own_fd, std::size_t most, Gap in_place) : fd(own_fd), bytes_max(most), gap(std::move(in_place)) {}
+  ~State() {
+    if (fd >= 0) ::close(fd);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void run();
+  bool write(std::string_view text);
+  void drop_oldest() {
+    waiting_bytes -= waiting.front().size();
+    waiting.pop_front();
+  }
+  [[nodiscard]] bool quiet() const { return waiting.empty() && !writing; }
+
+  const int fd;
+  const std::size_t bytes_max;
+  const Gap gap;
+  mutable std::mutex mutex;
+  std::condition_variable more, done;
+  std::deque<std::string> waiting;
+  std::size_t waiting_bytes = 0;
+  bool writing = false;
+  bool ended = false;
+  bool torn = false;  // the last text was cut; the thread's own
+  std::uint64_t lost = 0;
+  std::uint64_t told = 0;  // of those lost
+};
+
+void Outlet::State::run() {
+  sigset_t all;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);  // a reader that has gone is an error, not the end
+  std::unique_lock lock(mutex);
+  while (true) {
+    more.wait(lock, [this] { return ended || !waiting.empty(); });
+    if (waiting.empty()) return;
+    const std::string text = std::move(waiting.front());
+    waiting_bytes -= text.size();
+    waiting.pop_front();
+    writing = true;
+    const std::uint64_t missing = lost - told;
+    const std::uint64_t now_told = lost;
+    lock.unlock();
+    const bool written = (missing == 0 || !gap || write(gap(missing))) && write(text);
+    lock.lock();
+    writing = false;
+    if (written) told = now_told;
+    if (!written) ++lost;
+    done.notify_all();
+  }
+}
+
+bool Outlet::State::write(std::string_view text) {
+  const std::string whole = (torn ? "\n" : "") + std::string(text);
+  std::string_view rest = whole;
+  while (!rest.empty()) {
+    const ssize_t n = ::write(fd, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) {  // somebody else made it so
+      pollfd open{fd, POLLOUT, 0};
+      (void)::poll(&open, 1, 100);
+      continue;
+    }
+    if (n <= 0) break;
+    torn = true;
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+  if (rest.empty()) torn = false;
+  return rest.empty();
+}
+
+Outlet::Outlet(int fd, std::size_t bytes_max, Gap gap)
+    : state_(std::make_shared<State>(::fcntl(fd, F_DUPFD_CLOEXEC, 3), bytes_max, std::move(gap))),
+      thread_([state = state_] { state->run(); }) {}
+
+Outlet::~Outlet() {
+  std::unique_lock lock(state_->mutex);
+  state_->ended = true;
+  state_->more.notify_all();
+  const bool all = state_->done.wait_for(lock, kFarewell, [this] { return state_->quiet(); });
+  state_->waiting.clear();
+  lock.unlock();
+  if (all) thread_.join();
+  if (!all) thread_.detach();
+}
+
+void Outlet::offer(std::string text) {
+  const std::lock_guard lock(state_->mutex);
+  state_->waiting_bytes += text.size();
+  state_->waiting.push_back(std::move(text));
+  while (state_->waiting_bytes > state_->bytes_max && state_->waiting.size() > 1) {
+    state_->drop_oldest();
+    ++state_->lost;
+  }
+  state_->more.notify_one();
+}
+
+void Outlet::clear() {
+  const std::lock_guard lock(state_->mutex);
+  while (!state_->waiting.empty()) state_->drop_oldest();
+}
+
+bool Outlet::drain(std::chrono::milliseconds timeout) {
+  std::unique_lock lock(state_->mutex);
+  return state_->done.wait_for(lock, timeout, [this] { return state_->quiet(); });
+}
+
+std::uint64_t Outlet::lost() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->lost;
+}
+
+bool put(int fd, std::string_view text) {
+  Outlet outlet(fd, text.size());
+  outlet.offer(std::string(text));
+  return outlet.drain(Outlet::kFarewell) && outlet.lost() == 0;
+}
+
+}  // namespace longreach

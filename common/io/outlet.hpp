@@ -1,0 +1,47 @@
+#pragma once
+// Text on its way to a terminal, a pipe or a file whose other end may stop taking it. A thread of its own
+// writes; who offers never waits. At most `bytes_max` wait, the newest text always; the oldest is dropped and
+// counted. Whole texts only: what has been begun is written to its end.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace longreach {
+
+class Outlet {
+ public:
+  /// What to write where `lost` texts are missing, in the writing thread.
+  using Gap = std::function<std::string(std::uint64_t lost)>;
+
+  static constexpr std::chrono::milliseconds kFarewell{500};
+
+  /// Writes to a duplicate of `fd`, which stays the caller's.
+  Outlet(int fd, std::size_t bytes_max, Gap gap = {});
+  /// Gives what waits kFarewell to be written, and leaves a thread that is stuck to itself.
+  ~Outlet();
+  Outlet(const Outlet&) = delete;
+  Outlet& operator=(const Outlet&) = delete;
+
+  void offer(std::string text);
+  /// Drops what waits.
+  void clear();
+  /// Waits until nothing waits or is being written; false: not within `timeout`.
+  bool drain(std::chrono::milliseconds timeout);
+  /// Texts that were dropped or could not be written.
+  [[nodiscard]] std::uint64_t lost() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;  // with the thread
+  std::thread thread_;
+};
+
+/// Writes before the program goes on or ends; false: not all of it was taken within Outlet::kFarewell.
+bool put(int fd, std::string_view text);
+
+}  // namespace longreach

@@ -1,0 +1,54 @@
+#pragma once
+// The thread that asks keyboard and pad what the hand does, and hands it to the loop with its time. It writes
+// to no terminal, pipe or file, so that nobody who does not read can hold it up.
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "master/console/keyboard.hpp"
+#include "master/drivers/pad_operator.hpp"
+#include "master/master_service.hpp"
+
+namespace longreach {
+
+class HandPoll {
+ public:
+  /// For the view.
+  struct Seen {
+    bool show_keys = false;
+    bool quit = false;  // latched
+    std::string pad_keys, pad_trouble;
+  };
+
+  /// All must outlive it. Nobody to ask for other kinds of operator. Throws std::runtime_error where the
+  /// library of a pad cannot be loaded.
+  HandPoll(const MasterConfig& config, MasterShell& shell, MasterService& service);
+  /// Gives the terminal back.
+  ~HandPoll();
+  HandPoll(const HandPoll&) = delete;
+  HandPoll& operator=(const HandPoll&) = delete;
+
+  [[nodiscard]] bool has_pad() const { return pad_.has_value(); }
+  [[nodiscard]] Seen seen() const;
+
+ private:
+  void run();
+  void poll();
+  OperatorRequests poll_pad(const MasterView& view, OperatorRequests keys);
+
+  const MasterConfig& config_;
+  MasterShell& shell_;
+  MasterService& service_;
+  std::optional<Keyboard> keyboard_;
+  std::optional<PadOperator> pad_;
+  Time polled_{};
+  mutable std::mutex seeing_;
+  Seen seen_;
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace longreach
