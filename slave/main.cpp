@@ -44,6 +44,9 @@ class Chronicle {
     const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
     if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
     if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);
+    const std::string robot = robot_trouble(s.view);
+    if (s.view.joints.doubt != last_.view.joints.doubt && !robot.empty())
+      spdlog::warn("robot trouble=\"{}\"", robot);
     trouble_ = trouble;
     last_ = s;
   }

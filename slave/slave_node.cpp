@@ -5,6 +5,7 @@
 
 #include "common/link/playout.hpp"
 #include "slave/command/servo_lag.hpp"
+#include "slave/command_right.hpp"
 #include "slave/contact.hpp"
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
@@ -19,13 +20,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kDtMax = 0.02;            // a later tick moves no further than this
-constexpr double kReachedM = 1e-3;         // a goal counts as reached
-constexpr double kSetpointLostRad = 0.05;  // more than any servo lag: the joints are elsewhere
-constexpr double kZeroMax = 0.5;           // of the guard, that a zero may take for the sensor's bias
-constexpr double kNear = 0.9;              // of the guard, or of what a hold comes down to
-constexpr double kLatelyS = 0.05;          // a growth that is still going on
-constexpr double kHeldS = 1.0;             // likewise, before the hold in which the robot rests
+constexpr double kDtMax = 0.02;     // a later tick moves no further than this
+constexpr double kReachedM = 1e-3;  // a goal counts as reached
+constexpr double kZeroMax = 0.5;    // of the guard, that a zero may take for the sensor's bias
+constexpr double kNear = 0.9;       // of the guard, or of what a hold comes down to
+constexpr double kLatelyS = 0.05;   // a growth that is still going on
+constexpr double kHeldS = 1.0;      // likewise, before the hold in which the robot rests
 
 GrowthBounds growth_bounds(const SlaveConfig& c) {
   return {c.command.guard_stiffness_n_per_m, c.sensing.force_noise_n, c.sensing.bandwidth_hz};
@@ -40,7 +40,9 @@ struct SlaveNode::State {
         needs(longreach::needs(config.scene)),
         safety(config.safety),
         motion(config.command, config.robot),
+        joints(config.robot),
         watch(config.robot),
+        right(config.robot),
         servo(config.robot.servo_hz),
         limits(config.command),
         noise_n(config.sensing.force_noise_n),
@@ -53,9 +55,12 @@ struct SlaveNode::State {
         turn_playout(config.playout) {}
 
   double tick(Time now);
+  void believe_robot(const RobotState& robot, Time now);
   void watch_robot(const RobotState& robot);
+  void follow(const RobotState& robot);
+  Clamps move(const std::optional<Pose>& X_WE_goal);
   bool decide(const SlaveInput& input);
-  void begin_engagement(const RobotState& robot);
+  void begin_engagement();
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
   void look(const RobotState& robot, Time now);
@@ -71,7 +76,9 @@ struct SlaveNode::State {
   NeedsConfig needs;  // what is not needed of contact, sensor and estimator is not there
   SlaveSafety safety;
   SlaveMotion motion;
+  JointWitness joints;
   RobotWatch watch;
+  CommandRight right;
   ServoLag servo;
   Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
   CommandConfig limits;
@@ -90,7 +97,6 @@ struct SlaveNode::State {
   std::optional<Time> stepped_at{};
   bool robot_ok = true;
   bool robot_seen = false;
-  bool robot_was_ok = false;
   RobotState robot_before{};  // its last sample that was a new one
   std::optional<Time> sampled_at{};
   ToolKinematics tool{};
@@ -131,36 +137,24 @@ void SlaveNode::configure(const SlaveConfig& config) {
 SlaveOutput SlaveNode::step(const SlaveInput& input) {
   State& s = *state_;
   const double dt = s.tick(input.now);
-  s.robot_ok = input.robot.ok && finite(input.robot);
-  // One that comes back may have been moved meanwhile.
-  if (s.robot_ok && !s.robot_was_ok) {
-    s.motion.reset(input.robot.joint_rad);
-    if (!s.robot_seen) s.sensor.zero();
-    s.robot_seen = true;
-  }
-  s.robot_was_ok = s.robot_ok;
+  s.believe_robot(input.robot, input.now);
   s.watch_robot(input.robot);
   if (s.robot_ok) s.look(input.robot, input.now);
-  if (s.decide(input)) s.begin_engagement(input.robot);
+  if (s.robot_ok && !s.right.commands()) s.follow(input.robot);
+  if (s.decide(input)) s.begin_engagement();
+  s.right.step({s.safety.state(), s.robot_ok && !s.watch.astray(), s.motion.at_rest(), dt});
   s.take_goals(input.commands);
 
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
   if (s.robot_ok && s.sensor_ok) s.feel(dt);
-  Clamps clamps;
-  // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
-  // was missed is caught up within them.
-  if (dt > 0.0) {
-    const bool brakes = s.safety.brakes() || s.trial.verdict() != SignTrial::Verdict::kNone;
-    clamps = s.motion.step({brakes ? std::nullopt : X_WE_goal, s.pressed(), 1.0 / s.loop_hz});
-    s.lead_m = s.servo.step(s.motion.X_WE().p, 1.0 / s.loop_hz);
-  }
+  const Clamps clamps = s.right.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
   s.book_reached();
 
   SlaveOutput output;
-  output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
+  if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.grip;
   s.reports.report(input, s.view, s.reached_sequence,
                    {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
@@ -184,6 +178,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.peer_session_count = input.peer_session_count;
   in.taken = input.taken;
   in.robot_ok = robot_ok;
+  in.robot_ready = robot_ok && right.may_begin(input.robot, motion.joint_setpoint_rad());
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
   in.sensor_fault = robot_ok && !sensor_ok;
@@ -204,27 +199,44 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
     in.request = command.request;
     in.echo_sent = received.echo_sent;
   }
-  const SafetyState before = safety.state();
-  const bool begins = safety.step(in);
-  // A robot that went its own way stays where it is: nothing calls it back.
-  const bool sensed = safety.cause() == HoldCause::kSensorFault || safety.cause() == HoldCause::kSensorSign;
-  if (safety.state() == SafetyState::kFault && before != SafetyState::kFault && robot_ok && !sensed)
-    motion.reset(input.robot.joint_rad);
-  return begins;
+  view.robot_seen = robot_seen;
+  view.robot_ready = in.robot_ready;
+  return safety.step(in);
+}
+
+void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
+  if (!robot.ok) joints.forget();
+  robot_ok = robot.ok && finite(robot);
+  view.joints = robot_ok ? joints.look(robot, now) : JointFinding{};
+  robot_ok = robot_ok && view.joints.doubt == JointDoubt::kNone;
+  if (robot_ok && !robot_seen) sensor.zero();
+  robot_seen = robot_seen || robot_ok;
 }
 
 // From the second tick on: the setpoint before has been written, and this is what became of it.
 void SlaveNode::State::watch_robot(const RobotState& robot) {
-  const SafetyState state = safety.state();
-  const bool commanded =
-      state == SafetyState::kEngaged || state == SafetyState::kHolding || state == SafetyState::kStopped;
-  if (robot_ok) watch.step(robot, motion.joint_setpoint_rad(), commanded, motion.at_rest(), 1.0 / loop_hz);
+  if (robot_ok)
+    watch.step(robot, motion.joint_setpoint_rad(), right.commands(), motion.at_rest(), 1.0 / loop_hz);
 }
 
-void SlaveNode::State::begin_engagement(const RobotState& robot) {
-  if ((robot.joint_rad - motion.joint_setpoint_rad()).cwiseAbs().maxCoeff() > kSetpointLostRad) {
-    motion.reset(robot.joint_rad);
-  }
+// Nobody commands the robot: what would be the setpoint is where it is.
+void SlaveNode::State::follow(const RobotState& robot) {
+  motion.reset(robot.joint_rad);
+  servo.reset(motion.X_WE().p);
+  lead_m.setZero();
+}
+
+// By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
+// was missed is caught up within them.
+Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
+  const double dt = 1.0 / loop_hz;
+  const bool brakes = safety.brakes() || trial.verdict() != SignTrial::Verdict::kNone;
+  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt});
+  lead_m = servo.step(motion.X_WE().p, dt);
+  return clamps;
+}
+
+void SlaveNode::State::begin_engagement() {
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
   growth.reset();

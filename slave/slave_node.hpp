@@ -12,6 +12,7 @@
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
+#include "slave/joint_witness.hpp"
 #include "slave/robot/robot.hpp"
 #include "slave/slave_config.hpp"
 
@@ -53,6 +54,9 @@ struct SlaveView {
   double played_sequence = 0.0;
   double playout_delay_s = 0.0;
   Clamps clamps{};                     // in this tick
+  JointFinding joints{};               // what is not believed of them
+  bool robot_seen = false;             // it has worked once
+  bool robot_ready = false;            // an engagement could begin: it rests within its limits
   std::uint64_t limit_violations = 0;  // ticks in which a limit was exceeded in spite of the clamps
   std::uint64_t false_holds = 0;       // holds by silence that ended by themselves within resume_s
   std::uint64_t rejected_values = 0;   // commands with an impossible value
@@ -60,8 +64,8 @@ struct SlaveView {
 };
 
 struct SlaveOutput {
-  JointVector joint_setpoint_rad = JointVector::Zero();
-  bool grip = false;  // gripper closed
+  std::optional<JointVector> joint_setpoint_rad{};  // none: nobody commands the robot, it rests by itself
+  bool grip = false;                                // gripper closed
   std::optional<StiffnessReport> report{};
   std::uint64_t report_sequence = 0;
   std::optional<Telemetry> telemetry{};

@@ -142,7 +142,7 @@ bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
 bool SlaveSafety::accepts(const SlaveSafetyInput& in) const {
   if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent)
     return false;
-  return !in.stop && !silent(in) && !in.robot_restless && in.sensor_ready &&
+  return !in.stop && !silent(in) && !in.robot_restless && in.robot_ready && in.sensor_ready &&
          to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
 }
 

@@ -23,15 +23,14 @@
 //   Observing                  silence > gap timer + resume_s            Idle       -
 //
 // A new engagement has a number greater than any used or stopped in this session of the master, comes
-// in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests and nobody
-// on this side who asks for a stop. It is the only way out of Stopped and Fault. A hold may end by itself
-// only if silence or a released handle was its cause, within resume_s, and if nothing else asked for a hold
-// meanwhile; the same engagement then goes on. An engagement also
-// finds a sensor that is zeroed. Gap timer: gap_s, or of a master that sends f times a second
-// max(0.1 s, 30/f). Setpoints come later than the path that they smooth, so the path brakes that much before
-// the gap timer ends, and the setpoint when it does. Age = now - when this side had sent what the master last
-// heard: no clocks are compared. The cause is the first since Engaged; a fault has its own, the first of its
-// kind, and so has a hold whose force does not fall.
+// in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests within its
+// limits, a sensor that is zeroed, and nobody on this side who asks for a stop. It is the only way out of
+// Stopped and Fault. A hold may end by itself only if silence or a released handle was its cause, within
+// resume_s, and if nothing else asked for a hold meanwhile; the same engagement then goes on. Gap timer:
+// gap_s, or of a master that sends f times a second max(0.1 s, 30/f). Setpoints come later than the path that
+// they smooth, so the path brakes that much before the gap timer ends, and the setpoint when it does. Age =
+// now - when this side had sent what the master last heard: no clocks are compared. The cause is the first
+// since Engaged; a fault has its own, the first of its kind, and so has a hold whose force does not fall.
 
 #include <cstdint>
 #include <optional>
@@ -48,7 +47,8 @@ struct SlaveSafetyInput {
   std::optional<Time> last_heard{};      // any valid datagram
   std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
   bool taken = false;                    // the newest of them by taking the robot from another master
-  bool robot_ok = true;                  // it says so and its joints are finite
+  bool robot_ok = true;                  // it says so and its joints are believed
+  bool robot_ready = true;               // an engagement may begin with it: command_right
   bool robot_restless = false;           // it moves on though its setpoint rests
   bool robot_astray = false;             // it is not where its setpoints lead
   bool sensor_fault = false;             // its force sensor says what no contact could do

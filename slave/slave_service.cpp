@@ -3,6 +3,8 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
 #include "common/io/adapter_channel.hpp"
@@ -30,7 +32,34 @@ std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
          " or more at the slave, or link.send_hz higher at the master";
 }
 
+std::string in_words(const JointFinding& found) {
+  const std::string joint = "joint " + std::to_string(found.joint + 1) + " of the robot ";
+  const auto number = [](double x) { return format_number(std::round(1e3 * x) / 1e3); };
+  switch (found.doubt) {
+    case JointDoubt::kNone:
+      break;
+    case JointDoubt::kLeapt:
+      return joint + "has leapt from " + number(found.from_rad) + " to " + number(found.rad) +
+             " rad (or m), as no joint can: look at its encoder, then start the robot's adapter again";
+    case JointDoubt::kOutside:
+      return joint + "is at " + number(found.rad) +
+             " rad (or m), beyond its limits: move it back by the robot's own means, then engage";
+    case JointDoubt::kTooFast:
+      return joint + "claims " + number(found.rad) + " rad/s (or m/s), as no joint can: look at its encoder";
+  }
+  return "";
+}
+
 }  // namespace
+
+std::string robot_trouble(const SlaveView& view) {
+  if (view.joints.doubt != JointDoubt::kNone) return in_words(view.joints);
+  const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
+  if (idle && view.robot_seen && !view.robot_ready)
+    return "the robot moves, or stands beyond a limit of its joints: it can be engaged when it rests within "
+           "them";
+  return "";
+}
 
 SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)
     : shell_(shell),
@@ -83,6 +112,7 @@ proto::Status SlaveService::status() {
   add_count(out, "rejected_setpoints", s.rejected_setpoints);
   add_counts(out, s.adapter);
   out.set_trouble(adapter_trouble(s.adapter, "robot", config_.robot_adapter().address()));
+  if (out.trouble().empty()) out.set_trouble(robot_trouble(view));
   return out;
 }
 

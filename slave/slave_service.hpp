@@ -11,6 +11,9 @@
 
 namespace longreach {
 
+/// Why the robot cannot be engaged and what to do, or empty.
+std::string robot_trouble(const SlaveView& view);
+
 class SlaveService : public ControlBackend {
  public:
   /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.

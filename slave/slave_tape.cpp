@@ -86,6 +86,7 @@ void write(const SlaveInput& input, recording::SlaveInput& out) {
   write(input.robot.F_F_W, *robot.mutable_wrench());
   robot.set_ok(input.robot.ok);
   robot.set_load(input.robot.load);
+  robot.set_age_s(input.robot.age_s);
   if (input.last_heard) out.set_last_heard_ns(to_ns(*input.last_heard));
   out.set_peer_session_count(input.peer_session_count);
   out.set_taken(input.taken);
@@ -106,6 +107,7 @@ SlaveInput read(const recording::SlaveInput& in) {
   out.robot.F_F_W = read(in.robot().wrench());
   out.robot.ok = in.robot().ok();
   out.robot.load = in.robot().load();
+  out.robot.age_s = in.robot().age_s();
   if (in.has_last_heard_ns()) out.last_heard = to_time(in.last_heard_ns());
   out.peer_session_count = in.peer_session_count();
   out.taken = in.taken();
@@ -120,7 +122,7 @@ SlaveInput read(const recording::SlaveInput& in) {
 }
 
 void write(const SlaveOutput& output, recording::SlaveOutput& out) {
-  write_joints(output.joint_setpoint_rad, *out.mutable_joint_setpoint_rad());
+  if (output.joint_setpoint_rad) write_joints(*output.joint_setpoint_rad, *out.mutable_joint_setpoint_rad());
   out.set_grip(output.grip);
   if (output.report) write(*output.report, *out.mutable_report());
   out.set_report_sequence(output.report_sequence);

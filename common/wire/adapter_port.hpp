@@ -69,6 +69,8 @@ class AdapterPort {
   /// Of the last receive(): it is heard and says that it works.
   [[nodiscard]] bool ok() const { return !figures_.silent && !figures_.failed; }
   [[nodiscard]] const In& newest() const { return newest_; }
+  /// Since that has come.
+  [[nodiscard]] double age_s(Time now) const { return to_seconds(now - heard_); }
   [[nodiscard]] const AdapterFigures& figures() const { return figures_; }
 
  private:

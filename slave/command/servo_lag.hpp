@@ -15,6 +15,12 @@ class ServoLag {
   /// `servo_hz` = 0: the servo is ideal, the lead zero.
   explicit ServoLag(double servo_hz) : rate_per_s_(2.0 * std::numbers::pi * servo_hz) {}
 
+  /// The tool rests there.
+  void reset(const Vector3& s_m) {
+    x_m_ = s_m;
+    begun_ = true;
+  }
+
   /// The setpoint `s_m`, `dt` after the last; the first is where the tool is. Returns the lead, m.
   Vector3 step(const Vector3& s_m, double dt) {
     if (!begun_ || !(rate_per_s_ > 0.0)) x_m_ = s_m;

@@ -17,6 +17,7 @@ Vector3 vector(const double (&numbers)[3]) { return {numbers[0], numbers[1], num
 RobotState RobotAdapter::read(Time now) {
   const bool fresh = port_.receive(now);
   measured_.ok = port_.ok();
+  measured_.age_s = port_.age_s(now);
   if (!fresh || !measured_.ok) return measured_;
   const RobotDatagram& d = port_.newest();
   std::copy_n(d.joint_rad, kMaxJoints, measured_.joint_rad.data());
@@ -27,14 +28,16 @@ RobotState RobotAdapter::read(Time now) {
   return measured_;
 }
 
-void RobotAdapter::write(const JointVector& joint_setpoint_rad) {
+void RobotAdapter::write(const std::optional<JointVector>& joint_setpoint_rad) {
   SetpointDatagram out;
-  const bool finite = joint_setpoint_rad.allFinite();
-  if (!finite) ++rejected_;
-  if (finite && measured_.ok) {
+  const bool finite = joint_setpoint_rad && joint_setpoint_rad->allFinite();
+  if (joint_setpoint_rad && !finite) ++rejected_;
+  const bool moves = finite && measured_.ok;
+  if (moves) {
     out.flags = SetpointDatagram::kMove;
-    std::copy_n(joint_setpoint_rad.data(), kMaxJoints, out.joint_rad);
+    std::copy_n(joint_setpoint_rad->data(), kMaxJoints, out.joint_rad);
   }
+  moved_ = moves ? std::min(moved_ + 1, kLong) : 0;
   if (grip_) out.flags |= SetpointDatagram::kGrip;
   port_.send(out);
 }

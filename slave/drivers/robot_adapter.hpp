@@ -20,14 +20,15 @@ class RobotAdapter : public Robot {
   /// What the newest datagram says, at the time when it has come. Before the first: a robot that has failed.
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted: the joints rest.
-  void write(const JointVector& joint_setpoint_rad) override;
+  void write(const std::optional<JointVector>& joint_setpoint_rad) override;
   void grip(bool closed) override { grip_ = closed; }
   /// Tells the adapter that somebody is there, before the first setpoint.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }
+  /// Though it has been sent setpoints for a while.
   [[nodiscard]] bool watchdog_stopped() const {
-    return (port_.newest().flags & adapter::RobotDatagram::kStopped) != 0;
+    return moved_ == kLong && (port_.newest().flags & adapter::RobotDatagram::kStopped) != 0;
   }
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
 
@@ -36,6 +37,8 @@ class RobotAdapter : public Robot {
   Kinematics kinematics_;
   RobotState measured_{.ok = false};
   bool grip_ = false;
+  static constexpr int kLong = 50;
+  int moved_ = 0;  // setpoints on end, kLong at most
   std::uint64_t rejected_ = 0;
 };
 

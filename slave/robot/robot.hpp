@@ -1,7 +1,9 @@
 #pragma once
-// The one interface between the loop and a robot: measured state out, joint setpoint in.
+// The one interface between the loop and a robot: measured state out, joint setpoint in. Without a setpoint
+// the robot brakes within its limits and rests where it then is, by its own means.
 
 #include <array>
+#include <optional>
 
 #include "common/core/time.hpp"
 #include "common/link/telemetry.hpp"
@@ -18,14 +20,16 @@ struct RobotState {
   // false: the robot has failed, which latches a fault. A stop by its own watchdog is none: it ends with the
   // next setpoint.
   bool ok = true;
-  bool load = false;  // the gripper holds something
+  bool load = false;   // the gripper holds something
+  double age_s = 0.0;  // since this was measured, or came
 };
 
 class Robot {
  public:
   virtual ~Robot() = default;
   virtual RobotState read(Time now) = 0;
-  virtual void write(const JointVector& joint_setpoint_rad) = 0;
+  /// In every tick; none: rest.
+  virtual void write(const std::optional<JointVector>& joint_setpoint_rad) = 0;
   /// Closes or opens the gripper: a level. A robot without one ignores it.
   virtual void grip(bool /*closed*/) {}
 };

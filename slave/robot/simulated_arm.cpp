@@ -40,6 +40,15 @@ JointMotion approach(const Servo& servo, double angle_rad, double setpoint_rad, 
   return {setpoint_rad - sign * rest, sign * std::min(speed_max, servo.rate_per_s * rest)};
 }
 
+// One joint over dt without a setpoint: at its acceleration limit to rest.
+JointMotion brake(double limit_rad_per_s2, double angle_rad, double rad_per_s, double dt) {
+  const double sign = rad_per_s < 0.0 ? -1.0 : 1.0;
+  const double braking_s = std::min(dt, std::abs(rad_per_s) / limit_rad_per_s2);
+  const double left = std::abs(rad_per_s) - limit_rad_per_s2 * braking_s;
+  const double way = 0.5 * (std::abs(rad_per_s) + left) * braking_s;
+  return {angle_rad + sign * way, braking_s < dt ? 0.0 : sign * left};
+}
+
 bool flexible(const JointConfig& joint) { return joint.stiffness_nm_per_rad > 0.0; }
 
 ToolMotion tool_motion(const Pose& X_WE, double t_s) { return {.p_WE = X_WE.p, .q_WE = X_WE.q, .t_s = t_s}; }
@@ -63,7 +72,6 @@ SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)
       sensor_(config.sensing, random),
       joint_rad_(start_joints(config.robot)),
       servo_rad_(joint_rad_),
-      setpoint_rad_(joint_rad_),
       flexible_(std::ranges::any_of(config.robot.joint, flexible)),
       X_WE_(X_WE_start_) {}
 
@@ -72,7 +80,7 @@ RobotState SimulatedArm::read(Time now) {
   now_ = now;
   if (written_ && now - *written_ > kWatchdog && !stopped_) {
     stopped_ = true;
-    setpoint_rad_ = servo_rad_;
+    setpoint_rad_.reset();
   }
   t_s_ += dt;
   move(dt);
@@ -85,14 +93,21 @@ RobotState SimulatedArm::read(Time now) {
   return state;
 }
 
-void SimulatedArm::write(const JointVector& joint_setpoint_rad) {
-  if (!joint_setpoint_rad.allFinite()) {
+void SimulatedArm::write(const std::optional<JointVector>& joint_setpoint_rad) {
+  if (joint_setpoint_rad && !joint_setpoint_rad->allFinite()) {
     ++rejected_;
     return;
   }
   setpoint_rad_ = joint_setpoint_rad;
   written_ = now_;
   stopped_ = false;
+}
+
+void SimulatedArm::displace(const JointVector& joint_rad) {
+  joint_rad_ = servo_rad_ = joint_rad;
+  joint_rad_per_s_.setZero();
+  servo_rad_per_s_.setZero();
+  setpoint_rad_.reset();
 }
 
 void SimulatedArm::move(double dt) {
@@ -102,9 +117,12 @@ void SimulatedArm::move(double dt) {
   for (int i = 0; i < kMaxJoints; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     const double before_rad = servo_rad_[i];
+    const JointConfig& joint = robot_.joint[k];
     const JointMotion motion =
-        approach({rate, robot_.joint[k].speed_max_rad_per_s}, before_rad, setpoint_rad_[i], dt);
+        setpoint_rad_ ? approach({rate, joint.speed_max_rad_per_s}, before_rad, (*setpoint_rad_)[i], dt)
+                      : brake(joint.acceleration_max_rad_per_s2, before_rad, servo_rad_per_s_[i], dt);
     servo_rad_[i] = motion.angle_rad;
+    servo_rad_per_s_[i] = motion.rad_per_s;
     servo[k] = {before_rad, dt > 0.0 ? (motion.angle_rad - before_rad) / dt : 0.0};
     link[k] = {joint_rad_[i], joint_rad_per_s_[i]};
     joint_rad_[i] = motion.angle_rad;

@@ -6,8 +6,9 @@
 // A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
 // gives way to what the tool touches, so that the contact creates no energy however stiff it is
 // (yielding.hpp); the others do not (their motion is imposed). Joints are measured at the link, exactly. Its
-// time is what read() is given. It watches its master: without a setpoint for 20 ms it stops its joints where
-// they are, until the next one. The accessors that begin with true_ are for the laboratory alone.
+// time is what read() is given. Without a setpoint, or when nobody has written for 20 ms, its servos brake by
+// their acceleration limits and then hold, whatever pushes, until the next one. The accessors that begin with
+// true_ and displace() are for the laboratory alone.
 
 #include <cstdint>
 #include <optional>
@@ -29,7 +30,7 @@ class SimulatedArm : public Robot {
 
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted.
-  void write(const JointVector& joint_setpoint_rad) override;
+  void write(const std::optional<JointVector>& joint_setpoint_rad) override;
   void grip(bool closed) override {
     if (bodies_) bodies_->grip(closed);
   }
@@ -44,6 +45,8 @@ class SimulatedArm : public Robot {
   /// What floats freely; null in a scene without.
   [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
   [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
+  /// Somebody else moves it: its joints are there now, at rest.
+  void displace(const JointVector& joint_rad);
   [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
 
@@ -66,7 +69,8 @@ class SimulatedArm : public Robot {
   JointVector joint_rad_;
   JointVector joint_rad_per_s_ = JointVector::Zero();
   JointVector servo_rad_;
-  JointVector setpoint_rad_;
+  JointVector servo_rad_per_s_ = JointVector::Zero();
+  std::optional<JointVector> setpoint_rad_{};
   bool flexible_;  // has joints with a stiffness
   Pose X_WE_{};
   Twist V_WE_{};

@@ -152,8 +152,8 @@ inline GuardTouch guard_touch(const GuardCase& c) {
   SlaveNode node(config);
   SimulatedArm arm(config, Random(c.seed));
   GuardCommands commands(c);
-  std::deque<JointVector> way(static_cast<std::size_t>(std::max(0L, std::lround(c.delay_s * 1e3) - 1)),
-                              arm.read(Time{}).joint_rad);
+  std::deque<std::optional<JointVector>> way(
+      static_cast<std::size_t>(std::max(0L, std::lround(c.delay_s * 1e3) - 1)), arm.read(Time{}).joint_rad);
   const double pressed_s = kPressed_s + (c.then == Then::kGoOn ? 0.0 : 2.0);
   GuardTouch seen;
   for (int i = 1; i < 20000; ++i) {

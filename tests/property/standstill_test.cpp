@@ -155,8 +155,9 @@ Stop stop_of(const Mover& mover, const Moment& moment, Random random) {
     in.last_heard = heard;
     in.peer_session_count = 1;
     in.send_hz = moment.send_hz;
-    const JointVector q = node.step(in).joint_setpoint_rad;
-    robot.write(q);
+    const std::optional<JointVector> setpoint_rad = node.step(in).joint_setpoint_rad;
+    robot.write(setpoint_rad);
+    const JointVector q = setpoint_rad.value_or(in.robot.joint_rad);
     if (!engaged && node.engaged()) engaged = now;
     stop.singular |= node.view().clamps.singularity;
     const Vector3 p = kinematics.forward(q).p;

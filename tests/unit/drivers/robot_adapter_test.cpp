@@ -85,6 +85,23 @@ TEST_F(RobotAdapterTest, NothingMovesBeforeTheRobotHasSaidWhereItIs) {
   ASSERT_TRUE(in);
   EXPECT_EQ(in->flags, SetpointDatagram::kGrip);
   EXPECT_EQ(robot.rejected_setpoints(), 1u);
+  robot.write(std::nullopt);
+  in = end.receive(at_ms(1));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->flags, SetpointDatagram::kGrip);  // what it holds it keeps
+  EXPECT_EQ(robot.rejected_setpoints(), 1u);
+}
+
+TEST_F(RobotAdapterTest, ARobotThatNobodyEngagedIsSentNoMotion) {
+  SlaveConfig config;
+  config.robot = cartesian();
+  SlaveNode node(config);
+  for (int ms = 0; ms <= 2000; ++ms) {
+    const auto in = tick(node, ms, 0.1 + 1e-4 * ms);  // somebody moves it
+    ASSERT_TRUE(in);
+    ASSERT_EQ(in->flags & SetpointDatagram::kMove, 0u) << ms;
+    ASSERT_NEAR(node.view().X_WE_goal.p.x(), 0.1 + 1e-4 * ms, 1e-9);
+  }
 }
 
 TEST_F(RobotAdapterTest, TwentyMillisecondsOfSilenceAreAFaultAndNothingMoves) {
@@ -95,7 +112,6 @@ TEST_F(RobotAdapterTest, TwentyMillisecondsOfSilenceAreAFaultAndNothingMoves) {
   for (int ms = 51; ms < 70; ++ms) {
     const auto in = tick(node, ms, {});
     ASSERT_TRUE(in);
-    EXPECT_NE(in->flags & SetpointDatagram::kMove, 0u) << ms;
     EXPECT_NE(node.view().state, SafetyState::kFault) << ms;
   }
   const auto in = tick(node, 70, {});
@@ -112,15 +128,15 @@ TEST_F(RobotAdapterTest, ARobotThatComesBackElsewhereIsLeftThere) {
   for (int ms = 0; ms <= 50; ++ms) {
     const auto in = tick(node, ms, 0.1);
     ASSERT_TRUE(in);
-    EXPECT_NEAR(in->joint_rad[2], 0.1, 1e-12);
+    EXPECT_NEAR(node.view().X_WE_goal.p.x(), 0.1, 1e-12);
   }
   for (int ms = 51; ms < 100; ++ms) (void)tick(node, ms, {});
   end.exchange = adapter::Exchange(1234);
   for (int ms = 100; ms < 150; ++ms) {
     const auto in = tick(node, ms, 0.14);
     ASSERT_TRUE(in);
-    EXPECT_NE(in->flags & SetpointDatagram::kMove, 0u);
-    EXPECT_NEAR(in->joint_rad[2], 0.14, 1e-12) << ms;
+    EXPECT_EQ(in->flags & SetpointDatagram::kMove, 0u);
+    EXPECT_NEAR(node.view().X_WE_goal.p.x(), 0.14, 1e-12) << ms;
   }
   EXPECT_EQ(node.view().state, SafetyState::kFault);  // until it is engaged
 }

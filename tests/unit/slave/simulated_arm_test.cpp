@@ -48,25 +48,66 @@ TEST(SimulatedArm, JointsKeepTheirSpeedLimit) {
   EXPECT_NEAR(before[5], 0.6, 1e-3);
 }
 
-TEST(SimulatedArm, StopsItsJointsWithoutSetpoints) {
+TEST(SimulatedArm, BrakesItsJointsWithinTheirLimitsWhenNobodyWrites) {
   SimulatedArm arm(test::wall_config(5.0, 1000.0), Random(1));
   Time now{};
   arm.read(now);
   JointVector set = test::start_joints();
   set[5] += 3.0;
   arm.write(set);
-  double at_20ms = 0.0;
+  double at_20ms = 0.0, before_rad_per_s = 0.6;
   RobotState state;
-  for (int i = 1; i <= 100; ++i) {
+  for (int i = 1; i <= 200; ++i) {
     now += milliseconds(1);
     state = arm.read(now);
     if (i == 20) at_20ms = state.joint_rad[5];
+    ASSERT_LE(std::abs(state.joint_rad_per_s[5] - before_rad_per_s), 5e-3 * (1.0 + 1e-9)) << i;
+    before_rad_per_s = state.joint_rad_per_s[5];
   }
   EXPECT_TRUE(state.ok);
   EXPECT_TRUE(arm.watchdog_stopped());
   EXPECT_NEAR(at_20ms, 0.012, 1e-9);
-  EXPECT_NEAR(state.joint_rad[5], at_20ms, 1e-9);
+  EXPECT_NEAR(state.joint_rad[5], at_20ms + 0.6 * 0.6 / (2.0 * 5.0), 1e-9);
   EXPECT_EQ(state.joint_rad_per_s[5], 0.0);
+}
+
+// A minute, with a wall that pushes with 50 N, or as much as joints on springs let it.
+TEST(SimulatedArm, StaysWhereItIsWithoutASetpointWhateverPushes) {
+  for (const bool springs : {false, true}) {
+    SlaveConfig config = test::wall_config(-0.05, 1000.0);
+    if (springs) {
+      for (JointConfig& j : config.robot.joint) {
+        j.stiffness_nm_per_rad = 1e6;
+        j.damping_nm_s_per_rad = 6e4;
+        j.inertia_kg_m2 = 1e3;
+      }
+    }
+    SimulatedArm arm(config, Random(1));
+    Time now{};
+    Vector3 at_m = Vector3::Zero();
+    for (int i = 0; i < 70'000; ++i) {
+      arm.read(now += milliseconds(1));
+      arm.write(std::nullopt);
+      if (i == 10'000) at_m = arm.true_pose().p;
+    }
+    EXPECT_GT(arm.true_wrench().force.norm(), 30.0) << springs;
+    EXPECT_LT((arm.true_pose().p - at_m).norm(), 1e-6) << springs;
+    EXPECT_FALSE(arm.watchdog_stopped());
+  }
+}
+
+TEST(SimulatedArm, TakesASetpointAgainAfterARest) {
+  SimulatedArm arm(test::wall_config(5.0, 1000.0), Random(1));
+  Time now{};
+  arm.read(now);
+  JointVector set = test::start_joints();
+  set[5] += 0.01;
+  for (int i = 0; i < 200; ++i) {
+    arm.write(i < 100 ? std::nullopt : std::optional<JointVector>(set));
+    const double rad = arm.read(now += milliseconds(1)).joint_rad[5];
+    if (i < 100) ASSERT_EQ(rad, 0.0);
+  }
+  EXPECT_NEAR(arm.read(now).joint_rad[5], 0.01, 1e-4);
 }
 
 TEST(SimulatedArm, IgnoresSetpointsThatAreNotFinite) {

@@ -8,91 +8,13 @@
 
 #include "slave/robot/simulated_arm.hpp"
 #include "tests/unit/allocations.hpp"
-#include "tests/unit/slave/space_arm.hpp"
+#include "tests/unit/slave/node_loop.hpp"
 
 namespace longreach {
 namespace {
 
 using std::chrono::milliseconds;
-
-// Slave node and simulated arm, with a master that is a few lines: 200 commands a second, 20 ms away.
-struct Loop {
-  explicit Loop(const SlaveConfig& config) : node(config), arm(config, Random(9)) {
-    command.request = Request::kHold;
-    commands.reserve(8);
-  }
-
-  SlaveNode node;
-  SimulatedArm arm;
-  Time now{milliseconds(5000)};
-  MotionCommand command{};
-  std::uint64_t sequence = 0;
-  std::uint32_t sessions = 1;
-  bool silent = false;
-  bool echo = true;
-  RobotState broken{};
-  bool use_broken = false;
-  std::vector<Received<MotionCommand>> commands;
-  std::optional<Time> last_heard;
-  SlaveOutput out;
-  std::optional<StiffnessReport> last_report;
-  std::vector<double> goals_x;  // by sequence
-  int reports = 0, telemetry = 0;
-
-  const SlaveView& view() const { return node.view(); }
-  void tick() {
-    now += milliseconds(1);
-    commands.clear();
-    if (!silent && now.time_since_epoch().count() % 5000000 == 0) {
-      Received<MotionCommand> r;
-      r.sequence = ++sequence;
-      r.sent = PeerTime{now.time_since_epoch() - milliseconds(20) + milliseconds(777)};
-      r.received = now;
-      if (echo) r.echo_sent = now - milliseconds(40);
-      r.message = command;
-      commands.push_back(r);
-      goals_x.resize(sequence + 1, 0.0);
-      goals_x[sequence] = command.position_m.x();
-      last_heard = now;
-    }
-    SlaveInput in;
-    in.now = now;
-    in.robot = arm.read(now);
-    if (use_broken) in.robot = broken;
-    in.commands = commands;
-    in.last_heard = last_heard;
-    in.peer_session_count = last_heard ? sessions : 0;
-    out = node.step(in);
-    arm.write(out.joint_setpoint_rad);
-    if (out.report) {
-      last_report = out.report;
-      ++reports;
-      EXPECT_EQ(out.report_sequence, static_cast<std::uint64_t>(reports));
-    }
-    if (out.telemetry) ++telemetry;
-    ASSERT_TRUE(out.joint_setpoint_rad.allFinite());
-  }
-  void run(double seconds) {
-    const int ticks = static_cast<int>(std::lround(seconds * 1e3));
-    for (int i = 0; i < ticks; ++i) tick();
-  }
-  void engage(std::uint32_t number = 1) {
-    run(0.1);
-    command.engagement = number;
-    command.request = Request::kEngage;
-    run(0.1);
-    ASSERT_TRUE(node.engaged());
-  }
-  // Moves the goal in x at `speed` up to `x`.
-  void move_to(double x, double speed) {
-    while (std::abs(command.position_m.x() - x) > 1e-9) {
-      const double left = x - command.position_m.x();
-      command.position_m.x() += std::copysign(std::min(std::abs(left), speed * 1e-3), left);
-      tick();
-    }
-  }
-  double travelled() const { return (arm.true_pose().p - arm.start_pose().p).x(); }
-};
+using test::Loop;
 
 TEST(SlaveNode, EngagesByHandshakeWithoutAJump) {
   Loop loop(test::wall_config(0.22, 1000.0));

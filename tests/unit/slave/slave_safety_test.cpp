@@ -46,6 +46,16 @@ Drill engaged() {
   return d;
 }
 
+TEST(SlaveSafety, ARobotThatIsNotReadyIsNotEngaged) {
+  Drill d;
+  d.ask(Request::kHold, 0);
+  d.in.robot_ready = false;
+  EXPECT_FALSE(d.ask(Request::kEngage, 1));
+  EXPECT_EQ(d.state(), SafetyState::kObserving);
+  d.in.robot_ready = true;
+  EXPECT_TRUE(d.ask(Request::kEngage, 1));
+}
+
 TEST(SlaveSafety, IsIdleUntilTheMasterIsHeardAndAgainWhenItHasGone) {
   Drill d;
   d.silent = true;

@@ -1,0 +1,92 @@
+#include "common/io/unix_channel.hpp"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/io/address.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr std::string_view kScheme = "unix:";
+constexpr int kLookEvery = 20;  // sends
+
+}  // namespace
+
+std::string unix_address_trouble(const std::string& address) {
+  if (!address.starts_with(std::string(kScheme) + "/"))
+    return "'" + address +
+           "' is not where an adapter listens: write unix:/PATH, the path of its socket on this machine (an "
+           "adapter of something elsewhere runs here, too, and goes there itself)";
+  if (address.size() - kScheme.size() >= sizeof(sockaddr_un::sun_path))
+    return "'" + address + "' is longer than the path of a socket may be, 107 bytes: choose a shorter one";
+  return "";
+}
+
+std::string unix_path(const std::string& address) {
+  if (const std::string why = unix_address_trouble(address); !why.empty()) throw AddressError(why);
+  return address.substr(kScheme.size());
+}
+
+int connect_unix(const std::string& path) {
+  sockaddr_un there{};
+  there.sun_family = AF_UNIX;
+  path.copy(there.sun_path, sizeof there.sun_path - 1);
+  const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (fd < 0 || ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0) return fd;
+  const int why = errno;
+  ::close(fd);
+  errno = why;
+  return -1;
+}
+
+std::optional<uid_t> peer_user(int socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
+  return peer.uid;
+}
+
+bool may_be_trusted(uid_t user) { return user == ::geteuid() || user == 0; }
+
+UnixChannel::UnixChannel(const std::string& address) : path_(unix_path(address)) {}
+
+UnixChannel::~UnixChannel() { leave(); }
+
+void UnixChannel::look() {
+  if (wait_-- > 0) return;
+  wait_ = kLookEvery;
+  socket_ = connect_unix(path_);
+  if (socket_ < 0) return;
+  const std::optional<uid_t> user = peer_user(socket_);
+  stranger_.reset();
+  if (user && may_be_trusted(*user)) return;
+  stranger_ = user.value_or(static_cast<uid_t>(-1));
+  leave();
+}
+
+void UnixChannel::leave() {
+  if (socket_ >= 0) ::close(socket_);
+  socket_ = -1;
+}
+
+std::optional<std::size_t> UnixChannel::receive(std::span<std::byte> buffer) {
+  if (socket_ < 0) return std::nullopt;
+  const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC);
+  if (size > 0) return static_cast<std::size_t>(size);
+  const bool waits = size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
+  if (!waits) leave();
+  return std::nullopt;
+}
+
+void UnixChannel::send(std::span<const std::byte> datagram) {
+  if (socket_ < 0) look();
+  if (socket_ < 0) return;
+  const ssize_t sent = ::send(socket_, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (sent < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) leave();
+}
+
+}  // namespace longreach

@@ -1,0 +1,144 @@
+// When the robot is commanded, and that nothing which it says of its joints moves it.
+
+#include "tests/unit/slave/node_loop.hpp"
+
+namespace longreach {
+namespace {
+
+using test::Loop;
+
+TEST(SlaveNode, CommandsTheRobotWhileItIsEngagedHoldsOrStopsAndAtNoOtherTime) {
+  Loop loop(test::wall_config(5.0, 1000.0));
+  const auto commanded = [&](double seconds) {
+    int ticks = 0;
+    for (int i = 0; i < static_cast<int>(1e3 * seconds); ++i) {
+      loop.tick();
+      ticks += loop.out.joint_setpoint_rad.has_value();
+    }
+    return ticks;
+  };
+  loop.silent = true;
+  EXPECT_EQ(commanded(0.5), 0);
+  EXPECT_EQ(loop.view().state, SafetyState::kIdle);
+  loop.silent = false;
+  EXPECT_EQ(commanded(0.5), 0);
+  EXPECT_EQ(loop.view().state, SafetyState::kObserving);
+  loop.engage();
+  loop.move_to(0.05, 0.1);
+  ASSERT_TRUE(loop.out.joint_setpoint_rad);
+  loop.command.request = Request::kHold;
+  EXPECT_EQ(commanded(2.0), 2000);
+  EXPECT_EQ(loop.view().state, SafetyState::kHolding);
+  // Stopped in motion: it brakes under setpoints, then rests by itself.
+  loop.engage(2);
+  loop.move_to(0.1, 0.1);
+  loop.command.request = Request::kStop;
+  EXPECT_GT(commanded(0.1), 90);
+  EXPECT_EQ(loop.view().state, SafetyState::kStopped);
+  loop.run(1.5);
+  const Vector3 at_m = loop.arm.true_pose().p;
+  EXPECT_EQ(commanded(2.0), 0);
+  EXPECT_EQ(loop.arm.true_pose().p, at_m);
+  // A robot that has failed is not commanded from that tick on.
+  loop.engage(3);
+  loop.move_to(0.15, 0.1);
+  loop.broken = {};
+  loop.broken.ok = false;
+  loop.use_broken = true;
+  EXPECT_EQ(commanded(1.0), 0);
+  EXPECT_EQ(loop.view().state, SafetyState::kFault);
+  loop.use_broken = false;
+  EXPECT_EQ(commanded(1.0), 0);
+}
+
+TEST(SlaveNode, ARobotMovedBySomebodyElseStaysThereAndIsEngagedThere) {
+  Loop loop(test::wall_config(5.0, 1000.0));
+  loop.run(0.2);
+  JointVector q = test::start_joints();
+  for (int i = 0; i < 1000; ++i) {
+    q[0] += 0.2e-3;
+    q[5] += 0.3e-3;
+    loop.arm.displace(q);
+    loop.tick();
+    ASSERT_FALSE(loop.out.joint_setpoint_rad);
+  }
+  const Vector3 at_m = loop.arm.true_pose().p;
+  ASSERT_GT((at_m - loop.arm.start_pose().p).norm(), 1.0);
+  loop.run(1.0);
+  EXPECT_EQ(loop.arm.true_pose().p, at_m);
+  loop.command.engagement = 1;
+  loop.command.request = Request::kEngage;
+  while (!loop.out.joint_setpoint_rad) loop.tick();
+  EXPECT_LT((*loop.out.joint_setpoint_rad - q).norm(), 1e-9);
+  loop.run(1.0);
+  ASSERT_TRUE(loop.node.engaged());
+  EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 1e-6);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+}
+
+TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
+  const auto waits = [](const std::function<void(RobotState&)>& lie) {
+    Loop loop(test::wall_config(5.0, 1000.0));
+    loop.run(0.2);
+    loop.lie = lie;
+    loop.command.engagement = 1;
+    loop.command.request = Request::kEngage;
+    loop.run(0.4);
+    const bool waited = !loop.node.engaged() && !loop.view().robot_ready;
+    loop.lie = {};
+    loop.run(0.1);
+    return waited && loop.node.engaged();
+  };
+  EXPECT_TRUE(waits([](RobotState& robot) { robot.joint_rad_per_s[0] = 0.006; }));
+  EXPECT_FALSE(waits([](RobotState& robot) { robot.joint_rad_per_s[0] = 0.004; }));
+  EXPECT_FALSE(waits([](RobotState&) {}));
+  Loop loop(test::wall_config(5.0, 1000.0));
+  JointVector q = test::start_joints();
+  q[4] = 1.4 + 0.01;
+  loop.arm.displace(q);
+  loop.command.engagement = 1;
+  loop.command.request = Request::kEngage;
+  loop.run(0.5);
+  EXPECT_EQ(loop.view().state, SafetyState::kObserving);
+  EXPECT_FALSE(loop.view().robot_ready);
+}
+
+TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
+  struct Lie {
+    const char* what;
+    std::function<void(RobotState&)> tell;
+  };
+  const Lie lies[] = {{"leap", [](RobotState& robot) { robot.joint_rad[1] += 0.3; }},
+                      {"all", [](RobotState& robot) { robot.joint_rad.array() += 1.0; }},
+                      {"huge", [](RobotState& robot) { robot.joint_rad[0] = 1e300; }},
+                      {"speed", [](RobotState& robot) { robot.joint_rad_per_s[0] = 1e9; }},
+                      {"beyond", [](RobotState& robot) { robot.joint_rad[4] = -1.7; }}};
+  for (const Lie& lie : lies) {
+    Loop loop(test::wall_config(5.0, 1000.0));
+    loop.engage();
+    loop.move_to(0.2, 0.1);
+    JointVector before = *loop.out.joint_setpoint_rad;
+    const Vector3 at_m = loop.arm.true_pose().p;
+    loop.lie = lie.tell;
+    for (int i = 0; i < 1000; ++i) {
+      if (i == 20) loop.lie = {};
+      loop.tick();
+      ASSERT_NE(loop.view().state, SafetyState::kEngaged) << lie.what;
+      if (!loop.out.joint_setpoint_rad) continue;
+      ASSERT_LT((*loop.out.joint_setpoint_rad - before).cwiseAbs().maxCoeff(), 1e-3) << lie.what;
+      before = *loop.out.joint_setpoint_rad;
+    }
+    EXPECT_EQ(loop.view().state, SafetyState::kFault) << lie.what;
+    EXPECT_EQ(loop.view().cause, HoldCause::kRobotFault) << lie.what;
+    // Braking from 0.1 m/s, by the slowest of the joints.
+    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << lie.what;
+    loop.command.position_m.setZero();
+    loop.engage(2);
+    loop.run(0.5);
+    EXPECT_TRUE(loop.node.engaged()) << lie.what;
+    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << lie.what;
+  }
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,89 @@
+#include "slave/joint_witness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/slave/space_arm.hpp"
+
+namespace longreach {
+namespace {
+
+struct Witnessed {
+  JointWitness witness{test::space_arm()};
+  RobotState robot{};
+  Time now{std::chrono::seconds(10)};
+
+  Witnessed() { robot.joint_rad = test::start_joints(); }
+  JointDoubt after(double seconds) {
+    now += from_seconds(seconds);
+    return witness.look(robot, now).doubt;
+  }
+};
+
+TEST(JointWitness, BelievesWhatAJointCanDo) {
+  Witnessed w;
+  for (int i = 0; i < 2000; ++i) {
+    w.robot.joint_rad[5] += 0.6e-3;
+    w.robot.joint_rad_per_s[5] = 0.6;
+    ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  }
+  // As much in 0.1 s, in which nothing came, or came late.
+  w.robot.joint_rad[5] += 0.06;
+  EXPECT_EQ(w.after(0.1), JointDoubt::kNone);
+}
+
+TEST(JointWitness, ALeapIsDoubtedUntilItIsTakenBack) {
+  Witnessed w;
+  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  w.robot.joint_rad[1] += 0.3;
+  const JointFinding found = w.witness.look(w.robot, w.now + std::chrono::milliseconds(1));
+  EXPECT_EQ(found.doubt, JointDoubt::kLeapt);
+  EXPECT_EQ(found.joint, 1);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(w.after(1.0), JointDoubt::kLeapt);
+  w.robot.joint_rad[1] -= 0.3;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+}
+
+TEST(JointWitness, ARobotThatRestedForLongLeapsAllTheSame) {
+  Witnessed w;
+  for (int i = 0; i < 10'000; ++i) ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  w.robot.joint_rad[1] += 0.1;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kLeapt);
+}
+
+TEST(JointWitness, WhatIsOldIsNoNewSample) {
+  Witnessed w;
+  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  // The same sample for 0.2 s, then what the joint did meanwhile.
+  for (int i = 1; i <= 200; ++i) {
+    w.robot.age_s = 1e-3 * i;
+    ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  }
+  w.robot.age_s = 0.0;
+  w.robot.joint_rad[1] += 0.25 * 0.2;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+}
+
+TEST(JointWitness, ARobotThatHasFailedMayBeElsewhereWhenItWorksAgain) {
+  Witnessed w;
+  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  w.robot.joint_rad[1] += 0.3;
+  ASSERT_EQ(w.after(1e-3), JointDoubt::kLeapt);
+  w.witness.forget();
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+}
+
+TEST(JointWitness, DoubtsWhatIsBeyondLimitsOfPositionAndSpeed) {
+  Witnessed w;
+  w.robot.joint_rad[4] = 1.4 + 0.09;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  w.robot.joint_rad[4] = 1.4 + 0.11;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kOutside);
+  w.robot.joint_rad[4] = 1.4;
+  w.robot.joint_rad_per_s[4] = -1e9;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kTooFast);
+  w.robot.joint_rad_per_s[4] = -0.6;
+  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+}
+
+}  // namespace
+}  // namespace longreach
