@@ -6,6 +6,7 @@
 #include <exception>
 #include <thread>
 
+#include "common/io/adapter_channel.hpp"
 #include "common/io/log.hpp"
 #include "common/io/program.hpp"
 #include "common/io/real_time_loop.hpp"
@@ -100,6 +101,7 @@ int operate(const MasterOptions& options) {
     std::fputs(get_field(config, "", &config).c_str(), stdout);
     return 0;
   }
+  refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
   auto& stop = stop_requested();
   set_up_log("master", options.log);
   const MasterConfig plain = to_struct(config);
@@ -170,7 +172,7 @@ int main(int argc, char** argv) {
   app.add_option("--adapter", options.adapter,
                  "A real haptic device: where its adapter listens (device_adapter.address); without it a "
                  "simulated one")
-      ->type_name("ADDRESS:PORT");
+      ->type_name("unix:/PATH");
   app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")
       ->type_name("MODE")
       ->check(CLI::IsMember({"rate", "position"}, CLI::ignore_case));

@@ -10,7 +10,7 @@ namespace {
 constexpr double kHandSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
 constexpr double kHandSpeed_rad_per_s = 1.0;
 
-std::optional<DeviceAdapter> device_adapter(UdpChannel* channel, const MasterConfig& config) {
+std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterConfig& config) {
   if (channel == nullptr) return std::nullopt;
   return std::optional<DeviceAdapter>(std::in_place, *channel,
                                       told_in_time(config.device_adapter, config.loop.rate_hz),
@@ -32,7 +32,7 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       channel_(config.link.listen, config.link.slave),
       port_(channel_, config.link.impairment, Random(seed).child("down")),
       devices_(config.device),
-      adapter_channel_(open_adapter_channel(config.device_adapter, "device_adapter")),
+      adapter_channel_(open_adapter_channel(config.device_adapter)),
       adapter_(device_adapter(adapter_channel_.get(), config)),
       device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
       script_(config.operator_, config.mapping, config.hand.grip),
@@ -78,7 +78,10 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
   snapshot_.hand_lost = lost_;
-  if (adapter_) snapshot_.adapter = adapter_->figures();
+  if (adapter_) {
+    snapshot_.adapter = adapter_->figures();
+    snapshot_.adapter.stranger = adapter_channel_->stranger();
+  }
   snapshots_.write(snapshot_);
   write_down(in, out);
 }

@@ -10,6 +10,7 @@
 #include "common/io/mailbox.hpp"
 #include "common/io/side_figures.hpp"
 #include "common/io/udp_channel.hpp"
+#include "common/io/unix_channel.hpp"
 #include "common/wire/port.hpp"
 #include "master/devices/scripted_operator.hpp"
 #include "master/devices/simulated_devices.hpp"
@@ -82,7 +83,7 @@ class MasterShell {
   UdpChannel channel_;
   MasterPort port_;
   SimulatedDevices devices_;  // are moved while there is no adapter
-  std::unique_ptr<UdpChannel> adapter_channel_;
+  std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<DeviceAdapter> adapter_;
   HapticDevice& device_;
   ScriptedOperator script_;

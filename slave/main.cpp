@@ -103,6 +103,7 @@ int serve(const SlaveOptions& options) {
     std::fputs(get_field(config, "", &config).c_str(), stdout);
     return 0;
   }
+  refuse_insecure(options.insecure, to_struct(config).robot_adapter, "robot");
   auto& stop = stop_requested();
   set_up_log("slave", options.log);
   const SlaveConfig plain = to_struct(config);
@@ -165,7 +166,7 @@ int main(int argc, char** argv) {
   app.add_option(
          "--adapter", options.adapter,
          "A real robot: where its adapter listens (robot_adapter.address); without it a simulated one")
-      ->type_name("ADDRESS:PORT");
+      ->type_name("unix:/PATH");
   app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
       ->type_name("ADDRESS:PORT")
       ->check(longreach::address_by_its_form())

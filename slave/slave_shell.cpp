@@ -8,7 +8,7 @@ namespace {
 
 constexpr Duration kOccupied = std::chrono::seconds(1);
 
-std::optional<RobotAdapter> robot_adapter(UdpChannel* channel, const SlaveConfig& config) {
+std::optional<RobotAdapter> robot_adapter(UnixChannel* channel, const SlaveConfig& config) {
   if (channel == nullptr) return std::nullopt;
   return std::optional<RobotAdapter>(std::in_place, *channel,
                                      told_in_time(config.robot_adapter, config.loop.rate_hz), config.robot,
@@ -21,7 +21,7 @@ SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
     : channel_(config.link.listen),
       port_(channel_, config.link.impairment, Random(seed).child("up")),
       arm_(config, Random(seed).child("arm")),
-      adapter_channel_(open_adapter_channel(config.robot_adapter, "robot_adapter")),
+      adapter_channel_(open_adapter_channel(config.robot_adapter)),
       adapter_(robot_adapter(adapter_channel_.get(), config)),
       robot_(adapter_ ? static_cast<Robot&>(*adapter_) : arm_),
       node_(config) {
@@ -64,7 +64,10 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.view = node_.view();
   snapshot_.rejected_setpoints = adapter_ ? adapter_->rejected_setpoints() : arm_.rejected_setpoints();
   snapshot_.watchdog_stopped = adapter_ ? adapter_->watchdog_stopped() : arm_.watchdog_stopped();
-  if (adapter_) snapshot_.adapter = adapter_->figures();
+  if (adapter_) {
+    snapshot_.adapter = adapter_->figures();
+    snapshot_.adapter.stranger = adapter_channel_->stranger();
+  }
   snapshots_.write(snapshot_);
   write_down(in, out);
 }

@@ -10,6 +10,7 @@
 #include "common/io/mailbox.hpp"
 #include "common/io/side_figures.hpp"
 #include "common/io/udp_channel.hpp"
+#include "common/io/unix_channel.hpp"
 #include "common/wire/port.hpp"
 #include "slave/drivers/robot_adapter.hpp"
 #include "slave/robot/simulated_arm.hpp"
@@ -81,7 +82,7 @@ class SlaveShell {
   UdpChannel channel_;
   SlavePort port_;
   SimulatedArm arm_;  // moves while there is no adapter
-  std::unique_ptr<UdpChannel> adapter_channel_;
+  std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<RobotAdapter> adapter_;
   Robot& robot_;
   SlaveNode node_;

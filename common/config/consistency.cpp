@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "common/config/adapter_address.hpp"
 #include "common/config/guarded.hpp"
 #include "common/config/host_and_port.hpp"
 #include "common/config/number_text.hpp"
@@ -60,6 +61,11 @@ Finding is_address(const Message& message, const char* field, const std::string&
   const auto* descriptor = message.GetDescriptor()->FindFieldByName(field);
   if (text.empty() && descriptor->default_value_string().empty()) return std::nullopt;
   return at(message, field, " = \"" + text + "\"" + kNoAddress);
+}
+
+Finding check_adapter(const proto::Adapter& adapter) {
+  const std::string why = adapter.address().empty() ? "" : adapter_address_trouble(adapter.address());
+  return why.empty() ? Finding{} : at(adapter, "address", " = " + adapter.address() + why);
 }
 
 // Three numbers that say where to: long enough to be divided by their length, short enough to be squared.
@@ -331,8 +337,7 @@ Finding check_message(const Message& message) {
   if (const auto* link = dynamic_cast<const proto::SlaveLink*>(&message)) return check_link(*link);
   if (const auto* rpc = dynamic_cast<const proto::RpcServer*>(&message))
     return is_address(*rpc, "listen", rpc->listen());
-  if (const auto* adapter = dynamic_cast<const proto::Adapter*>(&message))
-    return is_address(*adapter, "address", adapter->address());
+  if (const auto* adapter = dynamic_cast<const proto::Adapter*>(&message)) return check_adapter(*adapter);
   if (const auto* safety = dynamic_cast<const proto::SlaveSafety*>(&message)) return check_safety(*safety);
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* lab = dynamic_cast<const proto::LabConfig*>(&message)) return check_laboratory(*lab);

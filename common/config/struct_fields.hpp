@@ -44,7 +44,6 @@ void visit_fields(Visitor& visit, S& s) {
 template <class Visitor, Is<AdapterConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("address", s.address);
-  visit("remote", s.remote);
   visit("silence_s", s.silence_s);
 }
 

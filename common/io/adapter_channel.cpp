@@ -2,23 +2,20 @@
 
 #include <algorithm>
 
-#include "common/io/address.hpp"
+#include "common/config/config.hpp"
 #include "common/wire/adapter_port.hpp"
 
 namespace longreach {
 
-std::unique_ptr<UdpChannel> open_adapter_channel(const AdapterConfig& config, const std::string& field) {
+std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config) {
   if (config.address.empty()) return nullptr;
-  const auto adapter = parse_udp_address(config.address);
-  if (!config.remote && !adapter.address().is_loopback()) {
-    throw AddressError(field + ".address = " + config.address +
-                       " is not on this machine, and its datagrams are neither encrypted nor authenticated; "
-                       "run the adapter here, or set " +
-                       field + ".remote on a wire of its own");
-  }
-  const bool v6 = adapter.address().is_v6();
-  const std::string listen = config.remote ? (v6 ? "[::]:0" : "0.0.0.0:0") : (v6 ? "[::1]:0" : "127.0.0.1:0");
-  return std::make_unique<UdpChannel>(listen, config.address);
+  return std::make_unique<UnixChannel>(config.address);
+}
+
+void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device) {
+  if (!insecure || config.address.empty()) return;
+  throw ConfigError("--insecure lets everybody on this machine move a simulated " + device +
+                    " only, and --adapter is a real one: leave out --insecure");
 }
 
 AdapterConfig told_in_time(AdapterConfig config, double rate_hz) {
@@ -28,6 +25,10 @@ AdapterConfig told_in_time(AdapterConfig config, double rate_hz) {
 
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address) {
+  if (figures.stranger)
+    return "what listens at " + address + " belongs to another user (" + std::to_string(*figures.stranger) +
+           "), not to this one or root: nothing is said to it; start the adapter of the " + device +
+           " as the user who runs longreach";
   if (!figures.present || (!figures.silent && !figures.failed)) return "";
   const std::string adapter = "the adapter of the " + device + " at " + address;
   if (figures.failed) return adapter + " says that the " + device + " has failed; mend that, then engage";

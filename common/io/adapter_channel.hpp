@@ -4,14 +4,16 @@
 #include <memory>
 #include <string>
 
-#include "common/io/udp_channel.hpp"
+#include "common/io/unix_channel.hpp"
 #include "common/link/adapter_config.hpp"
 
 namespace longreach {
 
-/// `field`: of the configuration, for what is said. Null: there is no adapter. Throws AddressError, also for
-/// an address elsewhere where `remote` is not set.
-std::unique_ptr<UdpChannel> open_adapter_channel(const AdapterConfig& config, const std::string& field);
+/// Null: there is no adapter. Throws AddressError.
+std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config);
+
+/// RPC that everybody may use moves nothing real. Throws ConfigError. `device`: "haptic device" or "robot".
+void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device);
 
 /// Of a loop of so many ticks a second: the last tick within silence_s tells that silence, not the first
 /// after it.

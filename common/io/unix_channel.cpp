@@ -1,34 +1,25 @@
 #include "common/io/unix_channel.hpp"
 
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
+#include "common/config/adapter_address.hpp"
 #include "common/io/address.hpp"
 
 namespace longreach {
 namespace {
 
-constexpr std::string_view kScheme = "unix:";
 constexpr int kLookEvery = 20;  // sends
 
 }  // namespace
 
-std::string unix_address_trouble(const std::string& address) {
-  if (!address.starts_with(std::string(kScheme) + "/"))
-    return "'" + address +
-           "' is not where an adapter listens: write unix:/PATH, the path of its socket on this machine (an "
-           "adapter of something elsewhere runs here, too, and goes there itself)";
-  if (address.size() - kScheme.size() >= sizeof(sockaddr_un::sun_path))
-    return "'" + address + "' is longer than the path of a socket may be, 107 bytes: choose a shorter one";
-  return "";
-}
-
 std::string unix_path(const std::string& address) {
-  if (const std::string why = unix_address_trouble(address); !why.empty()) throw AddressError(why);
-  return address.substr(kScheme.size());
+  if (const std::string why = adapter_address_trouble(address); !why.empty())
+    throw AddressError("'" + address + "'" + why);
+  return adapter_path(address);
 }
 
 int connect_unix(const std::string& path) {

@@ -1,12 +1,10 @@
 #pragma once
-// A channel to a program of this machine: this end of a Unix socket (SOCK_SEQPACKET), whose other end listens at
-// a path and belongs to the same user or to root; the system says to whom. Anybody else's is left again. The
-// other end may come later, end and come again. Never waits; allocates nothing after construction.
+// A channel to a program of this machine: this end of a Unix socket (SOCK_SEQPACKET), whose other end listens
+// at a path and belongs to the same user or to root; the system says to whom. Anybody else's is left again.
+// The other end may come later, end and come again. Never waits; allocates nothing after construction.
 
 #include <sys/types.h>
-#include <sys/un.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,10 +12,8 @@
 
 namespace longreach {
 
-/// The path of `unix:/PATH`. Throws AddressError.
+/// The path of an adapter's address. Throws AddressError.
 std::string unix_path(const std::string& address);
-/// Why that is no address of an adapter, or empty.
-std::string unix_address_trouble(const std::string& address);
 
 /// To what listens there; -1: nothing does, with errno. Never waits.
 int connect_unix(const std::string& path);

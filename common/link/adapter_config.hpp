@@ -7,7 +7,6 @@ namespace longreach {
 
 struct AdapterConfig {
   std::string address;  // empty: there is none
-  bool remote = false;
   double silence_s = 0.02;
 };
 

@@ -3,9 +3,12 @@
 // this file; it needs the standard library alone. deploy/adapters has an example of each kind, and
 // `longreach adapter check` tries yours.
 //
-// Datagrams over UDP on one machine. Your adapter listens on a port; longreach sends to it every tick of its
-// loop (1000 a second unless loop.rate_hz says else), and your adapter sends back to where the newest
-// accepted datagram came from, 500 to 4000 times a second, by its own clock or as an answer to each.
+// Datagrams on one machine, over a Unix socket (SOCK_SEQPACKET). Your adapter listens at a path that only its
+// user may use (mode 0600); longreach connects to unix:/PATH, as that user or as root, and each end asks the
+// system who the other is (SO_PEERCRED) and closes the socket on anybody else. longreach sends every tick of
+// its loop (1000 a second unless loop.rate_hz says else), and your adapter sends back 500 to 4000 times a
+// second, by its own clock or as an answer to each. When either end has gone, the adapter takes the next
+// program that connects; one at a time.
 //
 //   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
 //   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
@@ -92,7 +95,7 @@ constexpr int kJoints = 6;
 struct SetpointDatagram {
   static constexpr std::uint8_t kKind = kSetpoint;
   enum Flag : std::uint32_t {
-    kMove = 1,  // the joints follow joint_rad; without it they rest where they are
+    kMove = 1,  // the joints follow joint_rad; without it they brake and rest: nobody is engaged
     kGrip = 2   // the gripper is closed
   };
   Header header{};
@@ -107,7 +110,7 @@ struct RobotDatagram {
   enum Flag : std::uint32_t {
     kOk = 1,      // the robot works and may be moved
     kLoad = 2,    // the gripper holds something
-    kStopped = 4  // by the watchdog, until the next setpoint
+    kStopped = 4  // it rests without a setpoint, until the next one
   };
   Header header{};
   std::uint32_t flags = 0;

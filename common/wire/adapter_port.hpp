@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "common/core/time.hpp"
@@ -21,7 +22,8 @@ struct AdapterFigures {
   std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
   std::uint64_t late = 0;       // overtaken, repeated, or of another session while one lasts
   std::uint64_t restarts = 0;
-  double silent_after_s = 0.0;  // the last silence, when it became a fault
+  double silent_after_s = 0.0;              // the last silence, when it became a fault
+  std::optional<std::uint32_t> stranger{};  // the user, when it belongs to one whom nothing is said
 };
 
 template <class Out, class In>

@@ -3,21 +3,23 @@
 // moves in three directions, held by a hand that rests at home or, with --push, pushes along x and comes
 // back.
 //
-//   longreach-reference-device PORT [--push METRES]     port 0: any free one; prints where it listens
-//   longreach-master --adapter 127.0.0.1:PORT
+//   longreach-reference-device /run/user/1000/device [--push METRES]
+//   longreach-master --adapter unix:/run/user/1000/device
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sched.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <thread>
@@ -66,47 +68,63 @@ class Device {
   double force_n_[3] = {}, x_m_[3] = {}, v_m_per_s_[3] = {};
 };
 
-/// The port that longreach sends to, and where it sends from.
+/// The path that longreach connects to, and longreach: one program of this user, or root's.
 class Socket {
  public:
-  explicit Socket(int port) : fd_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    sockaddr_in own{};
-    own.sin_family = AF_INET;
-    own.sin_port = htons(static_cast<std::uint16_t>(port));
-    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::bind(fd_, reinterpret_cast<sockaddr*>(&own), sizeof own) != 0) {
-      std::perror("cannot listen");
+  explicit Socket(const char* path) : fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
+    sockaddr_un own{};
+    own.sun_family = AF_UNIX;
+    std::strncpy(own.sun_path, path, sizeof own.sun_path - 1);
+    const auto* address = reinterpret_cast<const sockaddr*>(&own);
+    const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
+    const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
+    ::close(other);
+    if (!taken && std::filesystem::is_socket(path)) ::unlink(path);  // of a program that has ended
+    ::umask(077);                                                    // nobody else may connect
+    if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
+      std::fprintf(stderr, "cannot listen on %s: %s\n", path, taken ? "somebody does" : std::strerror(errno));
       std::exit(1);
     }
-    socklen_t size = sizeof own;
-    ::getsockname(fd_, reinterpret_cast<sockaddr*>(&own), &size);
-    std::printf("listening on 127.0.0.1:%d\n", ntohs(own.sin_port));
+    std::printf("listening on unix:%s\n", path);
     std::fflush(stdout);
   }
-  ~Socket() { ::close(fd_); }
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
 
   /// The next datagram that is one; false: nothing more has come. Never waits.
   template <class Datagram>
-  bool receive(Datagram& out, sockaddr_in& from) const {
+  bool receive(Datagram& out) {
     unsigned char bytes[2048];
-    for (;;) {
-      socklen_t size = sizeof from;
-      const ssize_t n =
-          ::recvfrom(fd_, bytes, sizeof bytes, MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from), &size);
-      if (n < 0) return false;
-      if (decode(bytes, static_cast<std::size_t>(n), out)) return true;
+    while (peer_ >= 0 || accept()) {
+      const ssize_t n = ::recv(peer_, bytes, sizeof bytes, MSG_DONTWAIT);
+      if (n < 0 && errno == EAGAIN) return false;
+      if (n <= 0) leave();
+      if (n > 0 && decode(bytes, static_cast<std::size_t>(n), out)) return true;
     }
+    return false;
   }
 
   template <class Datagram>
-  void send(const Datagram& datagram, const sockaddr_in& to) const {
-    ::sendto(fd_, &datagram, sizeof datagram, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  void send(const Datagram& datagram) const {
+    if (peer_ >= 0) ::send(peer_, &datagram, sizeof datagram, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
  private:
-  int fd_;
+  bool accept() {
+    peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK);
+    ucred who{};
+    socklen_t size = sizeof who;
+    if (peer_ >= 0 && (::getsockopt(peer_, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0 ||
+                       (who.uid != ::geteuid() && who.uid != 0)))
+      leave();
+    return peer_ >= 0;
+  }
+  void leave() {
+    ::close(peer_);
+    peer_ = -1;
+  }
+
+  int fd_, peer_ = -1;
 };
 
 std::int64_t now_ns() {
@@ -120,20 +138,17 @@ std::uint64_t draw_session() {
   return (std::uint64_t{random()} << 32U | random()) | 1U;
 }
 
-[[noreturn]] void serve(int port, double push_m) {
-  const Socket socket(port);
+[[noreturn]] void serve(const char* path, double push_m) {
+  Socket socket(path);
   Exchange exchange(draw_session());
   Device device(push_m);
-  sockaddr_in longreach{};
   const sched_param priority{.sched_priority = 40};
   sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {
     WrenchDatagram in;
-    sockaddr_in from{};
-    while (socket.receive(in, from)) {
+    while (socket.receive(in)) {
       if (!exchange.accept(in.header, now_ns())) continue;
-      longreach = from;
       const double none[3] = {};
       device.write((in.flags & WrenchDatagram::kLive) != 0 ? in.force_n : none);
     }
@@ -142,19 +157,12 @@ std::uint64_t draw_session() {
     device.read(out);
     if (exchange.sessions() > 0) {
       exchange.stamp(out);
-      socket.send(out, longreach);
+      socket.send(out);
     }
     due = std::max(due + std::chrono::milliseconds(1),
                    std::chrono::steady_clock::now() - std::chrono::milliseconds(5));
     std::this_thread::sleep_until(due);
   }
-}
-
-/// 0 to 65535; -1: it is none.
-int port_of(const char* text) {
-  char* end = nullptr;
-  const long port = std::strtol(text, &end, 10);
-  return end != text && *end == '\0' && port >= 0 && port <= 65535 ? static_cast<int>(port) : -1;
 }
 
 /// NaN: it is none.
@@ -168,13 +176,11 @@ double number_of(const char* text) {
 
 int main(int argc, char** argv) {
   const bool pushes = argc == 4 && std::strcmp(argv[2], "--push") == 0;
-  const int port = argc == 2 || pushes ? port_of(argv[1]) : -1;
   const double way_m = pushes ? number_of(argv[3]) : 0.0;
-  if (port < 0 || std::isnan(way_m)) {
-    std::fprintf(
-        stderr,
-        "usage: longreach-reference-device PORT [--push METRES], PORT from 0 (any free one) to 65535\n");
+  if ((argc != 2 && !pushes) || std::isnan(way_m)) {
+    std::fputs("usage: longreach-reference-device PATH [--push METRES], PATH of the socket to listen on\n",
+               stderr);
     return 2;
   }
-  serve(port, way_m);
+  serve(argv[1], way_m);
 }

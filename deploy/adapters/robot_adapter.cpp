@@ -3,21 +3,23 @@
 // deploy/robots/cartesian.txtpb, whose first three joints move the tool along z, y and x, and a wall of
 // 1000 N/m that it meets on its way along x.
 //
-//   longreach-reference-robot PORT [--wall METRES]     port 0: any free one; prints where it listens
-//   longreach-slave --adapter 127.0.0.1:PORT --set robot_file=robots/cartesian.txtpb
+//   longreach-reference-robot /run/user/1000/robot [--wall METRES]
+//   longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=robots/cartesian.txtpb
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sched.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <thread>
@@ -68,47 +70,63 @@ class Robot {
   double setpoint_m_[kJoints] = {}, joint_m_[kJoints] = {}, speed_m_per_s_[kJoints] = {};
 };
 
-/// The port that longreach sends to, and where it sends from.
+/// The path that longreach connects to, and longreach: one program of this user, or root's.
 class Socket {
  public:
-  explicit Socket(int port) : fd_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    sockaddr_in own{};
-    own.sin_family = AF_INET;
-    own.sin_port = htons(static_cast<std::uint16_t>(port));
-    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::bind(fd_, reinterpret_cast<sockaddr*>(&own), sizeof own) != 0) {
-      std::perror("cannot listen");
+  explicit Socket(const char* path) : fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
+    sockaddr_un own{};
+    own.sun_family = AF_UNIX;
+    std::strncpy(own.sun_path, path, sizeof own.sun_path - 1);
+    const auto* address = reinterpret_cast<const sockaddr*>(&own);
+    const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
+    const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
+    ::close(other);
+    if (!taken && std::filesystem::is_socket(path)) ::unlink(path);  // of a program that has ended
+    ::umask(077);                                                    // nobody else may connect
+    if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
+      std::fprintf(stderr, "cannot listen on %s: %s\n", path, taken ? "somebody does" : std::strerror(errno));
       std::exit(1);
     }
-    socklen_t size = sizeof own;
-    ::getsockname(fd_, reinterpret_cast<sockaddr*>(&own), &size);
-    std::printf("listening on 127.0.0.1:%d\n", ntohs(own.sin_port));
+    std::printf("listening on unix:%s\n", path);
     std::fflush(stdout);
   }
-  ~Socket() { ::close(fd_); }
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
 
   /// The next datagram that is one; false: nothing more has come. Never waits.
   template <class Datagram>
-  bool receive(Datagram& out, sockaddr_in& from) const {
+  bool receive(Datagram& out) {
     unsigned char bytes[2048];
-    for (;;) {
-      socklen_t size = sizeof from;
-      const ssize_t n =
-          ::recvfrom(fd_, bytes, sizeof bytes, MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from), &size);
-      if (n < 0) return false;
-      if (decode(bytes, static_cast<std::size_t>(n), out)) return true;
+    while (peer_ >= 0 || accept()) {
+      const ssize_t n = ::recv(peer_, bytes, sizeof bytes, MSG_DONTWAIT);
+      if (n < 0 && errno == EAGAIN) return false;
+      if (n <= 0) leave();
+      if (n > 0 && decode(bytes, static_cast<std::size_t>(n), out)) return true;
     }
+    return false;
   }
 
   template <class Datagram>
-  void send(const Datagram& datagram, const sockaddr_in& to) const {
-    ::sendto(fd_, &datagram, sizeof datagram, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  void send(const Datagram& datagram) const {
+    if (peer_ >= 0) ::send(peer_, &datagram, sizeof datagram, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
  private:
-  int fd_;
+  bool accept() {
+    peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK);
+    ucred who{};
+    socklen_t size = sizeof who;
+    if (peer_ >= 0 && (::getsockopt(peer_, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0 ||
+                       (who.uid != ::geteuid() && who.uid != 0)))
+      leave();
+    return peer_ >= 0;
+  }
+  void leave() {
+    ::close(peer_);
+    peer_ = -1;
+  }
+
+  int fd_, peer_ = -1;
 };
 
 std::int64_t now_ns() {
@@ -122,20 +140,17 @@ std::uint64_t draw_session() {
   return (std::uint64_t{random()} << 32U | random()) | 1U;
 }
 
-[[noreturn]] void serve(int port, double wall_m) {
-  const Socket socket(port);
+[[noreturn]] void serve(const char* path, double wall_m) {
+  Socket socket(path);
   Exchange exchange(draw_session());
   Robot robot(wall_m);
-  sockaddr_in longreach{};
   const sched_param priority{.sched_priority = 40};
   sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {
     SetpointDatagram in;
-    sockaddr_in from{};
-    while (socket.receive(in, from)) {
+    while (socket.receive(in)) {
       if (!exchange.accept(in.header, now_ns())) continue;
-      longreach = from;
       if ((in.flags & SetpointDatagram::kMove) != 0) {
         robot.follow(in.joint_rad);
       } else {
@@ -147,19 +162,12 @@ std::uint64_t draw_session() {
     robot.read(out);
     if (exchange.sessions() > 0) {
       exchange.stamp(out);
-      socket.send(out, longreach);
+      socket.send(out);
     }
     due = std::max(due + std::chrono::milliseconds(1),
                    std::chrono::steady_clock::now() - std::chrono::milliseconds(5));
     std::this_thread::sleep_until(due);
   }
-}
-
-/// 0 to 65535; -1: it is none.
-int port_of(const char* text) {
-  char* end = nullptr;
-  const long port = std::strtol(text, &end, 10);
-  return end != text && *end == '\0' && port >= 0 && port <= 65535 ? static_cast<int>(port) : -1;
 }
 
 /// NaN: it is none.
@@ -173,13 +181,11 @@ double number_of(const char* text) {
 
 int main(int argc, char** argv) {
   const bool placed = argc == 4 && std::strcmp(argv[2], "--wall") == 0;
-  const int port = argc == 2 || placed ? port_of(argv[1]) : -1;
   const double way_m = placed ? number_of(argv[3]) : 0.1;
-  if (port < 0 || std::isnan(way_m)) {
-    std::fprintf(
-        stderr,
-        "usage: longreach-reference-robot PORT [--wall METRES], PORT from 0 (any free one) to 65535\n");
+  if ((argc != 2 && !placed) || std::isnan(way_m)) {
+    std::fputs("usage: longreach-reference-robot PATH [--wall METRES], PATH of the socket to listen on\n",
+               stderr);
     return 2;
   }
-  serve(port, way_m);
+  serve(argv[1], way_m);
 }

@@ -69,7 +69,7 @@ class AdapterCheck {
     }
     if (talk_.wrong().empty()) {
       add(false, "answers", "nothing has come back in 2 s",
-          "start it; it has to send to where the newest datagram came from");
+          "start it; it has to answer the program that has connected");
     } else {
       add(false, "answers", "what comes is no " + std::string(Subject::kSends) + ": " + wrong(),
           "compare with common/link/adapter_datagram.hpp");

@@ -5,11 +5,11 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
-#include "common/io/address.hpp"
+#include "common/io/unix_channel.hpp"
 
 namespace longreach {
 namespace {
@@ -31,21 +31,28 @@ std::int64_t taken_ns(msghdr& message) {
 
 }  // namespace
 
-AdapterSocket::AdapterSocket(const std::string& address) {
-  const auto adapter = parse_udp_address(address);
-  fd_ = ::socket(adapter.protocol().family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const int on = 1, bytes = 1 << 20;
-  ::setsockopt(fd_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-  ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
-  // Connected: what others send does not arrive.
-  if (fd_ < 0 || ::connect(fd_, adapter.data(), static_cast<socklen_t>(adapter.size())) != 0) {
-    const std::string why = std::strerror(errno);
-    if (fd_ >= 0) ::close(fd_);
-    throw std::runtime_error("cannot send to " + address + ": " + why);
+AdapterSocket::AdapterSocket(const std::string& address) : path_(unix_path(address)) { reach(); }
+
+void AdapterSocket::reach() const {
+  if (fd_ >= 0) return;
+  fd_ = connect_unix(path_);
+  if (fd_ < 0) return;
+  const auto user = peer_user(fd_);
+  if (!user || !may_be_trusted(*user)) {
+    leave();
+    throw std::runtime_error("what listens at unix:" + path_ +
+                             " belongs to another user: start the adapter as the user who runs longreach");
   }
+  const int on = 1;
+  ::setsockopt(fd_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
 }
 
-AdapterSocket::~AdapterSocket() { ::close(fd_); }
+void AdapterSocket::leave() const {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+AdapterSocket::~AdapterSocket() { leave(); }
 
 std::int64_t AdapterSocket::now_ns() {
   timespec t{};
@@ -55,6 +62,7 @@ std::int64_t AdapterSocket::now_ns() {
 
 std::int64_t AdapterSocket::send(std::span<const std::byte> datagram) const {
   // Nobody there: that nothing comes back says so.
+  reach();
   [[maybe_unused]] const ssize_t sent = ::send(fd_, datagram.data(), datagram.size(), MSG_NOSIGNAL);
   return now_ns();
 }
@@ -70,7 +78,8 @@ std::optional<AdapterSocket::Arrival> AdapterSocket::receive(std::int64_t end_ns
     message.msg_control = control.data();
     message.msg_controllen = control.size();
     const ssize_t size = ::recvmsg(fd_, &message, MSG_DONTWAIT | MSG_TRUNC);
-    if (size >= 0) {
+    if (size == 0 || (size < 0 && errno != EAGAIN)) leave();
+    if (size > 0) {
       out.size = static_cast<std::size_t>(size);
       out.at_ns = taken_ns(message);
       return out;
@@ -78,12 +87,8 @@ std::optional<AdapterSocket::Arrival> AdapterSocket::receive(std::int64_t end_ns
     const std::int64_t left_ns = end_ns - now_ns();
     if (left_ns <= 0) return std::nullopt;
     const timespec wait{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
-    pollfd readable{fd_, POLLIN, 0};
+    pollfd readable{fd_, POLLIN, 0};  // without anybody there: only waits
     ::ppoll(&readable, 1, &wait, nullptr);
-    // Nobody listens there: the error is taken, or this would spin.
-    int error = 0;
-    socklen_t length = sizeof error;
-    ::getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &length);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The socket of `longreach adapter check`: sends to an adapter and hears what it sends back, with the times
-// at which the system took it, so that a late reader blames nobody.
+// at which the system took it, so that a late reader blames nobody. The adapter may come later, end and come
+// again.
 
 #include <array>
 #include <cstddef>
@@ -32,7 +33,11 @@ class AdapterSocket {
   [[nodiscard]] static std::int64_t now_ns();
 
  private:
-  int fd_;
+  void reach() const;
+  void leave() const;
+
+  std::string path_;
+  mutable int fd_ = -1;  // none: nobody listens
 };
 
 }  // namespace longreach

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/config/adapter_address.hpp"
 #include "common/config/config.hpp"
 #include "common/io/manual/program_text.hpp"
 #include "common/io/option_checks.hpp"
@@ -185,11 +186,11 @@ void Grammar::declare_site() {
 
 void Grammar::declare_adapter() {
   adapter_ = declare(app_, "adapter", "try an adapter of a real device or robot",
-                     "Example: longreach adapter check --device 127.0.0.1:47101");
+                     "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
   CLI::App* check = declare(*adapter_, "check", "does it keep the rules of the protocol?", kAdapterCheckMore);
-  check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("HOST:PORT");
-  check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("HOST:PORT");
+  check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
+  check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
   check->add_option("--force", words_.force, "force that a device is asked for, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check->add_option("--move", words_.move, "way that a robot's first joint moves, -0.5 to 0.5 rad or m [0]")
@@ -275,11 +276,12 @@ PairCommand Grammar::pair_command() const {
 AdapterCheckCommand Grammar::adapter_command() const {
   if (words_.device.empty() == words_.robot.empty())
     throw UsageError(
-        "adapter check needs --device HOST:PORT or --robot HOST:PORT, where the adapter listens");
+        "adapter check needs --device unix:/PATH or --robot unix:/PATH, where the adapter listens");
   AdapterCheckCommand check;
   check.robot = !words_.robot.empty();
   check.address = check.robot ? words_.robot : words_.device;
-  check_address(check.robot ? "--robot" : "--device", check.address, "127.0.0.1:47101");
+  if (const std::string why = adapter_address_trouble(check.address); !why.empty())
+    throw UsageError((check.robot ? "--robot = " : "--device = ") + check.address + why);
   check.force_n = bounded("--force", words_.force, parse_number(words_.force), 0.01, 10.0, " N");
   check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
   return check;

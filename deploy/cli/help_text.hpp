@@ -51,7 +51,7 @@ inline constexpr const char* kAdapterCheckMore =
 Only where no longreach talks to it meanwhile. THE DEVICE PUSHES by --force along z: hold it or keep clear; it has to
 tell in force_n what it does. A robot is asked to stay where it is, or with --move THE ROBOT MOVES its first joint.
 Exit status 1 when a rule is not kept; each line then says what to do. The rules: common/link/adapter_datagram.hpp.
-Example: longreach adapter check --robot 127.0.0.1:47111 --move 0.01)";
+Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
 
 inline constexpr const char* kSetMore =
     R"(Fields, units and ranges: proto/config.proto. Some may not change while engaged, some only

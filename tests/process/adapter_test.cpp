@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "tests/process/broken_adapter.hpp"
+#include "tests/process/robot_box.hpp"
 #include "tests/process/station.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
 
 namespace longreach {
 namespace {
@@ -27,26 +29,16 @@ Tried try_adapter(const std::vector<std::string>& options) {
 
 class Adapters : public Station {
  protected:
-  /// Starts one of the reference adapters; where it listens.
-  static std::string start(std::unique_ptr<RunningProgram>& program, const std::string& kind,
-                           const std::vector<std::string>& options = {}) {
+  /// Starts one of the reference adapters; where it listens. Again: killed by the system, as it were.
+  std::string start(std::unique_ptr<RunningProgram>& program, const std::string& kind,
+                    const std::vector<std::string>& options = {}) const {
     program.reset();
-    std::vector<std::string> words{"0"};
+    const std::string path = folder_.path() / kind;
+    std::vector<std::string> words{path};
     words.insert(words.end(), options.begin(), options.end());
     program = std::make_unique<RunningProgram>("longreach-reference-" + kind, words);
-    const auto said = [&] {
-      const std::string text = program->output();
-      return text.ends_with('\n') ? text.substr(text.rfind(' ') + 1, text.size() - text.rfind(' ') - 2) : "";
-    };
-    EXPECT_TRUE(eventually([&] { return !said().empty(); }));
-    return said();
-  }
-  /// Killed by the system, as it were; where it then listens again.
-  static void start_again(std::unique_ptr<RunningProgram>& program, const std::string& kind,
-                          const std::string& address, const std::vector<std::string>& options = {}) {
-    std::vector<std::string> words{address.substr(address.rfind(':') + 1)};
-    words.insert(words.end(), options.begin(), options.end());
-    program = std::make_unique<RunningProgram>("longreach-reference-" + kind, words);
+    EXPECT_TRUE(eventually([&] { return program->output().find("listening on") != std::string::npos; }));
+    return "unix:" + path;
   }
 
   void start_both(const std::string& silence_s, const std::vector<std::string>& device_options) {
@@ -64,6 +56,7 @@ class Adapters : public Station {
     EXPECT_LE(after_us, 20'000u + side.counter("lateness_max_us") + side.counter("busy_max_us"));
   }
 
+  TemporaryFolder folder_;
   std::unique_ptr<RunningProgram> device_, robot_;
   std::string device_address_, robot_address_;
 };
@@ -98,7 +91,7 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_NE(why.find("has gone silent; start it again"), std::string::npos) << why;
   EXPECT_TRUE(says(*master_program_, "has gone silent; start it again")) << outputs();
   // Back again, it is not engaged by itself.
-  start_again(device_, "device", device_address_);
+  start(device_, "device");
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
   EXPECT_EQ(master_.state(), "Fault");
   EXPECT_TRUE(engaged()) << outputs();
@@ -113,7 +106,7 @@ TEST_F(Adapters, AKilledAdapterOfTheRobotIsAFaultAndTheRobotIsTakenWhereItThenIs
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
   expect_told_in_time(slave_);
   EXPECT_NE(slave_.status()->trouble().find("has gone silent; start it again"), std::string::npos);
-  start_again(robot_, "robot", robot_address_);
+  start(robot_, "robot");
   ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
   EXPECT_EQ(slave_.state(), "Fault");
   EXPECT_TRUE(engaged()) << outputs();
@@ -164,30 +157,90 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
     }
     EXPECT_TRUE(told(tried)) << c.told << ", " << c.advice << "\n" << tried.output;
   }
-  EXPECT_EQ(try_adapter({"--device", "127.0.0.1"}).status, 2);
   EXPECT_EQ(try_adapter({}).status, 2);
 }
 
-TEST_F(Adapters, AnAdapterElsewhereIsRefusedUnlessItIsAskedFor) {
-  start_master({"--adapter", "192.0.2.7:47101"});
-  EXPECT_EQ(master_program_->wait(seconds(20)), 2);
-  EXPECT_NE(master_program_->output().find("device_adapter.address = 192.0.2.7:47101 is not on this machine"),
-            std::string::npos)
-      << outputs();
-  start_slave({"--adapter", "192.0.2.7:47111"});
+TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
+  for (const std::string address : {"192.0.2.7:47101", "127.0.0.1:47101", "unix:here"}) {
+    start_master({"--adapter", address});
+    EXPECT_EQ(master_program_->wait(seconds(20)), 2);
+    EXPECT_NE(master_program_->output().find("device_adapter.address = " + address +
+                                             " is not where an adapter listens: write unix:/PATH"),
+              std::string::npos)
+        << outputs();
+    start_slave({"--adapter", address});
+    EXPECT_EQ(slave_program_->wait(seconds(20)), 2);
+    EXPECT_EQ(try_adapter({"--robot", address}).status, 2);
+  }
+}
+
+TEST_F(Adapters, NothingRealIsMovedByWhomRpcInClearLetsIn) {
+  start_slave({"--insecure", "--adapter", "unix:/nowhere"});
   EXPECT_EQ(slave_program_->wait(seconds(20)), 2);
-  EXPECT_NE(slave_program_->output().find("set robot_adapter.remote"), std::string::npos) << outputs();
+  EXPECT_NE(slave_program_->output().find("leave out --insecure"), std::string::npos) << outputs();
+  start_master({"--insecure", "--adapter", "unix:/nowhere"});
+  EXPECT_EQ(master_program_->wait(seconds(20)), 2);
+  EXPECT_NE(master_program_->output().find("leave out --insecure"), std::string::npos) << outputs();
+}
+
+TEST_F(Adapters, ASecondProgramIsNotHeardWhileTheFirstHasTheAdapter) {
+  start_both("0.5", {});
+  ASSERT_TRUE(engaged()) << outputs();
+  // However long the first is held up.
+  slave_program_->signal(SIGSTOP);
+  const Tried tried = try_adapter({"--robot", robot_address_, "--move", "0.1"});
+  slave_program_->signal(SIGCONT);
+  EXPECT_EQ(tried.status, 1);
+  EXPECT_NE(tried.output.find("nothing has come back in 2 s"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
-  start_slave({"--adapter", "127.0.0.1:9"});
-  start_master({"--adapter", "127.0.0.1:9", "--engage"});
+  start_slave({"--adapter", "unix:/nowhere"});
+  start_master({"--adapter", "unix:/nowhere", "--engage"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Fault"; }))
       << outputs();
-  EXPECT_TRUE(says(*slave_program_, "the adapter of the robot at 127.0.0.1:9 does not answer; start it"))
+  EXPECT_TRUE(says(*slave_program_, "the adapter of the robot at unix:/nowhere does not answer; start it"))
       << outputs();
-  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at 127.0.0.1:9 does not answer"))
+  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not answer"))
       << outputs();
+}
+
+// The black box: what a robot is sent, whatever the slave says of itself.
+TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
+  RobotBox robot;
+  const auto rests_for = [&](std::uint64_t datagrams) {
+    const std::uint64_t live = robot.live(), end = robot.told() + datagrams;
+    return eventually([&] { return robot.told() >= end; }) && robot.live() == live;
+  };
+  start_slave({"--adapter", robot.address(), "--set", "robot_file=robots/cartesian.txtpb", "--set",
+               "robot_adapter.silence_s=0.5"});
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
+  EXPECT_TRUE(rests_for(300));
+  start_master({"--operator", "none"});
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Observing"; })) << outputs();
+  // Somebody moves it by 0.1 m at least; there it stays.
+  robot.push(0.1);
+  ASSERT_TRUE(eventually([&] { return robot.joint(2) > 0.1; }));
+  robot.push(0.0);
+  EXPECT_TRUE(rests_for(500));
+  EXPECT_EQ(robot.live(), 0u);
+  const double at_m = robot.joint(2);
+  ASSERT_GE(at_m, 0.1);
+  ASSERT_TRUE(engaged()) << outputs();
+  ASSERT_TRUE(eventually([&] { return robot.live() > 500; }));
+  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-4);
+  EXPECT_LT(robot.first_step(), 1e-4);
+  // Readings that leap: a fault, and not one more motion.
+  robot.lie(0.3);
+  ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
+  EXPECT_TRUE(rests_for(500));
+  EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot has leapt"), std::string::npos)
+      << slave_.status()->trouble();
+  robot.lie(0.0);
+  EXPECT_TRUE(rests_for(500));
+  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-4);
+  EXPECT_LT(robot.step(), 1e-3);
+  EXPECT_TRUE(engaged()) << outputs();
 }
 
 }  // namespace

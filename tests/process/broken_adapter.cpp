@@ -1,16 +1,12 @@
 #include "tests/process/broken_adapter.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sched.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <limits>
-#include <optional>
+#include <span>
 
 #include "common/link/adapter_datagram.hpp"
 
@@ -40,42 +36,27 @@ bool counts(Flaw flaw, const std::array<std::byte, 2048>& bytes, std::size_t siz
 
 }  // namespace
 
-BrokenAdapter::BrokenAdapter(Flaw flaw) : flaw_(flaw), fd_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-  sockaddr_in own{};
-  own.sin_family = AF_INET;
-  own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof own;
-  ::bind(fd_, reinterpret_cast<sockaddr*>(&own), size);
-  ::getsockname(fd_, reinterpret_cast<sockaddr*>(&own), &size);
-  address_ = "127.0.0.1:" + std::to_string(ntohs(own.sin_port));
+BrokenAdapter::BrokenAdapter(Flaw flaw) : flaw_(flaw) {
   thread_ = std::thread([this] { run(); });
 }
 
 BrokenAdapter::~BrokenAdapter() {
   ended_ = true;
   thread_.join();
-  ::close(fd_);
 }
 
 void BrokenAdapter::run() {
   const sched_param priority{.sched_priority = 20};
   sched_setscheduler(0, SCHED_FIFO, &priority);
   adapter::Exchange exchange(7);
-  sockaddr_in peer{};
   std::array<std::byte, 2048> bytes{};
   WrenchDatagram wrench{};
   std::uint64_t first_session = 0;
   auto due = std::chrono::steady_clock::now();
   for (int tick = 0; !ended_; ++tick) {
-    sockaddr_in from{};
-    socklen_t length = sizeof from;
-    ssize_t n = 0;
-    while ((n = ::recvfrom(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from),
-                           &length)) >= 0) {
+    while (const auto size = listener_.receive(bytes)) {
       WrenchDatagram in;
-      if (!counts(flaw_, bytes, static_cast<std::size_t>(n), exchange, first_session, in)) continue;
-      wrench = in;
-      peer = from;
+      if (counts(flaw_, bytes, *size, exchange, first_session, in)) wrench = in;
     }
     const bool silent = exchange.silent(now_ns());
     if (silent && flaw_ != Flaw::kNoWatchdog) wrench = {};
@@ -89,8 +70,7 @@ void BrokenAdapter::run() {
     if (flaw_ == Flaw::kNotFinite && tick % 50 == 0)
       out.position_m[0] = std::numeric_limits<double>::quiet_NaN();
     const std::size_t size = sizeof out - (flaw_ == Flaw::kShort && tick % 50 == 0 ? 1 : 0);
-    if (peer.sin_port != 0 && !(silent && flaw_ == Flaw::kMute))
-      ::sendto(fd_, &out, size, 0, reinterpret_cast<const sockaddr*>(&peer), sizeof peer);
+    if (!(silent && flaw_ == Flaw::kMute)) listener_.send(std::as_bytes(std::span(&out, 1)).first(size));
     due = std::max(due + std::chrono::milliseconds(flaw_ == Flaw::kSlow ? 10 : 1),
                    std::chrono::steady_clock::now() - std::chrono::milliseconds(5));
     std::this_thread::sleep_until(due);

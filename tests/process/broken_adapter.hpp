@@ -5,6 +5,8 @@
 #include <string>
 #include <thread>
 
+#include "tests/process/adapter_listener.hpp"
+
 namespace longreach {
 
 enum class Flaw {
@@ -28,14 +30,13 @@ class BrokenAdapter {
   ~BrokenAdapter();
   BrokenAdapter(const BrokenAdapter&) = delete;
   BrokenAdapter& operator=(const BrokenAdapter&) = delete;
-  [[nodiscard]] const std::string& address() const { return address_; }
+  [[nodiscard]] std::string address() const { return listener_.address(); }
 
  private:
   void run();
 
   Flaw flaw_;
-  int fd_ = -1;
-  std::string address_;
+  AdapterListener listener_;
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

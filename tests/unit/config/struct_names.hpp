@@ -45,7 +45,6 @@ inline void expect_same(const LoopConfig& s, const proto::Loop& m) {
 
 inline void expect_same(const AdapterConfig& s, const proto::Adapter& m) {
   EXPECT_EQ(s.address, m.address());
-  EXPECT_EQ(s.remote, m.remote());
   EXPECT_EQ(s.silence_s, m.silence_s());
 }
 

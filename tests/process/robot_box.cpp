@@ -1,0 +1,70 @@
+#include "tests/process/robot_box.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace longreach {
+namespace {
+
+using adapter::RobotDatagram;
+using adapter::SetpointDatagram;
+
+std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+}  // namespace
+
+void RobotBox::take(const SetpointDatagram& in) {
+  ++told_;
+  const std::lock_guard lock(mutex_);
+  const bool moves = (in.flags & SetpointDatagram::kMove) != 0;
+  if (moves) {
+    ++live_;
+    for (std::size_t i = 0; i < joint_.size(); ++i) {
+      double& worst = follows_ ? step_ : first_step_;
+      worst = std::max(worst, std::abs(in.joint_rad[i] - (follows_ ? setpoint_[i] : joint_[i])));
+      setpoint_[i] = in.joint_rad[i];
+    }
+  }
+  follows_ = moves;
+}
+
+RobotDatagram RobotBox::move(double dt) {
+  const std::lock_guard lock(mutex_);
+  RobotDatagram out;
+  out.flags = RobotDatagram::kOk | (follows_ ? 0U : RobotDatagram::kStopped);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double servo = follows_ ? 2.0 * std::numbers::pi * 10.0 * (setpoint_[i] - joint_[i]) : 0.0;
+    const double speed = std::clamp(servo, -0.5, 0.5) + (i == 2 ? pushed_m_per_s_.load() : 0.0);
+    joint_[i] += dt * speed;
+    out.joint_rad[i] = joint_[i];
+    out.joint_rad_per_s[i] = speed;
+  }
+  out.joint_rad[2] += lie_m_;
+  return out;
+}
+
+void RobotBox::run() {
+  adapter::Exchange exchange(7);
+  std::array<std::byte, 2048> bytes{};
+  std::int64_t before_ns = now_ns();
+  while (!ended_) {
+    while (const auto size = listener_.receive(bytes)) {
+      SetpointDatagram in;
+      if (adapter::decode(bytes.data(), *size, in) && exchange.accept(in.header, now_ns())) take(in);
+    }
+    if (exchange.silent(now_ns())) {
+      const std::lock_guard lock(mutex_);
+      follows_ = false;
+    }
+    const std::int64_t at_ns = now_ns();
+    RobotDatagram out = move(1e-9 * static_cast<double>(at_ns - before_ns));
+    before_ns = at_ns;
+    exchange.stamp(out);
+    listener_.send(std::as_bytes(std::span(&out, 1)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,65 @@
+#pragma once
+// A robot behind an adapter's socket that writes down what it is sent: the black box. Six joints that follow
+// live setpoints by servos of 10 Hz, as deploy/robots/cartesian.txtpb, in free space, in a thread of the
+// test.
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "common/link/adapter_datagram.hpp"
+#include "tests/process/adapter_listener.hpp"
+
+namespace longreach {
+
+class RobotBox {
+ public:
+  RobotBox() : thread_([this] { run(); }) {}
+  ~RobotBox() {
+    ended_ = true;
+    thread_.join();
+  }
+  RobotBox(const RobotBox&) = delete;
+  RobotBox& operator=(const RobotBox&) = delete;
+
+  [[nodiscard]] std::string address() const { return listener_.address(); }
+  /// Datagrams so far: all, and those that mean a motion.
+  [[nodiscard]] std::uint64_t told() const { return told_; }
+  [[nodiscard]] std::uint64_t live() const { return live_; }
+  [[nodiscard]] double joint(int i) {
+    const std::lock_guard lock(mutex_);
+    return joint_[static_cast<std::size_t>(i)];
+  }
+  /// Greatest step from one live setpoint to the next on end, and of the first from where the joints were.
+  [[nodiscard]] double step() {
+    const std::lock_guard lock(mutex_);
+    return step_;
+  }
+  [[nodiscard]] double first_step() {
+    const std::lock_guard lock(mutex_);
+    return first_step_;
+  }
+  /// Somebody moves it: at this speed along its third joint from now on.
+  void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
+  /// It says that its third joint is so far off from now on.
+  void lie(double m) { lie_m_ = m; }
+
+ private:
+  void run();
+  void take(const adapter::SetpointDatagram& in);
+  [[nodiscard]] adapter::RobotDatagram move(double dt);
+
+  AdapterListener listener_;
+  std::atomic<std::uint64_t> told_{0}, live_{0};
+  std::atomic<double> pushed_m_per_s_{0.0}, lie_m_{0.0};
+  std::mutex mutex_;
+  std::array<double, adapter::kJoints> joint_{}, setpoint_{};
+  double step_ = 0.0, first_step_ = 0.0;
+  bool follows_ = false;
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace longreach
