@@ -45,6 +45,7 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   stands_.reset();
   conditioning_ = 1.0;
   turning_ = false;
+  no_relief_ = false;
   home_rad_ = joints_.path_rad();
 }
 
