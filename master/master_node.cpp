@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/simulated_devices.hpp"
 #include "master/mapping/mapping.hpp"
@@ -31,7 +32,8 @@ RenderedDevice rendered_device(const MasterConfig& c) {
           .inertia_kg_m2 = device.inertia_kg_m2,
           .damping_nm_s_per_rad = device.damping_nm_s_per_rad,
           .period_s = period_s,
-          .delay_s = device.delay_s};
+          .delay_s = device.delay_s,
+          .cell = device.cell};
 }
 
 /// Whether a device can be there: what is not, or not finite, is a device that has failed.
@@ -51,7 +53,9 @@ struct MasterNode::State {
         safety(c.safety),
         behaviour(c.device),
         mapping(c.mapping),
-        renderer(c.rendering, rendered_device(c)),
+        device(rendered_device(c)),
+        motion(device.cell, c.device.velocity_filter_s),
+        renderer(c.rendering, device),
         history(history_capacity(c.link.send_hz)),
         period_s(1.0 / c.loop.rate_hz) {
     view.mode = c.mapping.mode;
@@ -72,10 +76,12 @@ struct MasterNode::State {
   MasterSafety safety;
   HandleBehaviour behaviour;
   Mapping mapping;
+  RenderedDevice device;
+  CertainMotion motion;
   Renderer renderer;
   GoalHistories history;
   double period_s;
-  HandleState handle{};  // as last read, or as last plausible
+  HandleState handle{};  // as last read, or as last plausible; its velocities are the certain ones
   Buttons buttons{};     // in the last tick
   std::uint64_t sequence = 0;
   Turns turns;
@@ -89,7 +95,7 @@ MasterNode::~MasterNode() = default;
 
 void MasterNode::State::take_handle(const HandleState& h) {
   if (plausible(h)) {
-    handle = h;
+    handle = motion.step(h, period_s);
   } else {
     handle.ok = false;
   }

@@ -18,6 +18,15 @@ double least_eigenvalue(const Matrix3& symmetric) {
 
 }  // namespace
 
+double cell_radius(double step_rad, const Matrix3& rates) {
+  const Matrix3 ways = step_rad * rates.inverse();
+  double longest = 0.0;
+  for (const double j : {-1.0, 1.0}) {
+    for (const double k : {-1.0, 1.0}) longest = std::max(longest, (ways * Vector3(1.0, j, k)).norm());
+  }
+  return 0.5 * longest;
+}
+
 SimulatedDevices::SimulatedDevices(const DeviceConfig& config)
     : delta_(config), spherical_(config), delta_handle_(config), spherical_handle_(config) {}
 
@@ -56,7 +65,7 @@ DeviceFigures device_figures(const DeviceConfig& config, double period_s) {
   const SimulatedDelta delta(config);
   const SimulatedSpherical spherical(config);
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  DeviceFigures least{kNone, kNone, kNone, kNone, 0.0};
+  DeviceFigures least{kNone, kNone, kNone, kNone, 0.0, {}};
   for (int i = 0; i < 27; ++i) {
     const Vector3 d = Vector3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).stableNormalized();
     const DeltaPose p = delta.dynamics().pose(delta.dynamics().home_m() + config.delta.workspace_m * d);
@@ -72,6 +81,8 @@ DeviceFigures device_figures(const DeviceConfig& config, double period_s) {
         std::min(least.damping_n_s_per_m, damping(config.delta.drive.viscous_nm_s_per_rad, p.rates));
     least.damping_nm_s_per_rad =
         std::min(least.damping_nm_s_per_rad, damping(config.spherical.drive.viscous_nm_s_per_rad, q.rates));
+    least.cell.m = std::max(least.cell.m, cell_radius(config.delta.drive.resolution_rad, p.rates));
+    least.cell.rad = std::max(least.cell.rad, cell_radius(config.spherical.drive.resolution_rad, q.rates));
   }
   const double hz = config.delta.drive.bandwidth_hz;
   least.delay_s = config.delay_samples * period_s + (hz > 0.0 ? 0.5 * std::numbers::inv_pi / hz : 0.0);

@@ -2,6 +2,7 @@
 // The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, a 3-RRR
 // spherical for the orientation. The controller's half sees encoder angles only, as with real devices.
 
+#include "master/devices/certain_motion.hpp"
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/delta/simulated_delta.hpp"
 #include "master/devices/hand_target.hpp"
@@ -38,14 +39,18 @@ class SimulatedDevices : public HapticDevice {
   bool started_ = false;
 };
 
-/// What a device can be relied on for anywhere in its workspace: the least over its ball (27 places).
+/// What a device can be relied on for anywhere in its workspace: the worst over its ball (27 places).
 struct DeviceFigures {
   double mass_kg = 0.0;            // of the handle with what moves along
   double damping_n_s_per_m = 0.0;  // physical
   double inertia_kg_m2 = 0.0;
   double damping_nm_s_per_rad = 0.0;
   double delay_s = 0.0;  // from read to motor torque: waiting samples and the motors' lag
+  EncoderCell cell{};
 };
+/// Half the longest way of the handle when every axis moves by `step_rad` or keeps still; `rates`: of the
+/// axes by the handle.
+double cell_radius(double step_rad, const Matrix3& rates);
 /// Throws GeometryError like SimulatedDevices.
 DeviceFigures device_figures(const DeviceConfig& config, double period_s);
 

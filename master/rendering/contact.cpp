@@ -94,7 +94,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<V
       a.reported = ke * k;
       left = across(left, a.n_W);
       any = true;
-      a.spring.set_stiffness(a.s(handle.x), a.reported);
+      if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), a.reported);
     }
   }
   if (!goal) return any;  // nothing new can be placed
@@ -178,6 +178,8 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     if (a.known) {
       a.surface = locate(a, handle, mapping);
       a.spring.set_surface(handle.held ? a.surface : std::max(a.surface, s));
+      if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
+      a.let_go = !handle.held;
     }
     a.force = a.spring.step(s, dt_s, tank);
     if (a.force <= 0.0) continue;

@@ -7,10 +7,10 @@
 //   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
 //
 // x is the handle's position (m) or rotation vector (rad) in M; goals are displacements or rotation vectors
-// from the engagement's anchor, in W. On a handle that is let go the force eases. A surface is remembered
-// after the contact ends, so that the next touch is felt without delay, and forgotten when the slave reports
-// a goal behind it that was reached in free space. An axis changes its direction only without force; a spring
-// whose axis is not in the tensor any more fades.
+// from the engagement's anchor, in W. On a handle that is let go the springs fade, until a hand holds it
+// again. A surface is remembered after the contact ends, so that the next touch is felt without delay, and
+// forgotten when the slave reports a goal behind it that was reached in free space. An axis changes its
+// direction only without force; a spring whose axis is not in the tensor any more fades.
 
 #include <array>
 #include <cstdint>
@@ -62,6 +62,7 @@ struct ContactAxis {
   double force = 0.0;              // rendered, against n_M, N
   std::uint32_t touch = 0;
   bool released = false;  // since the surface was placed
+  bool let_go = false;    // the spring has faded, since nobody holds the handle
   ContactSpring spring{ContactSpringConfig{}};
 
   [[nodiscard]] double s(const Vector3& x) const { return n_M.dot(x); }

@@ -1,12 +1,6 @@
 #include "master/rendering/port_guard.hpp"
 
 namespace longreach {
-namespace {
-
-// What a spring of friction leaks in a sample by encoder steps is not worth a kick.
-constexpr double kNoticed_j = 2e-5;
-
-}  // namespace
 
 void PortGuard::reset() {
   f_last_.setZero();
@@ -38,9 +32,9 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
       clamped_ = true;
     }
     const double v2 = in.rate.squaredNorm();
-    const double owed_j = deficit_j_ - kNoticed_j;
-    injecting_ = gain_ > 0.0 && owed_j > 0.0 && v2 > 0.0;
-    if (injecting_) out -= gain_ * std::min(owed_j / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
+    injecting_ = gain_ > 0.0 && deficit_j_ > 0.0 && v2 > 0.0;
+    if (injecting_)
+      out -= gain_ * std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
     clamped_ = clamped_ || norm(out) > config_.force_max;
     out = clamp_norm(out, config_.force_max);
   }

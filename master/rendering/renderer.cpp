@@ -75,9 +75,12 @@ ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, c
 
 }  // namespace
 
-void HandPort::account(double entered_j, double now_j, double supplied_j) {
+void HandPort::account(double entered_j, double now_j, double supplied_j, const Vector3& now) {
   double rest_j = entered_j - (now_j - stored_j) + contact.paid_j() + supplied_j;
+  const double unsure_j = cell * norm(Vector3(now - force));
+  rest_j = std::copysign(std::max(0.0, std::abs(rest_j) - unsure_j), rest_j);
   stored_j = now_j;
+  force = now;
   if (rest_j > 0.0) {
     rest_j = guard.repay(rest_j);
     tank.fill(rest_j);
@@ -91,9 +94,9 @@ Renderer::Renderer(const RenderingConfig& config, const RenderedDevice& device)
       device_(device),
       resistance_(config),
       translation_(ContactMotion::kTranslation, translation_contact(config, device),
-                   translation_guard(config, device), config.tank_max_j),
+                   translation_guard(config, device), config.tank_max_j, device.cell.m),
       rotation_(ContactMotion::kRotation, rotation_contact(config, device), rotation_guard(config, device),
-                config.tank_max_j) {}
+                config.tank_max_j, device.cell.rad) {}
 
 void Renderer::configure(const RenderingConfig& config) {
   config_ = config;
@@ -115,6 +118,7 @@ void Renderer::reset(const HandleState& handle) {
     port->guard.reset();
     port->guard.open();
     port->stored_j = 0.0;
+    port->force.setZero();
   }
 }
 
@@ -143,7 +147,7 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
     // A spring that is ramped away stores as much less: the hand does not load what it does not feel.
     const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
     translation_.account(entered_j, translation_.guard.gain() * felt_j + in.translation.stored_j,
-                         in.translation.supplied_j);
+                         in.translation.supplied_j, resistance + contact + in.translation.force);
   }
   return translation_.guard.apply(
       {resistance + contact, in.translation.force, in.handle.velocity_m_per_s, in.live}, device_.period_s);
@@ -159,7 +163,7 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
   if (config_.law == RenderingLaw::kStiffness) {
     const double felt_j = rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j();
     rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,
-                      in.rotation.supplied_j);
+                      in.rotation.supplied_j, resistance + contact + in.rotation.force);
   }
   return rotation_.guard.apply(
       {resistance + contact, in.rotation.force, in.handle.angular_rad_per_s, in.live}, device_.period_s);

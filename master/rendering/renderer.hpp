@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "common/link/stiffness_report.hpp"
+#include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_state.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/contact.hpp"
@@ -31,6 +32,7 @@ struct RenderedDevice {
   double damping_nm_s_per_rad = 4e-4;
   double period_s = 0.001;
   double delay_s = 0.0;  // from reading the handle to the torque of its motors
+  EncoderCell cell{};    // within which a measured place is uncertain
 };
 
 /// What the handle does by itself, engaged or not.
@@ -63,17 +65,22 @@ struct GoalHistories {
 
 /// One port of the hand: what it touches, what keeps it passive.
 struct HandPort {
-  HandPort(ContactMotion motion, const ContactConfig& touch, const PortGuardConfig& limits, double tank_j)
-      : contact(motion, touch), guard(limits), tank(tank_j) {}
+  HandPort(ContactMotion motion, const ContactConfig& touch, const PortGuardConfig& limits, double tank_j,
+           double cell_radius)
+      : contact(motion, touch), guard(limits), tank(tank_j), cell(cell_radius) {}
 
   /// Books the energy of the last tick: what came in and was neither stored nor paid for has been dissipated,
-  /// or leaked if negative.
-  void account(double entered_j, double stored_j, double supplied_j);
+  /// or leaked if negative: what of it is certain. `force`: that the hand shall feel now. Energy is summed
+  /// over measured places, each off by up to half a cell e: Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] -
+  /// f[k-1]) but for the ends, so a tick is certain but for `cell` |f[k] - f[k-1]|.
+  void account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
 
   Contact contact;
   PortGuard guard;
   EnergyTank tank;
+  double cell = 0.0;  // half of it, m or rad
   double stored_j = 0.0;
+  Vector3 force = Vector3::Zero();  // of the last tick
 };
 
 class Renderer {

@@ -43,6 +43,12 @@ const std::vector<Experiment> kExperiments = {
      "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy "
      "{port_energy_min_j*1e3} mJ, "
      "without the rules {naive_port_energy_min_j} J"},
+    {"idle", "A hand that nobody moves: energy, ripple and limit cycles, free, pressed and let go.", run_idle,
+     idle_plots, "",
+     "{draws} draws of devices, places, grips and walls: {bad} bad; at most {energy_out_max_j*1e3} mJ comes "
+     "out, the "
+     "force ripples by at most {ripple_beyond_a_count_max_n*1e3} mN beyond one count; with damping on the "
+     "encoders' velocity {control_bad} of {control_draws} bad"},
     {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.",
      run_home_rotation, home_rotation_plots, "Fig. 9, 10",
      "settling within {settling_difference_max*100} % of the closed form; overshoot {overshoot_at_0.5*100} % "

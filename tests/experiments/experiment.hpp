@@ -74,6 +74,8 @@ std::vector<Metric> run_touch(const ExperimentRun& run);
 std::vector<Plot> touch_plots();
 std::vector<Metric> run_hostile_updates(const ExperimentRun& run);
 std::vector<Plot> hostile_updates_plots();
+std::vector<Metric> run_idle(const ExperimentRun& run);
+std::vector<Plot> idle_plots();
 std::vector<Metric> run_first_touch(const ExperimentRun& run);
 std::vector<Plot> first_touch_plots();
 std::vector<Metric> run_spike(const ExperimentRun& run);

@@ -31,6 +31,21 @@ TEST(HostileUpdates, GiveNoEnergyAndNoStepAndTheNaiveLawFailsUnderTheSame) {
   EXPECT_EQ(m.at("naive_unsafe_wrenches"), 0.0);
 }
 
+TEST(Idle, AHandThatNobodyMovesIsQuietAndGetsNoEnergyAndDampingOnEncoderStepsIsNot) {
+  auto m = metrics("idle");
+  EXPECT_EQ(m.at("not_engaged"), 0.0);
+  EXPECT_GE(m.at("pressed_at_cap"), 5.0);
+  EXPECT_LE(m.at("energy_out_max_j"), 1e-4);
+  EXPECT_LE(m.at("rotation_energy_out_max_j"), 1e-4);
+  EXPECT_LE(m.at("ripple_beyond_a_count_max_n"), 0.02);
+  EXPECT_LE(m.at("ripple_beyond_a_count_max_nm"), 4e-4);
+  EXPECT_GE(m.at("quiet_share"), 0.8);
+  EXPECT_EQ(m.at("limit_cycles"), 0.0);
+  EXPECT_EQ(m.at("bad"), 0.0);
+  EXPECT_GE(m.at("control_bad"), 0.3 * m.at("control_draws"));
+  EXPECT_GT(m.at("control_energy_out_max_j"), 1e-4);
+}
+
 TEST(FirstTouch, GrowsWithoutAStepAndRegistersTheWallByTheTouchSequence) {
   auto m = metrics("first-touch");
   EXPECT_LE(m.at("felt_after_round_trip_s"), 0.2);

@@ -97,6 +97,7 @@ TEST(MasterView, ALoadIsFeltInRateMode) {
     b.in.requests.mode = MotionMode::kRate;
     for (int i = 0; i < 4000; ++i) b.tick();  // the friction of position mode fades
     b.in.handle.p_MH.x() = 0.02;
+    for (int i = 0; i < 200; ++i) b.tick();  // until it rests there
     force_n[load] = -b.tick().F_H_M.force.x();
   }
   EXPECT_NEAR(force_n[1] / force_n[0], RenderingConfig{}.load_factor, 1e-6);

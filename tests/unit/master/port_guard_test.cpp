@@ -75,8 +75,8 @@ TEST(PortGuard, TakesBackByDampingWhatLeakedAndNoMoreThanASampleBears) {
   const Vector3 rate(0.1, 0.0, 0.0);
   PortGuard guard = opened(config);
   guard.owe(1e-4);
-  // Owed beyond what is not worth a kick, over v² dt: 8e-5 / 1e-5 = 8 N s/m.
-  EXPECT_NEAR(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s).x(), -0.8, 1e-9);
+  // Owed over v² dt: 1e-4 / 1e-5 = 10 N s/m.
+  EXPECT_NEAR(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s).x(), -1.0, 1e-9);
   EXPECT_TRUE(guard.injecting());
   guard.owe(1.0);
   EXPECT_NEAR(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s).x(),

@@ -29,6 +29,28 @@ TEST(Renderer, ResistsAHandAndNotAHandleThatIsLetGo) {
   EXPECT_EQ(step().moment, Vector3::Zero());
 }
 
+/// Largest fall of E_port - E_stored while an encoder goes to and fro by one count, J.
+double booked_by_a_count(double cell_m) {
+  constexpr double kCount_m = 1e-5;
+  Renderer renderer(RenderingConfig{}, RenderedDevice{.cell = {.m = cell_m}});
+  Mapping mapping{MappingConfig{}};
+  RendererInput in;
+  in.live = true;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  for (int i = 0; i < 1000; ++i) {
+    in.handle.p_MH.x() = i % 2 == 0 ? 0.0 : kCount_m;
+    mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+    (void)renderer.step(in, mapping);
+  }
+  return renderer.translation().guard.deficit_max_j();
+}
+
+TEST(Renderer, BooksNoEnergyThatMayBeEncoderStepsAlone) {
+  EXPECT_LT(booked_by_a_count(5e-6), 1e-12);
+  EXPECT_GT(booked_by_a_count(0.0), 1e-5);
+}
+
 TEST(Renderer, AHandThatIsStoppedLoadsNoSpringAndLeaksNothing) {
   Renderer renderer(RenderingConfig{}, RenderedDevice{});
   Mapping mapping{MappingConfig{}};
