@@ -4,9 +4,12 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <condition_variable>
 #include <csignal>
+#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <utility>
@@ -125,6 +128,26 @@ bool Outlet::drain(std::chrono::milliseconds timeout) {
 std::uint64_t Outlet::lost() const {
   const std::lock_guard lock(state_->mutex);
   return state_->lost;
+}
+
+namespace {
+
+/// What is not taken is left out.
+ssize_t last_words(void*, const char* text, std::size_t size) {
+  constexpr int kPatience_ms = 200;
+  pollfd room{STDERR_FILENO, POLLOUT, 0};
+  if (::poll(&room, 1, kPatience_ms) > 0 && (room.revents & POLLOUT) != 0)
+    (void)!::write(STDERR_FILENO, text, std::min<std::size_t>(size, PIPE_BUF));
+  return static_cast<ssize_t>(size);
+}
+
+}  // namespace
+
+void bound_standard_error() {
+  std::FILE* const bounded = ::fopencookie(nullptr, "w", {nullptr, last_words, nullptr, nullptr});
+  if (bounded == nullptr) return;
+  (void)std::setvbuf(bounded, nullptr, _IONBF, 0);
+  stderr = bounded;
 }
 
 bool put(int fd, std::string_view text) {

@@ -44,4 +44,8 @@ class Outlet {
 /// Writes before the program goes on or ends; false: not all of it was taken within Outlet::kFarewell.
 bool put(int fd, std::string_view text);
 
+/// From now on what CHECK and the language's own last words print to `stderr` waits 0.2 s at most, so that a
+/// program which must end does.
+void bound_standard_error();
+
 }  // namespace longreach

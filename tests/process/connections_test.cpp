@@ -2,15 +2,11 @@
 // and a stop is answered throughout. LONGREACH_FULL: 15,000 connections.
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "tests/process/load.hpp"
+#include "tests/process/program_figures.hpp"
 #include "tests/process/station.hpp"
 #include "tests/property/campaign.hpp"
 
@@ -18,17 +14,6 @@ namespace longreach {
 namespace {
 
 using std::chrono::seconds;
-
-double resident_mb(pid_t program) {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/" + std::to_string(program) + "/statm") >> pages >> resident;
-  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-int descriptors(pid_t program) {
-  const std::filesystem::directory_iterator all("/proc/" + std::to_string(program) + "/fd");
-  return static_cast<int>(std::distance(begin(all), end(all)));
-}
 
 class Connections : public Station {
  protected:

@@ -4,16 +4,19 @@
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <thread>
 
+#include "common/core/check.hpp"
 #include "common/io/outlet.hpp"
 
 namespace longreach {
@@ -75,6 +78,33 @@ TEST(Log, AFullDiskLosesLinesAndIsSaidToHave) {
   spdlog::info("two");
   close_log();
   EXPECT_EQ(log_lost(), before + 2);
+}
+
+TEST(Outlet, AFailedCheckEndsAProgramWhoseStandardErrorIsFull) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_NONBLOCK), 0);
+  const std::string page(4096, 'a');
+  while (::write(ends[1], page.data(), page.size()) > 0) {
+  }
+  ASSERT_EQ(::fcntl(ends[1], F_SETFL, 0), 0);  // a write waits
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    bound_standard_error();
+    CHECK(child != 0);
+    ::_exit(0);
+  }
+  int status = 0;
+  pid_t ended = 0;
+  for (int i = 0; i < 2000 && ended == 0; ++i) {
+    ended = ::waitpid(child, &status, WNOHANG);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  if (ended == 0) ::kill(child, SIGKILL);
+  EXPECT_EQ(ended, child);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) << status;
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 TEST(Outlet, KeepsTheNewestWhereNobodyReadsAndEndsAllTheSame) {

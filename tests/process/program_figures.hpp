@@ -1,0 +1,26 @@
+#pragma once
+// What the system says of a running program. For descriptors the program has to be started with --core-dumps,
+// or the test with the rights of root.
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace longreach {
+
+inline double resident_mb(pid_t program) {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/" + std::to_string(program) + "/statm") >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+inline int descriptors(pid_t program) {
+  const std::filesystem::directory_iterator all("/proc/" + std::to_string(program) + "/fd");
+  return static_cast<int>(std::distance(begin(all), end(all)));
+}
+
+}  // namespace longreach
