@@ -62,8 +62,9 @@ Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";
 inline constexpr const char* kViewMore =
     R"(Prints the page's address and serves it until Ctrl-C: arm and scene as the slave reports them, the pose that is
 commanded now, forces, plots, controls. One page at a time has the hand and may act; all may look, and stop.
-Beyond this machine (--listen 0.0.0.0:8080) the address holds a token, and whoever has it may act; the page
-is not encrypted: across a network that you do not trust, go through ssh -L instead.
+The address holds a token, new with every start; whoever has the address may act, so keep it to yourself. The page
+is not encrypted: beyond this machine (--listen 0.0.0.0:8080), across a network that you do not trust, go through
+ssh -L instead.
 Example: longreach view)";
 
 /// Options of `link set` with the fields that they set.

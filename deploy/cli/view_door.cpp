@@ -29,8 +29,7 @@ bool equal_secrets(std::string_view a, std::string_view b) {
 
 /// The path behind the token, with its slash; none when the token is wrong.
 std::optional<std::string_view> behind_token(const std::string& token, std::string_view path) {
-  if (token.empty()) return path;
-  if (!path.starts_with('/')) return std::nullopt;
+  if (token.empty() || !path.starts_with('/')) return std::nullopt;
   path.remove_prefix(1);
   const std::string_view given = path.substr(0, path.find('/'));
   if (!equal_secrets(given, token)) return std::nullopt;
@@ -60,6 +59,8 @@ ViewAnswer answer(const ViewDoor& door, const ViewRequest& request) {
   if (*path == "/view.css") return ViewAnswer::kStyle;
   return ViewAnswer::kNotFound;
 }
+
+bool is_let_in(ViewAnswer answer) { return answer != ViewAnswer::kForbidden; }
 
 std::vector<std::string> loopback_hosts(int port) {
   const std::string end = ":" + std::to_string(port);

@@ -1,7 +1,8 @@
 #pragma once
 // Who may have what of the view's server. Pure. A page of another site cannot use this server: neither under
-// a name of its own that leads here (Host), nor by a WebSocket from there (Origin); what listens beyond this
-// machine wants a token in the path besides.
+// a name of its own that leads here (Host), nor by a WebSocket from there (Origin). Every path begins with a
+// token, on loopback too: other users of this machine have a loopback as well. It stays in the path, since a
+// cookie would go to every port of the host, those of other users included.
 
 #include <string>
 #include <string_view>
@@ -10,7 +11,7 @@
 namespace longreach {
 
 struct ViewDoor {
-  std::string token;               // first part of every path; empty: none
+  std::string token;               // first part of every path; empty: nobody gets in
   std::vector<std::string> hosts;  // names and port that lead here; empty: any
 };
 
@@ -26,11 +27,13 @@ struct ViewRequest {
 enum class ViewAnswer { kPage, kScript, kStyle, kLive, kForbidden, kNotFound, kNotAllowed };
 
 ViewAnswer answer(const ViewDoor& door, const ViewRequest& request);
+/// Whether the answer shows that the token was right.
+bool is_let_in(ViewAnswer answer);
 
 /// The names under which a server on loopback is known to browsers.
 std::vector<std::string> loopback_hosts(int port);
 
-/// 128 random bits, in letters and digits.
+/// 130 random bits, in letters and digits.
 std::string draw_token();
 
 }  // namespace longreach

@@ -1,9 +1,11 @@
 #include "deploy/cli/view_server.hpp"
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <charconv>
+#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -61,19 +63,16 @@ struct ViewServer::State {
     if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
     if (error) throw cannot_listen(listen, error.message());
     const int port = acceptor.local_endpoint().port();
-    if (endpoint.address().is_loopback()) {
-      door.hosts = loopback_hosts(port);
-    } else {
-      door.token = draw_token();
-    }
-    address = "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" +
-              (door.token.empty() ? "" : door.token + "/");
+    if (endpoint.address().is_loopback()) door.hosts = loopback_hosts(port);
+    door.token = draw_token();
+    address =
+        "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" + door.token + "/";
   }
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, Tcp::socket socket) {
       if (error) return accept_later();
-      if (connections < kConnectionsMax) welcome(std::move(socket));
+      if (connections < kConnectionsMax || make_room()) welcome(std::move(socket));
       accept();
     });
   }
@@ -92,7 +91,20 @@ struct ViewServer::State {
     socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
     ++connections;
     const std::shared_ptr<void> seat(nullptr, [this](void*) { --connections; });
-    std::make_shared<ViewVisitor>(std::move(socket), door, viewer_talk(), seat)->read();
+    const auto visitor = std::make_shared<ViewVisitor>(std::move(socket), door, viewer_talk(), seat);
+    visitors.push_back(visitor);
+    visitor->read();
+  }
+
+  /// False: everybody here has shown the token.
+  bool make_room() {
+    visitors.remove_if([](const auto& visitor) { return visitor.expired(); });
+    const auto stranger =
+        std::ranges::find_if(visitors, [](const auto& visitor) { return !visitor.lock()->let_in(); });
+    if (stranger == visitors.end()) return false;
+    stranger->lock()->drop();
+    visitors.erase(stranger);
+    return true;
   }
 
   Viewer::Talk viewer_talk() {
@@ -208,6 +220,7 @@ struct ViewServer::State {
   std::optional<std::string> pending;  // frame, not yet fetched by the thread
   // The thread's.
   std::set<std::shared_ptr<Viewer>> viewers;
+  std::list<std::weak_ptr<ViewVisitor>> visitors;  // oldest first; some are gone
   std::map<std::string, Viewer::Text> topics;
   std::shared_ptr<Viewer> holder;
   Clock::time_point aimed{};

@@ -1,7 +1,8 @@
 #pragma once
 // Serves the page and, by WebSocket, what it shows. One thread of its own. A viewer that reads too slowly
 // misses frames, oldest first; one that says too much is cut off. One viewer at a time has the hand: it alone
-// may move and change things; anybody may stop.
+// may move and change things; anybody may stop. When all connections are taken, a new one takes the place of
+// the oldest that has not shown the token.
 
 #include <functional>
 #include <memory>
@@ -23,8 +24,8 @@ struct ViewTalk {
 
 class ViewServer {
  public:
-  /// `listen`: address:port; port 0: any free one. Beyond loopback a token is drawn. Throws
-  /// std::runtime_error, one sentence, when it cannot listen.
+  /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence, when it
+  /// cannot listen.
   explicit ViewServer(const std::string& listen);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;

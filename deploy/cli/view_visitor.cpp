@@ -8,7 +8,8 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-constexpr auto kRequestTimeout = std::chrono::seconds(10);
+constexpr auto kRequestTimeout = std::chrono::seconds(5);
+constexpr auto kAnswerTimeout = std::chrono::seconds(30);  // of files, over a slow network
 constexpr std::uint32_t kHeadMaxBytes = 8192;
 
 http::response<http::string_body> plain(http::status status, std::string_view text) {
@@ -40,7 +41,9 @@ http::response<http::string_body> response_to(ViewAnswer answer) {
     case ViewAnswer::kForbidden:
       break;
   }
-  return plain(http::status::forbidden, "use the whole address that longreach view printed\n");
+  return plain(http::status::forbidden,
+               "This address lacks the token, or has an old one. Open the whole address that longreach view "
+               "printed when it was\nstarted last: with every start the token is a new one.\n");
 }
 
 std::string_view field(const ViewHttpRequest& request, http::field name) {
@@ -82,6 +85,7 @@ void ViewVisitor::read() {
 void ViewVisitor::on_request() {
   const ViewHttpRequest request = parser_->release();
   const ViewAnswer answer = judge(door_, request);
+  let_in_ = is_let_in(answer);
   if (answer == ViewAnswer::kLive) {
     talk_.opened = [opened = talk_.opened, seat = seat_](const auto& viewer) { opened(viewer); };
     std::make_shared<Viewer>(std::move(stream_), std::move(talk_))->accept(request);
@@ -95,8 +99,9 @@ void ViewVisitor::on_request() {
       "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   response_.set("X-Content-Type-Options", "nosniff");
   response_.set("Referrer-Policy", "no-referrer");
-  response_.keep_alive(request.keep_alive());
+  response_.keep_alive(let_in_ && request.keep_alive());
   response_.prepare_payload();
+  if (let_in_) stream_.expires_after(kAnswerTimeout);
   http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (!error && self->response_.keep_alive()) self->read();
   });

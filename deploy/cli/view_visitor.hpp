@@ -1,6 +1,6 @@
 #pragma once
-// One connection to the view's server until it is answered or has become a viewer. Lives in the server's
-// thread.
+// One connection to the view's server until it is answered or has become a viewer. It has 5 s for each
+// request, however slowly it speaks. Lives in the server's thread.
 
 #include <boost/asio/ip/tcp.hpp>
 #include <memory>
@@ -18,6 +18,10 @@ class ViewVisitor : public std::enable_shared_from_this<ViewVisitor> {
               std::shared_ptr<void> seat);
 
   void read();
+  /// It has shown the token.
+  [[nodiscard]] bool let_in() const { return let_in_; }
+  /// Makes room for another one.
+  void drop() { stream_.close(); }
 
  private:
   void on_request();
@@ -26,6 +30,7 @@ class ViewVisitor : public std::enable_shared_from_this<ViewVisitor> {
   const ViewDoor& door_;
   Viewer::Talk talk_;
   std::shared_ptr<void> seat_;
+  bool let_in_ = false;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
   boost::beast::http::response<boost::beast::http::string_body> response_;

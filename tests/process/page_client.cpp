@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 
 namespace longreach {
@@ -36,6 +37,10 @@ bool send_all(int fd, const std::string& bytes) {
 
 }  // namespace
 
+int port_of(const std::string& address) { return std::stoi(address.substr(address.find(':', 5) + 1)); }
+
+std::string path_of(const std::string& address) { return address.substr(address.find('/', 7)); }
+
 std::string http_status(int port, const std::string& request) {
   const int fd = connect_to(port);
   std::string answer;
@@ -50,9 +55,22 @@ std::string http_status(int port, const std::string& request) {
   return answer.substr(0, answer.find("\r\n"));
 }
 
-PageClient::PageClient(int port) : socket_(connect_to(port)) {
-  const std::string host = "127.0.0.1:" + std::to_string(port);
-  send_all(socket_, "GET /live HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+OpenConnection::OpenConnection(int port) : socket_(connect_to(port)) {}
+
+OpenConnection::~OpenConnection() { ::close(socket_); }
+
+bool OpenConnection::send(const std::string& bytes) const { return send_all(socket_, bytes); }
+
+bool OpenConnection::ended() const {
+  char byte = 0;
+  const ssize_t n = ::recv(socket_, &byte, 1, MSG_DONTWAIT);
+  return n == 0 || (n < 0 && errno != EAGAIN);
+}
+
+PageClient::PageClient(const std::string& address) : socket_(connect_to(port_of(address))) {
+  const std::string host = "127.0.0.1:" + std::to_string(port_of(address));
+  send_all(socket_, "GET " + path_of(address) + "live HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" +
+                        host +
                         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n");
   std::size_t end = std::string::npos;

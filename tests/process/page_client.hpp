@@ -6,13 +6,35 @@
 
 namespace longreach {
 
+/// Of http://127.0.0.1:PORT/...
+int port_of(const std::string& address);
+/// "/TOKEN/" of http://127.0.0.1:PORT/TOKEN/.
+std::string path_of(const std::string& address);
+
 /// The first line of the answer to a request that is sent as it is; empty: none within 10 s.
 std::string http_status(int port, const std::string& request);
 
+/// A connection that says what it is told to, and is not in a hurry.
+class OpenConnection {
+ public:
+  explicit OpenConnection(int port);
+  ~OpenConnection();
+  OpenConnection(const OpenConnection&) = delete;
+  OpenConnection& operator=(const OpenConnection&) = delete;
+
+  [[nodiscard]] bool send(const std::string& bytes) const;
+  /// The server has closed it. Does not wait.
+  [[nodiscard]] bool ended() const;
+
+ private:
+  int socket_ = -1;
+};
+
 class PageClient {
  public:
-  /// Opens http://127.0.0.1:PORT/live as a browser on that page would; `ok()` says whether it was let in.
-  explicit PageClient(int port);
+  /// Opens the WebSocket of the page at `address`, http://127.0.0.1:PORT/TOKEN/, as a browser on that page
+  /// would; `ok()` says whether it was let in.
+  explicit PageClient(const std::string& address);
   ~PageClient();
   PageClient(const PageClient&) = delete;
   PageClient& operator=(const PageClient&) = delete;

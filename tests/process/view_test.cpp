@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <thread>
 
@@ -27,7 +28,7 @@ class View : public Station {
     const std::string said = view_->output();
     const std::size_t begin = said.find("http://");
     address_ = said.substr(begin, said.find("  (") - begin);
-    port_ = std::stoi(address_.substr(address_.find(':', 5) + 1));
+    port_ = port_of(address_);
   }
 
   /// Drives the page as tests/process/page/drive.mjs describes; pictures stay in the build.
@@ -99,36 +100,103 @@ TEST_F(View, APageSaysThatTheMasterIsAwayAndGoesOnWhenItIsBack) {
   finish(*page);
 }
 
+std::string get(const std::string& path, const std::string& host) {
+  return "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n";
+}
+
 TEST_F(View, AskedFromElsewhereItSaysNothing) {
   start_slave();
   start_master();
   start_view();
-  const std::string get = "GET / HTTP/1.1\r\nHost: ";
   const std::string here = "127.0.0.1:" + std::to_string(port_);
-  EXPECT_EQ(http_status(port_, get + here + "\r\n\r\n"), "HTTP/1.1 200 OK");
-  EXPECT_EQ(http_status(port_, get + "evil.example\r\n\r\n"), "HTTP/1.1 403 Forbidden");
+  const std::string page = path_of(address_);
+  EXPECT_EQ(http_status(port_, get(page, here)), "HTTP/1.1 200 OK");
+  EXPECT_EQ(http_status(port_, get(page, "evil.example")), "HTTP/1.1 403 Forbidden");
   EXPECT_EQ(
       http_status(port_,
-                  "GET /live HTTP/1.1\r\nHost: " + here +
+                  "GET " + page + "live HTTP/1.1\r\nHost: " + here +
                       "\r\nOrigin: http://evil.example\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"),
       "HTTP/1.1 403 Forbidden");
-  EXPECT_EQ(http_status(port_, "POST / HTTP/1.1\r\nHost: " + here + "\r\n\r\n"),
+  EXPECT_EQ(http_status(port_, "POST " + page + " HTTP/1.1\r\nHost: " + here + "\r\n\r\n"),
             "HTTP/1.1 405 Method Not Allowed");
   start_view({"--listen", "0.0.0.0:0"});
-  const std::string token = address_.substr(address_.find(':', 5));
-  EXPECT_GT(token.size(), 30u) << address_;
-  EXPECT_EQ(http_status(port_, get + here + "\r\n\r\n"), "HTTP/1.1 403 Forbidden");
-  EXPECT_EQ(
-      http_status(port_, "GET " + token.substr(token.find('/')) + " HTTP/1.1\r\nHost: anything\r\n\r\n"),
-      "HTTP/1.1 200 OK");
+  EXPECT_EQ(http_status(port_, get("/", here)), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(http_status(port_, get(path_of(address_), "anything")), "HTTP/1.1 200 OK");
+}
+
+// Another user of this machine can reach the port, and cannot read what `longreach view` printed.
+TEST_F(View, WhoHasNotTheAddressGetsNothingAndMovesNothing) {
+  start_slave();
+  start_master({"--operator", "none"});
+  start_view();
+  ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; }));
+  const std::string port = std::to_string(port_);
+  for (const std::string path : {"/", "/view.js", "/live", "/aaaaaaaaaaaaaaaaaaaaaaaaaa/"})
+    EXPECT_EQ(http_status(port_, get(path, "127.0.0.1:" + port)), "HTTP/1.1 403 Forbidden") << path;
+  const auto take_and_engage = [](const PageClient& page) {
+    (void)page.send(R"({"take":true})");
+    (void)page.send(R"({"aim":[0,0,0]})");
+    return page.send(R"({"do":"engage"})");
+  };
+  for (const std::string path : {"/", "/aaaaaaaaaaaaaaaaaaaaaaaaaa/"}) {
+    const PageClient stranger("http://127.0.0.1:" + port + path);
+    EXPECT_FALSE(stranger.ok()) << path;
+    (void)take_and_engage(stranger);
+  }
+  // What came from the strangers has been dealt with when this is answered.
+  PageClient page(address_);
+  ASSERT_TRUE(page.read_until("\"frame\""));
+  EXPECT_EQ(master_.status()->engagement(), 0u) << outputs();
+  const std::atomic<bool> reaches = false;
+  EXPECT_TRUE(take_and_engage(page));
+  std::thread aiming([&] { aim(page, std::chrono::seconds(5), reaches); });
+  EXPECT_TRUE(eventually([this] { return master_.status()->engagement() > 0; }))
+      << "the control" << outputs();
+  aiming.join();
+}
+
+TEST_F(View, AddressOfThePageIsInNoArgumentsThatOthersCanRead) {
+  start_slave();
+  start_view();
+  const std::string token = path_of(address_).substr(1, 26);
+  int programs = 0;
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream in(process.path() / "cmdline");
+    const std::string words((std::istreambuf_iterator<char>(in)), {});
+    programs += words.find("longreach") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(words.find(token), std::string::npos) << process.path();
+  }
+  EXPECT_GE(programs, 2);
+}
+
+// As many connections as there may be, each of which says a letter now and then.
+TEST_F(View, SlowConnectionsOfStrangersDoNotLockThePageOut) {
+  start_slave();
+  start_master({"--operator", "none"});
+  start_view();
+  PageClient page(address_);
+  ASSERT_TRUE(page.read_until("\"frame\""));
+  std::vector<std::unique_ptr<OpenConnection>> slow;
+  for (int i = 0; i < 200; ++i) slow.push_back(std::make_unique<OpenConnection>(port_));
+  for (const auto& one : slow) (void)one->send("GET / HTT");
+  const std::string here = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_EQ(http_status(port_, get(path_of(address_), here)), "HTTP/1.1 200 OK");
+  PageClient another(address_);
+  EXPECT_TRUE(another.ok() && another.read_until("\"frame\""));
+  EXPECT_TRUE(page.read_until("\"frame\"")) << "who was let in keeps his place";
+  // A request has its time, however many letters come meanwhile.
+  EXPECT_TRUE(eventually([&] {
+    return std::ranges::all_of(slow, [](const auto& one) { return !one->send("P") || one->ended(); });
+  }));
+  EXPECT_TRUE(another.read_until("\"frame\""));
 }
 
 TEST_F(View, OnePageHasTheHandAndAnybodyMayStop) {
   start_slave();
   start_master({"--operator", "none"});
   start_view();
-  PageClient one(port_), other(port_);
+  PageClient one(address_), other(address_);
   ASSERT_TRUE(one.ok() && other.ok());
   ASSERT_TRUE(one.read_until("\"frame\""));
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; }));
@@ -156,7 +224,7 @@ TEST_F(View, AViewerThatDoesNotReadMissesFramesAndNothingElse) {
   start_slave();
   start_master();
   start_view();
-  PageClient slow(port_), quick(port_);
+  PageClient slow(address_), quick(address_);
   ASSERT_TRUE(slow.read_until("\"frame\""));
   const auto seconds = [](const std::string& message) {
     const std::string before = "{\"frame\":{\"seconds\":";
@@ -185,7 +253,7 @@ TEST_F(View, AHandWhoseServerIsKilledIsAHold) {
   start_slave();
   start_master({"--operator", "none"});
   start_view();
-  PageClient page(port_);
+  PageClient page(address_);
   ASSERT_TRUE(page.read_until("\"frame\""));
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; }));
   EXPECT_TRUE(page.send(R"({"take":true})"));
@@ -202,17 +270,17 @@ TEST_F(View, AHandWhoseServerIsKilledIsAHold) {
 }
 
 /// Requests and messages as fast as they go, from several connections, none of which reads.
-void flood(int port, std::chrono::seconds time) {
+void flood(const std::string& address, std::chrono::seconds time) {
   std::vector<std::jthread> senders;
   const auto end = std::chrono::steady_clock::now() + time;
   for (int i = 0; i < 4; ++i)
     senders.emplace_back([=] {
       while (std::chrono::steady_clock::now() < end) {
-        const PageClient page(port);
+        const PageClient page(address);
         for (int k = 0; k < 1000 && page.send(R"({"scale":0.5})"); ++k) {
         }
-        (void)http_status(port,
-                          "GET /view.js HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n");
+        const int port = port_of(address);
+        (void)http_status(port, get(path_of(address) + "view.js", "127.0.0.1:" + std::to_string(port)));
       }
     });
 }
@@ -232,14 +300,14 @@ TEST_F(View, AServerThatIsFloodedFrozenOrKilledDisturbsNothing) {
                                      {"looked at",
                                       [&] {
                                         start_view();
-                                        PageClient page(port_);
+                                        PageClient page(address_);
                                         EXPECT_TRUE(page.read_until("\"frame\""));
                                         std::this_thread::sleep_for(kTime);
                                       }},
-                                     {"flooded", [&] { flood(port_, kTime); }},
+                                     {"flooded", [&] { flood(address_, kTime); }},
                                      {"frozen",
                                       [&] {
-                                        const PageClient page(port_);
+                                        const PageClient page(address_);
                                         view_->signal(SIGSTOP);
                                         std::this_thread::sleep_for(kTime);
                                         view_->signal(SIGCONT);

@@ -2,6 +2,8 @@
 // itself.
 
 const RETRY_MS = 1000;
+const SILENT = 'the view server does not answer; it is asked again every second';
+const ANOTHER = 'the view server was started anew: open the address that it printed now';
 
 export class Feed {
   /** `talk`: functions by the name of what is told: frame, scene, anchor, desk, said, links, down, slave_down, full, and
@@ -22,9 +24,19 @@ export class Feed {
     this.socket.onmessage = (event) => this.take(JSON.parse(event.data));
     this.socket.onclose = () => {
       this.last_ms = null;
-      this.talk.lost();
+      this.talk.lost(this.stranger ? ANOTHER : SILENT);
+      this.ask_why();
       setTimeout(() => this.connect(), RETRY_MS);
     };
+  }
+
+  /** A server that was started anew has another token: asking it again is no use. */
+  async ask_why() {
+    try {
+      this.stranger = (await fetch(location.href, { method: 'GET', cache: 'no-store' })).status === 403;
+    } catch {
+      this.stranger = false;
+    }
   }
 
   take(message) {

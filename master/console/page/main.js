@@ -81,7 +81,7 @@ const feed = new Feed({
   down(why) { if (why) offline('no master', why); },
   slave_down(why) { if (why) panel.say(why, true); },
   full(why) { offline('full', why); },
-  lost() { offline('no server', 'the view server does not answer; it is asked again every second'); },
+  lost(why) { offline('no server', why); },
 });
 
 function offline(state, why) {

@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-const ViewDoor kLoopback{"", loopback_hosts(8080)};
+const ViewDoor kLoopback{"t", loopback_hosts(8080)};
 const ViewDoor kToken{"secret", {}};
 
 ViewRequest get(std::string_view target) {
@@ -15,43 +15,43 @@ ViewRequest get(std::string_view target) {
 }
 
 TEST(ViewDoor, AnswersWhatThereIs) {
-  EXPECT_EQ(answer(kLoopback, get("/")), ViewAnswer::kPage);
-  EXPECT_EQ(answer(kLoopback, get("/?dark")), ViewAnswer::kPage);
-  EXPECT_EQ(answer(kLoopback, get("/view.js")), ViewAnswer::kScript);
-  EXPECT_EQ(answer(kLoopback, get("/view.css")), ViewAnswer::kStyle);
-  EXPECT_EQ(answer(kLoopback, get("/etc/passwd")), ViewAnswer::kNotFound);
-  EXPECT_EQ(answer(kLoopback, get("/../view.js")), ViewAnswer::kNotFound);
-  EXPECT_EQ(answer(kLoopback, get("")), ViewAnswer::kNotFound);
+  EXPECT_EQ(answer(kLoopback, get("/t/")), ViewAnswer::kPage);
+  EXPECT_EQ(answer(kLoopback, get("/t/?dark")), ViewAnswer::kPage);
+  EXPECT_EQ(answer(kLoopback, get("/t/view.js")), ViewAnswer::kScript);
+  EXPECT_EQ(answer(kLoopback, get("/t/view.css")), ViewAnswer::kStyle);
+  EXPECT_EQ(answer(kLoopback, get("/t/etc/passwd")), ViewAnswer::kNotFound);
+  EXPECT_EQ(answer(kLoopback, get("/t/../view.js")), ViewAnswer::kNotFound);
+  EXPECT_EQ(answer(kLoopback, get("/t")), ViewAnswer::kNotFound);
 }
 
 TEST(ViewDoor, TakesNothingButGetAndTheWebSocket) {
-  ViewRequest request = get("/");
+  ViewRequest request = get("/t/");
   for (const char* method : {"POST", "HEAD", "PUT", "OPTIONS", "get", ""}) {
     request.method = method;
     EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kNotAllowed) << method;
   }
-  EXPECT_EQ(answer(kLoopback, get("/live")), ViewAnswer::kNotAllowed);
-  request = get("/live");
+  EXPECT_EQ(answer(kLoopback, get("/t/live")), ViewAnswer::kNotAllowed);
+  request = get("/t/live");
   request.upgrade = true;
   EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kLive);
 }
 
 TEST(ViewDoor, RefusesOtherNamesThatLeadHere) {
   for (const char* host : {"localhost:8080", "LocalHost:8080", "[::1]:8080"}) {
-    ViewRequest request = get("/");
+    ViewRequest request = get("/t/");
     request.host = host;
     EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kPage) << host;
   }
   for (const char* host :
        {"evil.example:8080", "127.0.0.1:8081", "127.0.0.1", "", "localhost:8080.evil.example"}) {
-    ViewRequest request = get("/");
+    ViewRequest request = get("/t/");
     request.host = host;
     EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kForbidden) << host;
   }
 }
 
 TEST(ViewDoor, RefusesScriptsOfOtherPages) {
-  ViewRequest request = get("/live");
+  ViewRequest request = get("/t/live");
   request.upgrade = true;
   request.origin = "http://127.0.0.1:8080";
   EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kLive);
@@ -69,6 +69,17 @@ TEST(ViewDoor, WantsTheTokenInEveryPath) {
   for (const char* target :
        {"/", "/view.js", "/secreT/", "/secre/", "/secretx/", "//", "secret/", "/?secret/"})
     EXPECT_EQ(answer(kToken, get(target)), ViewAnswer::kForbidden) << target;
+}
+
+TEST(ViewDoor, LetsNobodyInWithoutTheTokenNotOnLoopbackEither) {
+  for (const char* target : {"/", "/view.js", "/live", "//", "/u/"}) {
+    ViewRequest request = get(target);
+    request.upgrade = true;
+    EXPECT_EQ(answer(kLoopback, request), ViewAnswer::kForbidden) << target;
+    EXPECT_EQ(answer({"", loopback_hosts(8080)}, request), ViewAnswer::kForbidden) << target;
+  }
+  EXPECT_FALSE(is_let_in(ViewAnswer::kForbidden));
+  EXPECT_TRUE(is_let_in(ViewAnswer::kNotFound));
 }
 
 TEST(ViewDoor, TokensAreLongAndNeverTheSame) {
