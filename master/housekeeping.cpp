@@ -35,6 +35,7 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
 void Chronicle::write(const MasterSnapshot& s, const std::string& trouble, const std::string& hand_trouble) {
   if (hand_trouble != hand_trouble_) {
     if (!hand_trouble.empty()) spdlog::warn("hand trouble=\"{}\"", hand_trouble);
+    if (hand_trouble.empty()) spdlog::info("hand trouble=over");
     hand_trouble_ = hand_trouble;
   }
   if (trouble != trouble_) {

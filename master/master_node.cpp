@@ -71,6 +71,7 @@ struct MasterNode::State {
   void take_reports(const MasterInput& input, const RendererInput& at);
   MotionCommand command();
   void publish(const Wrench& F);
+  void publish_ages(const MasterInput& input);
 
   MasterConfig config;
   MasterSafety safety;
@@ -87,6 +88,7 @@ struct MasterNode::State {
   Turns turns;
   double one_way_s = 0.0;   // half of the round trip
   double send_phase = 1.0;  // of the send period
+  Time far_at{};            // when the newest telemetry came
   MasterView view;
 };
 
@@ -162,6 +164,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
   for (const auto& received : input.telemetry) {
     if (!received.newest) continue;
     view.far = received.message;
+    far_at = input.now;
     view.far_known = true;
   }
 }
@@ -227,7 +230,17 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     s.history.rotation.push(out.sequence, s.mapping.goal().rotation_rad);
   }
   s.publish(out.F_H_M);
+  s.publish_ages(input);
   return out;
+}
+
+void MasterNode::State::publish_ages(const MasterInput& input) {
+  const double silence_s = input.last_heard ? to_seconds(input.now - *input.last_heard) : 0.0;
+  view.far_age_s = view.far_known ? to_seconds(input.now - far_at) : 0.0;
+  view.silent = safety.stale();
+  if (view.state == SafetyState::kEngaged) view.hold_silence_s = 0.0;
+  if (view.state == SafetyState::kHolding) view.hold_silence_s = std::max(view.hold_silence_s, silence_s);
+  view.resumes = view.state == SafetyState::kHolding && safety.request() != Request::kHold;
 }
 
 void MasterNode::State::publish(const Wrench& F) {
@@ -245,13 +258,15 @@ void MasterNode::State::publish(const Wrench& F) {
   view.F_H_M = F;
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
   const ContactAxis& surface = linear.contact.foremost();
-  view.spring_force_n = -surface.force * surface.n_M;
+  // What is ramped away is not felt.
+  view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
   view.surface_known = linear.contact.known();
   view.surface_m = surface.surface;
   view.inward = surface.n_M;
-  view.stiffness_n_per_m = renderer.stiffness(linear);
-  view.spring_moment_nm = -angular.contact.foremost().force * angular.contact.foremost().n_M;
-  view.rotational_stiffness_nm_per_rad = renderer.stiffness(angular);
+  view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
+  view.spring_moment_nm =
+      -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
+  view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.port_energy_j = renderer.port_energy_j();
   view.port_energy_min_j = renderer.port_energy_min_j();
   view.stored_energy_j = renderer.stored_energy_j();

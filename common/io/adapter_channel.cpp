@@ -32,7 +32,7 @@ std::string adapter_trouble(const AdapterFigures& figures, const std::string& de
   if (!figures.present || (!figures.silent && !figures.failed)) return "";
   const std::string adapter = "the adapter of the " + device + " at " + address;
   if (figures.failed) return adapter + " says that the " + device + " has failed; mend that, then engage";
-  if (figures.accepted > 0) return adapter + " has gone silent; start it again, then engage";
+  if (figures.accepted > 0) return adapter + " has gone silent; if it stays so, start it again; then engage";
   if (figures.malformed > 0)
     return adapter + " sends what is not of the protocol; `longreach adapter check` says what";
   return adapter + " does not answer; start it, then engage";

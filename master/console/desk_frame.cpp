@@ -9,7 +9,7 @@ namespace {
 void add_states(proto::Frame& out, const ConsoleSnapshot& s) {
   const MasterView& view = s.view;
   out.set_state(std::string(to_string(view.state)));
-  out.set_cause(std::string(cause_in_words(view.cause)));
+  out.set_cause(cause_in_words(view));
   out.set_far_state(std::string(to_string(view.far_state)));
   out.set_engagement(view.engagement);
   out.set_happening(happening(s));

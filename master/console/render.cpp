@@ -111,7 +111,7 @@ Tone tone_of(SafetyState state) {
 std::string state_line(const ConsoleSnapshot& s) {
   std::string line(state_in_words(s.view.state));
   line += ", slave " + (s.view.far_known ? std::string(state_in_words(s.view.far_state)) : "not heard yet");
-  if (s.view.cause != HoldCause::kNone) line += " (" + std::string(cause_in_words(s.view.cause)) + ")";
+  if (s.view.cause != HoldCause::kNone) line += " (" + cause_in_words(s.view) + ")";
   return line;
 }
 
@@ -131,7 +131,7 @@ std::string tool_line(const ConsoleSnapshot& s) {
   if (!s.view.far_known) return "not heard yet";
   const Vector3& p = s.view.far.X_WE.p;
   std::string line = text("x %+8.4f  y %+8.4f  z %+8.4f m", p.x(), p.y(), p.z());
-  if (s.link.rtt_s) line += text("  (%.1f s ago)", *s.link.rtt_s / 2.0);
+  if (const auto age_s = age_of_news_s(s)) line += text("  (%.1f s ago)", *age_s);
   return line;
 }
 
@@ -174,7 +174,10 @@ void add_forces(Page& page, const ConsoleSnapshot& s, int width) {
   page.line("hand",
             text("%7.2f N ", hand) + bar(hand, s.force_max_n, length) + text(" %.0f N", s.force_max_n),
             s.view.force_clamped ? Tone::kWarn : Tone::kPlain);
-  page.line("robot", text("%7.2f N ", robot) + bar(robot, s.force_max_n, length));
+  page.line(
+      "robot",
+      text("%7.2f N ", robot) + bar(robot, s.force_max_n, length) + (s.view.silent ? " when last heard" : ""),
+      s.view.silent ? Tone::kDim : Tone::kPlain);
 }
 
 void add_clamps(Page& page, const MasterView& view) {
@@ -200,7 +203,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.wrapped(happening(s), tone_of(s.view.state));
   page.whole("");
   page.line("state", state_line(s), tone_of(s.view.state));
-  page.line("link", link_line(s.link), s.view.cause == HoldCause::kLinkSilent ? Tone::kWarn : Tone::kPlain);
+  page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
   page.line("datagrams", datagrams_line(s.link));
   page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
                          s.view.clutched ? ", clutched" : "", s.view.load ? ", gripper loaded" : ""));

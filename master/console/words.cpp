@@ -22,6 +22,30 @@ std::string text(const char* format, Values... values) {
 
 bool heard(const ConsoleSnapshot& s) { return s.view.far_known || std::isfinite(s.link.silence_s); }
 
+/// Of what is said of the robot: how long ago it was so.
+std::string as_of(const ConsoleSnapshot& s) {
+  constexpr double kNoticed_s = 0.1;
+  const auto age_s = age_of_news_s(s);
+  return age_s && *age_s >= kNoticed_s ? text(" (%.1f s ago)", *age_s) : "";
+}
+
+/// Which limit keeps the robot from following; empty: none does.
+std::string held_back(const MasterView& view) {
+  if (!view.far_known || view.far.engagement != view.engagement) return "";
+  const Clamps& robot = view.far.clamps;
+  if (robot.joint_position)
+    return "a joint of the robot is at the end of its range: it does not follow any further this way";
+  if (robot.workspace)
+    return "the robot stands at the edge of its workspace: it does not follow any further this way";
+  if (robot.unreachable)
+    return "the goal is out of the robot's reach: it does not follow any further this way";
+  if (robot.force_guard) return "the force guard lets the robot go no deeper";
+  if (robot.singularity) return "near a singular pose the robot follows slowly";
+  if (robot.joint_speed) return "a joint of the robot is at its speed limit: it follows late";
+  if (robot.tool_speed) return "the robot is at its speed limit: it follows late";
+  return "";
+}
+
 std::string touching(const ConsoleSnapshot& s) {
   const double k = s.view.stiffness_n_per_m;
   if (!(k > 0.0)) return "touching: the slave is still measuring the wall";
@@ -38,27 +62,52 @@ std::string following(const ConsoleSnapshot& s) {
                         : "engaging: waiting for the slave's answer";
   }
   if (s.view.clutched) return "clutch: the hand moves freely, the robot keeps its place";
-  if (s.view.in_contact) return touching(s);
+  const std::string limit = held_back(s.view);
+  if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
+  if (!limit.empty()) return limit + as_of(s);
   if (s.view.spring_force_n.norm() > 0.0) {
     return text("the hand is in the wall as remembered, %.2f N/mm; no news of the robot's touch yet",
                 s.view.stiffness_n_per_m * 1e-3);
   }
-  if (s.view.mode == MotionMode::kRate) return "moving freely: the hand's deflection sets the robot's speed";
-  return text("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale);
+  const bool rate = s.view.mode == MotionMode::kRate;
+  return (rate ? "moving freely: the hand's deflection sets the robot's speed"
+               : text("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale)) +
+         as_of(s);
 }
 
 std::string holding(const ConsoleSnapshot& s) {
+  const char* then = s.view.resumes ? "; it goes on by itself if that is over at once" : "; engage to go on";
   switch (s.view.cause) {
     case HoldCause::kLinkSilent:
-      return text("holding: nothing has come from the slave for %.1f s", s.link.silence_s);
+      if (s.view.silent)
+        return text("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
+               (s.view.resumes ? "" : "; engage when the link is back");
+      return text("holding: nothing came from the slave for %.1f s; the link is back: ",
+                  s.view.hold_silence_s) +
+             (s.view.resumes ? "it goes on by itself" : "engage to go on");
     case HoldCause::kHandleLetGo:
       return s.view.hand_missing ? "holding: no hand is on the handle" : "holding: engage to go on";
     case HoldCause::kNone:
     case HoldCause::kOperator:
       return "holding: engage to go on";
     default:
-      return "holding: " + std::string(cause_in_words(s.view.cause)) + "; engage to go on";
+      return "holding: " + cause_in_words(s.view) + then;
   }
+}
+
+std::string observing(const ConsoleSnapshot& s) {
+  if (s.view.silent)
+    return text("observing: nothing has come from the slave for %.1f s; engage when it is back",
+                s.link.silence_s);
+  if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
+  if (s.view.far_state == SafetyState::kFault) {
+    const std::string why(s.view.far_known ? cause_in_words(s.view.far.cause) : "");
+    return "observing: the slave has a fault" + (why.empty() ? "" : ", " + why) +
+           "; engage when it is mended";
+  }
+  if (s.view.cause != HoldCause::kNone)
+    return "observing: " + cause_in_words(s.view) + "; engage to try again";
+  return "observing: the robot is at rest; engage to take it";
 }
 
 }  // namespace
@@ -94,6 +143,20 @@ std::string_view cause_in_words(HoldCause cause) {
   return name_of(cause, kNames);
 }
 
+std::string cause_in_words(const MasterView& view) {
+  if (view.cause == HoldCause::kLinkSilent && !view.silent) return "the link was silent";
+  if (view.cause == HoldCause::kPeerHolds && view.far_state == SafetyState::kEngaged)
+    return "the other side held";
+  if (view.cause == HoldCause::kRobotFault && view.far_state != SafetyState::kFault)
+    return "the robot reported a fault";
+  return std::string(cause_in_words(view.cause));
+}
+
+std::optional<double> age_of_news_s(const ConsoleSnapshot& s) {
+  if (!s.view.far_known || !s.link.rtt_s) return std::nullopt;
+  return s.view.far_age_s + 0.5 * *s.link.rtt_s;
+}
+
 std::string_view mode_in_words(MotionMode mode) { return mode == MotionMode::kRate ? "rate" : "position"; }
 
 std::vector<std::string> clamps_in_words(const MasterView& view) {
@@ -102,7 +165,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (view.stiffness_clamped) words.emplace_back("stiffness: cut to what the device can render");
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
   if (view.at_boundary) words.emplace_back("hand: at the edge of its space, move it back with the clutch");
-  if (!view.far_known) return words;
+  if (!view.far_known || view.silent) return words;  // what was clamped then
   const Clamps& robot = view.far.clamps;
   if (robot.tool_speed) words.emplace_back("robot: at its tool speed limit, it will catch up");
   if (robot.joint_speed) words.emplace_back("robot: a joint is at its speed limit");
@@ -120,10 +183,7 @@ std::string happening(const ConsoleSnapshot& s) {
   switch (s.view.state) {
     case SafetyState::kIdle:
     case SafetyState::kObserving:
-      if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
-      if (s.view.cause != HoldCause::kNone)
-        return "observing: " + std::string(cause_in_words(s.view.cause)) + "; engage to try again";
-      return "observing: the robot is at rest; engage to take it";
+      return observing(s);
     case SafetyState::kEngaged:
       return following(s);
     case SafetyState::kHolding:
@@ -131,7 +191,7 @@ std::string happening(const ConsoleSnapshot& s) {
     case SafetyState::kStopped:
     case SafetyState::kFault: {
       std::string words = s.view.state == SafetyState::kStopped ? "stopped" : "fault";
-      if (s.view.cause != HoldCause::kNone) words += ": " + std::string(cause_in_words(s.view.cause));
+      if (s.view.cause != HoldCause::kNone) words += ": " + cause_in_words(s.view);
       return words + "; engage to begin anew";
     }
   }

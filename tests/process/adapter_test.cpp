@@ -88,8 +88,8 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_EQ(master_.status()->cause(), "device fault");
   expect_told_in_time(master_);
   const std::string why = master_.engage();
-  EXPECT_NE(why.find("has gone silent; start it again"), std::string::npos) << why;
-  EXPECT_TRUE(says(*master_program_, "has gone silent; start it again")) << outputs();
+  EXPECT_NE(why.find("has gone silent; if it stays so, start it again"), std::string::npos) << why;
+  EXPECT_TRUE(says(*master_program_, "has gone silent; if it stays so, start it again")) << outputs();
   // Back again, it is not engaged by itself.
   start(device_, "device");
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
@@ -105,7 +105,8 @@ TEST_F(Adapters, AKilledAdapterOfTheRobotIsAFaultAndTheRobotIsTakenWhereItThenIs
       << outputs();
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
   expect_told_in_time(slave_);
-  EXPECT_NE(slave_.status()->trouble().find("has gone silent; start it again"), std::string::npos);
+  EXPECT_NE(slave_.status()->trouble().find("has gone silent; if it stays so, start it again"),
+            std::string::npos);
   start(robot_, "robot");
   ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
   EXPECT_EQ(slave_.state(), "Fault");

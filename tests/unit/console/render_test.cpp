@@ -64,7 +64,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
   const std::string expected =
       "longreach master  21.3 s, 39 s left  operator: press\n"
       "\n"
-      "touching: the wall gives 0.98 N/mm\n"
+      "touching: the wall gives 0.98 N/mm (1.3 s ago)\n"
       "\n"
       "state     Engaged, slave Engaged\n"
       "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent 0.02 s\n"
@@ -157,13 +157,51 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.far_state = SafetyState::kEngaged;
   s.view.in_contact = false;
   s.view.spring_force_n.setZero();
-  EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80");
+  EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80 (1.3 s ago)");
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   s.view.stiffness_n_per_m = 0.0;
-  EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall");
+  EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall (1.3 s ago)");
   s.view.stiffness_n_per_m = 981.0;
-  EXPECT_EQ(happening(s), "touching: the wall gives 0.98 N/mm");
+  EXPECT_EQ(happening(s), "touching: the wall gives 0.98 N/mm (1.3 s ago)");
+}
+
+TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
+  ConsoleSnapshot s = touching();
+  s.view.in_contact = false;
+  s.view.spring_force_n.setZero();
+  std::vector<std::string> seen;
+  for (bool Clamps::*limit :
+       {&Clamps::joint_position, &Clamps::workspace, &Clamps::unreachable, &Clamps::force_guard,
+        &Clamps::singularity, &Clamps::joint_speed, &Clamps::tool_speed}) {
+    s.view.far.clamps = {};
+    s.view.far.clamps.*limit = true;
+    EXPECT_FALSE(contains(happening(s), "moving freely")) << happening(s);
+    EXPECT_TRUE(contains(happening(s), "(1.3 s ago)")) << happening(s);
+    seen.push_back(happening(s));
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+  s.view.far.clamps = {};
+  s.view.far.clamps.joint_position = true;
+  EXPECT_TRUE(contains(happening(s), "a joint of the robot is at the end of its range"));
+  s.view.in_contact = true;
+  EXPECT_TRUE(contains(happening(s), "touching: ") && contains(happening(s), "at the end of its range"));
+  s.view.far.engagement = s.view.engagement + 1;  // of another engagement: no news of this one
+  EXPECT_FALSE(contains(happening(s), "at the end of its range"));
+}
+
+TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
+  ConsoleSnapshot s = touching();
+  s.view.in_contact = false;
+  s.view.spring_force_n.setZero();
+  s.link.rtt_s = 0.02;
+  EXPECT_FALSE(contains(happening(s), "ago"));
+  s.view.far_age_s = 0.4;
+  EXPECT_TRUE(contains(happening(s), "(0.4 s ago)")) << happening(s);
+  EXPECT_TRUE(contains(render(s, 80, false), "m  (0.4 s ago)"));
+  s.view.mode = MotionMode::kRate;
+  EXPECT_TRUE(contains(happening(s), "(0.4 s ago)")) << happening(s);
 }
 
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
@@ -178,8 +216,66 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   s.view.state = SafetyState::kHolding;
   s.view.cause = HoldCause::kLinkSilent;
   s.link.silence_s = 0.7;
+  s.view.silent = s.view.resumes = true;
   EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s");
   EXPECT_TRUE(contains(render(s, 80, false), "Holding, slave Engaged (the link is silent)"));
+  s.view.resumes = false;
+  EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s; engage when the link is back");
+}
+
+TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
+  ConsoleSnapshot s = touching();
+  s.view.state = SafetyState::kHolding;
+  s.view.cause = HoldCause::kLinkSilent;
+  s.link.silence_s = 0.0;
+  s.view.hold_silence_s = 12.31;
+  EXPECT_EQ(happening(s),
+            "holding: nothing came from the slave for 12.3 s; the link is back: engage to go on");
+  EXPECT_TRUE(contains(render(s, 80, false), "(the link was silent)"));
+  s.view.resumes = true;
+  EXPECT_TRUE(contains(happening(s), "the link is back: it goes on by itself"));
+  s.view.state = SafetyState::kObserving;
+  EXPECT_TRUE(contains(happening(s), "the link was silent; engage to try again")) << happening(s);
+}
+
+TEST(Happening, SaysOfOtherCausesThatAreOverThatTheyAreOver) {
+  ConsoleSnapshot s = touching();
+  s.view.state = SafetyState::kHolding;
+  s.view.cause = HoldCause::kRobotFault;
+  s.view.far_state = SafetyState::kFault;
+  EXPECT_TRUE(contains(happening(s), "the robot reports a fault"));
+  s.view.far_state = SafetyState::kObserving;
+  EXPECT_TRUE(contains(happening(s), "the robot reported a fault"));
+  s.view.cause = HoldCause::kPeerHolds;
+  s.view.far_state = SafetyState::kHolding;
+  EXPECT_TRUE(contains(happening(s), "the other side holds"));
+  s.view.far_state = SafetyState::kEngaged;
+  EXPECT_TRUE(contains(happening(s), "the other side held"));
+}
+
+TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
+  ConsoleSnapshot s = touching();
+  s.view.state = SafetyState::kObserving;
+  s.view.silent = true;
+  s.link.silence_s = 140.0;
+  EXPECT_EQ(happening(s), "observing: nothing has come from the slave for 140.0 s; engage when it is back");
+  s.view.silent = false;
+  s.view.far_state = SafetyState::kFault;
+  s.view.far.cause = HoldCause::kSensorFault;
+  EXPECT_EQ(
+      happening(s),
+      "observing: the slave has a fault, the force sensor says what no contact could do; engage when it is "
+      "mended");
+}
+
+TEST(View, MarksWhatIsOldAsOld) {
+  ConsoleSnapshot s = touching();
+  s.view.far.clamps.tool_speed = true;
+  EXPECT_TRUE(contains(render(s, 80, false), "robot: at its tool speed limit"));
+  EXPECT_FALSE(contains(render(s, 80, false), "when last heard"));
+  s.view.silent = true;
+  EXPECT_FALSE(contains(render(s, 80, false), "robot: at its tool speed limit"));
+  EXPECT_TRUE(contains(render(s, 110, false), "when last heard"));
 }
 
 TEST(Words, NameEveryStateAndCauseDifferently) {

@@ -151,6 +151,54 @@ TEST(MasterNode, FadesTheContactWhenTheSlaveFallsSilent) {
   EXPECT_LT(b.node.view().spring_force_n.norm(), 0.01);
 }
 
+TEST(MasterNode, ShowsNoSpringThatIsNotFelt) {
+  Bench b;
+  b.engage();
+  b.in.requests.scale = 1.0;
+  std::uint64_t touch = 0;
+  for (int i = 0; i < 400; ++i) {
+    b.in.handle.p_MH.x() = 1e-5 * i;
+    const StiffnessReport report = b.contact(2000.0, static_cast<double>(touch));
+    const MasterOutput out = b.tick(i == 200 ? &report : nullptr);
+    if (out.command && i < 200) touch = out.sequence;
+  }
+  ASSERT_GT(b.node.view().spring_force_n.norm(), 2.0);
+  b.in.requests.stop = true;
+  for (int i = 0; i < 100; ++i) b.tick();
+  EXPECT_EQ(b.node.view().state, SafetyState::kStopped);
+  EXPECT_EQ(b.node.view().spring_force_n.norm(), 0.0);
+  EXPECT_EQ(b.node.view().stiffness_n_per_m, 0.0);
+}
+
+TEST(MasterNode, TellsASilenceThatIsOverFromOneThatIsNot) {
+  Bench b;
+  b.engage();
+  for (int i = 0; i < 3000; ++i) {
+    b.in.now += std::chrono::milliseconds(1);
+    b.node.step(b.in);
+  }
+  EXPECT_EQ(b.node.view().cause, HoldCause::kLinkSilent);
+  EXPECT_TRUE(b.node.view().silent);
+  for (int i = 0; i < 3000; ++i) b.tick();
+  EXPECT_EQ(b.node.view().cause, HoldCause::kLinkSilent);
+  EXPECT_FALSE(b.node.view().silent);
+  EXPECT_FALSE(b.node.view().resumes) << "too long ago";
+  EXPECT_NEAR(b.node.view().hold_silence_s, 3.0, 0.01);
+}
+
+TEST(MasterNode, CountsTheAgeOfTheTelemetryItShows) {
+  Bench b;
+  Received<Telemetry> news{};
+  b.in.now += std::chrono::milliseconds(1);
+  b.in.last_heard = b.in.now;
+  b.in.telemetry = {&news, 1};
+  b.node.step(b.in);
+  EXPECT_EQ(b.node.view().far_age_s, 0.0);
+  b.in.telemetry = {};
+  for (int i = 0; i < 700; ++i) b.tick();  // reports come, telemetry does not
+  EXPECT_NEAR(b.node.view().far_age_s, 0.7, 1e-9);
+}
+
 TEST(MasterNode, RampsTheWrenchAwayOnStop) {
   Bench b;
   b.engage();
