@@ -83,10 +83,11 @@ struct MasterView {
   std::uint64_t false_holds = 0;      // holds that ended by themselves within resume_s
   Telemetry far{};                    // newest telemetry
   bool far_known = false;
-  double far_age_s = 0.0;       // since it came
+  // Of the shown alone; a recording has them in its messages.
   bool silent = false;          // nothing has been heard for silence_s
-  double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
   bool resumes = false;         // a hold ends by itself when its cause is over
+  double far_age_s = 0.0;       // since the newest telemetry came
+  double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
 };
 
 struct MasterOutput {

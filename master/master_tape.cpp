@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(HandleState) == 112 && sizeof(OperatorRequests) == 32);
-static_assert(sizeof(MasterInput) == 240 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 848);
+static_assert(sizeof(MasterInput) == 240 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 864);
 
 MasterTape::MasterTape(double rate_hz, Duration to_log_time)
     : Tape("master", to_log_time),

@@ -18,7 +18,7 @@ std::string plain(const std::string& name) {
   std::string out;
   for (const char c : name.substr(0, 64))
     out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' ? c : '?';
-  return out;
+  return out.empty() ? "?" : out;
 }
 
 std::string tries_in_words(int tries) {
@@ -30,8 +30,8 @@ constexpr std::string_view kAnother = "; ask for another one with longreach-slav
 
 }  // namespace
 
-PairingOffer::PairingOffer(const PairingToken& token, Certificate authority, Time now)
-    : token_(token), authority_(std::move(authority)), until_(now + kLife) {}
+PairingOffer::PairingOffer(const PairingToken& token, Certificate authority, Time now, Record record)
+    : token_(token), authority_(std::move(authority)), until_(now + kLife), record_(std::move(record)) {}
 
 PairingOffer::State PairingOffer::state(Time now) const {
   if (used_) return State::kUsed;
@@ -63,6 +63,11 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
     answer.set_client(certify(authority_, request.client_request(), terms_of(RpcRole::kClient)));
   } catch (const std::runtime_error&) {
     return "the request asks for no certificates of ours; use programs of one version";
+  }
+  try {
+    if (record_) record_(plain(request.host()), answer.master(), answer.client());
+  } catch (const std::runtime_error& error) {
+    return std::string("who is paired could not be written down, so nobody is: ") + error.what();
   }
   used_ = true;
   answer.set_authority(authority_.certificate_pem);

@@ -14,9 +14,11 @@
 // never slave; the authority's key never leaves. Clocks do not matter: certificates are valid from 1970 to
 // 9999.
 //
-// Does not handle: somebody who spends the five tries to be a nuisance (ask for another token); taking a
-// certificate back (make the site anew).
+// Who was paired is written down before the answer leaves (common/io/revocations), so that it can be revoked.
+//
+// Does not handle: somebody who spends the five tries to be a nuisance (ask for another token).
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -41,7 +43,12 @@ class PairingOffer {
   static constexpr Duration kLife = std::chrono::minutes(10);
   enum class State { kOpen, kUsed, kExpired, kSpent };
 
-  PairingOffer(const PairingToken& token, Certificate authority, Time now);
+  /// Writes down whom it was given to: host, certificates of its master and its client. May throw; nobody is
+  /// paired then.
+  using Record = std::function<void(const std::string& host, const std::string& master_pem,
+                                    const std::string& client_pem)>;
+
+  PairingOffer(const PairingToken& token, Certificate authority, Time now, Record record = {});
 
   /// The answer, or one sentence why not.
   std::variant<proto::PairingMessage, std::string> answer(const proto::PairingMessage& request, Time now);
@@ -55,6 +62,7 @@ class PairingOffer {
   const PairingToken token_;
   const Certificate authority_;
   const Time until_;
+  const Record record_;
   int tries_left_ = kTries;
   bool used_ = false;
   std::string paired_;

@@ -12,6 +12,7 @@
 
 #include "common/io/pairing_rpc.hpp"
 #include "common/io/real_time_loop.hpp"
+#include "common/io/revocations.hpp"
 
 namespace longreach {
 namespace {
@@ -40,11 +41,12 @@ void print_token(const std::string& token, const std::string& address) {
   std::vector<std::string> hosts{address.substr(0, colon)};
   if (is_wildcard(hosts.front())) hosts = own_addresses();
   if (hosts.empty()) hosts.emplace_back("ADDRESS");
-  std::printf("Token: %s\nGood for one use, five tries and 10 minutes. On the host that joins:\n\n",
-              token.c_str());
+  std::printf(
+      "Token: %s\nGood for one use, five tries and 10 minutes. On the host that joins, which asks for "
+      "it:\n\n",
+      token.c_str());
   for (const std::string& host : hosts)
-    std::printf("  longreach pair --slave %s%s %s\n", host.c_str(), address.substr(colon).c_str(),
-                token.c_str());
+    std::printf("  longreach pair --slave %s%s\n", host.c_str(), address.substr(colon).c_str());
   std::printf("\nWaiting; Ctrl-C makes the token void.\n");
   std::fflush(stdout);
 }
@@ -79,7 +81,10 @@ const char* ending(PairingOffer::State state) {
 bool run_pairing_desk(const std::filesystem::path& site, const std::string& listen,
                       const std::atomic<bool>& stop) {
   const PairingToken token = PairingToken::draw();
-  PairingOffer offer(token, site_authority(site), monotonic_now());
+  PairingOffer offer(token, site_authority(site), monotonic_now(),
+                     [&site](const std::string& host, const std::string& master, const std::string& client) {
+                       record_pairing(site, host, master, client);
+                     });
   PairingOffer::State state = PairingOffer::State::kOpen;
   {
     const PairingServer server(listen, offer, [&offer](const std::string& from, const std::string& refusal) {

@@ -20,6 +20,7 @@
 #include "common/io/outlet.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
+#include "common/io/revocations.hpp"
 #include "common/io/site.hpp"
 
 namespace longreach {
@@ -91,7 +92,9 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
         "robot\n");
     return {};
   }
-  return {site_credentials(site_of(options), role)};
+  RpcSecurity security{site_credentials(site_of(options), role)};
+  refuse_revoked(site_of(options));
+  return security;
 }
 
 inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {

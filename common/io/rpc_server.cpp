@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <variant>
 
 #include "common/config/host_and_port.hpp"
@@ -16,6 +17,7 @@
 #include "common/io/doorkeeper.hpp"
 #include "common/io/log.hpp"
 #include "common/io/pace.hpp"
+#include "common/io/revocations.hpp"
 #include "common/io/rpc_refusals.hpp"
 #include "common/io/status_fields.hpp"
 #include "proto/control.grpc.pb.h"
@@ -27,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kRequestMaxBytes = 1 << 20;
 constexpr int kThreadsMax = kWatchersMax + 32;
+constexpr auto kRevocationCheck = std::chrono::milliseconds(100);
 constexpr auto kLeaveCheck = std::chrono::milliseconds(100);   // how soon a watcher that left is noticed
 constexpr auto kFinishGrace = std::chrono::milliseconds(200);  // for calls that are under way at the stop
 
@@ -106,7 +109,9 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
   grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
                            proto::OpenSessionResponse* answer) override {
     if (!is_master(*context)) return denied(*context, "only a master of this site may open a session");
-    return finish(context, service_.open_session(*request, caller_of(*context)), answer);
+    const grpc::Status status = finish(context, service_.open_session(*request, caller_of(*context)), answer);
+    if (status.ok()) note_holder(answer->session(), fingerprint_of(*context->auth_context()));
+    return status;
   }
   grpc::Status CloseSession(Context* context, const proto::CloseSessionRequest* request,
                             proto::Outcome* answer) override {
@@ -129,9 +134,23 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
               std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: end one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
-      if (!writer->Write(status())) break;
+      if (is_revoked(*context->auth_context()) || !writer->Write(status())) break;
     return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " ends")
                       : grpc::Status::OK;
+  }
+
+  /// A revoked master gives back the robot, which holds then.
+  void end_revoked() {
+    std::uint64_t session = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      if (holder_.empty() || !is_revoked(holder_)) return;
+      holder_.clear();
+      session = session_;
+    }
+    proto::CloseSessionRequest request;
+    request.set_session(session);
+    (void)service_.close_session(request);
   }
 
   void begin_stop() {
@@ -198,6 +217,12 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
     return peer.substr(peer.find(':') + 1);
   }
 
+  void note_holder(std::uint64_t session, const std::string& fingerprint) {
+    const std::lock_guard lock(mutex_);
+    session_ = session;
+    holder_ = fingerprint;
+  }
+
   bool stopping() {
     const std::lock_guard lock(mutex_);
     return stopping_;
@@ -221,6 +246,8 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
   std::condition_variable wake_;
   bool stopping_ = false;
   int watchers_ = 0;
+  std::uint64_t session_ = 0;
+  std::string holder_;  // fingerprint of the master that opened it
 };
 
 std::string listen_address(const std::string& listen, std::string_view side) {
@@ -257,7 +284,9 @@ std::shared_ptr<grpc::ServerCredentials> server_credentials(const RpcSecurity& s
   grpc::SslServerCredentialsOptions options(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
   options.pem_root_certs = security.credentials->authority;
   options.pem_key_cert_pairs = {{security.credentials->key, security.credentials->certificate}};
-  return grpc::SslServerCredentials(options);
+  auto credentials = grpc::SslServerCredentials(options);
+  credentials->SetAuthMetadataProcessor(revocation_check());
+  return credentials;
 }
 
 }  // namespace
@@ -270,6 +299,7 @@ struct RpcServer::State {
   std::unique_ptr<ListeningSocket> socket;
   std::unique_ptr<Doorkeeper> door;
   std::string address;
+  std::jthread revocations;  // looks whether the holder of the session is revoked
 
   void let_in(int fd) {
     grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
@@ -303,6 +333,9 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
         "of this machine");
   state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(state_->socket->port());
   state_->door = std::make_unique<Doorkeeper>(*state_->socket, [this](int fd) { state_->let_in(fd); });
+  state_->revocations = std::jthread([control = &state_->control](const std::stop_token& ends) {
+    for (; !ends.stop_requested(); std::this_thread::sleep_for(kRevocationCheck)) control->end_revoked();
+  });
 }
 
 RpcServer::~RpcServer() { stop(); }
@@ -310,6 +343,7 @@ RpcServer::~RpcServer() { stop(); }
 void RpcServer::stop() {
   if (!state_->server) return;
   state_->door.reset();
+  state_->revocations = {};  // it ends within kRevocationCheck
   state_->control.begin_stop();
   state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);
   state_->server->Wait();

@@ -26,7 +26,8 @@ struct Words {
   std::vector<std::string> assignments{};
   std::string profile{}, direction = "both", duration{};
   std::string mode{}, scale{};
-  std::string token{};
+  std::string token{}, token_file{};
+  std::vector<std::string> names{};
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
   std::string device{}, robot{}, force = "0.5", move = "0";
@@ -65,7 +66,7 @@ class Grammar {
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
   std::string site_;
-  bool insecure_ = false, replace_ = false, plain_ = false;
+  bool insecure_ = false, replace_ = false, plain_ = false, list_ = false;
 };
 
 Grammar::Grammar() {
@@ -177,7 +178,15 @@ void Grammar::declare_motion() {
 
 void Grammar::declare_site() {
   CLI::App* pair = declare(app_, "pair", "join the site of a slave on another host", kPairMore);
-  pair->add_option("TOKEN", words_.token, "as it was printed; dashes and case do not matter")->required();
+  pair->add_option("TOKEN", words_.token)->group("");  // to be refused
+  pair->add_option("--token-file", words_.token_file,
+                   "file with the token, of yours alone; -: standard input [asked for on the terminal]")
+      ->type_name("FILE");
+  pair->add_flag("--list", list_, "show who was paired with this host's site");
+  declare(app_, "unpair", "revoke what a paired host has got", kUnpairMore)
+      ->add_option("NAME", words_.names, "host as pair --list names it, or a fingerprint")
+      ->required()
+      ->expected(-1);
   CLI::App* doctor = declare(app_, "doctor", "look for what is wrong, and say what to do", kDoctorMore);
   doctor->add_option("--seconds", words_.seconds, "how long sides and loop are watched, 0.2 to 60 [2]")
       ->type_name("N");
@@ -260,6 +269,7 @@ Command Grammar::command() const {
   if (parsed("record")) return record_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
+  if (parsed("unpair")) return UnpairCommand{words_.names};
   if (parsed("adapter")) return adapter_command();
   if (parsed("doctor"))
     return DoctorCommand{
@@ -268,9 +278,15 @@ Command Grammar::command() const {
 }
 
 PairCommand Grammar::pair_command() const {
+  if (!words_.token.empty())
+    throw UsageError(
+        "pair takes no token in its arguments, where other users of this machine can read it: leave it out "
+        "and "
+        "type it when it is asked for, or give --token-file FILE");
+  if (list_) return {.list = true};
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
-  return {words_.token, replace_};
+  return {.token_file = words_.token_file, .replace = replace_};
 }
 
 AdapterCheckCommand Grammar::adapter_command() const {

@@ -148,6 +148,7 @@ ExitStatus run(const Invocation& invocation) {
         if constexpr (std::is_same_v<Asked, EngageCommand>) return run_engage(options);
         if constexpr (std::is_same_v<Asked, StopCommand>) return run_stop(options);
         if constexpr (std::is_same_v<Asked, PairCommand>) return run_pair(options, command);
+        if constexpr (std::is_same_v<Asked, UnpairCommand>) return run_unpair(options, command);
         if constexpr (std::is_same_v<Asked, RecordCommand>) return run_record(options, command);
         if constexpr (std::is_same_v<Asked, DoctorCommand>) return run_doctor(options, command);
         if constexpr (std::is_same_v<Asked, AdapterCheckCommand>) return run_adapter_check(options, command);

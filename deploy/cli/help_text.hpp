@@ -37,8 +37,15 @@ Example: longreach watch --hz 10)";
 
 inline constexpr const char* kPairMore =
     R"(Makes this host's site folder: the keys of a master and its client, which that slave's site certifies.
-longreach-slave --pair prints the token there, and the whole command.
-Example: longreach pair --slave 192.0.2.7:47021 7KQ2-M8XH-3FZP-W0TR-9VNC-D4AB)";
+longreach-slave --pair prints the token there, and the command; the token is typed when it is asked for, never given in
+the arguments, which other users can read. With --list: who was paired with the site of this host.
+Example: longreach pair --slave 192.0.2.7:47021)";
+
+inline constexpr const char* kUnpairMore =
+    R"(What the host has got here is refused from now on, for new calls and for those that are under way; if its master has the
+robot, the robot holds. It acts on the programs that use this site folder, on this host. Other hosts of the site
+do not hear of it: where a master runs on one, give it the fingerprints that are printed.
+Example: longreach unpair station-2)";
 
 inline constexpr const char* kDoctorMore =
     R"(Looks at this host's site folder and certificates, at both sides (ports, version, loop, link, round trips) and

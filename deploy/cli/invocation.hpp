@@ -70,8 +70,13 @@ struct EngageCommand {};
 struct StopCommand {};
 /// This host joins the site of the slave whose token this is.
 struct PairCommand {
-  std::string token;
-  bool replace = false;  // a site that is here already is put aside
+  std::string token_file;  // -: standard input; empty: asked for on the terminal
+  bool replace = false;    // a site that is here already is put aside
+  bool list = false;       // nothing but: who was paired here
+};
+/// What paired hosts got here counts no more.
+struct UnpairCommand {
+  std::vector<std::string> names;  // of hosts, or fingerprints
 };
 
 /// `seconds`: how long sides and loop are watched.
@@ -95,9 +100,10 @@ struct AdapterCheckCommand {
   double move = 0.0;     // of a robot's first joint, rad or m
 };
 
-using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
-                             LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand,
-                             StopCommand, PairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand>;
+using Command =
+    std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand, LinkShowCommand,
+                 LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand,
+                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

@@ -1,12 +1,18 @@
-// This host joins another one's site.
+// This host joins another one's site; who has joined this one's, and who is no longer welcome.
 
+#include <sys/stat.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
+#include <fstream>
 #include <iostream>
 
 #include "common/io/pairing_rpc.hpp"
+#include "common/io/revocations.hpp"
 #include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
 
 namespace longreach {
 namespace {
@@ -16,19 +22,101 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
+std::filesystem::path site_of(const Options& options) {
+  return options.site.empty() ? default_site() : std::filesystem::path(options.site);
+}
+
+/// Without an echo while it lives, where that can be had.
+class Silence {
+ public:
+  Silence() : known_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (!known_) return;
+    termios silent = before_;
+    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+    (void)::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
+  }
+  ~Silence() {
+    if (known_) (void)::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  termios before_{};
+  bool known_;
+};
+
+std::string first_line(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  return line.substr(0, 256);
+}
+
+std::string read_token_file(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) throw UsageError("--token-file " + file + " cannot be read");
+  if (S_ISREG(status.st_mode) && (status.st_mode & 077U) != 0)
+    throw UsageError("--token-file " + file + " is open to other users; close it with chmod go= " + file);
+  std::ifstream in(file);
+  return first_line(in);
+}
+
+std::string read_token(const std::string& file) {
+  if (!file.empty() && file != "-") return read_token_file(file);
+  if (::isatty(STDIN_FILENO) == 0) return first_line(std::cin);
+  std::cerr << "Token: " << std::flush;
+  const Silence silence;
+  const std::string token = first_line(std::cin);
+  std::cerr << "\n";
+  return token;
+}
+
+std::string to_json(const PairedCertificate& one) {
+  return "{\"host\":" + json_string(one.host) + ",\"role\":" + json_string(one.role) +
+         ",\"since\":" + json_string(one.since) + ",\"expires\":" + json_string(one.expires) +
+         ",\"revoked\":" + (one.revoked ? "true" : "false") +
+         ",\"fingerprint\":" + json_string(one.fingerprint) + "}";
+}
+
+ExitStatus list_paired(const Options& options) {
+  const auto paired = paired_certificates(site_of(options));
+  if (options.json) {
+    std::string all;
+    for (const PairedCertificate& one : paired) all += (all.empty() ? "" : ",") + to_json(one);
+    std::cout << "{\"paired\":[" << all << "]}\n";
+    return ExitStatus::kDone;
+  }
+  if (paired.empty()) std::cout << "no host was paired with " << site_of(options).string() << "\n";
+  for (const PairedCertificate& one : paired)
+    std::cout << one.host << "  " << one.role << "  since " << one.since << "  expires " << one.expires
+              << "  " << (one.revoked ? "revoked  " : "") << one.fingerprint << "\n";
+  return ExitStatus::kDone;
+}
+
 }  // namespace
 
+ExitStatus run_unpair(const Options& options, const UnpairCommand& command) {
+  const std::vector<std::string> gone = revoke(site_of(options), command.names);
+  std::string all;
+  for (const std::string& one : gone) all += " " + one;
+  print_done(options, "revoked: programs with the site " + site_of(options).string() +
+                          " refuse it from now on; on another host that runs a master of this site, give "
+                          "longreach unpair" +
+                          all);
+  return ExitStatus::kDone;
+}
+
 ExitStatus run_pair(const Options& options, const PairCommand& command) {
-  const auto token = PairingToken::parse(command.token);
-  if (!token)
-    throw UsageError(
-        "the token is mistyped: it has 24 letters and digits, as longreach-slave --pair printed it");
-  const std::filesystem::path site =
-      options.site.empty() ? default_site() : std::filesystem::path(options.site);
+  if (command.list) return list_paired(options);
+  const std::filesystem::path site = site_of(options);
   // Before the token is spent.
   if (site_exists(site) && !command.replace)
     throw PairingError("this host has a site at " + site.string() +
                        " already; put it aside with --replace, or choose another folder with --site DIR");
+  const auto token = PairingToken::parse(read_token(command.token_file));
+  if (!token)
+    throw UsageError(
+        "the token is mistyped: it has 24 letters and digits, as longreach-slave --pair printed it");
   const PairingRequest request(*token, host_name());
   if (!options.json) std::cerr << "asking " << options.slave_address << " ...\n";
   const auto answer = ask_to_join(options.slave_address, request, options.timeout_s);

@@ -7,6 +7,7 @@
 
 #include "common/io/pace.hpp"
 #include "common/io/real_time_loop.hpp"
+#include "common/io/revocations.hpp"
 #include "common/io/rpc_server.hpp"
 #include "master/console/desk_frame.hpp"
 
@@ -71,13 +72,14 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
   // A frame that waits in a buffer is an old frame.
   const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
   for (Pace pace(follow_hz(*request)); wait_until(pace.due(), *context); pace.advance()) {
+    if (is_revoked(*context->auth_context())) break;
     if (!writer->Write(to_frame(look_(), reach_.translation_m), options)) break;
   }
   leave_seat();
   return grpc::Status::OK;
 }
 
-grpc::Status DeskService::Hold(grpc::ServerContext*, grpc::ServerReader<proto::HandAim>* reader,
+grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<proto::HandAim>* reader,
                                proto::Outcome* answer) {
   const std::uint64_t hand = take_handle();
   if (hand == 0) {
@@ -85,6 +87,8 @@ grpc::Status DeskService::Hold(grpc::ServerContext*, grpc::ServerReader<proto::H
             "another hand is on the handle; it has to let go first, or to be silent for 0.3 s"};
   }
   for (proto::HandAim message; reader->Read(&message);) {
+    if (is_revoked(*context->auth_context()))
+      return {grpc::StatusCode::PERMISSION_DENIED, "the certificate of this host has been revoked"};
     if (message.lets_go()) {
       (void)pass(hand, {});
       answer->set_message("the hand has let go");

@@ -101,6 +101,18 @@ TEST(CommandLine, NamesOfCommandsMayBePathsOfFields) {
   EXPECT_EQ(set.assignments[1], (std::pair<std::string, std::string>("link", "-1e-3")));
 }
 
+TEST(CommandLine, TakesNoTokenInItsArguments) {
+  expect_refused({"pair", "--slave", "192.0.2.7:47021", "7KQ2-M8XH-3FZP-W0TR-9VNC-D4AB"}, "--token-file");
+  const auto pair = command<PairCommand>({"pair", "--slave", "192.0.2.7:47021", "--token-file", "-"});
+  EXPECT_EQ(pair.token_file, "-");
+  EXPECT_FALSE(pair.list);
+  EXPECT_TRUE(command<PairCommand>({"pair", "--list"}).list);
+  expect_refused({"pair"}, "--slave");
+  const std::vector<std::string> names = {"a", "b"};
+  EXPECT_EQ(command<UnpairCommand>({"unpair", "a", "b"}).names, names);
+  expect_refused({"unpair"}, "NAME");
+}
+
 TEST(CommandLine, AssignmentsComeInPairs) {
   expect_refused({"set", "slave", "a.b"}, "a.b");
   expect_refused({"set", "slave", "a.b", "1", "c.d"}, "c.d");
