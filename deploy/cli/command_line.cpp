@@ -283,7 +283,7 @@ PairCommand Grammar::pair_command() const {
         "pair takes no token in its arguments, where other users of this machine can read it: leave it out "
         "and "
         "type it when it is asked for, or give --token-file FILE");
-  if (list_) return {.list = true};
+  if (list_) return {.token_file = {}, .list = true};
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
   return {.token_file = words_.token_file, .replace = replace_};
