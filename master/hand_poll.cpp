@@ -54,6 +54,9 @@ HandPoll::Seen HandPoll::seen() const {
 }
 
 void HandPoll::run() {
+  LoopConfig behind = config_.loop;
+  behind.priority -= behind.priority > 0 ? 1 : 0;
+  (void)ask_for_real_time(behind);  // what is not permitted the loop has said
   while (!ended_) {
     std::this_thread::sleep_for(kPollPeriod);
     poll();
