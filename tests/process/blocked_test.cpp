@@ -91,7 +91,7 @@ class Blocked : public Station {
   static constexpr auto kSoon = seconds(20);
 
   std::vector<std::string> keyboard(const std::string& view) const {
-    return {"--operator", "keyboard", "--mode", "rate", "--engage", "--view", view};
+    return {"--operator", "keyboard", "--mode", "rate", "--engage", "--core-dumps", "--view", view};
   }
   double tool_x_m() {
     const auto now = slave_.status();
