@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <vector>
 
 #include "common/config/config.hpp"
+#include "common/config/user_file.hpp"
 
 namespace longreach {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw ConfigError(file.string() + ": there is no such file");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 int line_of(const std::string& text, std::size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
@@ -51,6 +44,14 @@ std::vector<std::size_t> corners(std::istringstream& line, std::size_t points, c
   }
   if (face.size() < 3) throw ConfigError(where + "the face has " + std::to_string(face.size()) + " corners");
   return face;
+}
+
+std::string read_beside(const std::string& where, const fs::path& file) {
+  try {
+    return read_user_file(file);
+  } catch (const ConfigError& error) {
+    throw ConfigError(where + error.what());
+  }
 }
 
 }  // namespace
@@ -94,9 +95,9 @@ void load_scene_files(proto::Bodies& bodies, const fs::path& deploy_folder) {
   if (bodies.file_size() > 0) return;
   if (bodies.mjcf_file().empty()) throw ConfigError("scene.bodies.mjcf_file is empty; name an MJCF file");
   const fs::path file = deploy_folder / bodies.mjcf_file();
-  const std::string mjcf = read(file);
+  const std::string mjcf = read_user_file(file);
   add(bodies, bodies.mjcf_file(), mjcf);
-  static const std::regex kNamed("\\bfile\\s*=\\s*[\"']([^\"']*)[\"']");
+  static const std::regex kNamed("\\bfile\\s*=\\s*[\"']([^\"']{0,255})[\"']");
   for (std::sregex_iterator at(mjcf.begin(), mjcf.end(), kNamed), end; at != end; ++at) {
     const std::string name = (*at)[1],
                       where = file.string() + ":" +
@@ -105,8 +106,7 @@ void load_scene_files(proto::Bodies& bodies, const fs::path& deploy_folder) {
     if (name.find('/') != std::string::npos || fs::path(name).extension() != ".obj")
       throw ConfigError(where + "\"" + name +
                         "\" is not a mesh beside the file; name an OBJ file in its folder");
-    if (!fs::exists(beside)) throw ConfigError(where + beside.string() + ": there is no such file");
-    const std::string obj = read(beside);
+    const std::string obj = read_beside(where, beside);
     require_closed_mesh(beside.string(), obj);
     add(bodies, name, obj);
   }

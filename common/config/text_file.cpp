@@ -4,16 +4,13 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <string_view>
 
 #include "common/config/config.hpp"
 #include "common/config/parse_error.hpp"
 #include "common/config/text_place.hpp"
+#include "common/config/user_file.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -34,29 +31,6 @@ class FirstError : public google::protobuf::io::ErrorCollector {
   void AddWarning(int, int, const std::string&) override {}
   std::optional<ParseError> error;
 };
-
-std::string read_file(const fs::path& file) {
-  std::error_code status_error;
-  const fs::file_status status = fs::status(file, status_error);
-  if (status.type() == fs::file_type::not_found) throw ConfigError(file.string() + ": there is no such file");
-  if (status_error) throw ConfigError(file.string() + ": cannot be read: " + status_error.message());
-  if (fs::is_directory(status)) throw ConfigError(file.string() + ": is a folder; name a file in it");
-  if (!fs::is_regular_file(status)) throw ConfigError(file.string() + ": is not a regular file");
-
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  std::array<char, 4096> block{};
-  while (stream && text.size() <= kMaxBytes) {
-    stream.read(block.data(), block.size());
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  const bool failed = !stream.is_open() || stream.bad();
-  if (failed) {
-    throw ConfigError(file.string() + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
-  }
-  return text;
-}
 
 std::string place(const std::string& name, TextPosition position) {
   return name + ":" + std::to_string(position.line + 1) + ":" + std::to_string(position.column + 1);
@@ -95,7 +69,7 @@ std::string place_in_file(const fs::path& file, const Message& message, const Fi
   parser.RecordErrorsTo(&ignored);
   parser.WriteLocationsTo(&locations);
   try {
-    if (!parser.ParseFromString(read_file(file), again.get())) return file.string();
+    if (!parser.ParseFromString(read_user_file(file), again.get())) return file.string();
   } catch (const ConfigError&) {
     return file.string();
   }
@@ -103,7 +77,7 @@ std::string place_in_file(const fs::path& file, const Message& message, const Fi
 }
 
 void load_text_file(const fs::path& file, Message& message) {
-  load_text(file.string(), read_file(file), message);
+  load_text(file.string(), read_user_file(file), message);
 }
 
 void load_text(const std::string& name, const std::string& whole, Message& message) {

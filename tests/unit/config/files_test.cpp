@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "common/config/deploy_folder.hpp"
+#include "common/config/user_file.hpp"
 #include "tests/unit/config/temporary_folder.hpp"
 
 namespace longreach {
@@ -110,6 +112,27 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
       "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
   config.set_scene_file("scenes/none.txtpb");
   EXPECT_EQ(resolve_error(), path("scenes/none.txtpb") + ": there is no such file");
+}
+
+// Nobody writes into a FIFO, and a device has no end.
+TEST_F(ResolveFiles, ReadsRegularFilesOfABoundedSizeAlone) {
+  const auto error_with = [this](const fs::path& file) {
+    folder.write("scenes/wall.txtpb", "bodies { mjcf_file: \"scenes/b.xml\" }");
+    fs::remove(folder.path() / "scenes/b.xml");
+    fs::create_symlink(file, folder.path() / "scenes/b.xml");
+    return resolve_error();
+  };
+  const fs::path fifo = folder.path() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  const std::string name = path("scenes/b.xml");
+  EXPECT_EQ(error_with(fifo), name + ": is not a regular file");
+  EXPECT_EQ(error_with("/dev/zero"), name + ": is not a regular file");
+  EXPECT_EQ(error_with(folder.path()), name + ": is a folder; name a file in it");
+  const fs::path large = folder.write("large.xml", "<mujoco/>");
+  fs::resize_file(large, kUserFileMaxBytes + 1);  // a hole: it takes no room
+  EXPECT_EQ(error_with(large), name + ": is longer than 64 MiB");
+  fs::rename(fifo, folder.path() / "scenes/wall.txtpb");
+  EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") + ": is not a regular file");
 }
 
 // A scene's bodies bring an MJCF file, which brings meshes; a mesh is closed.
