@@ -107,10 +107,14 @@ class SideRecording {
             {"began", recording_name_now()}};
   }
 
+  /// The ones before end outside of the lock: that may take as long as the disk does.
   void keep(std::unique_ptr<TapeType> tape, std::unique_ptr<Recorder> recorder) {
-    const std::lock_guard lock(mutex_);
-    recorder_ = std::move(recorder);
-    tape_ = std::move(tape);
+    {
+      const std::lock_guard lock(mutex_);
+      recorder_.swap(recorder);
+      tape_.swap(tape);
+    }
+    recorder.reset();  // before its tape
   }
   void drop() { keep(nullptr, nullptr); }
 

@@ -10,13 +10,20 @@ namespace longreach {
 Tape::Tape(std::string side, Duration to_log_time) : side_(std::move(side)), to_log_time_(to_log_time) {}
 
 void Tape::add_config(Time now, std::uint32_t number, std::string text) {
-  const std::lock_guard lock(noting_);
-  notes_.push_back({now, true, number, std::move(text)});
+  note({now, true, number, std::move(text)});
 }
 
-void Tape::add_event(Time now, std::string text) {
+void Tape::add_event(Time now, std::string text) { note({now, false, 0, std::move(text)}); }
+
+void Tape::note(Note note) {
   const std::lock_guard lock(noting_);
-  notes_.push_back({now, false, 0, std::move(text)});
+  if (open()) notes_.push_back(std::move(note));
+}
+
+void Tape::close() {
+  const std::lock_guard lock(noting_);
+  open_.store(false, std::memory_order_relaxed);
+  std::vector<Note>().swap(notes_);
 }
 
 void Tape::declare(McapWriter& writer) {

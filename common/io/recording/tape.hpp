@@ -43,8 +43,13 @@ class Tape {
   void declare(McapWriter& writer);
   /// Recorder: writes all that has been gathered.
   void drain(McapWriter& writer);
-  /// Recorder: nothing is taken any more.
-  void close() { open_.store(false, std::memory_order_relaxed); }
+  /// Recorder: nothing is taken or kept any more.
+  void close();
+  /// Configurations and events that wait for the recorder.
+  [[nodiscard]] std::size_t notes() const {
+    const std::lock_guard lock(noting_);
+    return notes_.size();
+  }
   [[nodiscard]] std::uint64_t ticks_dropped() const { return dropped_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t log_time_ns(Time now) const {
     return static_cast<std::uint64_t>((now + to_log_time_).time_since_epoch().count());
@@ -67,13 +72,14 @@ class Tape {
     std::string text;
   };
 
+  void note(Note note);
   void write_note(const Note& note, McapWriter& writer);
 
   std::string side_;
   Duration to_log_time_;
   std::atomic<bool> open_{true};
   std::atomic<std::uint64_t> dropped_{0};  // written by the loop alone
-  std::mutex noting_;                      // never the loop
+  mutable std::mutex noting_;              // never the loop
   std::vector<Note> notes_;
   std::uint16_t config_channel_ = 0, event_channel_ = 0, link_channel_ = 0;
   recording::Link link_;

@@ -93,6 +93,18 @@ TEST(Recorder, WritesEveryTickWithItsMessages) {
   EXPECT_EQ(status.bytes, std::filesystem::file_size(folder.path() / "a.mcap"));
 }
 
+TEST(Recorder, KeepsNothingOnceItHasEnded) {
+  const TemporaryFolder folder;
+  MasterTape tape(kRateHz, Duration(0));
+  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, tape);
+  recorder.stop();
+  for (unsigned i = 0; i < 100; ++i) {
+    tape.add_config(Time{}, i, std::string(1000, 'c'));
+    tape.add_event(Time{}, "event");
+  }
+  EXPECT_EQ(tape.notes(), 0u);
+}
+
 TEST(Recorder, HasWrittenWhatIsOlderBeforeItEnds) {
   const TemporaryFolder folder;
   MasterTape tape(kRateHz, Duration(0));
