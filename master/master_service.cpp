@@ -53,11 +53,7 @@ bool moves_script(const Assignments& assignments) {
 }  // namespace
 
 MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings)
-    : shell_(shell),
-      start_(config),
-      config_(config),
-      recordings_(std::move(recordings)),
-      recording_("master", log_end) {}
+    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("master", log_end) {}
 
 MasterSnapshot MasterService::snapshot() {
   const std::lock_guard lock(reading_);
@@ -82,34 +78,33 @@ proto::Status MasterService::status() {
   return out;
 }
 
-std::unique_ptr<google::protobuf::Message> MasterService::config() {
-  return std::make_unique<proto::MasterConfig>(config_);
-}
+std::shared_ptr<const google::protobuf::Message> MasterService::config() { return config_.present(); }
 
-std::unique_ptr<google::protobuf::Message> MasterService::start_config() {
-  return std::make_unique<proto::MasterConfig>(start_);
-}
+std::shared_ptr<const google::protobuf::Message> MasterService::start_config() { return config_.start(); }
 
 std::optional<Refusal> MasterService::set_config(const Assignments& assignments) {
-  auto planned = plan_change({start_, config_}, assignments);
+  const auto before = config_.present();
+  auto planned = plan_change({*config_.start(), *before}, assignments);
   if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
   const auto& change = std::get<ConfigChange>(planned);
   const auto& after = static_cast<const proto::MasterConfig&>(*change.after);
   MasterChange command{to_struct(after), !change.not_while_engaged.empty(),
-                       !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
+                       !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
                        moves_script(assignments), config_number_ + 1};
   recording_.add_config(++config_number_, recorded_text(after));
   auto refusal = post(shell_.mailbox(), MasterCommand(std::move(command)), change.not_while_engaged);
-  if (!refusal) config_ = after;
+  if (!refusal) config_.put(after);
   return refusal;
 }
 
-proto::Impairment MasterService::link() { return config_.link().impairment(); }
+proto::Impairment MasterService::link() { return config_.present()->link().impairment(); }
 
 std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairment) {
   auto refusal = post(shell_.mailbox(), MasterCommand(to_struct(impairment)));
   if (!refusal) {
-    *config_.mutable_link()->mutable_impairment() = impairment;
+    proto::MasterConfig after = *config_.present();
+    *after.mutable_link()->mutable_impairment() = impairment;
+    config_.put(std::move(after));
     recording_.add_event("link impaired: " + impairment.ShortDebugString());
   }
   return refusal;
@@ -136,7 +131,7 @@ std::optional<Refusal> MasterService::engage() {
     if (!trouble_.empty()) return Refusal{Refusal::Kind::kPrecondition, trouble_};
   }
   const double silence_s = snapshot().side.link.silence_s;
-  if (!(silence_s <= config_.safety().silence_s())) {
+  if (!(silence_s <= config_.present()->safety().silence_s())) {
     return Refusal{Refusal::Kind::kPrecondition,
                    "the slave is not heard; check that longreach-slave runs and that link.slave and "
                    "link.slave_rpc lead to "
@@ -152,13 +147,10 @@ std::optional<Refusal> MasterService::engage() {
   return request(requests);
 }
 
-std::optional<Refusal> MasterService::stop() {
-  OperatorRequests requests;
-  requests.stop = true;
-  return request(requests);
-}
+std::optional<Refusal> MasterService::stop() { return ask(shell_.stops()); }
 
 std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
+  if (requests.stop) return stop();  // what else is asked for with it does not count
   return post(shell_.mailbox(), MasterCommand(requests));
 }
 
@@ -192,10 +184,10 @@ std::optional<Refusal> MasterService::close_session(std::uint64_t) {
 SideRecording<MasterTape>::Request MasterService::recording_request(double max_mb) const {
   SideRecording<MasterTape>::Request request;
   request.max_mb = max_mb;
-  request.rate_hz = config_.loop().rate_hz();
+  request.rate_hz = config_.present()->loop().rate_hz();
   request.seed = recordings_.seed;
   request.config_number = config_number_;
-  request.config_text = recorded_text(config_);
+  request.config_text = recorded_text(*config_.present());
   return request;
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/io/control_backend.hpp"
 #include "common/io/recording_answers.hpp"
+#include "common/io/side_config.hpp"
 #include "master/master_shell.hpp"
 
 namespace longreach {
@@ -16,8 +17,8 @@ class MasterService : public ControlBackend {
   MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
-  std::unique_ptr<google::protobuf::Message> config() override;
-  std::unique_ptr<google::protobuf::Message> start_config() override;
+  std::shared_ptr<const google::protobuf::Message> config() override;
+  std::shared_ptr<const google::protobuf::Message> start_config() override;
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
@@ -51,8 +52,7 @@ class MasterService : public ControlBackend {
   bool attach(MasterTape* tape);
 
   MasterShell& shell_;
-  const proto::MasterConfig start_;
-  proto::MasterConfig config_;
+  SideConfig<proto::MasterConfig> config_;
   std::uint32_t config_number_ = 0;  // of those that the loop was handed
   RecordingPlace recordings_;
   SideRecording<MasterTape> recording_;

@@ -49,6 +49,7 @@ void MasterShell::meet_device() {
 
 void MasterShell::tick(Time now, const LoopFigures& loop) {
   OperatorRequests requests;
+  const bool stop = stops_.take();
   if (const MasterCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, requests));
 
   port_.receive(now);
@@ -62,6 +63,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.reports = port_.reports();
   in.telemetry = port_.telemetry();
   in.requests = requests;
+  in.requests.stop = stop || requests.stop;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.restarts();
   in.taken = robbed_;

@@ -65,6 +65,7 @@ class MasterShell {
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
 
   Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
+  StopLevel& stops() { return stops_; }
   LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
   /// Written by the thread that polls keyboard, gamepad or SpaceMouse.
   LatestValue<HandLevel>& hand() { return hand_; }
@@ -100,6 +101,7 @@ class MasterShell {
   std::uint64_t ticks_ = 0;          // steps of the node
   std::uint32_t config_number_ = 0;  // of what it was configured with
   MasterSnapshot snapshot_{};
+  StopLevel stops_;
   Mailbox<MasterCommand, LoopAnswer> mailbox_;
   LatestValue<MasterSnapshot> snapshots_;
   LatestValue<HandLevel> hand_;

@@ -62,11 +62,7 @@ std::string robot_trouble(const SlaveView& view) {
 }
 
 SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)
-    : shell_(shell),
-      start_(config),
-      config_(config),
-      recordings_(std::move(recordings)),
-      recording_("slave", log_end) {}
+    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("slave", log_end) {}
 
 SlaveSnapshot SlaveService::snapshot() {
   const std::lock_guard lock(reading_);
@@ -111,41 +107,40 @@ proto::Status SlaveService::status() {
   add_count(out, "ik_failures", view.ik_failures);
   add_count(out, "rejected_setpoints", s.rejected_setpoints);
   add_counts(out, s.adapter);
-  out.set_trouble(adapter_trouble(s.adapter, "robot", config_.robot_adapter().address()));
+  out.set_trouble(adapter_trouble(s.adapter, "robot", config_.present()->robot_adapter().address()));
   if (out.trouble().empty()) out.set_trouble(robot_trouble(view));
   return out;
 }
 
-std::unique_ptr<google::protobuf::Message> SlaveService::config() {
-  return std::make_unique<proto::SlaveConfig>(config_);
-}
+std::shared_ptr<const google::protobuf::Message> SlaveService::config() { return config_.present(); }
 
-std::unique_ptr<google::protobuf::Message> SlaveService::start_config() {
-  return std::make_unique<proto::SlaveConfig>(start_);
-}
+std::shared_ptr<const google::protobuf::Message> SlaveService::start_config() { return config_.start(); }
 
 std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) {
-  auto planned = plan_change({start_, config_}, assignments);
+  const auto before = config_.present();
+  auto planned = plan_change({*config_.start(), *before}, assignments);
   if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
   const auto& change = std::get<ConfigChange>(planned);
   const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
   if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
   SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
-                      !MessageDifferencer::Equals(after.link().impairment(), config_.link().impairment()),
+                      !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
                       config_number_ + 1};
   recording_.add_config(++config_number_, recorded_text(after));
   auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
-  if (!refusal) config_ = after;
+  if (!refusal) config_.put(after);
   return refusal;
 }
 
-proto::Impairment SlaveService::link() { return config_.link().impairment(); }
+proto::Impairment SlaveService::link() { return config_.present()->link().impairment(); }
 
 std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairment) {
   auto refusal = post(shell_.mailbox(), SlaveCommand(to_struct(impairment)));
   if (!refusal) {
-    *config_.mutable_link()->mutable_impairment() = impairment;
+    proto::SlaveConfig after = *config_.present();
+    *after.mutable_link()->mutable_impairment() = impairment;
+    config_.put(std::move(after));
     recording_.add_event("link impaired: " + impairment.ShortDebugString());
   }
   return refusal;
@@ -157,7 +152,7 @@ std::optional<Refusal> SlaveService::set_scale(double) { return at_the_master("t
 
 std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement"); }
 
-std::optional<Refusal> SlaveService::stop() { return post(shell_.mailbox(), SlaveCommand(SlaveStop{})); }
+std::optional<Refusal> SlaveService::stop() { return ask(shell_.stops()); }
 
 std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
     const proto::OpenSessionRequest& request, const std::string& caller) {
@@ -171,7 +166,7 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
     return Refusal{Refusal::Kind::kInvalid, "a master sends 50 to 4000 times a second, not " +
                                                 format_number(send_hz) + "; use programs of one version"};
   }
-  if (std::string why = too_short(config_.safety(), send_hz); !why.empty())
+  if (std::string why = too_short(config_.present()->safety(), send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
   const bool aes = request.aes256gcm() && has_aes256gcm();
   const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
@@ -190,7 +185,6 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
 
 Refusal SlaveService::occupied(const std::string& caller) {
   const std::string holder = lease();
-  const std::lock_guard lock(leasing_);
   // Who is refused asks again every 2 s.
   if (caller != refused_) spdlog::warn("lease refused={} holder={}", caller, holder);
   refused_ = caller;
@@ -212,10 +206,10 @@ std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
 SideRecording<SlaveTape>::Request SlaveService::recording_request(double max_mb) const {
   SideRecording<SlaveTape>::Request request;
   request.max_mb = max_mb;
-  request.rate_hz = config_.loop().rate_hz();
+  request.rate_hz = config_.present()->loop().rate_hz();
   request.seed = recordings_.seed;
   request.config_number = config_number_;
-  request.config_text = recorded_text(config_);
+  request.config_text = recorded_text(*config_.present());
   return request;
 }
 

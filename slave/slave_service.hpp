@@ -7,6 +7,7 @@
 
 #include "common/io/control_backend.hpp"
 #include "common/io/recording_answers.hpp"
+#include "common/io/side_config.hpp"
 #include "slave/slave_shell.hpp"
 
 namespace longreach {
@@ -20,8 +21,8 @@ class SlaveService : public ControlBackend {
   SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
-  std::unique_ptr<google::protobuf::Message> config() override;
-  std::unique_ptr<google::protobuf::Message> start_config() override;
+  std::shared_ptr<const google::protobuf::Message> config() override;
+  std::shared_ptr<const google::protobuf::Message> start_config() override;
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
@@ -53,8 +54,7 @@ class SlaveService : public ControlBackend {
   bool attach(SlaveTape* tape);
 
   SlaveShell& shell_;
-  const proto::SlaveConfig start_;
-  proto::SlaveConfig config_;
+  SideConfig<proto::SlaveConfig> config_;
   std::uint32_t config_number_ = 0;  // of those that the loop was handed
   RecordingPlace recordings_;
   SideRecording<SlaveTape> recording_;

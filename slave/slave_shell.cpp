@@ -33,8 +33,9 @@ void SlaveShell::meet_robot() {
 }
 
 void SlaveShell::tick(Time now, const LoopFigures& loop) {
-  Asked asked;
-  if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, asked));
+  const bool stop = stops_.take();
+  bool taken = false;
+  if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, taken));
 
   port_.receive(now);
   const Endpoint& endpoint = port_.endpoint();
@@ -45,8 +46,8 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   in.commands = port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
-  in.taken = asked.taken;
-  in.stop = asked.stop;
+  in.taken = taken;
+  in.stop = stop;
   in.send_hz = snapshot_.send_hz;
   in.rejected = port_.rejected_total();
   in.late_ticks = loop.ticks_late_100ms;
@@ -79,15 +80,13 @@ void SlaveShell::write_down(const SlaveInput& in, const SlaveOutput& out) {
   if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
 }
 
-LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, Asked& asked) {
-  if (std::holds_alternative<SlaveStop>(command)) {
-    asked.stop = true;
-  } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
+LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& taken) {
+  if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
     port_.impairment().configure(*impairment, now);
   } else if (const auto* lease = std::get_if<SlaveLease>(&command)) {
     // Whoever had it before is not heard from now on, so the robot holds until the new one engages.
-    asked.taken = occupied(now);
-    if (!lease->take && asked.taken) return LoopAnswer::kOccupied;
+    taken = occupied(now);
+    if (!lease->take && taken) return LoopAnswer::kOccupied;
     port_.follow(lease->session);
     snapshot_.send_hz = lease->send_hz;
   } else if (const auto* returned = std::get_if<SlaveReturn>(&command)) {

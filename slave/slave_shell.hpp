@@ -1,6 +1,6 @@
 #pragma once
 // The slave's loop with real sockets and a robot: one tick receives, steps the node, moves the robot, sends.
-// Runs in the loop's thread alone; other threads reach it through the mailbox and the snapshots, which make
+// Runs in the loop's thread alone; other threads reach it through mailbox, stops and snapshots, which make
 // it wait for nothing.
 
 #include <variant>
@@ -38,7 +38,6 @@ struct SlaveChange {
 struct SlaveTaping {
   SlaveTape* tape = nullptr;
 };
-struct SlaveStop {};
 /// A master asks for the robot. `take`: also while another one has it.
 struct SlaveLease {
   Session session{};
@@ -49,8 +48,7 @@ struct SlaveLease {
 struct SlaveReturn {
   std::uint64_t session = 0;
 };
-using SlaveCommand =
-    std::variant<SlaveStop, SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn, SlaveTaping>;
+using SlaveCommand = std::variant<SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn, SlaveTaping>;
 
 class SlaveShell {
  public:
@@ -66,16 +64,13 @@ class SlaveShell {
   void record(SlaveTape* tape) { tape_ = tape; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
+  StopLevel& stops() { return stops_; }
   LatestValue<SlaveSnapshot>& snapshots() { return snapshots_; }
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
-  /// What commands bring about in this tick.
-  struct Asked {
-    bool stop = false;
-    bool taken = false;
-  };
-  LoopAnswer obey(const SlaveCommand& command, Time now, Asked& asked);
+  /// `taken`: whether another master has the robot from this tick on.
+  LoopAnswer obey(const SlaveCommand& command, Time now, bool& taken);
   [[nodiscard]] bool occupied(Time now) const;
   void write_down(const SlaveInput& in, const SlaveOutput& out);
 
@@ -91,6 +86,7 @@ class SlaveShell {
   std::uint64_t ticks_ = 0;          // steps of the node
   std::uint32_t config_number_ = 0;  // of what it was configured with
   SlaveSnapshot snapshot_{};
+  StopLevel stops_;
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;
   LatestValue<SlaveSnapshot> snapshots_;
 };

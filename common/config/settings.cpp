@@ -8,6 +8,7 @@
 #include "common/config/ceiling.hpp"
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
+#include "common/config/set_fields.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -96,18 +97,29 @@ const Message* part_at(const Message* start, const FieldPath& path) {
   return start;
 }
 
-}  // namespace
-
-void set_field(Message& message, std::string_view path, std::string_view value) {
+void assign(Message& message, std::string_view path, std::string_view value) {
   const PathLookup found = find_path(message, path);
   if (!found.error.empty()) throw ConfigError(found.error);
   const FieldDescriptor* field = found.path.back().field;
   if (holds_messages(*field)) refuse_group(message, found.path);
+  set_value(mutable_holder(message, found.path), *field, value, path_text(message, found.path));
+}
 
+}  // namespace
+
+void set_field(Message& message, std::string_view path, std::string_view value) {
   const std::unique_ptr<Message> changed(message.New());
   changed->CopyFrom(message);
-  set_value(mutable_holder(*changed, found.path), *field, value, path_text(message, found.path));
+  assign(*changed, path, value);
   if (const auto violation = find_violation(*changed)) throw ConfigError(sentence(*changed, *violation));
+  message.GetReflection()->Swap(&message, changed.get());
+}
+
+void set_fields(Message& message, const std::vector<std::pair<std::string, std::string>>& assignments) {
+  const std::unique_ptr<Message> changed(message.New());
+  changed->CopyFrom(message);
+  for (const auto& [path, value] : assignments) assign(*changed, path, value);
+  validate(*changed);
   message.GetReflection()->Swap(&message, changed.get());
 }
 

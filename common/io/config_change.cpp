@@ -2,6 +2,7 @@
 
 #include "common/config/ceiling.hpp"
 #include "common/config/config.hpp"
+#include "common/config/set_fields.hpp"
 
 namespace longreach {
 namespace {
@@ -12,16 +13,27 @@ std::string joined(const std::vector<std::string>& words) {
   return out;
 }
 
+/// Why a call brings more than one may; empty: it does not.
+std::string too_much(const Assignments& assignments) {
+  std::size_t bytes = 0;
+  for (const auto& [path, value] : assignments) bytes += path.size() + value.size();
+  if (assignments.size() <= kAssignmentsMax && bytes <= kAssignmentsMaxBytes) return "";
+  return std::to_string(assignments.size()) + " fields with " + std::to_string(bytes) +
+         " bytes are more than one call may set: " + std::to_string(kAssignmentsMax) + " fields with " +
+         std::to_string(kAssignmentsMaxBytes) + " bytes";
+}
+
 }  // namespace
 
-std::variant<ConfigChange, Refusal> plan_change(const SideConfig& config, const Assignments& assignments) {
+std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const Assignments& assignments) {
+  if (std::string much = too_much(assignments); !much.empty())
+    return Refusal{Refusal::Kind::kInvalid, std::move(much)};
   const google::protobuf::Message& before = config.present;
   ConfigChange change;
   change.after.reset(before.New());
   change.after->CopyFrom(before);
   try {
-    for (const auto& [path, value] : assignments) set_field(*change.after, path, value);
-    validate(*change.after);
+    set_fields(*change.after, assignments);
   } catch (const ConfigError& e) {
     return Refusal{Refusal::Kind::kInvalid, e.what()};
   }

@@ -10,6 +10,7 @@
 
 #include "common/io/control_backend.hpp"
 #include "common/io/mailbox.hpp"
+#include "common/io/stop_level.hpp"
 
 namespace longreach {
 
@@ -18,15 +19,26 @@ struct ConfigChange {
   std::string not_while_engaged;  // fields that forbid the change while engaged, in words; empty: none
 };
 
-struct SideConfig {
+struct Configured {
   const google::protobuf::Message& start;  // what the side was started with: the ceiling of its limits
   const google::protobuf::Message& present;
 };
 
+/// Most that one call may bring, so that it is worked out in a moment.
+inline constexpr std::size_t kAssignmentsMax = 256;
+inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
+
 /// Nothing has changed yet: `after` is a copy of the present configuration with the assignments.
-std::variant<ConfigChange, Refusal> plan_change(const SideConfig& config, const Assignments& assignments);
+std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const Assignments& assignments);
 
 enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master is there
+
+/// Asks the loop to stop.
+inline std::optional<Refusal> ask(StopLevel& stops) {
+  if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
+  return Refusal{Refusal::Kind::kUnavailable,
+                 "the control loop did not answer within 1 s; it stops as soon as it goes on"};
+}
 
 /// Hands a command to the loop. `not_while_engaged`: of the change, for the refusal.
 template <class Command>

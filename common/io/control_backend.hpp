@@ -1,7 +1,8 @@
 #pragma once
-// What a side lets the RPC service do. One implementation a side; called from RPC threads, one call at a
-// time. A call that changes something returns nothing when it was carried out as a whole, or why it was
-// refused; then nothing has changed.
+// What a side lets the RPC service do. One implementation a side; called from RPC threads: stop() and what
+// only looks (status, config, start_config, link) at any time and soon, whatever else is under way; the rest
+// one call at a time. A call that changes something returns nothing when it was carried out as a whole, or
+// why it was refused; then nothing has changed.
 
 #include <memory>
 #include <optional>
@@ -33,10 +34,10 @@ class ControlBackend {
   virtual ~ControlBackend() = default;
 
   virtual proto::Status status() = 0;
-  /// A copy of the effective configuration (MasterConfig or SlaveConfig).
-  virtual std::unique_ptr<google::protobuf::Message> config() = 0;
+  /// The effective configuration (MasterConfig or SlaveConfig).
+  virtual std::shared_ptr<const google::protobuf::Message> config() = 0;
   /// What the side was started with: the ceiling of its limits.
-  virtual std::unique_ptr<google::protobuf::Message> start_config() = 0;
+  virtual std::shared_ptr<const google::protobuf::Message> start_config() = 0;
   virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
   virtual proto::Impairment link() = 0;
   /// The complete, validated impairment of what this side receives.

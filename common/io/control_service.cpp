@@ -84,7 +84,6 @@ proto::Impairment continued(proto::Impairment link, double elapsed_s) {
 ControlService::ControlService(ControlBackend& backend) : backend_(backend), link_set_at_(Clock::now()) {}
 
 proto::Status ControlService::status() {
-  const std::lock_guard lock(mutex_);
   proto::Status status = backend_.status();
   *status.mutable_impairment() = link_from_now();
   return status;
@@ -92,7 +91,7 @@ proto::Status ControlService::status() {
 
 ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
     const proto::GetConfigRequest& request) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(printing_);
   try {
     proto::GetConfigResponse response;
     response.set_text(get_field(*backend_.config(), request.path(), backend_.start_config().get()));
@@ -112,25 +111,22 @@ ControlService::Result<proto::Outcome> ControlService::set_config(const proto::S
     sets_link |= assignment.path().starts_with("link.");
     assignments.emplace_back(assignment.path(), assignment.value());
   }
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   std::optional<Refusal> refusal = backend_.set_config(assignments);
   if (!refusal && sets_link) link_set_at_ = Clock::now();
   return outcome(std::move(refusal), count_in_words(request.assignment_size()));
 }
 
-proto::Impairment ControlService::get_link() {
-  const std::lock_guard lock(mutex_);
-  return link_from_now();
-}
+proto::Impairment ControlService::get_link() { return link_from_now(); }
 
 proto::Impairment ControlService::link_from_now() {
-  const std::chrono::duration<double> elapsed = Clock::now() - link_set_at_;
+  const std::chrono::duration<double> elapsed = Clock::now() - link_set_at_.load();
   return continued(backend_.link(), elapsed.count());
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_link(const proto::SetLinkRequest& request) {
   if (std::optional<Refusal> refusal = wrong(request.impairment())) return *refusal;
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   proto::Impairment wanted;
   if (!request.replace()) wanted = link_from_now();
   wanted.MergeFrom(request.impairment());
@@ -143,7 +139,7 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {
   // An unknown mode of a newer client arrives as a mode that is not set.
   if (!request.has_mode()) return invalid("mode is missing or not known: it is RATE or POSITION");
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return outcome(backend_.set_mode(request.mode()),
                  request.mode() == proto::Mapping::RATE ? "mode is rate" : "mode is position");
 }
@@ -153,41 +149,38 @@ ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::Se
   proto::Mapping mapping;  // knows the range
   mapping.set_scale(request.scale());
   if (std::optional<Refusal> refusal = wrong(mapping)) return *refusal;
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return outcome(backend_.set_scale(request.scale()), "the scale is set");
 }
 
 ControlService::Result<proto::Outcome> ControlService::engage() {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return outcome(backend_.engage(), "engaging");
 }
 
-ControlService::Result<proto::Outcome> ControlService::stop() {
-  const std::lock_guard lock(mutex_);
-  return outcome(backend_.stop(), "stopped");
-}
+ControlService::Result<proto::Outcome> ControlService::stop() { return outcome(backend_.stop(), "stopped"); }
 
 ControlService::Result<proto::OpenSessionResponse> ControlService::open_session(
     const proto::OpenSessionRequest& request, const std::string& caller) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return backend_.open_session(request, caller);
 }
 
 ControlService::Result<proto::Outcome> ControlService::close_session(
     const proto::CloseSessionRequest& request) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return outcome(backend_.close_session(request.session()), "the robot is returned");
 }
 
 ControlService::Result<proto::Outcome> ControlService::start_recording(
     const proto::StartRecordingRequest& request) {
   if (!(request.max_mb() >= 1.0 && request.max_mb() <= 1e6)) return invalid("max_mb is from 1 to 1000000");
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return said(backend_.start_recording(request.name(), request.max_mb()));
 }
 
 ControlService::Result<proto::Outcome> ControlService::stop_recording() {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return said(backend_.stop_recording());
 }
 

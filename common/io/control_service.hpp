@@ -1,10 +1,12 @@
 #pragma once
 // The calls of proto/control.proto without their transport: checks what was asked, merges, and passes whole,
-// valid requests to the side's backend. One mutex: the backend sees one call at a time, and a change of the
-// link reads, merges and writes in one go. A refused call has changed nothing. Callable from any thread.
+// valid requests to the side's backend. Changes go one at a time, so that one of the link reads, merges and
+// writes in one go; stop and status wait for none of them. A refused call has changed nothing. Callable from
+// any thread.
 //
 // Does not handle: field paths of the configuration (the backend's), pacing of Watch (RpcServer's).
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -49,8 +51,9 @@ class ControlService {
   proto::Impairment link_from_now();
 
   ControlBackend& backend_;
-  std::mutex mutex_;
-  Instant link_set_at_;  // when the windows of the present impairment began to count
+  std::mutex changing_;
+  std::mutex printing_;               // one configuration at a time
+  std::atomic<Instant> link_set_at_;  // when the windows of the present impairment began to count
 };
 
 }  // namespace longreach

@@ -3,6 +3,7 @@
 #include <grpc/support/log.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -17,8 +18,8 @@ constexpr auto kQuiet = std::chrono::seconds(1);
 constexpr std::string_view kFailed = "Handshaking failed: ";
 
 struct Tally {
+  std::atomic<std::uint64_t> count = 0;  // read while a log line is written
   std::mutex mutex;
-  std::uint64_t count = 0;
   std::uint64_t unsaid = 0;
   Clock::time_point silent_until;
 };
@@ -62,14 +63,10 @@ void note_rpc_refusal(std::string_view who, std::string_view why) {
     return;
   }
   spdlog::warn("rpc refused={} because=\"{}\" unsaid={} count={}", who, why, std::exchange(all.unsaid, 0),
-               all.count);
+               all.count.load());
   all.silent_until = now + kQuiet;
 }
 
-std::uint64_t rpc_refusals() {
-  Tally& all = tally();
-  const std::lock_guard lock(all.mutex);
-  return all.count;
-}
+std::uint64_t rpc_refusals() { return tally().count; }
 
 }  // namespace longreach

@@ -60,21 +60,25 @@ double watch_rate_hz(const proto::WatchRequest& request) {
   return std::min(request.rate_hz(), kWatchHzMax);
 }
 
-/// ControlService over gRPC: one blocking call a thread; but the status, which is asked most, is given by the
-/// thread that hears the question, at 40 % of the cost.
-class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<proto::Control::Service> {
+/// ControlService over gRPC: one blocking call a thread, of which there may be none left; but stop, which
+/// waits for nobody, and the status, which is asked most, are answered by the thread that hears the question.
+class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
+                              proto::Control::WithCallbackMethod_GetStatus<proto::Control::Service>> {
  public:
   using Context = grpc::ServerContext;
+  using HearingContext = grpc::CallbackServerContext;
 
   GrpcControl(ControlBackend& backend, std::string_view side, bool secured)
       : service_(backend), side_(side), secured_(secured) {}
 
-  grpc::ServerUnaryReactor* GetStatus(grpc::CallbackServerContext* context, const proto::StatusRequest*,
+  grpc::ServerUnaryReactor* GetStatus(HearingContext* context, const proto::StatusRequest*,
                                       proto::Status* answer) override {
     *answer = status();
-    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-    reactor->Finish(grpc::Status::OK);
-    return reactor;
+    return heard(context, grpc::Status::OK);
+  }
+  grpc::ServerUnaryReactor* Stop(HearingContext* context, const proto::StopRequest*,
+                                 proto::Outcome* answer) override {
+    return heard(context, finish(context, service_.stop(), answer));
   }
   grpc::Status GetConfig(Context* context, const proto::GetConfigRequest* request,
                          proto::GetConfigResponse* answer) override {
@@ -102,9 +106,6 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
   }
   grpc::Status Engage(Context* context, const proto::EngageRequest*, proto::Outcome* answer) override {
     return finish(context, service_.engage(), answer);
-  }
-  grpc::Status Stop(Context* context, const proto::StopRequest*, proto::Outcome* answer) override {
-    return finish(context, service_.stop(), answer);
   }
   grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
                            proto::OpenSessionResponse* answer) override {
@@ -181,8 +182,15 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_GetStatus<pr
     bool taken_ = false;
   };
 
+  static grpc::ServerUnaryReactor* heard(HearingContext* context, const grpc::Status& status) {
+    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+    reactor->Finish(status);
+    return reactor;
+  }
+
   template <class Answer>
-  grpc::Status finish(Context* context, ControlService::Result<Answer> result, Answer* answer) {
+  grpc::Status finish(grpc::ServerContextBase* context, ControlService::Result<Answer> result,
+                      Answer* answer) {
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       context->AddTrailingMetadata(std::string(kRefusedBy), side_);
       if (!refusal->holder.empty()) context->AddTrailingMetadata(std::string(kHeldBy), refusal->holder);

@@ -16,6 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kSilentHandsMax = kHandsMax / 2;                // that are told why when they speak again
 constexpr auto kLeaveCheck = std::chrono::milliseconds(100);  // how soon a follower that left is noticed
 
 /// False when there is nothing to wait for: the server stops or the client has left.
@@ -65,7 +66,7 @@ DeskService::DeskService(const Reach& reach, std::function<ConsoleSnapshot()> lo
 
 grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::FollowRequest* request,
                                  grpc::ServerWriter<proto::Frame>* writer) {
-  if (!take_seat()) {
+  if (!take(followers_, kFollowersMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
             std::to_string(kFollowersMax) + " clients follow the master already: end one of them"};
   }
@@ -75,23 +76,35 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
     if (is_revoked(*context->auth_context())) break;
     if (!writer->Write(to_frame(look_(), reach_.translation_m), options)) break;
   }
-  leave_seat();
+  leave(followers_);
   return grpc::Status::OK;
 }
 
 grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<proto::HandAim>* reader,
                                proto::Outcome* answer) {
-  const std::uint64_t hand = take_handle();
+  if (!take(hands_there_, kHandsMax)) {
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+            std::to_string(kHandsMax) + " hands reach for the handle already: end one of them"};
+  }
+  const grpc::Status status = follow_hand(*context, *reader, *answer);
+  leave_handle(*context);
+  leave(hands_there_);
+  return status;
+}
+
+grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
+                                      grpc::ServerReader<proto::HandAim>& reader, proto::Outcome& answer) {
+  const std::uint64_t hand = take_handle(context);
   if (hand == 0) {
     return {grpc::StatusCode::FAILED_PRECONDITION,
             "another hand is on the handle; it has to let go first, or to be silent for 0.3 s"};
   }
-  for (proto::HandAim message; reader->Read(&message);) {
-    if (is_revoked(*context->auth_context()))
+  for (proto::HandAim message; reader.Read(&message);) {
+    if (is_revoked(*context.auth_context()))
       return {grpc::StatusCode::PERMISSION_DENIED, "the certificate of this host has been revoked"};
     if (message.lets_go()) {
       (void)pass(hand, {});
-      answer->set_message("the hand has let go");
+      answer.set_message("the hand has let go");
       return grpc::Status::OK;
     }
     const auto aim = to_aim(message, reach_);
@@ -105,22 +118,29 @@ grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<
   return {grpc::StatusCode::CANCELLED, "the hand has gone without letting go: the robot holds"};
 }
 
-bool DeskService::take_seat() {
+bool DeskService::take(int& taken, int places) {
   const std::lock_guard lock(mutex_);
-  if (followers_ >= kFollowersMax) return false;
-  ++followers_;
+  if (taken >= places) return false;
+  ++taken;
   return true;
 }
 
-void DeskService::leave_seat() {
+void DeskService::leave(int& taken) {
   const std::lock_guard lock(mutex_);
-  --followers_;
+  --taken;
 }
 
-std::uint64_t DeskService::take_handle() {
+void DeskService::leave_handle(const grpc::ServerContext& context) {
+  const std::lock_guard lock(mutex_);
+  if (holder_ == &context) holder_ = nullptr;
+}
+
+std::uint64_t DeskService::take_handle(grpc::ServerContext& context) {
   const std::lock_guard lock(mutex_);
   const std::chrono::duration<double> silence = Clock::now() - said_;
-  if (held_ && silence.count() <= RemoteHand::kSilence_s) return 0;
+  if (held_ && silence.count() <= kHandAgeMax_s) return 0;
+  if (holder_ != nullptr && hands_there_ > kSilentHandsMax) holder_->TryCancel();
+  holder_ = &context;
   held_ = true;
   said_ = Clock::now();
   return ++hands_;

@@ -13,7 +13,9 @@
 
 namespace longreach {
 
-inline constexpr int kFollowersMax = 16;  // more are refused with RESOURCE_EXHAUSTED
+// Each takes a thread of the server; more are refused with RESOURCE_EXHAUSTED.
+inline constexpr int kFollowersMax = 16;
+inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
@@ -34,10 +36,15 @@ class DeskService final : public proto::Desk::Service {
  private:
   using Instant = std::chrono::steady_clock::time_point;
 
-  bool take_seat();
-  void leave_seat();
-  /// The number of a new hand; 0: another one is there.
-  std::uint64_t take_handle();
+  /// One of so many places; false: all are taken.
+  bool take(int& taken, int places);
+  void leave(int& taken);
+  grpc::Status follow_hand(grpc::ServerContext& context, grpc::ServerReader<proto::HandAim>& reader,
+                           proto::Outcome& answer);
+  /// The number of a new hand; 0: another one is there. A silent one is sent away where there are several: it
+  /// would keep its thread for ever.
+  std::uint64_t take_handle(grpc::ServerContext& context);
+  void leave_handle(const grpc::ServerContext& context);
   /// False when `hand` is not the one on the handle any more.
   bool pass(std::uint64_t hand, const RemoteAim& aim);
 
@@ -46,9 +53,11 @@ class DeskService final : public proto::Desk::Service {
   std::function<void(const RemoteAim&)> aim_;
   std::mutex mutex_;
   int followers_ = 0;
-  std::uint64_t hands_ = 0;  // so far
-  bool held_ = false;        // by the last of them
-  Instant said_{};           // its last message
+  int hands_there_ = 0;                    // streams, also of those who are refused or sent away
+  grpc::ServerContext* holder_ = nullptr;  // stream of the hand that is or was last on the handle
+  std::uint64_t hands_ = 0;                // so far
+  bool held_ = false;                      // by the last of them
+  Instant said_{};                         // its last message
 };
 
 }  // namespace longreach

@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <thread>
 #include <vector>
@@ -68,6 +69,31 @@ proto::HandAim aim_at(double x, double y, double z) {
   proto::HandAim aim;
   for (const double v : {x, y, z}) aim.add_position_m(v);
   return aim;
+}
+
+// Hands that take the handle one after the other and say nothing more: each would keep a thread of the
+// server.
+TEST(Desk, SilentHandsKeepNoMoreThanSomeThreads) {
+  Desk desk;
+  std::vector<std::unique_ptr<Hand>> hands;
+  std::vector<std::thread> waiting;
+  std::atomic<int> ended = 0;
+  constexpr int kHands = kHandsMax + 4;
+  for (int i = 0; i < kHands; ++i) {
+    hands.push_back(std::make_unique<Hand>(desk));
+    Hand& hand = *hands.back();
+    ASSERT_TRUE(hand.stream->Write(aim_at(0.001 * i, 0, 0)));
+    ASSERT_TRUE(desk.eventually([&](const RemoteAim& aim) { return aim.position_m.x() == 0.001 * i; })) << i;
+    std::this_thread::sleep_for(std::chrono::milliseconds(350));  // silent for long enough
+    waiting.emplace_back([&] {
+      (void)hand.stream->Finish();  // when the server ends it
+      ++ended;
+    });
+  }
+  EXPECT_TRUE(desk.eventually([&](const RemoteAim&) { return ended >= kHands - kHandsMax; })) << ended;
+  EXPECT_LT(ended, kHands) << "the last one is there";
+  for (const auto& hand : hands) hand->context.TryCancel();
+  for (std::thread& one : waiting) one.join();
 }
 
 TEST(Desk, ShowsFramesUntilTheFollowerLeaves) {

@@ -34,5 +34,17 @@ TEST(PlannedChange, IsWholeOrNone) {
   EXPECT_EQ(std::get<ConfigChange>(planned).not_while_engaged, "rendering.ke, rendering.force_max_n");
 }
 
+TEST(PlannedChange, IsOfABoundedSize) {
+  const proto::SlaveConfig start;
+  Assignments many(kAssignmentsMax, {"estimator.forgetting", "0.995"});
+  EXPECT_EQ(refusal(plan_change({start, start}, many)), "");
+  many.emplace_back("estimator.forgetting", "0.995");
+  EXPECT_EQ(refusal(plan_change({start, start}, many)),
+            "257 fields with 6425 bytes are more than one call may set: 256 fields with 65536 bytes");
+  EXPECT_NE(refusal(plan_change({start, start}, {{"estimator.forgetting", std::string(65536, '1')}}))
+                .find("more than one call may set"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace longreach

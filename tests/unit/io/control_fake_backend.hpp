@@ -2,10 +2,12 @@
 // A side that does what it is told and remembers what it was told.
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -37,11 +39,13 @@ class FakeBackend : public ControlBackend {
     const std::lock_guard lock(mutex_);
     link_ = link;
   }
-  /// Most calls that were ever inside at once.
+  /// Changes of the configuration stay inside until it is false again.
+  void block_changes(bool block) { blocked_ = block; }
+  /// Most changes that were ever inside at once.
   [[nodiscard]] int overlap() const { return overlap_; }
 
   proto::Status status() override {
-    const Inside inside(*this);
+    const std::lock_guard lock(mutex_);
     proto::Status status;
     status.set_side(side_);
     status.set_state("Engaged");
@@ -57,12 +61,13 @@ class FakeBackend : public ControlBackend {
     some.set_count(7);
     return status;
   }
-  std::unique_ptr<google::protobuf::Message> config() override {
-    const Inside inside(*this);
-    return std::make_unique<proto::SlaveConfig>(config_);
+  std::shared_ptr<const google::protobuf::Message> config() override {
+    const std::lock_guard lock(mutex_);
+    return std::make_shared<const proto::SlaveConfig>(config_);
   }
-  std::unique_ptr<google::protobuf::Message> start_config() override { return config(); }
+  std::shared_ptr<const google::protobuf::Message> start_config() override { return config(); }
   std::optional<Refusal> set_config(const Assignments& assignments) override {
+    while (blocked_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const Inside inside(*this);
     proto::SlaveConfig wanted = config_;
     try {
@@ -74,7 +79,7 @@ class FakeBackend : public ControlBackend {
     return change("set_config", [&] { config_ = wanted; });
   }
   proto::Impairment link() override {
-    const Inside inside(*this);
+    const std::lock_guard lock(mutex_);
     return link_;
   }
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override {
@@ -94,7 +99,7 @@ class FakeBackend : public ControlBackend {
     return change("engage", [] {});
   }
   std::optional<Refusal> stop() override {
-    const Inside inside(*this);
+    const std::lock_guard lock(mutex_);
     return change("stop", [] {});
   }
   std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
@@ -156,6 +161,7 @@ class FakeBackend : public ControlBackend {
   mutable std::mutex mutex_;
   std::atomic<int> inside_ = 0;
   std::atomic<int> overlap_ = 0;
+  std::atomic<bool> blocked_ = false;
   std::vector<std::string> calls_;  // changes, in order
   std::optional<Refusal> refusal_;
   proto::SlaveConfig config_;

@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -238,7 +239,45 @@ TEST(RpcServer, RefusesMoreWatchersThanItHasPlacesAndFreesThePlacesOfThoseWhoLef
   for (std::size_t i = 1; i < watchers.size(); ++i) watchers[i]->reader->Finish();
 }
 
-TEST(RpcServer, NeverLetsTwoCallsIntoTheBackend) {
+// More calls than it has threads, in a backend that does not come back: what else is asked waits, stop does
+// not.
+TEST(RpcServer, StopsAndTellsItsStatusWhileAllItsThreadsWaitForAChange) {
+  Served served;
+  served.side.block_changes(true);
+  std::vector<std::thread> callers;
+  for (int i = 0; i < 120; ++i) {
+    callers.emplace_back([&] {
+      Limited limited;
+      proto::SetConfigRequest set;
+      set.add_assignment()->set_path("estimator.forgetting");
+      set.mutable_assignment(0)->set_value("0.995");
+      proto::Outcome outcome;
+      (void)served.stub->SetConfig(&limited.context, set, &outcome);
+    });
+  }
+  // All threads are taken once a call is not answered any more.
+  const auto engages = [&] {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(300));
+    proto::Outcome outcome;
+    return served.stub->Engage(&context, {}, &outcome).ok();
+  };
+  while (engages()) {
+  }
+  for (int i = 0; i < 20; ++i) {
+    proto::Outcome outcome;
+    proto::Status status;
+    EXPECT_TRUE(served.stub->Stop(Limited().get(), {}, &outcome).ok());
+    EXPECT_TRUE(served.stub->GetStatus(Limited().get(), {}, &status).ok());
+  }
+  const std::vector<std::string> calls = served.side.calls();
+  EXPECT_EQ(std::count(calls.begin(), calls.end(), "stop"), 20);
+  EXPECT_EQ(std::count(calls.begin(), calls.end(), "set_config"), 0);
+  served.side.block_changes(false);
+  for (std::thread& caller : callers) caller.join();
+}
+
+TEST(RpcServer, NeverLetsTwoChangesIntoTheBackend) {
   Served served;
   std::vector<std::thread> callers;
   for (int i = 0; i < 8; ++i) {

@@ -1,0 +1,34 @@
+#pragma once
+// The configuration of a side, as its RPC threads share it: what it was started with, and the present one,
+// which is replaced as a whole. Whoever reads waits for no change that is being worked out.
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace longreach {
+
+template <class Config>
+class SideConfig {
+ public:
+  explicit SideConfig(const Config& start)
+      : start_(std::make_shared<const Config>(start)), present_(start_) {}
+
+  [[nodiscard]] std::shared_ptr<const Config> start() const { return start_; }
+  [[nodiscard]] std::shared_ptr<const Config> present() const {
+    const std::lock_guard lock(mutex_);
+    return present_;
+  }
+  void put(Config config) {
+    auto next = std::make_shared<const Config>(std::move(config));
+    const std::lock_guard lock(mutex_);
+    present_.swap(next);
+  }
+
+ private:
+  const std::shared_ptr<const Config> start_;
+  mutable std::mutex mutex_;  // of the pointer
+  std::shared_ptr<const Config> present_;
+};
+
+}  // namespace longreach
