@@ -20,7 +20,8 @@ constexpr double kEnergy_j = 1e-4;
 constexpr double kRipple_n = 0.02;   // besides one count times the stiffness
 constexpr double kRipple_nm = 4e-4;  // the same at a fingertip 20 mm from the centre
 constexpr double kQuiet_s = 9.0;     // of a draw in which the ripple is judged
-constexpr double kRawDamping = 0.4;  // of m/T, as a guard may inject
+// Control: the 0.4 m/T that a guard may inject, on one count in a sample; of that the filter leaves a third.
+constexpr double kRawDamping = 3.0 * 0.4;
 constexpr std::size_t kControlEvery = 4;
 
 struct Judged {
