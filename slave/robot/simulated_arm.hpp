@@ -47,6 +47,8 @@ class SimulatedArm : public Robot {
   [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
   /// Somebody else moves it: its joints are there now, at rest.
   void displace(const JointVector& joint_rad);
+  /// The surroundings are these from now on. Throws std::invalid_argument as Scene does.
+  void surround(const SceneConfig& scene) { scene_ = Scene(scene, X_WE_start_); }
   [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
 

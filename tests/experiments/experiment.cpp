@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "common/config/config.hpp"
-#include "common/config/link_profile.hpp"
 #include "common/io/recording/build_name.hpp"
 #include "tests/experiments/name_hash.hpp"
 
@@ -162,6 +161,11 @@ const std::vector<Experiment> kExperiments = {
      run_extremes, extremes_plots, "",
      "{cells} cells of {quantities} quantities: {stable} stable, {refused} refused with a message, {bad} "
      "bad"},
+    {"faults",
+     "Everything that can go wrong in virtual time, drawn at random and overlapping, under an oracle that "
+     "trusts no node.",
+     run_fault_campaign, faults_plots, "",
+     "{seeds} seeds, {kinds} kinds of fault: {violations} violations of {invariants} invariants"},
     {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", run_scenes_cost,
      scenes_cost_plots},
     {"trade",
@@ -192,32 +196,6 @@ std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metri
     if (experiment.fit != nullptr) experiment.fit(plot, metrics);
   }
   return plots;
-}
-
-proto::LabConfig configure(const std::vector<std::string>& settings,
-                           const std::filesystem::path& deploy_folder) {
-  // What chooses other fields comes before them.
-  const auto chooses = [](std::string_view setting) {
-    const std::string_view path = setting.substr(0, setting.find('='));
-    return path == "profile" || path.ends_with("accuracy") || path.ends_with("device_file") ||
-           path.ends_with("robot_file") || path.ends_with("scene_file");
-  };
-  proto::LabConfig config;
-  for (const std::string& setting : settings) {
-    if (chooses(setting)) set_lab_field(config, setting);
-  }
-  const proto::LinkProfile profile = load_link_profile(deploy_folder, config.profile());
-  take_profile(*config.mutable_slave()->mutable_link(), profile);
-  take_profile(*config.mutable_master()->mutable_link(), profile);
-  config.mutable_master()->mutable_safety()->set_engage_at_start(true);
-  resolve_files(*config.mutable_master(), deploy_folder);
-  resolve_files(*config.mutable_slave(), deploy_folder);
-  for (const std::string& setting : settings) {
-    if (!chooses(setting)) set_lab_field(config, setting);
-  }
-  resolve_files(*config.mutable_slave(), deploy_folder);  // once more for what the settings changed
-  validate(config);
-  return config;
 }
 
 std::string config_hash(const proto::LabConfig& config) {

@@ -69,7 +69,7 @@ void Laboratory::step() {
 
 void Laboratory::step_slave() {
   const Time now = slave_now();
-  if (!slave_lives_ || elapsed_ <= slave_thaws_) {
+  if (!slave_lives_ || elapsed_ <= slave_thaws_ || (meddler_ && meddler_->slave_sleeps())) {
     arm_.read(now);
     return;
   }
@@ -79,13 +79,16 @@ void Laboratory::step_slave() {
   in.now = now;
   in.robot = arm_.read(now);
   if (tamperer_) tamperer_(now, in.robot);
+  if (meddler_) meddler_->robot_told(in.robot);
   in.commands = slave_port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
   in.send_hz = send_hz_;
   in.rejected = slave_port_.rejected_total();
   in.may_send = slave_port_.may_send(now);
-  const SlaveOutput out = slave_node_.step(in);
+  if (meddler_) meddler_->slave_asked(in);
+  SlaveOutput out = slave_node_.step(in);
+  if (meddler_) meddler_->slave_answered(out);
   if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
   arm_.write(out.joint_setpoint_rad);
   arm_.grip(out.grip);
@@ -101,14 +104,15 @@ void Laboratory::step_slave() {
 void Laboratory::step_master() {
   if (!master_lives_) return;
   const Time now = master_now();
-  if (elapsed_ <= master_thaws_) {
+  if (elapsed_ <= master_thaws_ || (meddler_ && meddler_->master_sleeps())) {
     if (driven_) devices_.set_target(*driven_);
     devices_.read(now);
     return;
   }
   master_port_.receive(now);
   const Endpoint& endpoint = master_port_.endpoint();
-  const HandleState handle = devices_.read(now);
+  HandleState handle = devices_.read(now);
+  if (meddler_) meddler_->handle_told(handle);
   const MasterView& view = master_node_.view();
   const ScriptOutput script = script_.step({.now = now,
                                             .handle_m = handle.p_MH,
@@ -134,7 +138,9 @@ void Laboratory::step_master() {
   if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
   in.rtt_s = rtt_s_;
   in.may_send = master_port_.may_send(now);
-  const MasterOutput out = master_node_.step(in);
+  if (meddler_) meddler_->master_asked(in);
+  MasterOutput out = master_node_.step(in);
+  if (meddler_) meddler_->master_answered(out);
   if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
   devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);

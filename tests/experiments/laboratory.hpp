@@ -17,6 +17,7 @@
 #include "master/master_node.hpp"
 #include "slave/robot/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
+#include "tests/experiments/meddler.hpp"
 
 namespace longreach {
 
@@ -49,6 +50,18 @@ class Laboratory {
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
+  /// What the network does to what arrives at a side, from now on.
+  void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
+  void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
+  /// Datagrams that came out of the network at both sides.
+  [[nodiscard]] std::uint64_t arrived() {
+    return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
+  }
+  /// Another session begins, at the side that it is handed to.
+  void hand_slave(const Session& session) { slave_port_.follow(session); }
+  void hand_master(const Session& session) { master_port_.follow(session); }
+  void configure_slave(const SlaveConfig& config) { slave_node_.configure(config); }
+  void configure_master(const MasterConfig& config) { master_node_.configure(config); }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
   /// What the slave hears of the master.
   [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
@@ -68,6 +81,8 @@ class Laboratory {
   /// its socket, and then a tick comes late. Robot, devices, hand and the other side go on.
   void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
   void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
+  /// Must live as long as the laboratory steps.
+  void let_meddle(Meddler& meddler) { meddler_ = &meddler; }
   /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
   void record(const std::filesystem::path& file);
   /// Ends the file. Throws RecordingError when it could not be written.
@@ -79,8 +94,12 @@ class Laboratory {
   void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
 
  private:
-  [[nodiscard]] Time master_now() const { return Time{std::chrono::seconds(100)} + elapsed_; }
-  [[nodiscard]] Time slave_now() const { return Time{std::chrono::seconds(77777)} + elapsed_; }
+  [[nodiscard]] Time master_now() const {
+    return Time{std::chrono::seconds(100)} + (meddler_ ? meddler_->master_clock(elapsed_) : elapsed_);
+  }
+  [[nodiscard]] Time slave_now() const {
+    return Time{std::chrono::seconds(77777)} + (meddler_ ? meddler_->slave_clock(elapsed_) : elapsed_);
+  }
   void step_slave();
   void step_master();
 
@@ -107,6 +126,7 @@ class Laboratory {
   Duration slave_thaws_{0}, master_thaws_{0};
   std::function<void(MemoryChannelPair&)> intruder_{};
   std::function<void(Time, RobotState&)> tamperer_{};
+  Meddler* meddler_ = nullptr;
   std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;

@@ -41,9 +41,10 @@ void add_run(CLI::App& app, RunOptions& o) {
   CLI::App* run =
       app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
   run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of every random stream")
+  run->add_option("--seed", o.seed, "Seed of every random stream; of faults: the one run to repeat")
       ->check(whole_number())
-      ->capture_default_str();
+      ->capture_default_str()
+      ->each([&o](const std::string&) { o.seeded = true; });
   run->add_option("--set", o.settings,
                   "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
                   "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
@@ -54,6 +55,8 @@ void add_run(CLI::App& app, RunOptions& o) {
   run->add_flag("--record", o.record,
                 "Record both sides as the programs do, into DIR/touch.mcap (only touch, with --out); "
                 "`longreach-lab replay` can run it again");
+  run->add_option("--schedule", o.schedule, "Faults to inject, as a failing run prints them (only faults)")
+      ->type_name("FILE");
   run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 

@@ -1,11 +1,17 @@
 #include "tests/experiments/run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 #include "common/config/config.hpp"
+#include "tests/experiments/campaign/plan.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/faults/faults.hpp"
 #include "tests/experiments/progress_line.hpp"
 #include "tests/experiments/touch.hpp"
 
@@ -27,7 +33,32 @@ void list_experiments() {
   }
 }
 
+namespace {
+
+/// One seed of the campaign of faults, or what a file says.
+void repeat(const RunOptions& o) {
+  Schedule schedule;
+  if (o.schedule.empty()) {
+    schedule = schedule_of(o.seed);
+  } else {
+    std::ifstream file(o.schedule);
+    if (!file) throw ConfigError(o.schedule + " cannot be read");
+    std::ostringstream text;
+    text << file.rdbuf();
+    schedule = parse_schedule(text.str());
+  }
+  std::string said;
+  const bool holds = repeat_faults(schedule, said);
+  if (!o.quiet) std::printf("%s", said.c_str());
+  if (!holds) throw std::runtime_error("an invariant is violated");
+}
+
+}  // namespace
+
 void run(const RunOptions& o) {
+  const bool faults = o.name == "faults";
+  if (!o.schedule.empty() && !faults) throw ConfigError("--schedule is for the experiment faults alone");
+  if (faults && (o.seeded || !o.schedule.empty())) return repeat(o);
   const Experiment* experiment = find_experiment(o.name);
   if (!experiment)
     throw ConfigError("there is no experiment '" + o.name + "'; `longreach-lab list` shows them");
@@ -51,6 +82,10 @@ void run(const RunOptions& o) {
   const std::vector<Metric> metrics = run_experiment(chosen, r, complain);
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   line.clear();
+  const auto wrong = std::ranges::find_if(metrics, [](const Metric& m) {
+    return (m.name == "violations" || (m.name == "never_seen" && full_size())) && m.value > 0.0;
+  });
+  if (wrong != metrics.end() && o.quiet) throw std::runtime_error("faults: " + wrong->name);
   if (o.quiet) return;
   for (const Metric& m : metrics) {
     std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
@@ -60,6 +95,7 @@ void run(const RunOptions& o) {
   std::printf("commit %s, config %s, seed %llu%s%s\n", std::string(commit()).c_str(),
               config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
               r.out.empty() ? "" : "; written to ", r.out.c_str());
+  if (wrong != metrics.end()) throw std::runtime_error(number(wrong->value) + " " + wrong->name);
 }
 
 }  // namespace longreach

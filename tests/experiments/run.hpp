@@ -10,6 +10,8 @@ namespace longreach {
 struct RunOptions {
   std::string name;
   std::uint64_t seed = 1;
+  bool seeded = false;   // --seed was given
+  std::string schedule;  // of faults, a file
   std::vector<std::string> settings;
   std::string out;
   bool record = false;

@@ -1,0 +1,75 @@
+// I13 to I20: what was sent, what was taken, what was changed.
+
+#include <algorithm>
+
+#include "tests/experiments/faults/invariant.hpp"
+
+namespace longreach {
+namespace {
+
+class Authentic : public Invariant {
+ public:
+  explicit Authentic(const Scenario&)
+      : Invariant("I13-15",
+                  "a command that is taken is one that the lease's master sent, in this session, in order") {}
+  void see(const Moment& m) override {
+    if (m.slave_ran) that(m, !m.given_badly, "the slave took a command that nobody sent so");
+  }
+};
+
+/// While it is engaged, what it follows is no older than the least since the engagement and a documented
+/// excess.
+class Fresh : public Invariant {
+ public:
+  explicit Fresh(const Scenario&) : Invariant("I16", "what is followed is fresh") {}
+  void see(const Moment& m) override {
+    const Right& right = m.ghost->right();
+    if (!m.slave_ran || m.claimed != SafetyState::kEngaged || right.newest == nullptr) {
+      least_s_ = 1e9;
+      return;
+    }
+    const double age_s = m.t_s - right.sent_s;
+    if (m.engagement != engagement_) least_s_ = 1e9;
+    engagement_ = m.engagement;
+    if (age_s > least_s_ + kRise_s) {
+      old_s_ += m.slave_gap_s;
+    } else {
+      old_s_ = 0.0;
+    }
+    least_s_ = std::min(least_s_ + kDrift * m.slave_gap_s, age_s);
+    at_most(m, old_s_, kLong_s, "s long engaged by commands that are too old");
+  }
+
+ private:
+  static constexpr double kRise_s = 1.0, kLong_s = 0.8, kDrift = 1e-3;
+  std::uint32_t engagement_ = 0;
+  double least_s_ = 1e9, old_s_ = 0.0;
+};
+
+class Nonces : public Invariant {
+ public:
+  explicit Nonces(const Scenario&) : Invariant("I19", "no number leaves twice under one key") {}
+  void see(const Moment& m) override {
+    if (m.datagrams > 0) that(m, !m.number_again, "a number has left before in this session");
+  }
+};
+
+class Limits : public Invariant {
+ public:
+  explicit Limits(const Scenario&)
+      : Invariant("I20", "no limit is looser than the file's, whatever clients ask for") {}
+  void see(const Moment& m) override {
+    if (m.configured) that(m, m.loosened.empty(), m.loosened.c_str());
+  }
+};
+
+}  // namespace
+
+void add_command_invariants(const Scenario& s, Invariants& all) {
+  all.push_back(std::make_unique<Authentic>(s));
+  all.push_back(std::make_unique<Fresh>(s));
+  all.push_back(std::make_unique<Nonces>(s));
+  all.push_back(std::make_unique<Limits>(s));
+}
+
+}  // namespace longreach

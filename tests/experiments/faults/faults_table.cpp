@@ -1,0 +1,114 @@
+#include "tests/experiments/faults/faults_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "tests/experiments/faults/kind.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kRow_px = 17, kTop_px = 92, kColumn_px = 400, kName_px = 205, kBar_px = 110;
+
+struct Row {
+  std::string name;
+  std::uint64_t times = 0;
+  std::uint64_t violated = 0;
+};
+struct Section {
+  const char* title;
+  const char* what;
+  std::vector<Row> rows;
+};
+
+std::vector<Section> sections(const Tally& t) {
+  std::vector<Section> all = {
+      {"faults", "times injected", {}}, {"guards", "times acted", {}}, {"invariants", "times judged", {}}};
+  for (const FaultKind& kind : fault_kinds()) {
+    const auto at = t.kinds.find(std::string(kind.name));
+    all[0].rows.push_back({std::string(kind.name), at == t.kinds.end() ? 0 : at->second});
+  }
+  for (const auto& [name, times] : t.guards) all[1].rows.push_back({name, times});
+  for (const auto& [name, times] : t.judged) {
+    const auto at = t.violated.find(name);
+    all[2].rows.push_back({name, times, at == t.violated.end() ? 0 : at->second});
+  }
+  return all;
+}
+
+std::string text_at(int x, int y, const std::string& style, const std::string& text) {
+  return "<text x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(y) + "\" " + style + ">" + text +
+         "</text>\n";
+}
+
+/// Its length is the logarithm of the count.
+std::string row_at(int x, int y, const Row& row) {
+  const auto length = static_cast<int>(kBar_px * std::log10(1.0 + static_cast<double>(row.times)) / 10.0);
+  const char* fill = row.violated > 0 ? "#d55e00" : "#7fb3d5";
+  std::string count = std::to_string(row.times);
+  if (row.violated > 0) count += ", violated " + std::to_string(row.violated);
+  return text_at(x + kName_px - 6, y + 12, "font-size=\"12\" text-anchor=\"end\"", row.name) + "<rect x=\"" +
+         std::to_string(x + kName_px) + "\" y=\"" + std::to_string(y + 3) + "\" width=\"" +
+         std::to_string(std::max(1, length)) + "\" height=\"11\" fill=\"" + fill + "\"/>\n" +
+         text_at(x + kName_px + std::max(1, length) + 5, y + 12, "font-size=\"11\" fill=\"#444444\"", count);
+}
+
+std::string svg(const Tally& tally) {
+  std::string body;
+  int x = 8, lowest = 0;
+  const std::vector<Section> all = sections(tally);
+  // The faults are as many as all others: two columns of them.
+  const std::size_t half = (all[0].rows.size() + 1) / 2;
+  const auto column = [&](const Section& section, std::size_t first, std::size_t end, int y) {
+    body += text_at(x + kName_px - 6, y - 8, "font-size=\"13\" font-weight=\"bold\" text-anchor=\"end\"",
+                    section.title);
+    body += text_at(x + kName_px, y - 8, "font-size=\"12\" fill=\"#666666\"", section.what);
+    for (std::size_t i = first; i < end; ++i, y += kRow_px) body += row_at(x, y, section.rows[i]);
+    lowest = std::max(lowest, y);
+    return y;
+  };
+  column(all[0], 0, half, kTop_px);
+  x += kColumn_px;
+  column(all[0], half, all[0].rows.size(), kTop_px);
+  x += kColumn_px;
+  const int y = column(all[1], 0, all[1].rows.size(), kTop_px);
+  column(all[2], 0, all[2].rows.size(), y + 3 * kRow_px);
+  const std::string width = std::to_string(x + kColumn_px + 8), height = std::to_string(lowest + 12);
+  char hours[96];
+  std::snprintf(hours, sizeof hours,
+                "%.1f virtual hours of %llu seeds, %.0f %% of them engaged; bars are logarithmic",
+                tally.virtual_s / 3600.0, static_cast<unsigned long long>(tally.seeds),
+                100.0 * tally.engaged_s / std::max(1.0, tally.virtual_s));
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
+         "\" viewBox=\"0 0 " + width + " " + height +
+         "\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" +
+         text_at(14, 28, "font-size=\"17\"", "Nothing that lies may move the robot") +
+         text_at(14, 50, "font-size=\"12\" fill=\"#666666\"", hours) + body + "</svg>\n";
+}
+
+std::string csv(const Tally& tally) {
+  std::string text = "what,name,times,violated\n";
+  for (const Section& section : sections(tally)) {
+    for (const Row& row : section.rows)
+      text += std::string(section.title) + ",\"" + row.name + "\"," + std::to_string(row.times) + "," +
+              std::to_string(row.violated) + "\n";
+  }
+  return text;
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::trunc);
+  stream << text;
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": is the disk full?");
+}
+
+}  // namespace
+
+void write_faults(const std::filesystem::path& folder, const Tally& tally) {
+  write(folder / "faults.csv", csv(tally));
+  write(folder / "faults.svg", svg(tally));
+}
+
+}  // namespace longreach

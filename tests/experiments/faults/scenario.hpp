@@ -1,0 +1,25 @@
+#pragma once
+// Where a run takes place: robot, scene, device, link, limits and the operator's habits, drawn from the seed.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "master/master_config.hpp"
+#include "proto/config.pb.h"
+#include "slave/slave_config.hpp"
+
+namespace longreach {
+
+struct Scenario {
+  proto::LabConfig config{};  // complete
+  MasterConfig master{};
+  SlaveConfig slave{};
+  std::vector<std::string> settings;  // as `longreach-lab run --set` takes them
+  double round_trip_s = 0.0;          // of the link while nothing is wrong
+  bool metamorphic = false;           // nothing of its link is drawn
+};
+
+Scenario draw_scenario(std::uint64_t seed);
+
+}  // namespace longreach

@@ -1,0 +1,132 @@
+// I11, I29, I30: what the slave claims of its state is true of what it was given.
+
+#include <algorithm>
+
+#include "tests/experiments/faults/invariant.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kRecent_s = 3.0;
+
+class NoSelfResume : public Invariant {
+ public:
+  explicit NoSelfResume(const Scenario& s)
+      : Invariant("I11", "engaged by an explicit request alone, made after the last stop"),
+        resume_s_(s.slave.safety.resume_s) {}
+  void see(const Moment& m) override {
+    if (!m.report || m.claimed != SafetyState::kEngaged) return;
+    that(m, m.engagement > m.ghost->ended(),
+         "engaged in an engagement that a hold, a stop or a long silence has ended");
+    that(m, m.engagement <= m.ghost->asks(), "engaged more often than anybody asked");
+    at_most(m, m.slave_gap_s, resume_s_, "s that the slave did not run, and engaged in the tick after");
+  }
+
+ private:
+  double resume_s_;
+};
+
+class MostSevereWins : public Invariant {
+ public:
+  explicit MostSevereWins(const Scenario&)
+      : Invariant("I29", "a stop is a stop, whatever else is asked for") {}
+  void see(const Moment& m) override {
+    if (!m.slave_ran) return;
+    const Right& right = m.ghost->right();
+    const bool stop = m.stop_at_slave || (right.request == Request::kStop && right.heard_s == m.t_s);
+    if (stop) {
+      stopped_ = true;
+      number_ = std::max(right.engagement, m.ghost->ended());
+    }
+    if (right.engaged && right.engagement > number_) stopped_ = false;
+    if (stopped_ && m.report)
+      that(m, m.claimed == SafetyState::kStopped || m.claimed == SafetyState::kFault,
+           "a stop was given, and none is claimed");
+  }
+
+ private:
+  bool stopped_ = false;
+  std::uint32_t number_ = 0;
+};
+
+/// Every hold, stop and fault has a cause that was there.
+class TrueCause : public Invariant {
+ public:
+  explicit TrueCause(const Scenario& s)
+      : Invariant("I30", "what has stopped the robot is named, and was there"),
+        gap_s_(gap_s(s.slave.safety, sent_hz(s.master.link))) {}
+  void see(const Moment& m) override {
+    remember(m);
+    if (!m.report || (m.cause == cause_ && m.claimed == state_)) return;
+    const bool began = m.cause != cause_ || state_ == SafetyState::kEngaged;
+    cause_ = m.cause;
+    state_ = m.claimed;
+    const bool stands =
+        state_ == SafetyState::kHolding || state_ == SafetyState::kStopped || state_ == SafetyState::kFault;
+    if (stands && began) that(m, was_there(m), words());
+  }
+
+ private:
+  void remember(const Moment& m) {
+    const Right& right = m.ghost->right();
+    if (right.heard_s < m.t_s - 0.75 * gap_s_) silent_s_ = m.t_s;
+    if (m.stop_at_slave || right.request == Request::kStop || right.request == Request::kHold)
+      asked_s_ = m.t_s;
+    if (right.request == Request::kLetGo) let_go_s_ = m.t_s;
+    if (m.slave_ran && m.slave_gap_s > 1.5 * m.period_s) slept_s_ = m.t_s;
+    if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
+  }
+  [[nodiscard]] bool was_there(const Moment& m) const {
+    const auto lately = [&](double s) { return m.t_s - s < kRecent_s; };
+    const auto spoilt = [&](Spoils what) { return m.since(what) < kRecent_s; };
+    const bool robot = spoilt(Spoils::kRobot) || spoilt(Spoils::kJoints);
+    switch (m.cause) {
+      case HoldCause::kOperator:
+        return lately(asked_s_);
+      case HoldCause::kLinkSilent:
+        return lately(silent_s_);
+      case HoldCause::kLinkStale:
+      case HoldCause::kDelayRose:
+        return spoilt(Spoils::kLink) || lately(slept_s_) || spoilt(Spoils::kMasterTime);
+      case HoldCause::kPeerRestarted:
+      case HoldCause::kTaken:
+        return spoilt(Spoils::kLease);
+      case HoldCause::kRobotFault:
+        return robot || spoilt(Spoils::kSensor);
+      case HoldCause::kRobotRestless:
+      case HoldCause::kRobotAstray:
+        return robot || spoilt(Spoils::kSlaveTime) || lately(pressed_s_);
+      case HoldCause::kHandleLetGo:
+        return lately(let_go_s_);
+      case HoldCause::kStalled:
+      case HoldCause::kOverrun:
+        return lately(slept_s_);
+      case HoldCause::kSensorFault:
+      case HoldCause::kSensorSign:
+        return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot;
+      case HoldCause::kNoRelief:
+        return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot || lately(pressed_s_);
+      default:
+        return false;
+    }
+  }
+  [[nodiscard]] const char* words() const {
+    return cause_ == HoldCause::kNone ? "it stands, and no cause is named"
+                                      : "the cause that is named was not there";
+  }
+
+  double gap_s_;
+  HoldCause cause_ = HoldCause::kNone;
+  SafetyState state_ = SafetyState::kIdle;
+  double silent_s_ = -1e9, asked_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9, pressed_s_ = -1e9;
+};
+
+}  // namespace
+
+void add_state_invariants(const Scenario& s, Invariants& all) {
+  all.push_back(std::make_unique<NoSelfResume>(s));
+  all.push_back(std::make_unique<MostSevereWins>(s));
+  all.push_back(std::make_unique<TrueCause>(s));
+}
+
+}  // namespace longreach

@@ -1,0 +1,178 @@
+// The oracle of the campaign of faults sees what is wrong: each invariant is given a run that breaks it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "slave/robot/kinematics.hpp"
+#include "tests/experiments/faults/invariant.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr std::uint64_t kAnySeed = 1;
+
+class Oracle : public testing::Test {
+ protected:
+  Oracle() {
+    moment_.ghost = &ghost_;
+    moment_.spoilt_s.fill(1e9);
+    moment_.slave_ran = moment_.master_ran = moment_.moves = true;
+    for (int i = 0; i < kMaxJoints; ++i)
+      moment_.setpoint_rad[i] = scenario_.slave.robot.joint[static_cast<std::size_t>(i)].start_rad;
+    moment_.truth.joint_rad = moment_.setpoint_rad;
+    moment_.X_WE = Kinematics(scenario_.slave.robot).forward(moment_.setpoint_rad);
+  }
+
+  /// One tick after the other, changed by `change`.
+  void run(int ticks, const std::function<void(Moment&, int)>& change) {
+    for (int i = 0; i < ticks; ++i) {
+      moment_.t_s += moment_.period_s;
+      moment_.slave_gap_s = moment_.master_gap_s = moment_.period_s;
+      moment_.report.reset();
+      change(moment_, i);
+      for (const auto& invariant : invariants_) invariant->see(moment_);
+    }
+  }
+  void claim(SafetyState state, HoldCause cause = HoldCause::kNone) {
+    moment_.report = StiffnessReport{.engagement = moment_.engagement, .state = state, .cause = cause};
+    moment_.claimed = state;
+    moment_.cause = cause;
+  }
+  [[nodiscard]] bool broken(std::string_view name) const {
+    const auto at = std::ranges::find_if(invariants_, [&](const auto& i) { return i->name() == name; });
+    return at != invariants_.end() && (*at)->violated() > 0;
+  }
+  [[nodiscard]] std::string all_broken() const {
+    std::string names;
+    for (const auto& i : invariants_)
+      if (i->violated() > 0) names += std::string(i->name()) + " ";
+    return names;
+  }
+
+  Scenario scenario_ = draw_scenario(kAnySeed);
+  Ghost ghost_{0.1, 1.0};
+  Moment moment_{};
+  Invariants invariants_ = all_invariants(scenario_);
+};
+
+TEST_F(Oracle, FindsNothingWrongWithARobotThatStands) {
+  run(3000, [](Moment&, int) {});
+  EXPECT_EQ(all_broken(), "");
+}
+
+TEST_F(Oracle, SeesASetpointThatIsNoNumber) {
+  run(1, [](Moment& m, int) { m.setpoint_rad[2] = std::nan(""); });
+  EXPECT_TRUE(broken("I1"));
+}
+
+TEST_F(Oracle, SeesASetpointThatLeaps) {
+  run(20, [](Moment& m, int i) { m.setpoint_rad[0] += i == 10 ? 0.02 : 0.0; });
+  for (const char* name : {"I3", "I4", "I5"}) EXPECT_TRUE(broken(name)) << name;
+}
+
+TEST_F(Oracle, SeesAJointBeyondItsLimit) {
+  run(1, [this](Moment& m, int) { m.truth.joint_rad[1] = scenario_.slave.robot.joint[1].max_rad + 0.1; });
+  EXPECT_TRUE(broken("I2"));
+}
+
+TEST_F(Oracle, SeesAToolThatIsTooFast) {
+  run(1, [](Moment& m, int) { m.v_WE.x() = 1.0; });
+  EXPECT_TRUE(broken("I6"));
+}
+
+TEST_F(Oracle, SeesAToolThatLeavesItsWorkspace) {
+  run(1, [](Moment& m, int) { m.X_WE.p.x() += 10.0; });
+  EXPECT_TRUE(broken("I7"));
+}
+
+TEST_F(Oracle, SeesARobotThatMovesWithoutTheRightTo) {
+  run(6000, [](Moment& m, int) { m.X_WE.p.x() += 1e-6; });
+  EXPECT_TRUE(broken("I8"));
+  EXPECT_FALSE(broken("I6"));
+}
+
+TEST_F(Oracle, SeesARobotThatDoesNotStop) {
+  run(6000, [](Moment& m, int) { m.v_WE.x() = 0.01; });
+  EXPECT_TRUE(broken("I9"));
+}
+
+TEST_F(Oracle, SeesARobotThatGoesOnWithoutASlave) {
+  run(3000, [](Moment& m, int) {
+    m.slave_ran = m.moves = false;
+    m.v_WE.x() = 0.01;
+  });
+  EXPECT_TRUE(broken("I28"));
+}
+
+TEST_F(Oracle, SeesAnEngagementThatNobodyAskedFor) {
+  moment_.engagement = 1;
+  run(1, [this](Moment&, int) { claim(SafetyState::kEngaged); });
+  EXPECT_TRUE(broken("I11"));
+}
+
+TEST_F(Oracle, SeesAHoldWithoutACause) {
+  run(1, [this](Moment&, int) { claim(SafetyState::kHolding, HoldCause::kTaken); });
+  EXPECT_TRUE(broken("I30"));
+}
+
+TEST_F(Oracle, SeesAStopThatIsNone) {
+  run(2, [this](Moment& m, int i) {
+    m.stop_at_slave = i == 0;
+    claim(SafetyState::kHolding, HoldCause::kOperator);
+  });
+  EXPECT_TRUE(broken("I29"));
+}
+
+TEST_F(Oracle, SeesForgeryOldNumbersAndLooseLimits) {
+  run(1, [](Moment& m, int) {
+    m.given_badly = m.number_again = m.configured = true;
+    m.datagrams = 1;
+    m.loosened = "safety.gap_s is looser";
+    m.received = 5;
+    m.accounted = 4;
+  });
+  for (const char* name : {"I13-15", "I19", "I20", "I27"}) EXPECT_TRUE(broken(name)) << name;
+}
+
+TEST_F(Oracle, SeesAForceAboveTheGuard) {
+  run(1, [this](Moment& m, int) { m.F_E_W.force.x() = 1.4 * scenario_.slave.command.force_guard_n; });
+  EXPECT_TRUE(broken("I21"));
+}
+
+TEST_F(Oracle, SeesAHoldThatGoesOnPressing) {
+  run(3000, [this](Moment& m, int) {
+    m.F_E_W.force.x() = 0.9 * scenario_.slave.command.force_guard_n;
+    claim(SafetyState::kHolding, HoldCause::kLinkSilent);
+  });
+  EXPECT_TRUE(broken("I21b"));
+}
+
+TEST_F(Oracle, SeesAHandThatIsPushedTooHard) {
+  run(1, [](Moment& m, int) { m.F_H_M.force.x() = 100.0; });
+  EXPECT_TRUE(broken("I22"));
+}
+
+TEST_F(Oracle, SeesEnergyComeOutOfTheHandle) {
+  run(1000, [](Moment& m, int) {
+    m.F_H_M.force.x() = 1.0;
+    m.x_MH.x() += 1e-5;
+  });
+  EXPECT_TRUE(broken("I23"));
+}
+
+TEST_F(Oracle, SeesAPictureOfWhatWasNot) {
+  run(1, [](Moment& m, int) { m.seen = Telemetry{.X_WE = Pose{{1.0, 2.0, 3.0}}}; });
+  EXPECT_TRUE(broken("I25"));
+}
+
+TEST_F(Oracle, SeesThatItDoesNotComeBack) {
+  moment_.faults_over = true;
+  run(20000, [](Moment& m, int i) { m.engage_asked = i == 15000; });
+  EXPECT_TRUE(broken("L1"));
+  EXPECT_TRUE(broken("L2"));
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,78 @@
+// The campaign of faults: its oracle, its schedules, and a part of it.
+#include "tests/experiments/faults/faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/experiments/faults/kind.hpp"
+#include "tests/property/campaign.hpp"
+
+namespace longreach {
+namespace {
+
+void expect_holds(const Tally& tally) {
+  for (const Failure& f : tally.failures) {
+    ADD_FAILURE() << f.violation.invariant << " at " << f.violation.t_s << " s: " << f.violation.words
+                  << "; repeat it: longreach-lab run faults --seed " << f.seed;
+  }
+}
+
+TEST(Faults, NoInvariantIsViolated) {
+  const Tally tally = run_faults(1, static_cast<std::uint64_t>(campaign(1000, 200)));
+  expect_holds(tally);
+  EXPECT_GT(tally.engaged_s, 0.5 * tally.virtual_s);
+  for (const auto& [name, times] : tally.judged) EXPECT_GT(times, 0U) << name << " was never judged";
+  std::printf("%.2f virtual hours, %.0f %% engaged\n", tally.virtual_s / 3600.0,
+              100.0 * tally.engaged_s / tally.virtual_s);
+}
+
+TEST(Faults, TheSameSeedIsTheSameRun) {
+  const auto count = static_cast<std::uint64_t>(campaign(1000, 20));
+  const Tally one = run_faults(1, count), other = run_faults(1, count);
+  EXPECT_EQ(one.trajectories, other.trajectories);
+  EXPECT_EQ(to_text(one), to_text(other));
+}
+
+TEST(Faults, AScheduleIsReadAsItWasPrinted) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Schedule schedule = draw_schedule(seed, 0.1);
+    EXPECT_EQ(to_text(parse_schedule(to_text(schedule))), to_text(schedule));
+  }
+  EXPECT_THROW(parse_schedule("fault no-such start_s 1 duration_s 1 size 1 seed 1"), std::runtime_error);
+  EXPECT_THROW(parse_schedule("fault forged start_s x"), std::runtime_error);
+}
+
+TEST(Faults, ATallyIsReadAsItWasWritten) {
+  Tally tally = run_faults(3, 1);
+  tally.failures.push_back({3, {"I8", 1.5, "moved by itself"}});
+  EXPECT_EQ(to_text(parse_tally(to_text(tally))), to_text(tally));
+  const std::string text = to_text(tally);
+  EXPECT_THROW(parse_tally(text.substr(0, text.size() / 2)), std::runtime_error);
+}
+
+// Fails while there are two faults of kinds that overlap, whatever else there is.
+TEST(Faults, ShrinkingLeavesWhatMatters) {
+  Schedule schedule = draw_schedule(5, 0.0);
+  schedule.faults.push_back({"loss", 5.0, 4.0, 0.5, 1});
+  schedule.faults.push_back({"stops", 6.0, 1.0, 0.5, 2});
+  const auto both = [](const Schedule& s) -> std::optional<double> {
+    const auto of = [&s](const char* kind) { return std::ranges::find(s.faults, kind, &Fault::kind); };
+    if (of("loss") == s.faults.end() || of("stops") == s.faults.end()) return std::nullopt;
+    return 7.0;
+  };
+  const Schedule least = shrink(schedule, both);
+  EXPECT_EQ(least.faults.size(), 2U);
+  EXPECT_LT(least.end_s, 8.0);
+}
+
+TEST(Faults, ThereAreFortyKinds) {
+  EXPECT_GE(fault_kinds().size(), 40U);
+  std::vector<std::string_view> names;
+  for (const FaultKind& kind : fault_kinds()) names.push_back(kind.name);
+  std::ranges::sort(names);
+  EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+}  // namespace
+}  // namespace longreach
