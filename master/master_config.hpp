@@ -39,6 +39,8 @@ struct MasterSafetyConfig {
   bool engage_at_start = false;
   Presence presence = Presence::kIgnore;
   double presence_s = 0.3;
+  double gap_s = 0.1;
+  double delay_rise_max_s = 1.0;
 };
 
 struct MasterConfig {

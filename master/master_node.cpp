@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/link/time_watch.hpp"
 #include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/simulated_devices.hpp"
@@ -51,6 +52,7 @@ struct MasterNode::State {
   explicit State(const MasterConfig& c)
       : config(c),
         safety(c.safety),
+        time(c.loop.rate_hz),
         behaviour(c.device),
         mapping(c.mapping),
         device(rendered_device(c)),
@@ -75,6 +77,7 @@ struct MasterNode::State {
 
   MasterConfig config;
   MasterSafety safety;
+  TimeWatch time;
   HandleBehaviour behaviour;
   Mapping mapping;
   RenderedDevice device;
@@ -151,6 +154,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
   for (const auto& received : input.reports) {
     if (!received.newest) continue;
     const StiffnessReport& report = received.message;
+    if (time.stalled_since() && report.state == SafetyState::kEngaged) continue;
     safety.on_report(report);
     view.in_contact = report.translation.in_contact;
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
@@ -183,29 +187,42 @@ MotionCommand MasterNode::State::command() {
   return c;
 }
 
+bool MasterNode::stalled(Time now) const { return state_->time.stalls(now, state_->safety.config().gap_s); }
+
 void MasterNode::State::decide(const MasterInput& input) {
   const std::uint32_t engagement = safety.engagement();
-  const bool begun = safety.step({.now = input.now,
-                                  .last_heard = input.last_heard,
-                                  .peer_restarts = input.peer_restarts,
-                                  .taken = input.taken,
-                                  .device_ok = handle.ok,
-                                  .held = handle.held,
-                                  .hand_stale = input.hand_stale,
-                                  .engage = input.requests.engage,
-                                  .hold = input.requests.hold,
-                                  .stop = input.requests.stop,
-                                  .rtt_s = input.rtt_s});
+  const MasterSafetyInput in{.now = input.now,
+                             .last_heard = input.last_heard,
+                             .peer_restarts = input.peer_restarts,
+                             .taken = input.taken,
+                             .device_ok = handle.ok,
+                             .held = handle.held,
+                             .hand_stale = input.hand_stale,
+                             .engage = input.requests.engage,
+                             .hold = input.requests.hold,
+                             .stop = input.requests.stop,
+                             .rtt_s = input.rtt_s,
+                             .stalled_since = time.stalled_since(),
+                             .delay_rose = time.delay().rose(safety.config().delay_rise_max_s),
+                             .overrun = time.overrun()};
+  const bool begun = safety.step(in);
+  view.answer_in_s = safety.answer_in_s(in);
   // The goals of an engagement begin with the first command that asks for it.
   if (safety.engagement() != engagement || begun) {
     mapping.reset(handle);
     history.clear();
   }
-  if (begun) renderer.reset(handle);
+  if (begun) {
+    renderer.reset(handle);
+    time.rebase();
+  }
 }
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
+  s.time.hear(input.now, input.reports);
+  s.time.hear(input.now, input.telemetry);
+  s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
   s.take_handle(input.handle);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
   s.take_requests(input.requests);
@@ -249,6 +266,9 @@ void MasterNode::State::publish(const Wrench& F) {
   view.far_state = safety.far_state();
   view.engagement = safety.engagement();
   view.hand_missing = safety.hand_missing();
+  view.engaging = safety.pending();
+  view.rtt_s = time.delay().median_s();
+  view.rtt_least_s = time.delay().least_s();
   view.p_MH = handle.p_MH;
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = mapping.goal().rotation_rad;

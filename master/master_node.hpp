@@ -38,10 +38,11 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
-  bool taken = false;             // another master has the robot: a level
-  bool hand_stale = false;        // what is known of the hand is too old
-  std::optional<double> rtt_s{};  // of the link, once known
-  bool may_send = true;           // within the budget of the link
+  bool taken = false;               // another master has the robot: a level
+  bool hand_stale = false;          // what is known of the hand is too old
+  std::optional<double> rtt_s{};    // of the link, once known
+  bool may_send = true;             // within the budget of the link
+  std::uint64_t overdue_ticks = 0;  // that came late by over one period so far, or not at all
 };
 
 /// Everything that eyes, status and log need to know, once a tick.
@@ -51,6 +52,11 @@ struct MasterView {
   SafetyState far_state = SafetyState::kIdle;
   std::uint32_t engagement = 0;
   bool hand_missing = false;  // safety.presence = HOLD, and no hand is on the handle: no engagement
+  bool engaging = false;      // an engagement waits for its answer
+  // Then: the seconds until that can be here; none: not, or not known.
+  std::optional<double> answer_in_s{};
+  std::optional<double> rtt_s{};        // median of the last half second
+  std::optional<double> rtt_least_s{};  // least of that since the engagement: the delay that was accepted
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
@@ -109,6 +115,8 @@ class MasterNode {
   [[nodiscard]] const MasterView& view() const;
   /// True while fields that may not change while engaged must not change.
   [[nodiscard]] bool engaged() const;
+  /// Whether a tick now comes later than safety.gap_s after the one before: what came meanwhile is too old.
+  [[nodiscard]] bool stalled(Time now) const;
 
  private:
   struct State;

@@ -16,7 +16,10 @@ enum class MasterSafety::Demand : std::uint8_t {
   kHold,
   kLetGo,
   kHandStale,
+  kStalled,
   kSilent,
+  kDelayRose,
+  kOverrun,
   kSlaveHolds,
   kSlaveEngaged,
   kUnanswered,
@@ -58,7 +61,10 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {kFollowing, true, Demand::kHold, State::kHolding, Cause::kOperator, Request::kHold},
     {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
     {kFollowing, true, Demand::kHandStale, State::kHolding, Cause::kHandStale, Request::kHold},
+    {kFollowing, true, Demand::kStalled, State::kHolding, Cause::kStalled, Request::kEngage},
     {kFollowing, true, Demand::kSilent, State::kHolding, Cause::kLinkSilent, Request::kEngage},
+    {in(State::kEngaged), true, Demand::kDelayRose, State::kHolding, Cause::kDelayRose, Request::kHold},
+    {in(State::kEngaged), true, Demand::kOverrun, State::kHolding, Cause::kOverrun, Request::kHold},
     {in(State::kEngaged), true, Demand::kSlaveHolds, State::kHolding, Cause::kPeerHolds, Request::kEngage},
     {kFollowing, true, Demand::kSlaveEngaged, State::kEngaged, Cause::kNone, Request::kEngage},
     {in(State::kObserving), true, Demand::kUnanswered, State::kObserving, Cause::kUnanswered, Request::kHold},
@@ -91,10 +97,8 @@ void MasterSafety::observe(const MasterSafetyInput& in) {
   stale_ = in.last_heard && to_seconds(in.now - *in.last_heard) > config_.silence_s;
   restarted_ = in.peer_restarts != peer_restarts_;
   peer_restarts_ = in.peer_restarts;
-  if (restarted_) {
-    far_state_ = State::kObserving;
-    far_engagement_ = 0;
-  }
+  if (restarted_) far_state_ = State::kObserving;
+  if (restarted_ || in.stalled_since) far_engagement_ = 0;
   if (in.held) held_at_ = in.now;
   hand_missing_ = config_.presence == Presence::kHold && !in.held;
   let_go_ = hand_missing_ && to_seconds(in.now - held_at_) > config_.presence_s;
@@ -123,8 +127,14 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
       return let_go_;
     case Demand::kHandStale:
       return in.hand_stale;
+    case Demand::kStalled:
+      return in.stalled_since.has_value();
     case Demand::kSilent:
       return stale_;
+    case Demand::kDelayRose:
+      return in.delay_rose;
+    case Demand::kOverrun:
+      return in.overrun;
     case Demand::kSlaveHolds:
       return says(State::kHolding);
     case Demand::kSlaveEngaged:
@@ -140,8 +150,14 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
 bool MasterSafety::engages(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
   const bool by_itself = config_.engage_at_start && !told_ && rests && !active();
-  return (in.engage || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.hand_stale &&
-         !in.taken && !in.stop;
+  const bool asked = in.engage && !pending() && state_ != State::kEngaged;
+  return (asked || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.hand_stale && !in.taken &&
+         !in.stop && !in.stalled_since;
+}
+
+std::optional<double> MasterSafety::answer_in_s(const MasterSafetyInput& in) const {
+  if (!pending() || !in.rtt_s) return std::nullopt;
+  return std::max(0.0, *in.rtt_s - to_seconds(in.now - asked_at_));
 }
 
 // Of the present engagement.
@@ -164,7 +180,7 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
              (rule.demand == Demand::kTaken && cause_ == HoldCause::kLinkSilent)) {
     cause_ = rule.demand == Demand::kSlaveFault && far_cause_ != HoldCause::kNone ? far_cause_ : rule.cause;
   }
-  if (rule.to == State::kHolding && !was_holding) left_at_ = in.now;
+  if (rule.to == State::kHolding && !was_holding) left_at_ = in.stalled_since.value_or(in.now);
   state_ = rule.to;
   if (request_ != Request::kStop || rule.demand == Demand::kEngage) request_ = rule.request;
   if (rule.demand == Demand::kEngage) begin(in);

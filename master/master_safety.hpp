@@ -13,7 +13,10 @@
 //   active            the operator asks for a hold                  Holding    operator              hold
 //   active            no hand for presence_s (presence = HOLD)      Holding    handle let go         let go
 //   active            what is known of the hand is too old          Holding    hand stale            hold
+//   active            this tick came later than gap_s               Holding    stalled               engage
 //   active            silence > silence_s                           Holding    link silent           engage
+//   Engaged           the round trip rose > delay_rise_max_s        Holding    delay rose            hold
+//   Engaged           half of a second's ticks came late            Holding    overrun               hold
 //   Engaged           the slave says that it holds                  Holding    other side holds      engage
 //   active            the slave says that it is engaged             Engaged    -                     engage
 //   active Observing  no answer for a round trip and 3 s            Observing  slave did not answer  hold
@@ -22,9 +25,12 @@
 // Active: in Observing, Engaged or Holding, while an engagement is requested. A hold for longer than resume_s
 // requests hold and so is active no more: only a new engagement goes on. The operator may engage when the
 // slave is heard, the hand is known and, with presence = HOLD, on the handle; whatever state it was, this is
-// the only way out of Stopped and Fault. What the slave says counts if it says it of this engagement's
-// number. A stop is requested in Fault, too, and until the next engagement. The cause is the first since
-// Engaged, but that a robot was taken explains a silence; a fault has its own.
+// the only way out of Stopped and Fault. While an engagement waits for its answer, or is followed, asking for
+// one changes nothing. A tick that comes later than gap_s after the one before is a hold from then on,
+// forgets what the slave had said and takes no engagement. Round trip and late ticks: as
+// slave/slave_safety.hpp. What the slave says counts if it says it of this engagement's number. A stop is
+// requested in Fault, too, and until the next engagement. The cause is the first since Engaged, but that a
+// robot was taken explains a silence; a fault has its own.
 
 #include <cstdint>
 #include <optional>
@@ -47,13 +53,17 @@ struct MasterSafetyInput {
   bool engage = false;      // asked for in this tick
   bool hold = false;
   bool stop = false;
-  std::optional<double> rtt_s{};  // of the link, once known
+  std::optional<double> rtt_s{};        // of the link, once known
+  std::optional<Time> stalled_since{};  // the tick before, where it is longer ago than gap_s
+  bool delay_rose = false;              // the round trip, by more than delay_rise_max_s
+  bool overrun = false;                 // this side does not keep its rate
 };
 
 class MasterSafety {
  public:
   explicit MasterSafety(const MasterSafetyConfig& config) : config_(config) {}
   void configure(const MasterSafetyConfig& config) { config_ = config; }
+  [[nodiscard]] const MasterSafetyConfig& config() const { return config_; }
 
   /// What the slave says of itself, in the order of arrival.
   void on_report(const StiffnessReport& report);
@@ -66,6 +76,10 @@ class MasterSafety {
   [[nodiscard]] SafetyState far_state() const { return far_state_; }
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }
   [[nodiscard]] Request request() const { return request_; }
+  /// An engagement waits for its answer.
+  [[nodiscard]] bool pending() const { return state_ == SafetyState::kObserving && active(); }
+  /// Then: the seconds until that can be here. None: not, or not known.
+  [[nodiscard]] std::optional<double> answer_in_s(const MasterSafetyInput& in) const;
   [[nodiscard]] bool stale() const { return stale_; }                // nothing heard for silence_s
   [[nodiscard]] bool hand_missing() const { return hand_missing_; }  // no engagement without it
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
@@ -101,7 +115,7 @@ class MasterSafety {
   bool told_ = false;       // the operator has engaged, held or stopped, or engage_at_start was answered
   bool confirmed_ = false;  // the present engagement was confirmed
   Time asked_at_{};         // for the present engagement
-  Time left_at_{};          // when Engaged, or asking for it, was left
+  Time left_at_{};          // when Engaged, or asking for it, was left: of a stall, when it began
   std::uint64_t false_holds_ = 0;
 };
 

@@ -52,7 +52,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   const bool stop = stops_.take();
   if (const MasterCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, requests));
 
-  port_.receive(now);
+  port_.receive(now, node_.stalled(now));
   const Endpoint& endpoint = port_.endpoint();
   MasterInput in;
   in.now = now;
@@ -70,6 +70,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.hand_stale = hand_stale_;
   in.rtt_s = snapshot_.side.link.rtt_s;
   in.may_send = port_.may_send(now);
+  in.overdue_ticks = loop.overdue_ticks;
 
   const MasterOutput out = node_.step(in);
   device_.write(out.F_H_M);

@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(HandleState) == 112 && sizeof(OperatorRequests) == 32);
-static_assert(sizeof(MasterInput) == 240 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 864);
+static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 912);
 
 MasterTape::MasterTape(double rate_hz, Duration to_log_time)
     : Tape("master", to_log_time),
@@ -150,6 +150,7 @@ void write(const MasterInput& input, recording::MasterInput& out) {
   out.set_hand_stale(input.hand_stale);
   if (input.rtt_s) out.set_rtt_s(*input.rtt_s);
   out.set_may_send(input.may_send);
+  out.set_overdue_ticks(input.overdue_ticks);
 }
 
 MasterInput read(const recording::MasterInput& in) {
@@ -163,6 +164,7 @@ MasterInput read(const recording::MasterInput& in) {
   out.hand_stale = in.hand_stale();
   if (in.has_rtt_s()) out.rtt_s = in.rtt_s();
   out.may_send = in.may_send();
+  out.overdue_ticks = in.overdue_ticks();
   return out;
 }
 
@@ -208,6 +210,10 @@ void write(const MasterView& v, recording::MasterView& out) {
   out.set_reports(v.reports);
   out.set_rejected_values(v.rejected_values);
   out.set_false_holds(v.false_holds);
+  out.set_engaging(v.engaging);
+  if (v.answer_in_s) out.set_answer_in_s(*v.answer_in_s);
+  if (v.rtt_s) out.set_rtt_s(*v.rtt_s);
+  if (v.rtt_least_s) out.set_rtt_least_s(*v.rtt_least_s);
 }
 
 }  // namespace longreach

@@ -31,6 +31,7 @@ struct SlaveSafetyConfig {
   double gap_s = 0.0;
   double age_max_s = 30.0;
   double resume_s = 1.0;
+  double delay_rise_max_s = 1.0;
 };
 
 /// The gap timer for a master that sends `send_hz` times a second.

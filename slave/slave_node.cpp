@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/link/playout.hpp"
+#include "common/link/time_watch.hpp"
 #include "slave/command/servo_lag.hpp"
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
@@ -39,6 +40,7 @@ struct SlaveNode::State {
         loop_hz(config.loop.rate_hz),
         needs(longreach::needs(config.scene)),
         safety(config.safety),
+        time(config.loop.rate_hz),
         motion(config.command, config.robot),
         joints(config.robot),
         watch(config.robot),
@@ -54,7 +56,6 @@ struct SlaveNode::State {
         playout(config.playout),
         turn_playout(config.playout) {}
 
-  double tick(Time now);
   void believe_robot(const RobotState& robot, Time now);
   void watch_robot(const RobotState& robot);
   void follow(const RobotState& robot);
@@ -75,6 +76,7 @@ struct SlaveNode::State {
   double loop_hz;
   NeedsConfig needs;  // what is not needed of contact, sensor and estimator is not there
   SlaveSafety safety;
+  TimeWatch time;
   SlaveMotion motion;
   JointWitness joints;
   RobotWatch watch;
@@ -94,7 +96,6 @@ struct SlaveNode::State {
       turn_playout;  // of orientation goals, in the place of positions: each datagram carries one of the two
   SlaveView view;
 
-  std::optional<Time> stepped_at{};
   bool robot_ok = true;
   bool robot_seen = false;
   RobotState robot_before{};  // its last sample that was a new one
@@ -136,14 +137,16 @@ void SlaveNode::configure(const SlaveConfig& config) {
 
 SlaveOutput SlaveNode::step(const SlaveInput& input) {
   State& s = *state_;
-  const double dt = s.tick(input.now);
+  s.time.hear(input.now, input.commands);
+  s.time.step(input.now, gap_s(s.safety.config(), input.send_hz), input.overdue_ticks);
+  const double dt = std::clamp(s.time.passed_s().value_or(1.0 / s.loop_hz), 0.0, kDtMax);
   s.believe_robot(input.robot, input.now);
   s.watch_robot(input.robot);
   if (s.robot_ok) s.look(input.robot, input.now);
   if (s.robot_ok && !s.right.commands()) s.follow(input.robot);
   if (s.decide(input)) s.begin_engagement();
   s.right.step({s.safety.state(), s.robot_ok && !s.watch.astray(), s.motion.at_rest(), dt});
-  s.take_goals(input.commands);
+  if (!s.time.stalled_since()) s.take_goals(input.commands);
 
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
@@ -164,10 +167,8 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   return output;
 }
 
-double SlaveNode::State::tick(Time now) {
-  const double dt = stepped_at ? to_seconds(now - *stepped_at) : 1.0 / loop_hz;
-  stepped_at = now;
-  return std::clamp(dt, 0.0, kDtMax);
+bool SlaveNode::stalled(Time now, double send_hz) const {
+  return state_->time.stalls(now, gap_s(state_->safety.config(), send_hz));
 }
 
 // True if a new engagement begins.
@@ -188,12 +189,15 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
+  in.stalled_since = time.stalled_since();
+  in.delay_rose = time.delay().rose(safety.config().delay_rise_max_s);
+  in.overrun = time.overrun();
   for (const Received<MotionCommand>& received : input.commands) {
     const MotionCommand& command = received.message;
     const bool valid = possible(command);
     if (!valid) ++rejected_values;
     // A stop is a stop, whatever else is wrong with the command.
-    if (!received.newest || (!valid && command.request != Request::kStop)) continue;
+    if (!received.newest || ((!valid || in.stalled_since) && command.request != Request::kStop)) continue;
     in.commanded = true;
     in.engagement = command.engagement;
     in.request = command.request;
@@ -244,6 +248,7 @@ void SlaveNode::State::begin_engagement() {
   turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
+  time.rebase();
   contact.forget_goals();
   turn_contact.forget_goals();
   played_sequence = played_turn_sequence = 0.0;
@@ -263,14 +268,10 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
       scale = command.scale;
       grip = command.grip;
     }
+    const bool turns = command.goal_kind == GoalKind::kOrientation;
     Vector6 goal = Vector6::Zero();
-    if (command.goal_kind == GoalKind::kPosition) {
-      goal.head<3>() = command.position_m;
-      playout.push(received.received, received.sent, received.sequence, goal);
-    } else {
-      goal.head<3>() = command.rotation_rad;
-      turn_playout.push(received.received, received.sent, received.sequence, goal);
-    }
+    goal.head<3>() = turns ? command.rotation_rad : command.position_m;
+    (turns ? turn_playout : playout).push(received.received, received.sent, received.sequence, goal);
   }
 }
 

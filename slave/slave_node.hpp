@@ -29,6 +29,7 @@ struct SlaveInput {
   double send_hz = 200.0;                // of the master, as it said when it opened the session
   std::uint64_t rejected = 0;            // datagrams dropped so far, for telemetry
   std::uint64_t late_ticks = 0;          // likewise
+  std::uint64_t overdue_ticks = 0;       // that came late by over one period so far, or not at all
   double up_loss = 0.0;                  // link figures, for telemetry
   double up_jitter_s = 0.0;
   bool may_send = true;  // within the budget of the link
@@ -84,6 +85,8 @@ class SlaveNode {
 
   [[nodiscard]] const SlaveView& view() const;
   [[nodiscard]] bool engaged() const;
+  /// Whether a tick now comes later than the gap timer after the one before: what came meanwhile is too old.
+  [[nodiscard]] bool stalled(Time now, double send_hz) const;
 
  private:
   struct State;

@@ -15,8 +15,11 @@ enum class SlaveSafety::Demand : std::uint8_t {
   kNoRelief,
   kTaken,
   kRestarted,
+  kStalled,
   kSilent,
   kStale,
+  kDelayRose,
+  kOverrun,
   kHold,
   kLetGo,
   kGoOn,
@@ -54,8 +57,11 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {in(State::kEngaged) | in(State::kHolding), Demand::kNoRelief, State::kHolding, Cause::kNoRelief},
     {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kTaken},
     {in(State::kEngaged), Demand::kRestarted, State::kHolding, Cause::kPeerRestarted},
+    {in(State::kEngaged), Demand::kStalled, State::kHolding, Cause::kStalled},
     {in(State::kEngaged), Demand::kSilent, State::kHolding, Cause::kLinkSilent},
     {in(State::kEngaged), Demand::kStale, State::kHolding, Cause::kLinkStale},
+    {in(State::kEngaged), Demand::kDelayRose, State::kHolding, Cause::kDelayRose},
+    {in(State::kEngaged), Demand::kOverrun, State::kHolding, Cause::kOverrun},
     {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kOperator},
     {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleLetGo},
     {in(State::kHolding), Demand::kGoOn, State::kEngaged, Cause::kNone},
@@ -98,8 +104,14 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
       return taken_;
     case Demand::kRestarted:
       return restarted_;
+    case Demand::kStalled:
+      return in.stalled_since.has_value();
     case Demand::kSilent:
       return silent(in);
+    case Demand::kDelayRose:
+      return in.delay_rose;
+    case Demand::kOverrun:
+      return in.overrun;
     case Demand::kStale:
       return !echo_sent_ || to_seconds(in.now - *echo_sent_) > config_.age_max_s;
     case Demand::kHold:
@@ -127,7 +139,7 @@ void SlaveSafety::observe(const SlaveSafetyInput& in) {
     request_ = Request::kHold;
     echo_sent_.reset();
   }
-  if (in.commanded) {
+  if (in.commanded && !in.stalled_since) {
     request_ = in.request;
     requested_ = in.engagement;
     if (in.echo_sent) echo_sent_ = in.echo_sent;
@@ -140,20 +152,23 @@ bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
 }
 
 bool SlaveSafety::accepts(const SlaveSafetyInput& in) const {
-  if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent)
+  if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent ||
+      in.stalled_since)
     return false;
   return !in.stop && !silent(in) && !in.robot_restless && in.robot_ready && in.sensor_ready &&
          to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
 }
 
 void SlaveSafety::expire(const SlaveSafetyInput& in) {
-  const bool passing = cause_ == HoldCause::kLinkSilent || cause_ == HoldCause::kHandleLetGo;
-  const bool more = restarted_ || demanded(Demand::kStale, in) || demanded(Demand::kHold, in);
+  const bool passing =
+      cause_ == HoldCause::kLinkSilent || cause_ == HoldCause::kStalled || cause_ == HoldCause::kHandleLetGo;
+  const bool more = restarted_ || in.delay_rose || in.overrun || demanded(Demand::kStale, in) ||
+                    demanded(Demand::kHold, in);
   if (!passing || more || to_seconds(in.now - left_at_) > config_.resume_s) expired_ = true;
 }
 
 bool SlaveSafety::goes_on(const SlaveSafetyInput& in) const {
-  return !expired_ && !silent(in) && request_ == Request::kEngage;
+  return !expired_ && !in.stalled_since && !silent(in) && request_ == Request::kEngage;
 }
 
 void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
@@ -168,7 +183,7 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
     cause_ = rule.cause;
   }
   if (state_ == State::kEngaged && rule.to != State::kEngaged) {
-    left_at_ = in.now;
+    left_at_ = in.stalled_since.value_or(in.now);
     expired_ = false;
   }
   state_ = rule.to;

@@ -14,8 +14,11 @@
 //                              gives way
 //   Engaged                    another master has taken the robot        Holding    taken by another master
 //   Engaged                    the master began a new session            Holding    other side restarted
+//   Engaged                    this tick came later than the gap timer   Holding    stalled
 //   Engaged                    silence > gap timer                       Holding    link silent
 //   Engaged                    age > age_max_s                           Holding    link stale
+//   Engaged                    the round trip rose > delay_rise_max_s    Holding    delay rose
+//   Engaged                    half of a second's ticks came late        Holding    overrun
 //   Engaged                    a hold or another number is asked for     Holding    operator
 //   Engaged                    no hand is on the handle                  Holding    handle let go
 //   Holding                    none of these, and it may end             Engaged    -
@@ -25,12 +28,16 @@
 // A new engagement has a number greater than any used or stopped in this session of the master, comes
 // in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests within its
 // limits, a sensor that is zeroed, and nobody on this side who asks for a stop. It is the only way out of
-// Stopped and Fault. A hold may end by itself only if silence or a released handle was its cause, within
-// resume_s, and if nothing else asked for a hold meanwhile; the same engagement then goes on. Gap timer:
-// gap_s, or of a master that sends f times a second max(0.1 s, 30/f). Setpoints come later than the path that
-// they smooth, so the path brakes that much before the gap timer ends, and the setpoint when it does. Age =
-// now - when this side had sent what the master last heard: no clocks are compared. The cause is the first
-// since Engaged; a fault has its own, the first of its kind, and so has a hold whose force does not fall.
+// Stopped and Fault. A hold may end by itself only if silence, a stall or a released handle was its cause,
+// within resume_s of the last tick that followed, and if nothing else asked for a hold meanwhile; the same
+// engagement then goes on. A tick that comes later than the gap timer after the one before obeys what lay
+// there meanwhile in one thing alone: a stop. The round trip, a median of half a second, is compared with its
+// least since the engagement (common/link/delay_watch); ticks are late as common/core/overrun_watch counts
+// them. Gap timer: gap_s, or of a master that sends f times a second max(0.1 s, 30/f). Setpoints come later
+// than the path that they smooth, so the path brakes that much before the gap timer ends, and the setpoint
+// when it does. Age = now - when this side had sent what the master last heard: no clocks are compared. The
+// cause is the first since Engaged; a fault has its own, the first of its kind, and so has a hold whose force
+// does not fall.
 
 #include <cstdint>
 #include <optional>
@@ -56,6 +63,9 @@ struct SlaveSafetyInput {
   bool no_relief = false;                // the force does not answer to relief
   bool sensor_ready = true;              // and is zeroed
   bool stop = false;                     // asked for on this side
+  std::optional<Time> stalled_since{};   // the tick before, where it is longer ago than the gap timer
+  bool delay_rose = false;               // the round trip, by more than delay_rise_max_s
+  bool overrun = false;                  // this side does not keep its rate
   double send_hz = 300.0;                // of the master
   double lag_s = 0.0;                    // of the setpoint behind the path
 
@@ -70,6 +80,7 @@ class SlaveSafety {
  public:
   explicit SlaveSafety(const SlaveSafetyConfig& config) : config_(config) {}
   void configure(const SlaveSafetyConfig& config) { config_ = config; }
+  [[nodiscard]] const SlaveSafetyConfig& config() const { return config_; }
 
   /// One tick. True if a new engagement begins with it.
   bool step(const SlaveSafetyInput& input);
@@ -105,7 +116,7 @@ class SlaveSafety {
   Request request_ = Request::kHold;  // of the newest command
   std::uint32_t requested_ = 0;
   std::optional<Time> echo_sent_{};
-  Time left_at_{};        // when Engaged was left
+  Time left_at_{};        // when Engaged was left: of a stall, when it began
   bool expired_ = false;  // this hold cannot end by itself
   bool brakes_ = false;
   std::uint64_t false_holds_ = 0;

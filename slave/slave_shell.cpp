@@ -37,7 +37,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   bool taken = false;
   if (const SlaveCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, taken));
 
-  port_.receive(now);
+  port_.receive(now, node_.stalled(now, snapshot_.send_hz));
   const Endpoint& endpoint = port_.endpoint();
   const SideFigures& side = observer_.observe(now, port_, channel_, loop);
   SlaveInput in;
@@ -51,6 +51,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   in.send_hz = snapshot_.send_hz;
   in.rejected = port_.rejected_total();
   in.late_ticks = loop.ticks_late_100ms;
+  in.overdue_ticks = loop.overdue_ticks;
   in.up_loss = side.link.loss;
   in.up_jitter_s = side.link.jitter_s;
   in.may_send = port_.may_send(now);

@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 720 && sizeof(SlaveView) == 592);
+static_assert(sizeof(SlaveOutput) == 736 && sizeof(SlaveView) == 624);
 
 SlaveTape::SlaveTape(double rate_hz, Duration to_log_time)
     : Tape("slave", to_log_time),
@@ -97,6 +97,7 @@ void write(const SlaveInput& input, recording::SlaveInput& out) {
   out.set_up_loss(input.up_loss);
   out.set_up_jitter_s(input.up_jitter_s);
   out.set_may_send(input.may_send);
+  out.set_overdue_ticks(input.overdue_ticks);
 }
 
 SlaveInput read(const recording::SlaveInput& in) {
@@ -118,6 +119,7 @@ SlaveInput read(const recording::SlaveInput& in) {
   out.up_loss = in.up_loss();
   out.up_jitter_s = in.up_jitter_s();
   out.may_send = in.may_send();
+  out.overdue_ticks = in.overdue_ticks();
   return out;
 }
 

@@ -208,6 +208,8 @@ void visit_fields(Visitor& visit, S& s) {
   visit("engage_at_start", s.engage_at_start);
   visit("presence", s.presence);
   visit("presence_s", s.presence_s);
+  visit("gap_s", s.gap_s);
+  visit("delay_rise_max_s", s.delay_rise_max_s);
 }
 
 template <class Visitor, Is<MasterConfig> S>
@@ -342,6 +344,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("gap_s", s.gap_s);
   visit("age_max_s", s.age_max_s);
   visit("resume_s", s.resume_s);
+  visit("delay_rise_max_s", s.delay_rise_max_s);
 }
 
 template <class Visitor, Is<SlaveConfig> S>

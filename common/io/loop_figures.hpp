@@ -15,6 +15,7 @@ struct LoopFigures {
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks =
       0;  // deadlines that were skipped because an earlier tick was still busy or late
+  std::uint64_t overdue_ticks = 0;  // that came late by over one period, or were missed
   std::uint64_t ticks_late_100ms = 0;
   Duration lateness_max{0};
   Duration busy_max{0};                            // longest step

@@ -10,12 +10,6 @@
 
 namespace longreach {
 
-Time monotonic_now() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return Time(std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec));
-}
-
 std::vector<std::string> ask_for_real_time(const LoopConfig& config) {
   std::vector<std::string> notes;
   if (config.priority > 0) {
@@ -36,12 +30,12 @@ std::vector<std::string> ask_for_real_time(const LoopConfig& config) {
   return notes;
 }
 
-void RealTimeLoop::sleep_until(Time deadline) {
+void sleep_until(Time deadline) {
   const auto ns = deadline.time_since_epoch().count();
   timespec t{};
   t.tv_sec = static_cast<time_t>(ns / 1'000'000'000);
   t.tv_nsec = static_cast<long>(ns % 1'000'000'000);
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  while (clock_nanosleep(CLOCK_BOOTTIME, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
 }
 

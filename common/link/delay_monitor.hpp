@@ -36,8 +36,6 @@ struct LinkFigures {
   double bytes_per_s = 0.0;  // accepted bytes a second, without UDP and IP headers
 };
 
-constexpr Duration kNoRtt{-1};  // a round trip that is not known; so is any below zero
-
 class DelayMonitor {
  public:
   DelayMonitor();

@@ -55,7 +55,7 @@ bool Endpoint::mark(const Header& header) {
   return newest;
 }
 
-void Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes) {
+Duration Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes) {
   Duration rtt = kNoRtt;
   if (const auto echoed = echo_sent(now, stamp)) {
     rtt = round_trip(now, *echoed, stamp.echo->held);
@@ -66,6 +66,7 @@ void Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std::si
   // would look shorter than it is.
   heard_at_ = now;
   heard_sent_ = stamp.sent;
+  return rtt;
 }
 
 std::optional<Header> Endpoint::number(DatagramType type, std::uint64_t sequence) {

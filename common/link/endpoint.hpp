@@ -33,8 +33,8 @@ class Endpoint {
   [[nodiscard]] std::optional<Rejection> judge(const Header& header) const;
   /// Uses up the number of a judged, authentic header. True: no newer one of its type came before.
   bool mark(const Header& header);
-  /// Books a marked datagram.
-  void learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
+  /// Books a marked datagram. Returns its round trip, below zero where it does not tell one.
+  Duration learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
 
   /// Header of the next datagram. None: there is no session, or this number or a greater one of its type has
   /// left in this session, or the numbers are at their end. So no number leaves twice.

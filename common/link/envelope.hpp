@@ -33,6 +33,8 @@ struct Stamp {
   std::optional<Echo> echo{};  // none: nothing heard yet
 };
 
+constexpr Duration kNoRtt{-1};  // a round trip that is not known; so is any below zero
+
 /// A message with what its receiver knows about the way it came.
 template <class Message>
 struct Received {
@@ -40,6 +42,7 @@ struct Received {
   PeerTime sent{};                  // on the sender's clock
   Time received{};                  // on this clock
   std::optional<Time> echo_sent{};  // when this side had sent what the peer had last heard; none: not yet
+  Duration rtt = kNoRtt;            // from then until now, without the time that it lay at the peer
   bool newest = true;               // no newer one of its type came before it
   Message message{};
 };
@@ -54,6 +57,7 @@ enum class Rejection : std::uint8_t {
   kAuthentication,  // damaged, or not sealed by the other side
   kDecode,          // body is not the message that the header promises
   kValue,           // a field is missing, not finite or out of range
+  kStalled,         // lay there while this side stood still: too old to follow
   kCount
 };
 
@@ -62,7 +66,7 @@ using RejectionCounts = std::array<std::uint64_t, kRejectionCount>;
 
 constexpr std::string_view to_string(Rejection r) {
   constexpr std::array<std::string_view, kRejectionCount> kNames = {
-      "length", "version", "type", "session", "replay", "authentication", "decode", "value"};
+      "length", "version", "type", "session", "replay", "authentication", "decode", "value", "stalled"};
   return r < Rejection::kCount ? kNames[static_cast<std::size_t>(r)] : "unknown";
 }
 

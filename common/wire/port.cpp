@@ -16,6 +16,13 @@ constexpr Nonce nonce_of(const Header& header) {
 
 static_assert(kOverheadBytes == kHeaderBytes + kTagBytes);
 
+// What counts however old it is.
+bool stops(const MotionCommand& command) { return command.request == Request::kStop; }
+bool stops(const StiffnessReport& report) {
+  return report.state == SafetyState::kStopped || report.state == SafetyState::kFault;
+}
+bool stops(const Telemetry&) { return false; }
+
 }  // namespace
 
 Port::Port(Channel& channel, const ImpairmentConfig& impairment, Random random, Way out)
@@ -37,17 +44,23 @@ void Port::leave() {
   channel_.answer_to(kNowhere);
 }
 
-void Port::drain(Time now) {
+void Port::drain(Time now, bool stalled) {
+  stalled_ = stalled || more_;
+  more_ = stalled_;
   for (int i = 0; i < kDatagramsPerReceive; ++i) {
     const auto size = channel_.receive(buffer_);
-    if (!size) break;
+    if (!size) {
+      more_ = false;
+      break;
+    }
     // Never one of ours: no need to carry it through the artificial network.
     if (*size > buffer_.size()) {
       count(Rejection::kLength);
       continue;
     }
     const auto datagram = std::span<const std::byte>(buffer_).first(*size);
-    if (impairment_.clear()) {
+    // What came meanwhile would leave the artificial network later, as if it were new.
+    if (impairment_.clear() || stalled_) {
       impairment_.pass();
       count(judge(now, datagram, channel_.origin()));
     } else {
@@ -94,7 +107,10 @@ std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time
   Stamp stamp;
   Received<Message>& received = inbox.next();
   if (const auto rejection = codec_.decode(datagram.body, stamp, received.message)) return rejection;
-  endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
+  if (stalled_ && !stops(received.message)) return Rejection::kStalled;
+  received.rtt = kNoRtt;
+  if (!stalled_)
+    received.rtt = endpoint_.learn(now, datagram.header, stamp, datagram.body.size() + kOverheadBytes);
   received.sequence = datagram.header.sequence;
   received.sent = stamp.sent;
   received.received = now;
@@ -118,10 +134,10 @@ std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequen
   return size + kOverheadBytes;
 }
 
-void MasterPort::receive(Time now) {
+void MasterPort::receive(Time now, bool stalled) {
   reports_.open();
   telemetry_.open();
-  drain(now);
+  drain(now, stalled);
   reports_.close();
   telemetry_.close();
 }
@@ -135,9 +151,9 @@ void MasterPort::send(Time now, std::uint64_t sequence, const MotionCommand& com
   send_message(now, DatagramType::kMotionCommand, sequence, command);
 }
 
-void SlavePort::receive(Time now) {
+void SlavePort::receive(Time now, bool stalled) {
   commands_.open();
-  drain(now);
+  drain(now, stalled);
   commands_.close();
 }
 

@@ -6,8 +6,10 @@
 // Without a session (`follow`) nothing leaves and nothing is accepted. receive() drains the channel through
 // the impairment; what was accepted stays available until the next receive(). A datagram that is not
 // authentic changes nothing but a counter; an authentic one uses up its number, whatever its values. Nothing
-// allocates after construction. Bounded: at most kDatagramsPerReceive datagrams a call; of what was accepted
-// the newest kInboxCapacity of a type.
+// allocates after construction. What lay in the socket while this side stood still (`stalled`) is too old to
+// follow: it uses up its number, is counted as stalled and neither heard nor learnt from, but for a stop,
+// which is obeyed however old it is. Bounded: at most kDatagramsPerReceive datagrams a call; of what was
+// accepted the newest kInboxCapacity of a type.
 
 #include <array>
 #include <cstdint>
@@ -64,7 +66,7 @@ class Port {
 
  protected:
   /// Takes all that has come.
-  void drain(Time now);
+  void drain(Time now, bool stalled);
   /// An authentic datagram: header, body in clear, whether no newer one of its type came before.
   struct Opened {
     Header header{};
@@ -101,13 +103,16 @@ class Port {
   std::uint64_t accepted_ = 0;
   std::array<std::byte, kDatagramMaxBytes> buffer_{};
   std::array<std::byte, kBodyMaxBytes> body_{};
+  bool stalled_ = false;  // what this receive() takes lay there
+  bool more_ = false;     // and it did not take all of that
 };
 
 class MasterPort : public Port {
  public:
   MasterPort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToSlave) {}
-  void receive(Time now);
+  /// `stalled`: this side stood still since the last call.
+  void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
   void send(Time now, std::uint64_t sequence, const MotionCommand& command);
@@ -123,7 +128,8 @@ class SlavePort : public Port {
  public:
   SlavePort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToMaster) {}
-  void receive(Time now);
+  /// `stalled`: this side stood still since the last call.
+  void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
   /// Returns the size of the datagram, bytes; 0: none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);

@@ -56,11 +56,15 @@ std::string touching(const ConsoleSnapshot& s) {
   return text("touching: the wall gives %.2f N/mm", k * 1e-3);
 }
 
+std::string engaging(const ConsoleSnapshot& s) {
+  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's answer";
+  if (*s.view.answer_in_s < 0.05)
+    return text("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
+  return text("engaging: the slave's answer can be here in %.1f s (round trip %.2f s)", *s.view.answer_in_s,
+              *s.link.rtt_s);
+}
+
 std::string following(const ConsoleSnapshot& s) {
-  if (s.view.far_state != SafetyState::kEngaged) {
-    return s.link.rtt_s ? text("engaging: the slave's answer takes %.2f s", *s.link.rtt_s)
-                        : "engaging: waiting for the slave's answer";
-  }
   if (s.view.clutched) return "clutch: the hand moves freely, the robot keeps its place";
   const std::string limit = held_back(s.view);
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
@@ -85,14 +89,19 @@ std::string holding(const ConsoleSnapshot& s) {
       return text("holding: nothing came from the slave for %.1f s; the link is back: ",
                   s.view.hold_silence_s) +
              (s.view.resumes ? "it goes on by itself" : "engage to go on");
+    case HoldCause::kDelayRose:
+      if (!s.view.rtt_s || !s.view.rtt_least_s) break;
+      return text("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
+                  *s.view.rtt_least_s, *s.view.rtt_s);
     case HoldCause::kHandleLetGo:
       return s.view.hand_missing ? "holding: no hand is on the handle" : "holding: engage to go on";
     case HoldCause::kNone:
     case HoldCause::kOperator:
       return "holding: engage to go on";
     default:
-      return "holding: " + cause_in_words(s.view) + then;
+      break;
   }
+  return "holding: " + cause_in_words(s.view) + then;
 }
 
 std::string observing(const ConsoleSnapshot& s) {
@@ -183,7 +192,7 @@ std::string happening(const ConsoleSnapshot& s) {
   switch (s.view.state) {
     case SafetyState::kIdle:
     case SafetyState::kObserving:
-      return observing(s);
+      return s.view.engaging && !s.view.silent ? engaging(s) : observing(s);
     case SafetyState::kEngaged:
       return following(s);
     case SafetyState::kHolding:

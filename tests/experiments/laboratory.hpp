@@ -65,6 +65,8 @@ class Laboratory {
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
   /// What the slave hears of the master.
   [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
+  /// What the slave last told the arm; none: it was not commanded.
+  [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
   /// Where the stiffness which the master renders now belongs to, in W; zero before the first.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
@@ -124,12 +126,14 @@ class Laboratory {
   bool let_go_ = false;
   bool slave_lives_ = true, master_lives_ = true;
   Duration slave_thaws_{0}, master_thaws_{0};
+  std::uint64_t slave_overdue_ = 0, master_overdue_ = 0;
   std::function<void(MemoryChannelPair&)> intruder_{};
   std::function<void(Time, RobotState&)> tamperer_{};
   Meddler* meddler_ = nullptr;
   std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;
+  std::optional<JointVector> setpoint_rad_{};
   HapticReturn haptic_return_{};
   Vector3 rendered_at_m_ = Vector3::Zero();
 };

@@ -17,7 +17,7 @@ FOLDERS = {
     'slave/scene': 2.0, 'slave/robot': 2.1, 'slave/command': 2.2, 'slave/sensing': 2.05, 'slave/estimation': 2.4,
     'slave/comparison': 2.4,
     'master': 3, 'slave': 3,
-    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io/recording': 4.25, 'common/io/manual': 4.25,
+    'proto': 4.0, 'common/wire': 4.1, 'common/config': 4.2, 'common/io/clock': 4.05, 'common/io/recording': 4.25, 'common/io/manual': 4.25,
     'common/io': 4.3, 'master/console': 4.4,
     'master/drivers': 4.35, 'slave/drivers': 4.35,
     'deploy/cli': 5, 'deploy/adapters': 5, 'tests': 6,

@@ -83,6 +83,7 @@ void write_receipt(const Received<Message>& received, recording::Receipt& out) {
   out.set_sent_ns(received.sent.time_since_epoch().count());
   out.set_received_ns(to_ns(received.received));
   if (received.echo_sent) out.set_echo_sent_ns(to_ns(*received.echo_sent));
+  if (received.rtt >= Duration{0}) out.set_rtt_ns(received.rtt.count());
   out.set_newest(received.newest);
 }
 template <class Message>
@@ -92,6 +93,7 @@ Received<Message> read_receipt(const recording::Receipt& in, const Message& mess
   out.sent = PeerTime(Duration(in.sent_ns()));
   out.received = to_time(in.received_ns());
   if (in.has_echo_sent_ns()) out.echo_sent = to_time(in.echo_sent_ns());
+  if (in.has_rtt_ns()) out.rtt = Duration(in.rtt_ns());
   out.newest = in.newest();
   out.message = message;
   return out;

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "common/io/clock/side_clock.hpp"
 #include "common/io/recording/build_name.hpp"
 #include "common/io/recording/recorder.hpp"
 #include "common/io/recording/recording_error.hpp"
@@ -18,9 +19,7 @@
 namespace longreach {
 
 /// The present instant of the loop's clock.
-inline Time recording_now() {
-  return Time(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
-}
+inline Time recording_now() { return monotonic_now(); }
 
 /// Where a side records, and what its seed was.
 struct RecordingPlace {

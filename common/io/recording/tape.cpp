@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "common/io/clock/side_clock.hpp"
+
 namespace longreach {
 
 Tape::Tape(std::string side, Duration to_log_time) : side_(std::move(side)), to_log_time_(to_log_time) {}
@@ -84,7 +86,7 @@ std::string recorded_text(const google::protobuf::Message& config) {
 Duration monotonic_to_unix() {
   using std::chrono::duration_cast;
   return duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()) -
-         duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
+         monotonic_now().time_since_epoch();
 }
 
 }  // namespace longreach

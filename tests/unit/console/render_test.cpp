@@ -151,9 +151,14 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s = touching();
   s.view.state = SafetyState::kObserving;
   EXPECT_TRUE(contains(happening(s), "engage to take it"));
+  s.view.engaging = true;
+  EXPECT_EQ(happening(s), "engaging: waiting for the slave's answer");
+  s.view.answer_in_s = 1.3;
+  EXPECT_EQ(happening(s), "engaging: the slave's answer can be here in 1.3 s (round trip 2.60 s)");
+  s.view.answer_in_s = 0.0;
+  EXPECT_EQ(happening(s), "engaging: the slave's answer is due (round trip 2.60 s)");
+  s.view.engaging = false;
   s.view.state = SafetyState::kEngaged;
-  s.view.far_state = SafetyState::kObserving;
-  EXPECT_EQ(happening(s), "engaging: the slave's answer takes 2.60 s");
   s.view.far_state = SafetyState::kEngaged;
   s.view.in_contact = false;
   s.view.spring_force_n.setZero();
@@ -266,6 +271,16 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
       happening(s),
       "observing: the slave has a fault, the force sensor says what no contact could do; engage when it is "
       "mended");
+}
+
+TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
+  ConsoleSnapshot s = touching();
+  s.view.state = SafetyState::kHolding;
+  s.view.cause = HoldCause::kDelayRose;
+  EXPECT_EQ(happening(s), "holding: the delay of the link has risen; engage to go on");
+  s.view.rtt_least_s = 0.05;
+  s.view.rtt_s = 25.05;
+  EXPECT_EQ(happening(s), "holding: the round trip has risen from 0.05 to 25.05 s; engage to accept that");
 }
 
 TEST(View, MarksWhatIsOldAsOld) {

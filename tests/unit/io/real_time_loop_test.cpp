@@ -1,7 +1,13 @@
 // Deadlines, lateness, and what crosses between the loop and other threads.
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <cstring>
 #include <thread>
 
 #include "common/io/latest_value.hpp"
@@ -80,6 +86,70 @@ TEST(RealTimeLoop, TicksUntilItIsStoppedAndNeverBeforeADeadline) {
   EXPECT_EQ(loop.figures().ticks, 20u);
   EXPECT_GE(first - began, microseconds(500));
   EXPECT_GE(monotonic_now() - began, milliseconds(10));  // 20 periods of 0.5 ms
+}
+
+/// A host whose clock goes on as a test says.
+struct Host {
+  static inline Duration now{0};
+  static inline Duration suspended{0};  // in the next sleep
+  static Time read() { return Time{now}; }
+  static void sleep(Time deadline) {
+    now = std::max(now, deadline.time_since_epoch()) + suspended;
+    suspended = Duration{0};
+  }
+};
+
+TEST(RealTimeLoop, TellsATickHowLongTheHostWasSuspendedAndHowManyTicksItMissed) {
+  std::atomic<bool> stop{false};
+  RealTimeLoop loop(1000.0, {Host::read, Host::sleep});
+  Time last{};
+  loop.run(stop, [&](Time now, const LoopFigures& figures) {
+    EXPECT_EQ(now - last, figures.ticks == 10 ? milliseconds(60001) : milliseconds(1)) << figures.ticks;
+    last = now;
+    if (figures.ticks == 9) Host::suspended = std::chrono::seconds(60);
+    stop = figures.ticks == 20;
+  });
+  EXPECT_EQ(loop.figures().missed_ticks, 59999U);
+  EXPECT_EQ(loop.figures().overdue_ticks, 60000U);
+}
+
+TEST(RealTimeLoop, CountsWhatItsOwnStepMakesLate) {
+  std::atomic<bool> stop{false};
+  RealTimeLoop loop(1000.0, {Host::read, Host::sleep});
+  loop.run(stop, [&](Time, const LoopFigures& figures) {
+    Host::now += microseconds(2500);  // every step takes two periods and a half
+    stop = figures.ticks == 999;
+  });
+  EXPECT_NEAR(static_cast<double>(loop.figures().overdue_ticks), 1500.0, 3.0);
+}
+
+// In a time namespace whose CLOCK_BOOTTIME is 1000 s ahead, as after a suspension.
+int ahead_in_a_namespace() {
+  if (unshare(CLONE_NEWTIME) != 0) return 77;
+  const int file = open("/proc/self/timens_offsets", O_WRONLY);
+  const char* offset = "boottime 1000 0\n";
+  if (file < 0 || write(file, offset, std::strlen(offset)) < 0) return 77;
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto steady = std::chrono::steady_clock::now().time_since_epoch();
+    const Time now = monotonic_now();
+    const bool ahead = now.time_since_epoch() - steady > std::chrono::seconds(900);
+    sleep_until(now + milliseconds(20));
+    const Duration slept = monotonic_now() - now;
+    _exit(ahead && slept >= milliseconds(20) && slept < std::chrono::seconds(60) ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+TEST(SideClock, GoesOnWhileTheHostIsSuspended) {
+  const pid_t child = fork();
+  if (child == 0) _exit(ahead_in_a_namespace());
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (geteuid() != 0 && WEXITSTATUS(status) == 77) return;  // only root gets a time namespace
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(LatestValue, GivesTheNewestAndADefaultBeforeTheFirst) {

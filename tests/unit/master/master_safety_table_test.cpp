@@ -41,6 +41,7 @@ struct Tick {
   bool heard = true;  // within silence_s
   bool device_fault = false, stop = false, engage = false, hold = false;
   bool taken = false, restarted = false, let_go = false, hand_stale = false;
+  bool stalled = false, rose = false, overrun = false;
 };
 
 struct Machine {
@@ -111,6 +112,13 @@ constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone, Request:
                                            {State::kStopped, Cause::kOperator, Request::kStop},
                                            {State::kFault, Cause::kDeviceFault, Request::kHold}}};
 
+// While one is under way or followed, asking for another changes nothing.
+bool engages(const Tick& t, const Expected& at) {
+  const bool rests =
+      at.state != State::kEngaged && !(at.state == State::kObserving && at.request == Request::kEngage);
+  return t.engage && rests && t.heard && !t.taken && !t.let_go && !t.hand_stale && !t.stalled;
+}
+
 // Up to the engagement: what wins over everything that the slave or the link may say.
 bool wins(const Tick& t, const Expected& at, Expected& then) {
   const bool fault = at.state == State::kFault;
@@ -121,7 +129,7 @@ bool wins(const Tick& t, const Expected& at, Expected& then) {
   } else if (t.stop) {
     then = fault ? Expected{at.state, at.cause, Request::kStop}
                  : Expected{State::kStopped, first, Request::kStop};
-  } else if (t.engage && t.heard && !t.taken && !t.let_go && !t.hand_stale) {
+  } else if (engages(t, at)) {
     then = {State::kObserving, Cause::kNone, Request::kEngage};
   } else {
     return false;
@@ -141,6 +149,7 @@ Expected expected(Start start, const Tick& t) {
   // A restart forgets what the slave had said; in the start that had heard of a hold it says so still.
   Slave says = t.slave;
   if (t.restarted && says == Slave::kSaysNothing) says = Slave::kOfAnotherNumber;
+  if (t.stalled) says = Slave::kOfAnotherNumber;  // likewise; what comes counts from the next tick on
   if (asked && says == Slave::kStopped && !t.restarted)
     return {State::kStopped, holding ? at.cause : Cause::kPeerHolds, Request::kHold};
   if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kRobotAstray, Request::kHold);
@@ -152,7 +161,10 @@ Expected expected(Start start, const Tick& t) {
   if (asked && t.hold) return hold(Cause::kOperator, Request::kHold);
   if (asked && t.let_go) return hold(Cause::kHandleLetGo, Request::kLetGo);
   if (asked && t.hand_stale) return hold(Cause::kHandStale, Request::kHold);
+  if (asked && t.stalled) return hold(Cause::kStalled, Request::kEngage);
   if (asked && !t.heard) return hold(Cause::kLinkSilent, Request::kEngage);
+  if (at.state == State::kEngaged && t.rose) return hold(Cause::kDelayRose, Request::kHold);
+  if (at.state == State::kEngaged && t.overrun) return hold(Cause::kOverrun, Request::kHold);
   if (at.state == State::kEngaged && says == Slave::kHolding)
     return hold(Cause::kPeerHolds, Request::kEngage);
   const bool said_engaged = start == Start::kEngaged || start == Start::kSilence || start == Start::kLetGo;
@@ -182,6 +194,9 @@ bool apply(Machine& m, const Tick& t) {
   m.in.hold = t.hold;
   m.in.taken = t.taken;
   m.in.hand_stale = t.hand_stale;
+  if (t.stalled) m.in.stalled_since = m.in.now - milliseconds(200);
+  m.in.delay_rose = t.rose;
+  m.in.overrun = t.overrun;
   if (t.restarted) ++m.in.peer_restarts;
   if (t.heard) return m.hear();
   m.in.last_heard = m.in.last_heard ? std::optional<Time>(m.in.now - milliseconds(600)) : std::nullopt;
@@ -194,15 +209,17 @@ std::string name(Start start, const Tick& t) {
          std::to_string(t.hand_stale) + " device fault, stop, engage, hold " +
          std::to_string(t.device_fault) + std::to_string(t.stop) + std::to_string(t.engage) +
          std::to_string(t.hold) + " taken, restarted, let go " + std::to_string(t.taken) +
-         std::to_string(t.restarted) + std::to_string(t.let_go);
+         std::to_string(t.restarted) + std::to_string(t.let_go) + " stalled, rose, overrun " +
+         std::to_string(t.stalled) + std::to_string(t.rose) + std::to_string(t.overrun);
 }
 
 TEST(MasterSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
   for (const Start start : kStarts) {
     for (const Slave slave : kSlaves) {
-      for (unsigned bits = 0; bits < 512; ++bits) {
+      for (unsigned bits = 0; bits < 4096; ++bits) {
         const auto bit = [&](unsigned n) { return (bits >> n & 1U) != 0; };
-        const Tick t{slave, bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7), bit(8)};
+        const Tick t{slave,  bit(0), bit(1), bit(2), bit(3),  bit(4), bit(5),
+                     bit(6), bit(7), bit(8), bit(9), bit(10), bit(11)};
         Machine m = machine_at(start);
         const Expected at = kAt[static_cast<std::size_t>(start)];
         ASSERT_EQ(m.safety.state(), at.state) << name(start, t);
@@ -215,8 +232,8 @@ TEST(MasterSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
         ASSERT_EQ(m.safety.cause(), then.cause) << name(start, t);
         ASSERT_EQ(m.safety.request(), then.request) << name(start, t);
         ASSERT_EQ(begun, then.begun) << name(start, t);
-        const bool anew = then.state == State::kObserving && then.request == Request::kEngage && t.engage &&
-                          t.heard && !t.taken && !t.let_go && !t.hand_stale;
+        const bool anew =
+            then.state == State::kObserving && then.request == Request::kEngage && engages(t, at);
         ASSERT_EQ(m.safety.engagement() > number, anew) << name(start, t);
       }
     }
@@ -244,6 +261,49 @@ TEST(MasterSafetyTable, NothingButTheOperatorEndsAHoldOfMoreThanASecond) {
       EXPECT_TRUE(m.hear());
     }
   }
+}
+
+TEST(MasterSafetyTable, AStallCountsFromTheLastTickBeforeItAndIsOverWhenTheSlaveSaysSo) {
+  for (const int stall_ms : {150, 990, 1010, 60000}) {
+    Machine m = machine_at(Start::kEngaged);
+    m.in.stalled_since = m.in.now;
+    m.in.engage = true;
+    m.hear(stall_ms);
+    m.in.stalled_since.reset();
+    EXPECT_EQ(m.safety.state(), State::kHolding) << stall_ms;
+    EXPECT_EQ(m.safety.cause(), Cause::kStalled) << stall_ms;
+    const bool soon = stall_ms < 1000;
+    EXPECT_EQ(m.safety.request(), soon ? Request::kEngage : Request::kHold) << stall_ms;
+    m.hear();
+    EXPECT_EQ(m.safety.state(), State::kHolding) << "what it had said before does not count";
+    m.slave_says(State::kEngaged);
+    m.hear();
+    EXPECT_EQ(m.safety.state(), soon ? State::kEngaged : State::kHolding) << stall_ms;
+    EXPECT_EQ(m.safety.engagement(), 1U);
+  }
+}
+
+TEST(MasterSafetyTable, ImpatienceBeginsNothingAnew) {
+  Machine m = machine_at(Start::kAsking);
+  m.in.rtt_s = 2.6;
+  const Time asked = m.in.now;
+  for (int i = 0; i < 16000; ++i) {
+    m.in.engage = i % 2000 == 0;
+    const double waited_s = to_seconds(m.in.now - asked);
+    if (waited_s > 0.001 && waited_s < 2.6) {
+      ASSERT_NEAR(m.safety.answer_in_s(m.in).value_or(-1.0), 2.6 - waited_s, 1e-6);
+    }
+    if (waited_s > 2.6) m.slave_says(State::kEngaged);
+    m.hear();
+    ASSERT_EQ(m.safety.engagement(), 1U) << i;
+  }
+  EXPECT_EQ(m.safety.state(), State::kEngaged);
+  EXPECT_FALSE(m.safety.answer_in_s(m.in));
+  m.in.hold = true;
+  m.hear();
+  m.in.engage = true;
+  m.hear();
+  EXPECT_EQ(m.safety.engagement(), 2U) << "held by the operator, it begins anew";
 }
 
 TEST(MasterSafetyTable, ARequestThatNobodyAnswersLapses) {

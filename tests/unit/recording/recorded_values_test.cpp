@@ -127,6 +127,7 @@ Received<Message> received(const Message& message) {
           PeerTime(Duration(-5)),
           Time(Duration(std::numeric_limits<std::int64_t>::max())),
           Time(Duration(1)),
+          Duration(7),
           true,
           message};
 }

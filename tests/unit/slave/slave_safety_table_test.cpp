@@ -23,15 +23,16 @@ enum class Start {
   kObserving,
   kEngaged,
   kSilence,
+  kStall,
   kLetGo,
   kOperator,
   kSilenceLongAgo,
   kStopped,
   kFault
 };
-constexpr std::array kStarts = {Start::kIdle,           Start::kObserving, Start::kEngaged,
-                                Start::kSilence,        Start::kLetGo,     Start::kOperator,
-                                Start::kSilenceLongAgo, Start::kStopped,   Start::kFault};
+constexpr std::array kStarts = {Start::kIdle,    Start::kObserving, Start::kEngaged,  Start::kSilence,
+                                Start::kStall,   Start::kLetGo,     Start::kOperator, Start::kSilenceLongAgo,
+                                Start::kStopped, Start::kFault};
 
 enum class Ask { kNothing, kHold, kEngageSame, kEngageNew, kNewWithoutEcho, kNewWithOldEcho, kStop, kLetGo };
 constexpr std::array kAsks = {Ask::kNothing,        Ask::kHold,           Ask::kEngageSame, Ask::kEngageNew,
@@ -46,6 +47,11 @@ struct Tick {
   int session = 0;  // 0: the same, 1: another, 2: another that has taken the robot
   bool sensor_fault = false, sensor_sign = false, no_relief = false;
   bool old_news = false;  // what the master last heard of this side is older than the bound
+  bool stalled = false;   // this tick came later than the gap timer
+  bool rose = false;      // the delay
+  bool overrun = false;
+  /// What lay there meanwhile is not followed, but for a stop.
+  [[nodiscard]] Ask obeyed() const { return stalled && ask != Ask::kStop ? Ask::kNothing : ask; }
 };
 
 struct Machine {
@@ -80,6 +86,13 @@ Machine machine_at(Start start) {
     m.safety.step(m.in);
     m.wait(start == Start::kSilence ? 50 : 1001);
   }
+  if (start == Start::kStall) {
+    m.in.stalled_since = m.in.now;
+    m.wait(200);
+    m.safety.step(m.in);
+    m.in.stalled_since.reset();
+    m.wait(50);
+  }
   if (start == Start::kLetGo) m.say(Request::kLetGo, 1);
   if (start == Start::kOperator) m.say(Request::kHold, 1);
   if (start == Start::kStopped) m.say(Request::kStop, 1);
@@ -100,15 +113,16 @@ struct Expected {
   bool begun = false;
 };
 
-constexpr std::array<Expected, 9> kAt = {{{State::kIdle, Cause::kNone},
-                                          {State::kObserving, Cause::kNone},
-                                          {State::kEngaged, Cause::kNone},
-                                          {State::kHolding, Cause::kLinkSilent},
-                                          {State::kHolding, Cause::kHandleLetGo},
-                                          {State::kHolding, Cause::kOperator},
-                                          {State::kHolding, Cause::kLinkSilent},
-                                          {State::kStopped, Cause::kOperator},
-                                          {State::kFault, Cause::kRobotFault}}};
+constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone},
+                                           {State::kObserving, Cause::kNone},
+                                           {State::kEngaged, Cause::kNone},
+                                           {State::kHolding, Cause::kLinkSilent},
+                                           {State::kHolding, Cause::kStalled},
+                                           {State::kHolding, Cause::kHandleLetGo},
+                                           {State::kHolding, Cause::kOperator},
+                                           {State::kHolding, Cause::kLinkSilent},
+                                           {State::kStopped, Cause::kOperator},
+                                           {State::kFault, Cause::kRobotFault}}};
 
 // What is true in this tick, in the words of the table.
 struct Facts {
@@ -116,20 +130,21 @@ struct Facts {
 };
 
 Facts facts(Start start, const Tick& t) {
-  const bool said = t.ask != Ask::kNothing, other = t.session != 0;
+  const Ask ask = t.obeyed();
+  const bool said = ask != Ask::kNothing, other = t.session != 0;
   const bool first = start == Start::kIdle || start == Start::kObserving;  // no number is used yet
   Facts f{};
   f.silent = t.heard != Heard::kNow;
   f.gone = t.heard == Heard::kLongBefore;
-  f.asks_new = !t.old_news && (t.ask == Ask::kEngageNew || (t.ask == Ask::kEngageSame && (first || other)));
+  f.asks_new = !t.old_news && (ask == Ask::kEngageNew || (ask == Ask::kEngageSame && (first || other)));
   // The level holds until something else is said; a session begins with none.
   const bool kept = !said && !other;
-  f.asks_same =
-      (t.ask == Ask::kEngageSame && !first) ||
-      (kept && (start == Start::kEngaged || start == Start::kSilence || start == Start::kSilenceLongAgo));
-  f.asks_let_go = t.ask == Ask::kLetGo || (kept && start == Start::kLetGo);
-  const bool echoes = said && t.ask != Ask::kNewWithoutEcho;
-  f.stale = t.old_news || (t.ask == Ask::kNewWithOldEcho) || (other && !echoes);
+  f.asks_same = (ask == Ask::kEngageSame && !first) ||
+                (kept && (start == Start::kEngaged || start == Start::kSilence || start == Start::kStall ||
+                          start == Start::kSilenceLongAgo));
+  f.asks_let_go = ask == Ask::kLetGo || (kept && start == Start::kLetGo);
+  const bool echoes = said && ask != Ask::kNewWithoutEcho;
+  f.stale = t.old_news || (ask == Ask::kNewWithOldEcho) || (other && !echoes);
   return f;
 }
 
@@ -153,13 +168,17 @@ Expected expected(Start start, const Tick& t) {
   if (engaged) {
     if (t.session == 2) return to_hold(Cause::kTaken);
     if (t.session == 1) return to_hold(Cause::kPeerRestarted);
+    if (t.stalled) return to_hold(Cause::kStalled);
     if (f.silent) return to_hold(Cause::kLinkSilent);
     if (f.stale) return to_hold(Cause::kLinkStale);
+    if (t.rose) return to_hold(Cause::kDelayRose);
+    if (t.overrun) return to_hold(Cause::kOverrun);
     if (!f.asks_same && !f.asks_let_go) return to_hold(Cause::kOperator);
     if (f.asks_let_go) return to_hold(Cause::kHandleLetGo);
   }
-  const bool passing = start == Start::kSilence || start == Start::kLetGo;
-  if (passing && t.session == 0 && !f.silent && !f.stale && f.asks_same)
+  const bool passing = start == Start::kSilence || start == Start::kStall || start == Start::kLetGo;
+  const bool late = t.stalled || t.rose || t.overrun;
+  if (passing && t.session == 0 && !f.silent && !f.stale && !late && f.asks_same)
     return {State::kEngaged, Cause::kNone};
   if (at.state == State::kIdle && !f.silent) return {State::kObserving, Cause::kNone};
   if (at.state == State::kObserving && f.gone) return {State::kIdle, Cause::kNone};
@@ -171,11 +190,14 @@ std::vector<Tick> all_ticks() {
   for (const Ask ask : kAsks) {
     for (const Heard heard : {Heard::kNow, Heard::kBeforeTheGap, Heard::kLongBefore}) {
       if (ask != Ask::kNothing && heard != Heard::kNow) continue;  // what is said is heard
-      for (unsigned bits = 0; bits < 32; ++bits) {
+      for (unsigned bits = 0; bits < 256; ++bits) {
         for (int session = 0; session < 3; ++session) {
           const auto bit = [&](unsigned n) { return (bits >> n & 1U) != 0; };
           Tick tick{ask, heard, bit(0), bit(1), bit(2), bit(3), session};
           tick.old_news = bit(4);
+          tick.stalled = bit(5);
+          tick.rose = bit(6);
+          tick.overrun = bit(7);
           for (unsigned sensor = 0; sensor < 4; ++sensor) {  // one of them at a time
             tick.sensor_fault = sensor == 1;
             tick.sensor_sign = sensor == 2;
@@ -194,7 +216,8 @@ std::string name(Start start, const Tick& t) {
          std::to_string(static_cast<int>(t.ask)) + " heard " + std::to_string(static_cast<int>(t.heard)) +
          " fault, restless, astray, stop " + std::to_string(t.robot_fault) + std::to_string(t.restless) +
          std::to_string(t.astray) + std::to_string(t.stop) + " session " + std::to_string(t.session) +
-         " old news " + std::to_string(t.old_news) + " sensor " + std::to_string(t.sensor_fault) +
+         " old news " + std::to_string(t.old_news) + " stalled, rose, overrun " + std::to_string(t.stalled) +
+         std::to_string(t.rose) + std::to_string(t.overrun) + " sensor " + std::to_string(t.sensor_fault) +
          std::to_string(t.sensor_sign) + std::to_string(t.no_relief);
 }
 
@@ -207,6 +230,9 @@ bool apply(Machine& m, const Tick& t) {
   in.sensor_sign = t.sensor_sign;
   in.no_relief = t.no_relief;
   in.stop = t.stop;
+  if (t.stalled) in.stalled_since = in.now - milliseconds(200);
+  in.delay_rose = t.rose;
+  in.overrun = t.overrun;
   if (t.session != 0) ++in.peer_session_count;
   in.taken = t.session == 2;
   // Old news are made by time, so that what was echoed before is old, too; it passes in silence.
@@ -244,7 +270,7 @@ TEST(SlaveSafetyTable, HoldsForEveryStateAndEveryCombinationOfDemands) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 9 * (7 + 3) * 32 * 3 * 4);
+  EXPECT_EQ(count, 10 * (7 + 3) * 256 * 3 * 4);
 }
 
 // Severity alone: of two demands in one tick, the state is the more severe of what each would lead to.
@@ -278,6 +304,21 @@ TEST(SlaveSafetyTable, OnlyANewNumberLeavesStoppedAndFaultHoweverLongItTakes) {
       ASSERT_EQ(m.safety.state(), state) << i;
     }
     EXPECT_TRUE(m.say(Request::kEngage, 2));
+  }
+}
+
+TEST(SlaveSafetyTable, AStallCountsFromTheLastTickBeforeIt) {
+  for (const int stall_ms : {150, 990, 1010, 60000}) {
+    Machine m = machine_at(Start::kEngaged);
+    m.in.stalled_since = m.in.now;
+    m.wait(stall_ms);
+    m.say(Request::kEngage, 2);  // lay there meanwhile
+    EXPECT_EQ(m.safety.state(), State::kHolding) << stall_ms;
+    m.in.stalled_since.reset();
+    for (int i = 0; i < 5000; ++i) m.say(Request::kEngage, 1);
+    EXPECT_EQ(m.safety.state(), stall_ms < 1000 ? State::kEngaged : State::kHolding) << stall_ms;
+    EXPECT_EQ(m.safety.engagement(), 1U);
+    EXPECT_TRUE(m.say(Request::kEngage, 2)) << stall_ms;
   }
 }
 
