@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "slave/command/command_config.hpp"
+#include "slave/limit_violations.hpp"
 #include "slave/robot/robot_config.hpp"
 
 namespace longreach {
@@ -18,8 +19,13 @@ class LimitWatch {
   void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt);
 
   [[nodiscard]] std::uint64_t violations() const { return violations_; }  // ticks
+  [[nodiscard]] const LimitViolations& by_limit() const { return by_limit_; }
 
  private:
+  using JointFlags = Eigen::Array<bool, kMaxJoints, 1>;
+
+  void book(Limit limit, const JointFlags& exceeded);
+
   RobotConfig robot_;
   // Of the tick before.
   Pose X_WE_{};
@@ -28,6 +34,8 @@ class LimitWatch {
   JointVector joint_rad_per_s_ = JointVector::Zero();
   JointVector joint_rad_per_s2_ = JointVector::Zero();
   std::uint64_t violations_ = 0;
+  LimitViolations by_limit_{};
+  bool violated_ = false;  // in this tick
 };
 
 }  // namespace longreach

@@ -45,6 +45,7 @@ class SlaveMotion {
   [[nodiscard]] bool no_relief() const { return no_relief_; }
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its limit of jerk
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
+  [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
 
  private:

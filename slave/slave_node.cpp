@@ -392,6 +392,7 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.playout_delay_s = playout.delay_s();
   view.clamps = clamps;
   view.limit_violations = motion.limit_violations();
+  view.violations_by_limit = motion.violations_by_limit();
   view.false_holds = safety.false_holds();
   view.rejected_values = rejected;
   view.ik_failures = motion.failures();

@@ -13,6 +13,7 @@
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
 #include "slave/joint_witness.hpp"
+#include "slave/limit_violations.hpp"
 #include "slave/robot/robot.hpp"
 #include "slave/slave_config.hpp"
 
@@ -59,9 +60,10 @@ struct SlaveView {
   bool robot_seen = false;             // it has worked once
   bool robot_ready = false;            // an engagement could begin: it rests within its limits
   std::uint64_t limit_violations = 0;  // ticks in which a limit was exceeded in spite of the clamps
-  std::uint64_t false_holds = 0;       // holds by silence that ended by themselves within resume_s
-  std::uint64_t rejected_values = 0;   // commands with an impossible value
-  std::uint64_t ik_failures = 0;       // ticks without a solution to tolerance
+  LimitViolations violations_by_limit{};
+  std::uint64_t false_holds = 0;      // holds by silence that ended by themselves within resume_s
+  std::uint64_t rejected_values = 0;  // commands with an impossible value
+  std::uint64_t ik_failures = 0;      // ticks without a solution to tolerance
 };
 
 struct SlaveOutput {

@@ -3,6 +3,8 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "common/config/config.hpp"
@@ -48,6 +50,15 @@ std::string in_words(const JointFinding& found) {
       return joint + "claims " + number(found.rad) + " rad/s (or m/s), as no joint can: look at its encoder";
   }
   return "";
+}
+
+/// limit_violations_LIMIT each, as limit_violations_joint_speed.
+void add_limits(proto::Status& out, const LimitViolations& violations) {
+  for (std::size_t i = 0; i < violations.ticks.size(); ++i) {
+    std::string name = "limit_violations_" + std::string(name_of(static_cast<Limit>(i)));
+    std::ranges::replace(name, ' ', '_');
+    add_count(out, name, violations.ticks[i]);
+  }
 }
 
 }  // namespace
@@ -103,6 +114,7 @@ proto::Status SlaveService::status() {
   add_count(out, "touches", view.touch);
   add_count(out, "false_holds", view.false_holds);
   add_count(out, "limit_violations", view.limit_violations);
+  add_limits(out, view.violations_by_limit);
   add_count(out, "rejected_values", view.rejected_values);
   add_count(out, "ik_failures", view.ik_failures);
   add_count(out, "rejected_setpoints", s.rejected_setpoints);

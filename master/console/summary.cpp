@@ -151,7 +151,9 @@ void RunSummary::add_checks(Summary& s) const {
   checks.push_back({count_text(n.late_ticks, "ticks late by over 100 ms"), n.late_ticks == 0});
   checks.push_back({count_text(n.false_holds, "false holds"), n.false_holds == 0});
   checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
-  checks.push_back({count_text(n.limit_violations, "limit violations"), n.limit_violations == 0});
+  std::string limits = count_text(n.limit_violations, "limit violations");
+  if (n.limit_violations > 0) limits += ": which ones is in the slave's log and in longreach status";
+  checks.push_back({limits, n.limit_violations == 0});
 }
 
 bool Summary::passed() const {

@@ -20,11 +20,13 @@ export class Arrow {
     this.group.visible = false;
   }
 
-  show(at, force_n) {
+  /** `old`: of what is no longer so, perhaps. */
+  show(at, force_n, old = false) {
     const n = force_n.length();
     this.group.visible = n > SHOWN_N;
     if (!this.group.visible) return;
     const length = Math.min(LEAST_M + M_PER_N * n, MOST_M);
+    this.shaft.material.opacity = old ? 0.25 : 0.95;     // one material for both
     this.group.position.copy(at);
     this.group.quaternion.setFromUnitVectors(UP, force_n.clone().divideScalar(n));
     this.shaft.scale.y = length - 0.02;

@@ -12,6 +12,7 @@ import { Plots } from './plots.js';
 
 const AIM_MS = 25;     // the master lets a hand go that is silent for 300 ms
 const SCALE_STEP = 0.05;
+const SILENT_S = 0.5;    // then what is shown of the robot is old
 const COLORS = ['ground', 'card', 'line', 'text', 'quiet', 'operator', 'robot', 'contact', 'good', 'warn', 'third'];
 
 function colors() {
@@ -54,6 +55,18 @@ function show_lag(pose) {
   at('lag').textContent = text;
 }
 
+/** How long ago that was which is shown of the robot, s; none: not known. */
+function robot_age_s() {
+  const { link } = frame;
+  return frame.far && link.rtt_known && link.silence_s >= 0 ? link.silence_s + link.rtt_s / 2 : null;
+}
+
+function show_age(old) {
+  document.body.classList.toggle('old', old);
+  const age = robot_age_s();
+  at('robot-key').textContent = age === null ? 'robot, as last heard' : `robot, ${age.toFixed(age < 10 ? 1 : 0)} s ago`;
+}
+
 const feed = new Feed({
   frame(now) {
     // A deflected handle would be a speed from the start.
@@ -88,6 +101,7 @@ function offline(state, why) {
   hand.let_go();
   panel.hold({ holder: 'nobody', viewers: 1 });
   away = { state, why };
+  dirty = true;
   panel.banner(state, why, '');
 }
 
@@ -151,7 +165,9 @@ function draw(now_ms) {
   dirty = false;
   drawn_ms = now_ms;
   const pose = ghost();
-  picture?.show(frame, pose);
+  const old = away !== null || !(frame.link.silence_s >= 0 && frame.link.silence_s < SILENT_S);
+  picture?.show(frame, pose, old);
+  show_age(old);
   picture?.draw();
   plots.draw(now_ms);
   panel.show(frame, hand);

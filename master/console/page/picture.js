@@ -122,8 +122,8 @@ export class Picture {
     this.orbit_whole.update();
   }
 
-  /** `ghost`: pose that the commands ask for now, or none. */
-  show(frame, ghost) {
+  /** `ghost`: pose that the commands ask for now, or none. `old`: nothing is heard of the robot. */
+  show(frame, ghost, old) {
     if (!this.lasting || !frame.far) return;
     const { far } = frame;
     this.arm.set(far.joint_rad);
@@ -138,7 +138,7 @@ export class Picture {
     this.bodies.follow(tool, rotation(far.tool_rad), far.gripping);
     // Side by side, where they would lie in each other.
     const aside = new Vector3(0, 0, 0.012);
-    this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3());
+    this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3(), old);
     this.rendered.show((ghost?.position ?? tool).clone().addScaledVector(aside, 2), vector(frame.spring_n));
     const outside = this.outside = far.clamped.includes('workspace') || far.clamped.includes('unreachable');
     this.workspace.material.color.set(outside ? this.colors.contact : this.colors.line);
