@@ -70,96 +70,92 @@ void Laboratory::step() {
 void Laboratory::step_slave() {
   const Time now = slave_now();
   if (!slave_lives_ || elapsed_ <= slave_thaws_ || (meddler_ && meddler_->slave_sleeps())) {
-    if (!slave_lives_ || elapsed_ <= slave_thaws_) {
-      ++slave_overdue_;
-      arm_.read(now);
-      return;
-    }
-    slave_port_.receive(now, slave_node_.stalled(now, send_hz_));
-    const Endpoint& endpoint = slave_port_.endpoint();
-    SlaveInput in;
-    in.now = now;
-    in.robot = arm_.read(now);
-    if (tamperer_) tamperer_(now, in.robot);
-    if (meddler_) meddler_->robot_told(in.robot);
-    in.commands = slave_port_.commands();
-    in.last_heard = endpoint.monitor().last_heard();
-    in.peer_session_count = endpoint.sessions();
-    in.send_hz = send_hz_;
-    in.rejected = slave_port_.rejected_total();
-    in.may_send = slave_port_.may_send(now);
-    if (meddler_) meddler_->slave_asked(in);
-    SlaveOutput out = slave_node_.step(in);
-    if (meddler_) meddler_->slave_answered(out);
-    in.overdue_ticks = slave_overdue_;
-    const SlaveOutput out = slave_node_.step(in);
-    if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
-    setpoint_rad_ = out.joint_setpoint_rad;
-    arm_.write(out.joint_setpoint_rad);
-    arm_.grip(out.grip);
-    if (out.report) {
-      report_places_.push(slave_node_.view().reported_at_m);
-      last_report_ = out.report_sequence;
-      ++haptic_return_.datagrams;
-      haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kOverheadBytes;
-    }
-    if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
+    ++slave_overdue_;
+    arm_.read(now);
+    return;
   }
+  slave_port_.receive(now, slave_node_.stalled(now, send_hz_));
+  const Endpoint& endpoint = slave_port_.endpoint();
+  SlaveInput in;
+  in.now = now;
+  in.robot = arm_.read(now);
+  if (tamperer_) tamperer_(now, in.robot);
+  if (meddler_) meddler_->robot_told(in.robot);
+  in.commands = slave_port_.commands();
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_session_count = endpoint.sessions();
+  in.send_hz = send_hz_;
+  in.rejected = slave_port_.rejected_total();
+  in.may_send = slave_port_.may_send(now);
+  in.overdue_ticks = slave_overdue_;
+  if (meddler_) meddler_->slave_asked(in);
+  SlaveOutput out = slave_node_.step(in);
+  if (meddler_) meddler_->slave_answered(out);
+  if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
+  setpoint_rad_ = out.joint_setpoint_rad;
+  arm_.write(out.joint_setpoint_rad);
+  arm_.grip(out.grip);
+  if (out.report) {
+    report_places_.push(slave_node_.view().reported_at_m);
+    last_report_ = out.report_sequence;
+    ++haptic_return_.datagrams;
+    haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kOverheadBytes;
+  }
+  if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
+}
 
-  void Laboratory::step_master() {
-    if (!master_lives_) return;
-    const Time now = master_now();
-    if (elapsed_ <= master_thaws_ || (meddler_ && meddler_->master_sleeps())) {
-      if (elapsed_ <= master_thaws_) {
-        ++master_overdue_;
-        if (driven_) devices_.set_target(*driven_);
-        devices_.read(now);
-        return;
-      }
-      master_port_.receive(now, master_node_.stalled(now));
-      const Endpoint& endpoint = master_port_.endpoint();
-      HandleState handle = devices_.read(now);
-      if (meddler_) meddler_->handle_told(handle);
-      const MasterView& view = master_node_.view();
-      const ScriptOutput script = script_.step({.now = now,
-                                                .handle_m = handle.p_MH,
-                                                .felt_n = view.spring_force_n.norm(),
-                                                .goal_m = view.goal_m,
-                                                .scale = view.scale,
-                                                .engaged = view.state == SafetyState::kEngaged,
-                                                .surface_known = view.surface_known,
-                                                .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
-      HandTarget target = driven_.value_or(script.target);
-      if (let_go_) target.grip = Grip::kReleased;
-      devices_.set_target(target);
-      MasterInput in;
-      in.now = now;
-      in.handle = handle;
-      in.reports = master_port_.reports();
-      in.telemetry = master_port_.telemetry();
-      in.requests = requests_;
-      if (script.mode && !driven_) in.requests.mode = script.mode;
-      in.last_heard = endpoint.monitor().last_heard();
-      in.peer_restarts = endpoint.restarts();
-      // As the programs do, not every tick: it sorts what was heard in the last seconds.
-      if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
-      in.rtt_s = rtt_s_;
-      in.may_send = master_port_.may_send(now);
-      if (meddler_) meddler_->master_asked(in);
-      MasterOutput out = master_node_.step(in);
-      if (meddler_) meddler_->master_answered(out);
-      in.overdue_ticks = master_overdue_;
-      const MasterOutput out = master_node_.step(in);
-      if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
-      devices_.write(out.F_H_M);
-      if (out.command) master_port_.send(now, out.sequence, *out.command);
-      requests_ = OperatorRequests{};
-      for (const auto& received : in.reports) {
-        const std::uint64_t back = last_report_ - received.sequence;
-        if (!received.newest || !received.message.translation.in_contact || back >= report_places_.size())
-          continue;
-        rendered_at_m_ = report_places_[report_places_.size() - 1 - back];
-      }
-    }
+void Laboratory::step_master() {
+  if (!master_lives_) return;
+  const Time now = master_now();
+  if (elapsed_ <= master_thaws_ || (meddler_ && meddler_->master_sleeps())) {
+    ++master_overdue_;
+    if (driven_) devices_.set_target(*driven_);
+    devices_.read(now);
+    return;
+  }
+  master_port_.receive(now, master_node_.stalled(now));
+  const Endpoint& endpoint = master_port_.endpoint();
+  HandleState handle = devices_.read(now);
+  if (meddler_) meddler_->handle_told(handle);
+  const MasterView& view = master_node_.view();
+  const ScriptOutput script = script_.step({.now = now,
+                                            .handle_m = handle.p_MH,
+                                            .felt_n = view.spring_force_n.norm(),
+                                            .goal_m = view.goal_m,
+                                            .scale = view.scale,
+                                            .engaged = view.state == SafetyState::kEngaged,
+                                            .surface_known = view.surface_known,
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+  HandTarget target = driven_.value_or(script.target);
+  if (let_go_) target.grip = Grip::kReleased;
+  devices_.set_target(target);
+  MasterInput in;
+  in.now = now;
+  in.handle = handle;
+  in.reports = master_port_.reports();
+  in.telemetry = master_port_.telemetry();
+  in.requests = requests_;
+  if (script.mode && !driven_) in.requests.mode = script.mode;
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_restarts = endpoint.restarts();
+  // As the programs do, not every tick: it sorts what was heard in the last seconds.
+  if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
+  in.rtt_s = rtt_s_;
+  in.may_send = master_port_.may_send(now);
+  in.overdue_ticks = master_overdue_;
+  if (meddler_) meddler_->master_asked(in);
+  MasterOutput out = master_node_.step(in);
+  if (meddler_) meddler_->master_answered(out);
+  if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
+  devices_.write(out.F_H_M);
+  if (out.command) master_port_.send(now, out.sequence, *out.command);
+  requests_ = OperatorRequests{};
+  for (const auto& received : in.reports) {
+    const std::uint64_t back = last_report_ - received.sequence;
+    if (!received.newest || !received.message.translation.in_contact || back >= report_places_.size())
+      continue;
+    rendered_at_m_ = report_places_[report_places_.size() - 1 - back];
+  }
+}
 
-  }  // namespace longreach
+}  // namespace longreach
