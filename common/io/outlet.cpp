@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <condition_variable>
@@ -15,6 +16,11 @@
 #include <utility>
 
 namespace longreach {
+namespace {
+
+constexpr int kLook_ms = 20;
+
+}  // namespace
 
 struct Outlet::State {
   State(int own_fd, std::size_t most, Gap in_place) : fd(own_fd), bytes_max(most), gap(std::move(in_place)) {}
@@ -41,7 +47,8 @@ struct Outlet::State {
   std::size_t waiting_bytes = 0;
   bool writing = false;
   bool ended = false;
-  bool torn = false;  // the last text was cut; the thread's own
+  std::atomic<bool> dropped{false};  // what is being written, if it waits
+  bool torn = false;                 // the last text was cut; the thread's own
   std::uint64_t lost = 0;
   std::uint64_t told = 0;  // of those lost
 };
@@ -60,6 +67,7 @@ void Outlet::State::run() {
     writing = true;
     const std::uint64_t missing = lost - told;
     const std::uint64_t now_told = lost;
+    dropped = false;
     lock.unlock();
     const bool written = (missing == 0 || !gap || write(gap(missing))) && write(text);
     lock.lock();
@@ -76,9 +84,9 @@ bool Outlet::State::write(std::string_view text) {
   while (!rest.empty()) {
     const ssize_t n = ::write(fd, rest.data(), rest.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0 && errno == EAGAIN) {  // somebody else made it so
-      pollfd open{fd, POLLOUT, 0};
-      (void)::poll(&open, 1, 100);
+    if (n < 0 && errno == EAGAIN && !dropped) {  // of a descriptor that never waits
+      pollfd room{fd, POLLOUT, 0};
+      (void)::poll(&room, 1, kLook_ms);
       continue;
     }
     if (n <= 0) break;
@@ -99,6 +107,7 @@ Outlet::~Outlet() {
   state_->more.notify_all();
   const bool all = state_->done.wait_for(lock, kFarewell, [this] { return state_->quiet(); });
   state_->waiting.clear();
+  state_->dropped = true;
   lock.unlock();
   if (all) thread_.join();
   if (!all) thread_.detach();
@@ -118,6 +127,7 @@ void Outlet::offer(std::string text) {
 void Outlet::clear() {
   const std::lock_guard lock(state_->mutex);
   while (!state_->waiting.empty()) state_->drop_oldest();
+  state_->dropped = true;
 }
 
 bool Outlet::drain(std::chrono::milliseconds timeout) {

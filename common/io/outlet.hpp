@@ -28,7 +28,7 @@ class Outlet {
   Outlet& operator=(const Outlet&) = delete;
 
   void offer(std::string text);
-  /// Drops what waits.
+  /// Drops what waits, and the rest of what is being written where the descriptor never waits.
   void clear();
   /// Waits until nothing waits or is being written; false: not within `timeout`.
   bool drain(std::chrono::milliseconds timeout);

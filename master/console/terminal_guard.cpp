@@ -64,12 +64,15 @@ void give_back_terminal_mode() {
   if (fd >= 0) ::tcsetattr(fd, TCSANOW, &kept_mode);
 }
 
-void keep_screen(int fd) {
-  // Opened anew, for `fd` may not be made one that never waits: the shell has it, too.
+int open_anew(int fd) {
   std::array<char, 32> path{};
   std::snprintf(path.data(), path.size(), "/proc/self/fd/%d", fd);
   const int anew = ::open(path.data(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  screen_fd = anew >= 0 ? anew : ::fcntl(fd, F_DUPFD_CLOEXEC, 3);
+  return anew >= 0 ? anew : ::fcntl(fd, F_DUPFD_CLOEXEC, 3);
+}
+
+void keep_screen(int fd) {
+  screen_fd = open_anew(fd);
   watch();
 }
 

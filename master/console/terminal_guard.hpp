@@ -9,6 +9,10 @@ struct termios;
 
 namespace longreach {
 
+/// `fd` anew, as one that never waits: `fd` itself may not be made so, for the shell has it, too. The
+/// caller's to close.
+int open_anew(int fd);
+
 /// Remembers `mode`, the present one of `fd`, before it is changed.
 void keep_terminal_mode(int fd, const termios& mode);
 void give_back_terminal_mode();

@@ -56,8 +56,12 @@ TerminalView::TerminalView(ViewKind kind, int fd)
     : fd_(fd), live_(kind == ViewKind::kAuto && can_redraw(fd)), plain_(kind != ViewKind::kNone && !live_) {
   const char* no_color = std::getenv("NO_COLOR");  // no-color.org
   color_ = live_ && (no_color == nullptr || *no_color == '\0');
-  if (live_ || plain_) outlet_.emplace(fd_, live_ ? 0 : kPlainMaxBytes);
+  if (plain_) outlet_.emplace(fd_, kPlainMaxBytes);
   if (!live_) return;
+  // A thread that waits in a write would keep everybody else from the terminal, also who gives it back.
+  const int own = open_anew(fd_);
+  outlet_.emplace(own, 0);
+  ::close(own);
   keep_screen(fd_);
   outlet_->offer(std::string(kEnter));
   outlet_->drain(kScreenPatience);  // before a signal may give it back
