@@ -38,11 +38,12 @@ std::vector<std::string> places(Random& random) {
 }
 
 std::vector<std::string> habits(Random& random) {
-  std::vector<std::string> all = {"safety.engage_at_start=false",
-                                  "mapping.scale=" + format_number(0.05 * (2 + random.next() % 19)),
-                                  std::string("mapping.mode=") + (random.chance(0.25) ? "RATE" : "POSITION"),
-                                  std::string("hand.grip=") + (random.chance(0.3) ? "FIRM" : "LIGHT"),
-                                  std::string("safety.presence=") + (random.chance(0.5) ? "HOLD" : "IGNORE")};
+  std::vector<std::string> all = {
+      "safety.engage_at_start=false",
+      "mapping.scale=" + format_number(0.05 * static_cast<double>(2 + random.next() % 19)),
+      std::string("mapping.mode=") + (random.chance(0.25) ? "RATE" : "POSITION"),
+      std::string("hand.grip=") + (random.chance(0.3) ? "FIRM" : "LIGHT"),
+      std::string("safety.presence=") + (random.chance(0.5) ? "HOLD" : "IGNORE")};
   if (random.chance(0.3)) all.push_back("link.send_hz=" + number(random, 100.0, 1000.0));
   if (random.chance(0.2)) all.push_back("playout.adaptive=false");
   return all;
