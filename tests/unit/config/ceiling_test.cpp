@@ -56,6 +56,7 @@ const std::vector<Limit>& slave_limits() {
                                              {"safety.gap_s", "0.2", "0.1", "0.21"},
                                              {"safety.age_max_s", "30", "10", "31"},
                                              {"safety.resume_s", "1", "0", "1.1"},
+                                             {"safety.delay_rise_max_s", "1", "0.1", "1.1"},
                                              {"playout.fixed_delay_s", "0.02", "0.01", "0.5"},
                                              {"playout.delay_max_s", "0.5", "0.1", "5"},
                                              {"link.heartbeat_contact_hz", "4", "10", "1"},
@@ -134,7 +135,9 @@ const std::vector<Limit>& master_limits() {
       {"safety.silence_s", "0.5", "0.2", "10"},
       {"safety.resume_s", "1", "0", "10"},
       {"safety.presence", "HOLD", "HOLD", "IGNORE"},
-      {"safety.presence_s", "0.3", "0.1", "10"}};
+      {"safety.presence_s", "0.3", "0.1", "10"},
+      {"safety.gap_s", "0.1", "0.05", "0.11"},
+      {"safety.delay_rise_max_s", "1", "0.1", "1.1"}};
   return kLimits;
 }
 
@@ -303,7 +306,8 @@ TEST(Ceiling, IsShownBesideTheValue) {
   EXPECT_EQ(get_field(now, "safety", &start),
             "silence_s: 0.3  # may be set: 0.7 or less\nresume_s: 1  # may be set: 1 or less\n"
             "engage_at_start: false\npresence: IGNORE  # may be set: IGNORE or more\n"
-            "presence_s: 0.3  # may be set: 0.3 or less\n");
+            "presence_s: 0.3  # may be set: 0.3 or less\ngap_s: 0.1  # may be set: 0.1 or less\n"
+            "delay_rise_max_s: 1  # may be set: 1 or less\n");
   EXPECT_EQ(get_field(now, "safety.silence_s", &start), "0.3");
   proto::MasterConfig again;
   load_text("again", get_field(now, "", &start), again);
