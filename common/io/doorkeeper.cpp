@@ -103,10 +103,13 @@ void Doorkeeper::accept_all() {
 bool Doorkeeper::accept_one() {
   const int fd = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (fd < 0 && (errno == EMFILE || errno == ENFILE)) {
+    if (!silent_.empty()) {
+      close_oldest(kNoDescriptors);
+      return true;
+    }
     note_rpc_refusal("connection", kNoDescriptors);
-    if (silent_.empty()) std::this_thread::sleep_for(kLook);
-    if (!silent_.empty()) close_oldest(kNoDescriptors);
-    return true;
+    std::this_thread::sleep_for(kLook);
+    return false;
   }
   if (fd < 0) return errno == ECONNABORTED || errno == EINTR;
   const int yes = 1;
