@@ -22,6 +22,7 @@ void split_type(const std::string& type, OptionWords& out) {
 
 void add_options(const CLI::App& app, CommandWords& out) {
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
     OptionWords words;
     words.help = option->get_description();
     if (option->get_items_expected_max() > 0) split_type(option->get_type_name(), words);
