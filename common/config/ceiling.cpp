@@ -14,18 +14,12 @@ using google::protobuf::Message;
 
 proto::Remote remote(const FieldDescriptor& field) { return field.options().GetExtension(proto::remote); }
 
+// What has no order is no number: nothing is tighter.
 double number(const Message& message, const FieldDescriptor* field) {
   const auto* reflection = message.GetReflection();
-  switch (field->cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE:
-      return reflection->GetDouble(message, field);
-    case FieldDescriptor::CPPTYPE_UINT32:
-      return reflection->GetUInt32(message, field);
-    case FieldDescriptor::CPPTYPE_ENUM:
-      return reflection->GetEnumValue(message, field);
-    default:
-      return std::numeric_limits<double>::quiet_NaN();  // has no order: nothing is tighter
-  }
+  if (field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) return reflection->GetDouble(message, field);
+  return field->cpp_type() == FieldDescriptor::CPPTYPE_ENUM ? reflection->GetEnumValue(message, field)
+                                                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The limit that a number stands for; `zero` where 0 is found by the program.
