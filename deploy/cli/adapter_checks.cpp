@@ -174,7 +174,7 @@ class AdapterCheck {
       for (auto& b : bytes) b = static_cast<std::byte>(talk_.random().next());
       const Out poison = subject_.poison(meant);
       if (talk_.random().chance(0.5)) std::memcpy(bytes.data(), &poison, sizeof poison);
-      std::size_t size = talk_.random().next() % bytes.size();
+      std::size_t size = 1 + talk_.random().next() % (bytes.size() - 1);  // none would end the talk
       if (size == sizeof poison) ++size;
       socket.send(std::span(bytes).first(size));
     });

@@ -4,14 +4,17 @@
 
 #include "common/io/address.hpp"
 #include "deploy/cli/adapter_checks.hpp"
+#include "deploy/cli/adapter_push.hpp"
 #include "deploy/cli/commands.hpp"
 
 namespace longreach {
 
 ExitStatus run_adapter_check(const Options& options, const AdapterCheckCommand& command) {
   try {
-    const Section section = command.robot ? check_robot_adapter(command.address, command.move)
-                                          : check_device_adapter(command.address, command.force_n);
+    const Section section = command.push
+                                ? check_pushes(command.address, command.robot_file, command.patience_s)
+                            : command.robot ? check_robot_adapter(command.address, command.move)
+                                            : check_device_adapter(command.address, command.force_n);
     const Diagnosis diagnosis{section};
     if (options.json) {
       std::cout << diagnosis_json(diagnosis) << std::endl;

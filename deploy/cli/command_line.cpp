@@ -31,6 +31,8 @@ struct Words {
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
   std::string device{}, robot{}, force = "0.5", move = "0";
+  std::string robot_file{}, patience = "30";
+  bool push = false;
 };
 
 /// The command line's grammar: declared once, then asked for what was found.
@@ -204,6 +206,11 @@ void Grammar::declare_adapter() {
       ->type_name("N");
   check->add_option("--move", words_.move, "way that a robot's first joint moves, -0.5 to 0.5 rad or m [0]")
       ->type_name("RAD");
+  check->add_flag("--push", words_.push,
+                  "ask a person to push and turn the robot's tool instead: sign, axes, zero");
+  check->add_option("--robot-file", words_.robot_file, "what the robot is, for --push")->type_name("FILE");
+  check->add_option("--patience", words_.patience, "how long --push waits for each, 1 to 600 s [30]")
+      ->type_name("N");
 }
 
 std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* argv) {
@@ -300,6 +307,12 @@ AdapterCheckCommand Grammar::adapter_command() const {
     throw UsageError((check.robot ? "--robot = " : "--device = ") + check.address + why);
   check.force_n = bounded("--force", words_.force, parse_number(words_.force), 0.01, 10.0, " N");
   check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
+  check.push = words_.push;
+  check.robot_file = words_.robot_file;
+  check.patience_s = bounded("--patience", words_.patience, parse_number(words_.patience), 1.0, 600.0, " s");
+  if (check.push && (!check.robot || check.robot_file.empty()))
+    throw UsageError(
+        "adapter check --push needs --robot unix:/PATH and --robot-file FILE, as longreach-slave has it");
   return check;
 }
 

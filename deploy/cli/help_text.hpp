@@ -57,6 +57,8 @@ inline constexpr const char* kAdapterCheckMore =
     R"(Talks to the adapter as longreach does, and as it does not: rate, sequence, watchdog, garbage, restarts; ten seconds.
 Only where no longreach talks to it meanwhile. THE DEVICE PUSHES by --force along z: hold it or keep clear; it has to
 tell in force_n what it does. A robot is asked to stay where it is, or with --move THE ROBOT MOVES its first joint.
+--push instead asks you to push the robot's tool along x, y, z of its base and to turn it about them, and says what is wrong
+with what the force sensor tells: sign, axes, base instead of tool, weight, a dead channel, joints in degrees.
 Exit status 1 when a rule is not kept; each line then says what to do. The rules: common/link/adapter_datagram.hpp.
 Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
 

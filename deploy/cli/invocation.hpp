@@ -98,6 +98,9 @@ struct AdapterCheckCommand {
   std::string address;
   double force_n = 0.5;  // of a device
   double move = 0.0;     // of a robot's first joint, rad or m
+  bool push = false;     // instead: a person pushes a robot's tool
+  std::string robot_file{};
+  double patience_s = 30.0;  // for each push
 };
 
 using Command =

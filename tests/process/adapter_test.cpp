@@ -244,5 +244,54 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   EXPECT_TRUE(engaged()) << outputs();
 }
 
+/// Does what the check asks for, until it ends. Its exit status and what it said.
+Tried pushed(SensorFlaw flaw) {
+  RobotBox robot;
+  robot.spoil(flaw);
+  RunningProgram check("longreach", {"adapter", "check", "--push", "--robot", robot.address(), "--robot-file",
+                                     "robots/cartesian.txtpb", "--patience", "2"});
+  std::optional<int> status;
+  while (!(status = check.wait(std::chrono::milliseconds(10)))) {
+    const std::string said = check.output();
+    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("let go");
+    const bool turns = turn != std::string::npos;
+    const auto asked = turns ? turn : push;
+    std::array<double, 3> force_n{}, moment_nm{};
+    if (asked != std::string::npos && (done == std::string::npos || done < asked)) {
+      const auto axis = said.find('+', asked);
+      if (axis == std::string::npos || axis + 1 >= said.size()) continue;
+      auto& felt = turns ? moment_nm : force_n;
+      felt = {0.1, -0.1, 0.05};  // a hand is not straight
+      for (double& x : felt) x *= turns ? 2.0 : 20.0;
+      felt[static_cast<std::size_t>(said[axis + 1] - 'x')] = turns ? 2.0 : 20.0;
+    }
+    robot.feel(force_n, moment_nm);
+  }
+  return {*status, check.output()};
+}
+
+TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
+  struct Case {
+    SensorFlaw flaw;
+    const char* told;
+    const char* advice;
+  };
+  const Case cases[] = {{SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
+                        {SensorFlaw::kBase, "is told along the axes of the base", "axes of the tool"},
+                        {SensorFlaw::kExchanged, "told as x, y, z are y, x, z of the tool", "in the order"},
+                        {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N while nobody touches it", "sensing.tool"},
+                        {SensorFlaw::kDead, "tells nothing along y of the base", "a channel is dead"}};
+  for (const Case& c : cases) {
+    const Tried tried = pushed(c.flaw);
+    EXPECT_EQ(tried.status, 1) << tried.output;
+    EXPECT_NE(tried.output.find(c.told), std::string::npos) << c.told << "\n" << tried.output;
+    EXPECT_NE(tried.output.find(c.advice), std::string::npos) << c.advice << "\n" << tried.output;
+  }
+  const Tried right = pushed(SensorFlaw::kNone);
+  EXPECT_EQ(right.status, 0) << right.output;
+  EXPECT_NE(right.output.find("0 warnings, 0 failures"), std::string::npos) << right.output;
+  EXPECT_EQ(try_adapter({"--push", "--robot", "unix:/nowhere"}).status, 2);
+}
+
 }  // namespace
 }  // namespace longreach

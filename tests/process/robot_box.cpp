@@ -30,6 +30,17 @@ void RobotBox::take(const SetpointDatagram& in) {
   follows_ = moves;
 }
 
+// The axes of the tool are -z, y and x of the base.
+void RobotBox::tell(const std::array<double, 3>& felt, double weight, double (&told)[3]) const {
+  const std::array<double, 3> in_tool{-felt[2], felt[1], felt[0]};
+  std::ranges::copy(flaw_ == SensorFlaw::kBase ? felt : in_tool, told);
+  if (flaw_ == SensorFlaw::kSign)
+    for (double& x : told) x = -x;
+  if (flaw_ == SensorFlaw::kExchanged) std::swap(told[0], told[1]);
+  if (flaw_ == SensorFlaw::kWeight) told[0] += weight;
+  if (flaw_ == SensorFlaw::kDead) told[1] = 0.0;
+}
+
 RobotDatagram RobotBox::move(double dt) {
   const std::lock_guard lock(mutex_);
   RobotDatagram out;
@@ -42,6 +53,8 @@ RobotDatagram RobotBox::move(double dt) {
     out.joint_rad_per_s[i] = speed;
   }
   out.joint_rad[2] += lie_m_;
+  tell(force_n_, 15.0, out.force_n);
+  tell(moment_nm_, 0.0, out.moment_nm);
   return out;
 }
 

@@ -14,6 +14,9 @@
 
 namespace longreach {
 
+/// What a sensor may tell instead of the wrench along the axes of the tool.
+enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead };
+
 class RobotBox {
  public:
   RobotBox() : thread_([this] { run(); }) {}
@@ -41,6 +44,17 @@ class RobotBox {
     const std::lock_guard lock(mutex_);
     return first_step_;
   }
+  /// A push at the tool, in W: force N, moment N m.
+  void feel(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
+    const std::lock_guard lock(mutex_);
+    force_n_ = force_n;
+    moment_nm_ = moment_nm;
+  }
+  /// What its sensor makes of it, from now on.
+  void spoil(SensorFlaw flaw) {
+    const std::lock_guard lock(mutex_);
+    flaw_ = flaw;
+  }
   /// Somebody moves it: at this speed along its third joint from now on.
   void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
   /// It says that its third joint is so far off from now on.
@@ -50,6 +64,7 @@ class RobotBox {
   void run();
   void take(const adapter::SetpointDatagram& in);
   [[nodiscard]] adapter::RobotDatagram move(double dt);
+  void tell(const std::array<double, 3>& felt, double weight, double (&told)[3]) const;
 
   AdapterListener listener_;
   std::atomic<std::uint64_t> told_{0}, live_{0};
@@ -58,6 +73,8 @@ class RobotBox {
   std::array<double, adapter::kJoints> joint_{}, setpoint_{};
   double step_ = 0.0, first_step_ = 0.0;
   bool follows_ = false;
+  std::array<double, 3> force_n_{}, moment_nm_{};
+  SensorFlaw flaw_ = SensorFlaw::kNone;
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

@@ -105,7 +105,9 @@ TEST(SimulatedArm, TakesASetpointAgainAfterARest) {
   for (int i = 0; i < 200; ++i) {
     arm.write(i < 100 ? std::nullopt : std::optional<JointVector>(set));
     const double rad = arm.read(now += milliseconds(1)).joint_rad[5];
-    if (i < 100) ASSERT_EQ(rad, 0.0);
+    if (i < 100) {
+      ASSERT_EQ(rad, 0.0);
+    }
   }
   EXPECT_NEAR(arm.read(now).joint_rad[5], 0.01, 1e-4);
 }
