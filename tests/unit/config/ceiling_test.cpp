@@ -259,8 +259,7 @@ TEST(Ceiling, LimitsAreNumbersInOrder) {
       const bool limit = remote == proto::TIGHTER_DOWN || remote == proto::TIGHTER_UP;
       const auto type = field.cpp_type();
       const bool ordered = !field.is_repeated() &&
-                           (type == FieldDescriptor::CPPTYPE_DOUBLE ||
-                            type == FieldDescriptor::CPPTYPE_UINT32 || type == FieldDescriptor::CPPTYPE_ENUM);
+                           (type == FieldDescriptor::CPPTYPE_DOUBLE || type == FieldDescriptor::CPPTYPE_ENUM);
       EXPECT_TRUE(!limit || ordered) << path;
       EXPECT_TRUE(remote == proto::TIGHTER_DOWN || !field.options().HasExtension(proto::automatic)) << path;
     });
@@ -294,6 +293,10 @@ TEST(Ceiling, SaysWhichFieldAtWhichCeilingAndWhatToDo) {
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.gravity_m_per_s2", "0,0,-9.81")),
             "sensing.gravity_m_per_s2 is not changed from afar: it is not set; change it in the file at that "
             "side and restart");
+  proto::SlaveConfig more = start;
+  more.mutable_scene()->add_material();
+  EXPECT_EQ(beyond_ceiling(start, more),
+            "scene.material is not changed from afar; change it in the file at that side and restart");
   EXPECT_EQ(
       beyond_ceiling(start, with(start, "robot_file", "robots/other.txtpb")),
       "robot_file is not changed from afar: it is robots/space_arm.txtpb; change it in the file at that "
