@@ -265,7 +265,7 @@ TEST_F(View, AHandWhoseServerIsKilledIsAHold) {
   view_->signal(SIGKILL);
   EXPECT_TRUE(eventually([this] { return master_.state() == "Holding" && slave_.state() == "Holding"; }))
       << outputs();
-  EXPECT_EQ(master_.status()->cause(), "operator");
+  EXPECT_EQ(master_.status()->cause(), "hand stale");
   aiming.join();
 }
 
