@@ -136,6 +136,15 @@ const std::vector<Experiment> kExperiments = {
      run_singular_paths, singular_paths_plots, "",
      "off the goal by at most {wrist_off_goal_max_m*1e3} (wrist), {elbow_off_goal_max_m*1e3} (elbow), "
      "{shoulder_off_goal_max_m*1e3} mm (shoulder)"},
+    {"sensor-faults",
+     "A force sensor that lies, on four arms in every state: how far does the robot go, how hard does it "
+     "press?",
+     run_sensor_faults, sensor_faults_plots, "",
+     "{runs} runs: at most {way_max_m*1e3} mm that nobody commanded, {true_force_over_guard} of the guard; "
+     "told at "
+     "most {told_late_max_s} s late, false faults {false_faults}; a force that answers to the way, though it "
+     "is "
+     "none, moves {control_way_m*1e3} mm"},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
      run_impact, impact_plots, "",
      "{impacts} impacts; restitution right in {discrete_gradient_right} % by the discrete gradient (error "

@@ -118,6 +118,8 @@ std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
 std::vector<Plot> delay_seeds_plots();
 std::vector<Metric> run_singular_paths(const ExperimentRun& run);
 std::vector<Plot> singular_paths_plots();
+std::vector<Metric> run_sensor_faults(const ExperimentRun& run);
+std::vector<Plot> sensor_faults_plots();
 std::vector<Metric> run_impact(const ExperimentRun& run);
 std::vector<Plot> impact_plots();
 std::vector<Metric> run_material_steps(const ExperimentRun& run);

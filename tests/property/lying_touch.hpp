@@ -51,23 +51,26 @@ inline bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign || cause == HoldCause::kNoRelief;
 }
 
-/// `tamper`: besides the lie, of what the robot says.
-template <class Tamper>
-LieRun lie_run(const LieCase& c, const SlaveConfig& config, Tamper&& tamper) {
+/// `stalls(tick)`: the adapter, and the robot in it, stand still in this tick; what it said last is all there
+/// is.
+template <class Stalls>
+LieRun lie_run(const LieCase& c, const SlaveConfig& config, Stalls&& stalls) {
   SlaveNode node(config);
   SimulatedArm arm(config, Random(c.guard.seed));
   LyingSensor sensor(config.robot);
   Received<MotionCommand> command{};
   double goal_m = 0.0;
+  RobotState said{};
   LieRun run;
   for (int i = 1; i * 1e-3 < c.end_s; ++i) {
     const double t_s = 1e-3 * i;
     SlaveInput in;
     in.now = Time{std::chrono::milliseconds(i)};
-    in.robot = arm.read(in.now);
+    const bool stalled = stalls(i);
+    if (!stalled) said = arm.read(in.now);
+    in.robot = said;
     if (t_s >= c.lie_s && sensor.lie().lie != c.lie.lie) sensor.lie(c.lie);
     sensor.tell(in.now, in.robot);
-    tamper(i, in.robot);
     in.peer_session_count = 1;
     if (i > 5) in.last_heard = command.received;
     if (i % 5 == 0 && t_s < c.silent_s) {
@@ -82,7 +85,8 @@ LieRun lie_run(const LieCase& c, const SlaveConfig& config, Tamper&& tamper) {
       in.commands = {&command, 1};
       in.last_heard = in.now;
     }
-    arm.write(node.step(in).joint_setpoint_rad);
+    const auto setpoint_rad = node.step(in).joint_setpoint_rad;
+    if (!stalled) arm.write(setpoint_rad);
     const double force_n = arm.true_wrench().force.norm();
     run.peak_n = std::max(run.peak_n, force_n);
     const SlaveView& view = node.view();
@@ -105,7 +109,7 @@ inline SlaveConfig lie_config(const LieCase& c) {
 }
 
 inline LieRun lie_run(const LieCase& c) {
-  return lie_run(c, lie_config(c), [](int, RobotState&) {});
+  return lie_run(c, lie_config(c), [](int) { return false; });
 }
 
 }  // namespace longreach::test
