@@ -282,6 +282,8 @@ TEST(Safety, ABlackoutEndsAsTheTableSays) {
     EXPECT_EQ(both(*lab, State::kHolding), !b.goes_on) << b;
     EXPECT_EQ(lab->slave().engagement, 1U) << b;
     EXPECT_EQ(lab->slave().false_holds, held && b.goes_on ? 1U : 0U) << b;
+    lab->requests().hold = true;
+    run(*lab, 0.5 + 4.0 * b.delay_s);
     lab->requests().engage = true;
     run(*lab, 1.0 + 4.0 * b.delay_s);
     EXPECT_TRUE(both(*lab, State::kEngaged)) << b;
