@@ -51,8 +51,7 @@ class Station : public ::testing::Test {
   static bool eventually(const std::function<bool()>& holds,
                          std::chrono::seconds timeout = std::chrono::seconds(60));
   bool both_engaged(std::chrono::seconds timeout = std::chrono::seconds(60));
-  /// Engages as soon as that is not refused, and again only when it comes to nothing: every engagement begins
-  /// anew.
+  /// Engages as soon as that is not refused, and again when it comes to nothing.
   bool engaged();
   /// Waits for words in what a program prints; its log may come later than what its RPC service tells.
   static bool says(const RunningProgram& program, const std::string& words);

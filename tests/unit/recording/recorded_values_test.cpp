@@ -143,6 +143,11 @@ TEST(RecordedValues, KeepEveryBitOfMessages) {
   recording::ReceivedReport recorded;
   write(plain, recorded);
   EXPECT_FALSE(read(recorded).echo_sent) << "absent is not zero";
+  EXPECT_EQ(read(recorded).rtt, Duration(7));
+  plain.rtt = kNoRtt;
+  recorded.Clear();
+  write(plain, recorded);
+  EXPECT_EQ(read(recorded).rtt, kNoRtt);
 }
 
 TEST(RecordedValues, KeepTheBitsThemselves) {
@@ -169,6 +174,7 @@ TEST(RecordedValues, KeepEveryBitOfTheMastersInput) {
   in.taken = true;
   in.rtt_s = 0.0;
   in.may_send = false;
+  in.overdue_ticks = 1ULL << 59;
   expect_kept<recording::MasterInput>(in);
   recording::MasterInput recorded;
   write(in, recorded);
@@ -176,6 +182,7 @@ TEST(RecordedValues, KeepEveryBitOfTheMastersInput) {
   EXPECT_EQ(back.now, in.now);
   EXPECT_EQ(back.last_heard, in.last_heard);
   EXPECT_EQ(back.rtt_s, in.rtt_s);
+  EXPECT_EQ(back.overdue_ticks, in.overdue_ticks);
   EXPECT_EQ(back.requests.load, std::optional(false));
   EXPECT_EQ(back.requests.scale_steps, -3);
   EXPECT_TRUE(back.handle.buttons.mode && back.handle.buttons.scale_down && !back.handle.buttons.clutch);
@@ -204,11 +211,13 @@ TEST(RecordedValues, KeepEveryBitOfTheSlavesInput) {
   in.up_loss = n.next();
   in.up_jitter_s = n.next();
   in.may_send = false;
+  in.overdue_ticks = 7;
   expect_kept<recording::SlaveInput>(in);
   recording::SlaveInput recorded;
   write(in, recorded);
   const SlaveInput back = read(recorded);
   EXPECT_EQ(back.rejected, in.rejected);
+  EXPECT_EQ(back.overdue_ticks, 7U);
   EXPECT_EQ(back.last_heard, in.last_heard);
   EXPECT_TRUE(back.taken && back.stop && back.robot.load && !back.robot.ok && !back.may_send);
   expect_kept<recording::SlaveInput>(SlaveInput{});
