@@ -22,7 +22,9 @@ std::vector<std::string> guard_names() {
   std::vector<std::string> all;
   for (const HoldCause cause :
        {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kPeerRestarted, HoldCause::kRobotFault,
-        HoldCause::kHandleLetGo, HoldCause::kTaken, HoldCause::kRobotAstray})
+        HoldCause::kHandleLetGo, HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled,
+        HoldCause::kOverrun, HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign,
+        HoldCause::kNoRelief})
     all.push_back(cause_name("slave", cause));
   for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kPeerHolds,
                                 HoldCause::kDeviceFault, HoldCause::kHandleLetGo})

@@ -57,11 +57,48 @@ class Engages : public Invariant {
   double asked_s_ = 0.0;
 };
 
+/// The hand rests then: the robot is where it is asked to be, where nothing keeps it from there.
+class Tracks : public Invariant {
+ public:
+  explicit Tracks(const Scenario& s)
+      : Invariant("L3", "the robot follows the hand again"), round_trip_s_(s.round_trip_s) {}
+  void see(const Moment& m) override {
+    const Right& right = m.ghost->right();
+    const bool engaged = right.engaged && m.claimed == SafetyState::kEngaged;
+    if (!engaged || m.engagement != engagement_) {
+      engagement_ = m.engagement;
+      anchor_m_ = m.X_WE.p;
+      goal_m_.setZero();
+      begun_s_ = m.t_s;
+    }
+    if (engaged && right.newest->command.goal_kind == GoalKind::kPosition)
+      goal_m_ = right.newest->command.position_m;
+    const bool limited = m.telemetry && limits(m.telemetry->clamps);
+    if (limited || !m.F_E_W.force.isZero() || !m.F_E_W.moment.isZero()) kept_s_ = m.t_s;
+    const double settles_s = kSettles_s + round_trip_s_;
+    if (calm_.since(m) > settles_s && m.t_s - begun_s_ > settles_s && m.t_s - kept_s_ > 1.0)
+      at_most(m, (m.X_WE.p - anchor_m_ - goal_m_).norm(), kOff_m, "m off the goal");
+  }
+
+ private:
+  static constexpr double kSettles_s = 4.0, kOff_m = 2e-3;
+  static bool limits(const Clamps& c) {
+    return c.joint_position || c.workspace || c.force_guard || c.singularity || c.unreachable ||
+           c.tool_speed || c.joint_speed;
+  }
+  Calm calm_;
+  double round_trip_s_;
+  std::uint32_t engagement_ = 0;
+  Vector3 anchor_m_ = Vector3::Zero(), goal_m_ = Vector3::Zero();
+  double begun_s_ = 0.0, kept_s_ = 0.0;
+};
+
 }  // namespace
 
 void add_liveness(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Hears>(s));
   all.push_back(std::make_unique<Engages>(s));
+  all.push_back(std::make_unique<Tracks>(s));
 }
 
 }  // namespace longreach

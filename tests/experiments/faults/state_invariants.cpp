@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kRecent_s = 3.0;
+constexpr double kRecent_s = 3.0;  // and as long as a link needs to show it
 
 class NoSelfResume : public Invariant {
  public:
@@ -15,6 +15,7 @@ class NoSelfResume : public Invariant {
       : Invariant("I11", "engaged by an explicit request alone, made after the last stop"),
         resume_s_(s.slave.safety.resume_s) {}
   void see(const Moment& m) override {
+    see_master(m);
     if (!m.report || m.claimed != SafetyState::kEngaged) return;
     that(m, m.engagement > m.ghost->ended(),
          "engaged in an engagement that a hold, a stop or a long silence has ended");
@@ -23,7 +24,20 @@ class NoSelfResume : public Invariant {
   }
 
  private:
+  /// A master that was engaged and did not run for so long asks for that engagement no more.
+  void see_master(const Moment& m) {
+    if (!m.master_ran) return;
+    if (m.master_gap_s > resume_s_ && shown_ == SafetyState::kEngaged) slept_ = m.ghost->numbers();
+    shown_ = m.shown;
+    const auto& sent = m.ghost->sent();
+    if (slept_ == 0 || sent.empty() || sent.back().t_s != m.t_s) return;
+    that(m, sent.back().command.request != Request::kEngage || sent.back().command.engagement > slept_,
+         "the master did not run for long, and goes on by itself");
+  }
+
   double resume_s_;
+  SafetyState shown_ = SafetyState::kIdle;
+  std::uint32_t slept_ = 0;  // engagements up to this one it has slept through
 };
 
 class MostSevereWins : public Invariant {
@@ -54,7 +68,8 @@ class TrueCause : public Invariant {
  public:
   explicit TrueCause(const Scenario& s)
       : Invariant("I30", "what has stopped the robot is named, and was there"),
-        gap_s_(gap_s(s.slave.safety, sent_hz(s.master.link))) {}
+        gap_s_(gap_s(s.slave.safety, sent_hz(s.master.link))),
+        recent_s_(kRecent_s + 2.0 * s.round_trip_s) {}
   void see(const Moment& m) override {
     remember(m);
     if (!m.report || (m.cause == cause_ && m.claimed == state_)) return;
@@ -77,8 +92,8 @@ class TrueCause : public Invariant {
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
   }
   [[nodiscard]] bool was_there(const Moment& m) const {
-    const auto lately = [&](double s) { return m.t_s - s < kRecent_s; };
-    const auto spoilt = [&](Spoils what) { return m.since(what) < kRecent_s; };
+    const auto lately = [&](double s) { return m.t_s - s < recent_s_; };
+    const auto spoilt = [&](Spoils what) { return m.since(what) < recent_s_; };
     const bool robot = spoilt(Spoils::kRobot) || spoilt(Spoils::kJoints);
     switch (m.cause) {
       case HoldCause::kOperator:
@@ -115,7 +130,7 @@ class TrueCause : public Invariant {
                                       : "the cause that is named was not there";
   }
 
-  double gap_s_;
+  double gap_s_, recent_s_;
   HoldCause cause_ = HoldCause::kNone;
   SafetyState state_ = SafetyState::kIdle;
   double silent_s_ = -1e9, asked_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9, pressed_s_ = -1e9;
