@@ -109,7 +109,6 @@ struct SlaveNode::State {
   double played_sequence = 0.0;
   double played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
-
   std::uint64_t rejected_values = 0;
 };
 
