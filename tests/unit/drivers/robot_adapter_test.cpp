@@ -144,6 +144,7 @@ TEST_F(RobotAdapterTest, ARobotThatComesBackElsewhereIsLeftThere) {
 TEST_F(RobotAdapterTest, ARobotThatSaysItHasFailedHasFailed) {
   end.send(robot_at(0.1));
   ASSERT_TRUE(robot.read(at_ms(0)).ok);
+  for (int i = 0; i < 50; ++i) robot.write(JointVector::Zero());
   RobotDatagram d = robot_at(0.3);
   d.flags = RobotDatagram::kStopped;
   end.send(d);
