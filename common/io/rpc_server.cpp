@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kRequestMaxBytes = 1 << 20;
 constexpr int kThreadsMax = kWatchersMax + 32;
 constexpr auto kRevocationCheck = std::chrono::milliseconds(100);
+constexpr int kCloseTries = 50;
 constexpr auto kLeaveCheck = std::chrono::milliseconds(100);   // how soon a watcher that left is noticed
 constexpr auto kFinishGrace = std::chrono::milliseconds(200);  // for calls that are under way at the stop
 
@@ -146,12 +147,15 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     {
       const std::lock_guard lock(mutex_);
       if (holder_.empty() || !is_revoked(holder_)) return;
-      holder_.clear();
       session = session_;
     }
     proto::CloseSessionRequest request;
     request.set_session(session);
-    (void)service_.close_session(request);
+    const bool closed = !std::holds_alternative<Refusal>(service_.close_session(request));
+    // A loop that did not answer is asked again; one that says that it is another's session is not for ever.
+    const std::lock_guard lock(mutex_);
+    if (session != session_ || (!closed && ++close_tries_ < kCloseTries)) return;
+    holder_.clear();
   }
 
   void begin_stop() {
@@ -229,6 +233,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     const std::lock_guard lock(mutex_);
     session_ = session;
     holder_ = fingerprint;
+    close_tries_ = 0;
   }
 
   bool stopping() {
@@ -255,6 +260,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
   bool stopping_ = false;
   int watchers_ = 0;
   std::uint64_t session_ = 0;
+  int close_tries_ = 0;
   std::string holder_;  // fingerprint of the master that opened it
 };
 
