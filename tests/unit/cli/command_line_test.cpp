@@ -190,18 +190,25 @@ TEST(CommandLine, AnAdapterIsOfADeviceOrOfARobot) {
   const auto asked = [](const std::vector<const char*>& words) {
     return std::get<AdapterCheckCommand>(std::get<Invocation>(parse(words)).command);
   };
-  const auto device = asked({"adapter", "check", "--device", "127.0.0.1:7", "--force", "2"});
+  const auto device = asked({"adapter", "check", "--device", "unix:/run/d", "--force", "2"});
   EXPECT_FALSE(device.robot);
-  EXPECT_EQ(device.address, "127.0.0.1:7");
+  EXPECT_EQ(device.address, "unix:/run/d");
   EXPECT_EQ(device.force_n, 2.0);
-  const auto robot = asked({"adapter", "check", "--robot", "[::1]:7", "--move", "-0.01"});
+  const auto robot = asked({"adapter", "check", "--robot", "unix:/r", "--move", "-0.01"});
   EXPECT_TRUE(robot.robot);
   EXPECT_EQ(robot.move, -0.01);
   EXPECT_THROW(parse({"adapter", "check"}), UsageError);
-  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1:7", "--robot", "127.0.0.1:8"}), UsageError);
-  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1"}), UsageError);
-  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1:7", "--force", "11"}), UsageError);
-  EXPECT_THROW(parse({"adapter", "check", "--robot", "127.0.0.1:7", "--move", "nan"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "unix:/r", "--robot", "unix:/s"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "127.0.0.1:7"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--device", "unix:/r", "--force", "11"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--robot", "unix:/r", "--move", "nan"}), UsageError);
+  const auto pushed =
+      asked({"adapter", "check", "--push", "--robot", "unix:/r", "--robot-file", "f", "--patience", "2"});
+  EXPECT_TRUE(pushed.push);
+  EXPECT_EQ(pushed.robot_file, "f");
+  EXPECT_EQ(pushed.patience_s, 2.0);
+  EXPECT_THROW(parse({"adapter", "check", "--push", "--robot", "unix:/r"}), UsageError);
+  EXPECT_THROW(parse({"adapter", "check", "--push", "--device", "unix:/r", "--robot-file", "f"}), UsageError);
 }
 
 TEST(CommandLine, WithoutACommandItPrintsHelpAndIsBadUsage) {

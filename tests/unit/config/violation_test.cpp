@@ -36,13 +36,12 @@ TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
   proto::LabConfig lab;
   lab.mutable_master()->mutable_device_adapter()->set_silence_s(0.1);
   EXPECT_EQ(validation_error(lab), "no error");
-  lab.mutable_slave()->mutable_robot_adapter()->set_address("127.0.0.1:1");
-  EXPECT_EQ(
-      validation_error(lab),
-      "slave.robot_adapter.address = 127.0.0.1:1 is for programs; the laboratory has simulated devices and "
-      "robots alone");
-  lab.mutable_master()->mutable_device_adapter()->set_address("127.0.0.1:2");
-  EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = 127.0.0.1:2 is for"));
+  lab.mutable_slave()->mutable_robot_adapter()->set_address("unix:/r");
+  EXPECT_EQ(validation_error(lab),
+            "slave.robot_adapter.address = unix:/r is for programs; the laboratory has simulated devices and "
+            "robots alone");
+  lab.mutable_master()->mutable_device_adapter()->set_address("unix:/d");
+  EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d is for"));
   EXPECT_EQ(validation_error(lab.master()), "no error");
 }
 
@@ -219,7 +218,8 @@ TEST(Validation, WantsAddressesThatAreSuchByTheirForm) {
   master.mutable_link()->set_slave_rpc("");
   EXPECT_EQ(validation_error(master), "no error");
   master.mutable_device_adapter()->set_address("foo");
-  EXPECT_TRUE(validation_error(master).starts_with("device_adapter.address = \"foo\""));
+  EXPECT_TRUE(validation_error(master).starts_with(
+      "device_adapter.address = foo is not where an adapter listens: write unix:/PATH"));
   proto::SlaveConfig slave;
   slave.mutable_rpc()->set_listen("foo");
   EXPECT_TRUE(validation_error(slave).starts_with("rpc.listen = \"foo\""));
