@@ -5,7 +5,7 @@ namespace longreach {
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 88 &&
               sizeof(StiffnessReport) == 192);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
-static_assert(sizeof(Received<MotionCommand>) == 120);
+static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {
   out.set_x(v.x());
