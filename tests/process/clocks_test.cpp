@@ -8,15 +8,12 @@
 #include <thread>
 
 #include "common/core/random.hpp"
-#include "common/link/adapter_datagram.hpp"
-#include "tests/process/datagram_tap.hpp"
+#include "tests/process/robot_box.hpp"
 #include "tests/process/station.hpp"
 #include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {
-
-using adapter::SetpointDatagram;
 
 // Of robots/cartesian.txtpb.
 constexpr double kPeriod_s = 1e-3, kSpeed_m_per_s = 0.5, kAcceleration_m_per_s2 = 2.5,
@@ -25,27 +22,28 @@ constexpr double kPeriod_s = 1e-3, kSpeed_m_per_s = 0.5, kAcceleration_m_per_s2 
 /// Largest differences of setpoints that follow each other, as multiples of the limits.
 struct Differences {
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;
+  double first_m = 0.0;  // of a first live one after others, from the tool
   std::size_t setpoints = 0;
 };
 
-Differences differences(const std::vector<DatagramTap::Datagram>& datagrams) {
+Differences differences(const std::vector<ToldSetpoint>& told) {
   Differences worst;
   std::array<std::array<double, 3>, 4> x{};  // the newest first
   std::uint64_t last = 0;
-  int run = 0;  // setpoints in a row
-  for (const auto& bytes : datagrams) {
-    SetpointDatagram d;
-    if (!adapter::decode(bytes.data(), bytes.size(), d)) continue;
-    const bool follows = d.header.sequence == last + 1 && (d.flags & SetpointDatagram::kMove) != 0;
-    last = d.header.sequence;
-    run = follows ? run + 1 : 0;
+  int run = 0;  // live setpoints in a row
+  bool live = true;
+  for (const ToldSetpoint& t : told) {
+    if (t.live && !live) worst.first_m = std::max(worst.first_m, t.off);
+    live = t.live;
+    run = t.live ? (t.sequence == last + 1 ? run + 1 : 1) : 0;
+    last = t.sequence;
     std::rotate(x.begin(), x.end() - 1, x.end());
-    std::copy_n(d.joint_rad, 3, x[0].begin());
+    x[0] = t.joint;
     if (run < 4) continue;
     ++worst.setpoints;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double v = x[0][i] - x[1][i], a = v - (x[1][i] - x[2][i]);
-      const double j = a - ((x[1][i] - x[2][i]) - (x[2][i] - x[3][i]));
+      const double v = x[0][i] - x[1][i], before = x[1][i] - x[2][i], a = v - before;
+      const double j = a - (before - (x[2][i] - x[3][i]));
       worst.speed = std::max(worst.speed, std::abs(v) / kPeriod_s / kSpeed_m_per_s);
       worst.acceleration =
           std::max(worst.acceleration, std::abs(a) / std::pow(kPeriod_s, 2) / kAcceleration_m_per_s2);
@@ -71,14 +69,9 @@ class ClocksOfPrograms : public Station {
   void start(bool contact) {
     master_program_.reset();
     slave_program_.reset();
-    tap_.reset();
-    robot_ = std::make_unique<RunningProgram>(
-        "longreach-reference-robot", std::vector<std::string>{"0", "--wall", contact ? "0.01" : "0.9"});
-    ASSERT_TRUE(says(*robot_, "listening on "));
-    ASSERT_TRUE(eventually([this] { return robot_->output().ends_with('\n'); }));
-    const std::string said = robot_->output();
-    tap_ = std::make_unique<DatagramTap>(std::stoi(said.substr(said.rfind(':') + 1)));
-    start_slave({"--adapter", tap_->address(), "--set", "robot_file=robots/cartesian.txtpb", "--set",
+    robot_ = std::make_unique<RobotBox>();
+    if (contact) robot_->wall(0.01);
+    start_slave({"--adapter", robot_->address(), "--set", "robot_file=robots/cartesian.txtpb", "--set",
                  "robot_adapter.silence_s=0.5"});
     start_master({"--operator", "script", "--set",
                   std::string("operator.rate_distance_m=") + (contact ? "0" : "0.8"), "--set",
@@ -101,18 +94,17 @@ class ClocksOfPrograms : public Station {
     if (f.slave) slave_program_->signal(SIGCONT);
     if (f.master) master_program_->signal(SIGCONT);
   }
-  void expect_no_way_back(const Freeze& f) {
+  void expect_no_way_back(const Freeze& f, std::uint32_t engagement) {
     ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; })) << f << outputs();
     for (int i = 0; i < 20; ++i) {
       EXPECT_NE(slave_.state(), "Engaged") << f << outputs();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    EXPECT_EQ(slave_.status()->engagement(), 1U) << f;
+    EXPECT_EQ(slave_.status()->engagement(), engagement) << f;
     ASSERT_TRUE(engaged()) << f << outputs();
   }
 
-  std::unique_ptr<RunningProgram> robot_;
-  std::unique_ptr<DatagramTap> tap_;
+  std::unique_ptr<RobotBox> robot_;
 };
 
 TEST_F(ClocksOfPrograms, StandStillHoldAndDoNotGoOnByThemselves) {
@@ -125,18 +117,23 @@ TEST_F(ClocksOfPrograms, StandStillHoldAndDoNotGoOnByThemselves) {
   for (const Freeze& f : freezes) {
     start(f.contact);
     if (HasFatalFailure()) return;
+    const std::uint32_t engagement = slave_.status()->engagement();
     stand_still(f);
-    if (f.seconds > 1.2) expect_no_way_back(f);
+    if (f.seconds > 1.2) expect_no_way_back(f, engagement);
     if (HasFatalFailure()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    const Differences seen = differences(tap_->recorded(Toward::kSlave));
+    const Differences seen = differences(robot_->setpoints());
     worst.speed = std::max(worst.speed, seen.speed);
     worst.acceleration = std::max(worst.acceleration, seen.acceleration);
     worst.jerk = std::max(worst.jerk, seen.jerk);
     worst.setpoints += seen.setpoints;
+    worst.first_m = std::max(worst.first_m, seen.first_m);
   }
-  std::printf("%zu freezes, %zu setpoints; of the limits: speed %.3f, acceleration %.3f, jerk %.3f\n",
-              freezes.size(), worst.setpoints, worst.speed, worst.acceleration, worst.jerk);
+  std::printf(
+      "%zu freezes, %zu setpoints; of the limits: speed %.3f, acceleration %.3f, jerk %.3f; first ones %.1e "
+      "m off the tool\n",
+      freezes.size(), worst.setpoints, worst.speed, worst.acceleration, worst.jerk, worst.first_m);
+  EXPECT_LE(worst.first_m, 1e-4);
   EXPECT_GT(worst.setpoints, 1000U);
   EXPECT_LE(worst.speed, 1.0 + 1e-6);
   EXPECT_LE(worst.acceleration, 1.0 + 1e-6);

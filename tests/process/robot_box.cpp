@@ -19,6 +19,10 @@ void RobotBox::take(const SetpointDatagram& in) {
   ++told_;
   const std::lock_guard lock(mutex_);
   const bool moves = (in.flags & SetpointDatagram::kMove) != 0;
+  ToldSetpoint told{in.header.sequence, moves, {in.joint_rad[0], in.joint_rad[1], in.joint_rad[2]}};
+  for (std::size_t i = 0; i < told.joint.size(); ++i)
+    told.off = std::max(told.off, std::abs(told.joint[i] - joint_[i]));
+  setpoints_.push_back(told);
   if (moves) {
     ++live_;
     for (std::size_t i = 0; i < joint_.size(); ++i) {
@@ -53,7 +57,9 @@ RobotDatagram RobotBox::move(double dt) {
     out.joint_rad_per_s[i] = speed;
   }
   out.joint_rad[2] += lie_m_;
-  tell(force_n_, 15.0, out.force_n);
+  std::array<double, 3> felt_n = force_n_;
+  felt_n[0] -= 1000.0 * std::max(0.0, joint_[2] - wall_m_);
+  tell(felt_n, 15.0, out.force_n);
   tell(moment_nm_, 0.0, out.moment_nm);
   return out;
 }

@@ -17,6 +17,14 @@ namespace longreach {
 /// What a sensor may tell instead of the wrench along the axes of the tool.
 enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead };
 
+/// A setpoint as it came.
+struct ToldSetpoint {
+  std::uint64_t sequence = 0;
+  bool live = false;
+  std::array<double, 3> joint{};
+  double off = 0.0;  // greatest distance from where the joints were
+};
+
 class RobotBox {
  public:
   RobotBox() : thread_([this] { run(); }) {}
@@ -44,6 +52,13 @@ class RobotBox {
     const std::lock_guard lock(mutex_);
     return first_step_;
   }
+  /// All setpoints so far.
+  [[nodiscard]] std::vector<ToldSetpoint> setpoints() {
+    const std::lock_guard lock(mutex_);
+    return setpoints_;
+  }
+  /// From now on there is a wall of 1 N/mm across its third joint.
+  void wall(double at_m) { wall_m_ = at_m; }
   /// A push at the tool, in W: force N, moment N m.
   void feel(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
     const std::lock_guard lock(mutex_);
@@ -68,9 +83,10 @@ class RobotBox {
 
   AdapterListener listener_;
   std::atomic<std::uint64_t> told_{0}, live_{0};
-  std::atomic<double> pushed_m_per_s_{0.0}, lie_m_{0.0};
+  std::atomic<double> pushed_m_per_s_{0.0}, lie_m_{0.0}, wall_m_{1e9};
   std::mutex mutex_;
   std::array<double, adapter::kJoints> joint_{}, setpoint_{};
+  std::vector<ToldSetpoint> setpoints_;
   double step_ = 0.0, first_step_ = 0.0;
   bool follows_ = false;
   std::array<double, 3> force_n_{}, moment_nm_{};
