@@ -1,9 +1,9 @@
 #include "common/io/doorkeeper.hpp"
 
+#include <linux/tcp.h>
 #include <malloc.h>
 #include <netdb.h>
 #include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -23,7 +24,8 @@ namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(50);  // how soon an end is noticed
 constexpr std::size_t kAcceptedAtOnce = 64;
-constexpr std::size_t kGivenBackBy = 32;  // connections that ended
+constexpr std::uint64_t kProvenBytes = 1000;  // a certificate and its signature have more
+constexpr std::size_t kGivenBackBy = 32;      // connections that ended
 constexpr const char* kNoDescriptors =
     "no descriptors are left: close what uses them, or allow more with `ulimit -n` or LimitNOFILE=";
 
@@ -35,6 +37,18 @@ int bound(const addrinfo& at) {
   if (::bind(fd, at.ai_addr, at.ai_addrlen) == 0 && ::listen(fd, SOMAXCONN) == 0) return fd;
   ::close(fd);
   return -1;
+}
+
+std::array<unsigned char, 16> host_of(int fd) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  std::array<unsigned char, 16> host{};
+  if (::getpeername(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return host;
+  if (address.ss_family == AF_INET6)
+    std::memcpy(host.data(), &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, sizeof(in6_addr));
+  else
+    std::memcpy(host.data(), &reinterpret_cast<const sockaddr_in&>(address).sin_addr, sizeof(in_addr));
+  return host;
 }
 
 std::size_t inside_max() {
@@ -144,15 +158,40 @@ void Doorkeeper::expire() {
 }
 
 void Doorkeeper::let_in(int fd) {
-  if (inside_.size() >= inside_max()) count_inside();
   struct stat now {};
-  if (inside_.size() >= inside_max() || ::fstat(fd, &now) != 0) {
-    note_rpc_refusal("connection", "too many connections");
+  Inside who{.fd = fd, .socket = ::fstat(fd, &now) == 0 ? now.st_ino : 0, .host = host_of(fd)};
+  if (crowded(who) != nullptr) count_inside();
+  if (crowded(who) != nullptr) shut_unproven(who);
+  if (const char* why = crowded(who)) {
+    note_rpc_refusal("connection", why);
     ::close(fd);
     return;
   }
-  inside_.push_back({fd, now.st_ino});
+  inside_.push_back(who);
   let_in_(fd);
+}
+
+/// Why there is no room; null: there is.
+const char* Doorkeeper::crowded(const Inside& who) const {
+  const std::size_t most = inside_max();
+  if (inside_.size() >= most) return "too many connections";
+  const auto of_host = std::ranges::count(inside_, who.host, &Inside::host);
+  return static_cast<std::size_t>(of_host) >= most / 2 ? "too many connections from one host" : nullptr;
+}
+
+void Doorkeeper::shut_unproven(const Inside& in_favour_of) {
+  const bool full = inside_.size() >= inside_max();
+  const auto found = std::ranges::find_if(inside_, [&](const Inside& one) {
+    if (!full && one.host != in_favour_of.host) return false;
+    tcp_info info{};
+    socklen_t size = sizeof info;
+    return ::getsockopt(one.fd, IPPROTO_TCP, TCP_INFO, &info, &size) == 0 &&
+           info.tcpi_bytes_received < kProvenBytes;
+  });
+  if (found == inside_.end()) return;
+  note_rpc_refusal("connection", "its handshake does not end");
+  ::shutdown(found->fd, SHUT_RDWR);  // its owner closes it then
+  inside_.erase(found);
 }
 
 void Doorkeeper::close_oldest(const char* why) {

@@ -1,11 +1,14 @@
 #pragma once
 // Accepts the connections of a server and lets in those that say something. One that says nothing costs a
 // descriptor and no more: it is closed after kSilent, or when there are kSilentMax younger ones or no
-// descriptor is left. At most kInsideMax are inside at once, and never more than half of the program's
-// descriptors. Who is closed is noted as refused (rpc_refusals). A thread of its own.
+// descriptor is left. At most kInsideMax are inside at once, never more than half of the program's
+// descriptors, and half of them of one host, so that no other host can shut this one out. Where there is no
+// room, the oldest that has not even shown a certificate gives way. Who is closed is noted as refused
+// (rpc_refusals). A thread of its own.
 
 #include <sys/types.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <deque>
@@ -55,6 +58,7 @@ class Doorkeeper {
   struct Inside {
     int fd = -1;
     ino_t socket = 0;
+    std::array<unsigned char, 16> host{};  // IPv6, or IPv4 in front
   };
 
   void run();
@@ -64,6 +68,8 @@ class Doorkeeper {
   void hear();
   void expire();
   void let_in(int fd);
+  [[nodiscard]] const char* crowded(const Inside& who) const;
+  void shut_unproven(const Inside& in_favour_of);
   void close_oldest(const char* why);
   void count_inside();
 

@@ -85,7 +85,8 @@ TEST_F(Connections, ThatNeverEndTheirHandshakeAreBounded) {
     // The first bytes of a TLS record that never comes.
     for (int i = 0; i < count; ++i)
       (void)::send(half.socket(static_cast<std::size_t>(i)), "\x16\x03\x01\x02", 4, MSG_NOSIGNAL);
-    EXPECT_TRUE(slave_.status());  // who is inside stays
+    EXPECT_TRUE(slave_.status());                                   // who is inside stays
+    EXPECT_TRUE(Side(RpcRole::kSlave, ports_.slave_rpc).status());  // and who comes is let in
     std::this_thread::sleep_for(seconds(1));
     EXPECT_LT(resident_mb(slave), before_mb + 40.0);
     EXPECT_EQ(slave_.stop(), "");
