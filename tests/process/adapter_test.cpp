@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <future>
 
 #include "tests/process/broken_adapter.hpp"
 #include "tests/process/robot_box.hpp"
@@ -229,7 +230,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   ASSERT_GE(at_m, 0.1);
   ASSERT_TRUE(engaged()) << outputs();
   ASSERT_TRUE(eventually([&] { return robot.live() > 500; }));
-  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-4);
+  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-3);
   EXPECT_LT(robot.first_step(), 1e-4);
   // Readings that leap: a fault, and not one more motion.
   robot.lie(0.3);
@@ -239,7 +240,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
       << slave_.status()->trouble();
   robot.lie(0.0);
   EXPECT_TRUE(rests_for(500));
-  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-4);
+  EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-3);
   EXPECT_LT(robot.step(), 1e-3);
   EXPECT_TRUE(engaged()) << outputs();
 }
@@ -281,13 +282,17 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
                         {SensorFlaw::kExchanged, "told as x, y, z are y, x, z of the tool", "in the order"},
                         {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N while nobody touches it", "sensing.tool"},
                         {SensorFlaw::kDead, "tells nothing along y of the base", "a channel is dead"}};
+  // A person each, all at once.
+  auto unspoiled = std::async(std::launch::async, pushed, SensorFlaw::kNone);
+  std::vector<std::future<Tried>> persons;
+  for (const Case& c : cases) persons.push_back(std::async(std::launch::async, pushed, c.flaw));
   for (const Case& c : cases) {
-    const Tried tried = pushed(c.flaw);
+    const Tried tried = persons[static_cast<std::size_t>(&c - cases)].get();
     EXPECT_EQ(tried.status, 1) << tried.output;
     EXPECT_NE(tried.output.find(c.told), std::string::npos) << c.told << "\n" << tried.output;
     EXPECT_NE(tried.output.find(c.advice), std::string::npos) << c.advice << "\n" << tried.output;
   }
-  const Tried right = pushed(SensorFlaw::kNone);
+  const Tried right = unspoiled.get();
   EXPECT_EQ(right.status, 0) << right.output;
   EXPECT_NE(right.output.find("0 warnings, 0 failures"), std::string::npos) << right.output;
   EXPECT_EQ(try_adapter({"--push", "--robot", "unix:/nowhere"}).status, 2);
