@@ -5,8 +5,9 @@
 //   restless  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f) on end, while
 //             its setpoint rests
 // That is more than what a joint gives way by, and longer than a stop by the robot's own watchdog after a
-// late tick. What is between the two stays unnoticed: a robot that drifts slowly is first noticed when it is
-// astray.
+// late tick. After this side has stood still a joint that is off by so much was moved meanwhile: it is astray
+// at once, so that nothing calls it back. What is between the two stays unnoticed: a robot that drifts slowly
+// is first noticed when it is astray.
 
 #include <cmath>
 #include <numbers>
@@ -25,8 +26,9 @@ class RobotWatch {
   }
 
   /// `commanded`: the setpoint matters; else the robot may be anywhere. `rests`: it does not change.
-  /// `dt` > 0, s, since the setpoint before.
-  void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt) {
+  /// `dt` > 0, s, since the setpoint before. `stood`: no setpoint came for longer than the gap timer.
+  void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt,
+            bool stood = false) {
     if (!commanded) expected_rad_ = robot.joint_rad;
     if (rate_per_s_ > 0.0) {
       expected_rad_ -= std::expm1(-rate_per_s_ * dt) * (setpoint_rad - expected_rad_);
@@ -34,7 +36,7 @@ class RobotWatch {
       expected_rad_ = setpoint_rad;
     }
     const bool off = ((robot.joint_rad - expected_rad_).cwiseAbs().array() > kOff).any();
-    off_s_ = commanded && off ? off_s_ + dt : 0.0;
+    off_s_ = commanded && off ? off_s_ + (stood ? kLong_s : 0.0) + dt : 0.0;
     const bool moves = (robot.joint_rad_per_s.cwiseAbs().array() > brisk_rad_per_s_.array()).any();
     moves_s_ = rests && moves ? moves_s_ + dt : 0.0;
   }

@@ -146,7 +146,6 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   if (s.decide(input)) s.begin_engagement();
   s.right.step({s.safety.state(), s.robot_ok && !s.watch.astray(), s.motion.at_rest(), dt});
   if (!s.time.stalled_since()) s.take_goals(input.commands);
-
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
   if (s.robot_ok && s.sensor_ok) s.feel(dt);
@@ -219,7 +218,8 @@ void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
 // From the second tick on: the setpoint before has been written, and this is what became of it.
 void SlaveNode::State::watch_robot(const RobotState& robot) {
   if (robot_ok)
-    watch.step(robot, motion.joint_setpoint_rad(), right.commands(), motion.at_rest(), 1.0 / loop_hz);
+    watch.step(robot, motion.joint_setpoint_rad(), right.commands(), motion.at_rest(), 1.0 / loop_hz,
+               time.stalled_since().has_value());
 }
 
 // Nobody commands the robot: what would be the setpoint is where it is.

@@ -227,6 +227,32 @@ TEST(Clocks, AStopThatLayInTheSocketIsObeyed) {
   EXPECT_EQ(lab.slave().state, State::kStopped);
 }
 
+TEST(Clocks, ARobotThatWasMovedMeanwhileIsNotCalledBack) {
+  const Freeze f{true, false, 5.0, false, 0.002};
+  Bench bench = bench_for(f);
+  Laboratory& lab = *bench.lab;
+  lab.drive({});
+  run(lab, 0.5);
+  ASSERT_TRUE(engage(lab, 1.0));
+  run(lab, 1.0);
+  lab.freeze_slave(f.seconds);
+  run(lab, 1.0);
+  JointVector q = *lab.setpoint_rad();
+  for (int i = 0; i < 200; ++i) {
+    q[1] += 1e-3;
+    lab.arm().displace(q);
+    lab.step();
+  }
+  run(lab, 1.0);
+  const Vector3 at_m = lab.arm().true_pose().p;
+  for (int i = 0; i < 10000; ++i) {
+    lab.step();
+    ASSERT_LT((lab.arm().true_pose().p - at_m).norm(), 1e-3) << i;
+  }
+  EXPECT_EQ(lab.slave().state, State::kFault);
+  EXPECT_EQ(lab.slave().cause, Cause::kRobotAstray);
+}
+
 TEST(Clocks, HalfOfTheTicksLateIsAnOverrun) {
   for (const int runs_of_ten : {6, 4}) {
     for (const bool slave : {true, false}) {
