@@ -177,6 +177,13 @@ TEST(Endpoint, SurvivesHostileEchoes) {
   EXPECT_DOUBLE_EQ(endpoint.monitor().figures(at(1000.0)).rtt_s.value(), 600.0);
 }
 
+TEST(Endpoint, TheLastNumberOfAllIsNotUsed) {
+  constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
+  Endpoint endpoint = following(7);
+  EXPECT_FALSE(endpoint.number(DatagramType::kMotionCommand, kLast));
+  EXPECT_TRUE(endpoint.number(DatagramType::kMotionCommand, kLast - 1));
+}
+
 TEST(EndpointDeathTest, NeedsASession) { EXPECT_DEATH(following(0), "CHECK failed"); }
 
 }  // namespace

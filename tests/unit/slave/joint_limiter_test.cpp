@@ -224,6 +224,19 @@ TEST(JointLimiter, MovesJointsOutsideTheirLimitsInside) {
   JointLimiter limiter(six_alike());
   limiter.reset(JointVector::Constant(7.0));
   EXPECT_EQ(limiter.setpoint_rad(), JointVector::Constant(1.0));
+  limiter.reset(JointVector::Constant(-7.0));
+  EXPECT_EQ(limiter.setpoint_rad(), JointVector::Constant(-1.0));
+}
+
+TEST(JointLimiter, ReachesInOneStepWhatNeitherAccelerationNorAChangeOfShapeForbids) {
+  JointLimiter limiter(six_alike());
+  limiter.reset(JointVector::Zero());
+  limiter.step(JointVector::Zero(), {}, kDt);
+  EXPECT_TRUE(limiter.reaches(JointVector::Constant(0.9 * 4.0 * kDt * kDt), kDt));
+  EXPECT_FALSE(limiter.reaches(JointVector::Constant(1.1 * 4.0 * kDt * kDt), kDt)) << "acceleration";
+  for (int i = 0; i < 200; ++i) limiter.step(JointVector::Constant(1.0), {}, kDt);
+  const JointVector on = limiter.path_rad() + JointVector::Constant(0.8 * kDt);
+  EXPECT_FALSE(limiter.reaches(on, kDt)) << "faster than a slow change of the arm's shape";
 }
 
 TEST(JointLimiter, StepAllocatesNothing) {
