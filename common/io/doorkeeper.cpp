@@ -208,7 +208,7 @@ void Doorkeeper::count_inside() {
   most_inside_ = std::max(most_inside_, inside_.size());
   if (most_inside_ < inside_.size() + kGivenBackBy) return;
   most_inside_ = inside_.size();
-  ::malloc_trim(0);
+  ::malloc_trim(0);  // gives back what is not locked
 }
 
 }  // namespace longreach

@@ -40,7 +40,7 @@ class Doorkeeper {
   using Clock = std::chrono::steady_clock;
 
   static constexpr std::size_t kSilentMax = 256;
-  static constexpr std::size_t kInsideMax = 512;
+  static constexpr std::size_t kInsideMax = 256;
   static constexpr std::chrono::seconds kSilent{10};
 
   /// `let_in` takes a connection over and closes it when it ends. `socket` must outlive this.

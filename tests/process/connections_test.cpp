@@ -88,11 +88,11 @@ TEST_F(Connections, ThatNeverEndTheirHandshakeAreBounded) {
     EXPECT_TRUE(slave_.status());                                   // who is inside stays
     EXPECT_TRUE(Side(RpcRole::kSlave, ports_.slave_rpc).status());  // and who comes is let in
     std::this_thread::sleep_for(seconds(1));
-    EXPECT_LT(resident_mb(slave), before_mb + 40.0);
+    EXPECT_LT(resident_mb(slave), before_mb + 25.0);
     EXPECT_EQ(slave_.stop(), "");
     EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }, seconds(20)));
   }
-  EXPECT_TRUE(eventually([&] { return resident_mb(slave) < before_mb + 10.0; }, seconds(30)))
+  EXPECT_TRUE(eventually([&] { return resident_mb(slave) < before_mb + 25.0; }, seconds(30)))
       << before_mb << " MB, " << resident_mb(slave) << " MB";
   std::cout << "slave: " << before_mb << " MB, after handshakes that did not end " << resident_mb(slave)
             << " MB\n";
