@@ -7,6 +7,7 @@
 
 #include "slave/robot/kinematics.hpp"
 #include "tests/experiments/faults/invariant.hpp"
+#include "tests/experiments/faults/trial.hpp"
 
 namespace longreach {
 namespace {
@@ -173,6 +174,25 @@ TEST_F(Oracle, SeesThatItDoesNotComeBack) {
   EXPECT_TRUE(broken("L1"));
   EXPECT_TRUE(broken("L2"));
 }
+
+/// A product without a guard is found within this many seeds.
+constexpr std::uint64_t kFound = 60;
+
+class FaultsControl : public testing::TestWithParam<int> {};
+
+TEST_P(FaultsControl, IsFound) {
+  const SabotageFacts& facts = kSabotages[static_cast<std::size_t>(GetParam())];
+  std::string others;
+  for (std::uint64_t seed = 1; seed <= kFound; ++seed) {
+    for (const Violation& v : run_trial(schedule_of(seed), static_cast<Sabotage>(GetParam())).violations) {
+      if (v.invariant == facts.invariant) return;
+      others += v.invariant + " ";
+    }
+  }
+  ADD_FAILURE() << facts.name << ": " << facts.invariant << " has not seen it; seen by " << others;
+}
+
+INSTANTIATE_TEST_SUITE_P(Sabotages, FaultsControl, testing::Range(1, static_cast<int>(Sabotage::kCount)));
 
 }  // namespace
 }  // namespace longreach

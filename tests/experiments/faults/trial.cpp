@@ -30,9 +30,9 @@ class Hash {
 
 Schedule schedule_of(std::uint64_t seed) { return draw_schedule(seed, draw_scenario(seed).round_trip_s); }
 
-Trial run_trial(const Schedule& schedule) {
+Trial run_trial(const Schedule& schedule, Sabotage sabotage) {
   const Scenario scenario = draw_scenario(schedule.seed);
-  World world(scenario, schedule);
+  World world(scenario, schedule, sabotage);
   const Invariants invariants = all_invariants(scenario);
   GuardWatch guards;
   Hash hash;

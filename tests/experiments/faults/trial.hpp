@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/experiments/faults/invariant.hpp"
+#include "tests/experiments/faults/sabotage.hpp"
 #include "tests/experiments/faults/schedule.hpp"
 
 namespace longreach {
@@ -29,7 +30,7 @@ struct Trial {
 /// The schedule of a seed, with its scenario.
 Schedule schedule_of(std::uint64_t seed);
 
-Trial run_trial(const Schedule& schedule);
+Trial run_trial(const Schedule& schedule, Sabotage sabotage = Sabotage::kNone);
 
 /// When a schedule fails, if it does.
 using Fails = std::function<std::optional<double>(const Schedule&)>;

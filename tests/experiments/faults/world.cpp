@@ -42,12 +42,13 @@ std::vector<Bytes> past_life(Random random) {
 
 }  // namespace
 
-World::World(const Scenario& scenario, const Schedule& schedule)
+World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage)
     : scenario_(scenario),
       schedule_(schedule),
       lab_(scenario.master, scenario.slave, schedule.seed),
       up_(Random(schedule.seed).child("wire up")),
       down_(Random(schedule.seed).child("wire down")),
+      saboteur_(sabotage),
       person_(Random(schedule.seed).child("person"), scenario.master, scenario.round_trip_s),
       ghost_(gap_s(scenario.slave.safety, sent_hz(scenario.master.link)), scenario.slave.safety.resume_s),
       slave_config_(scenario.config.slave()),
@@ -177,6 +178,7 @@ void World::hook(Hook FaultKind::*which, Value& value) {
 void World::robot_told(RobotState& told) {
   moment_.truth = told;
   hook(&FaultKind::robot, told);
+  saboteur_.tell(told);
   moment_.told = told;
 }
 
@@ -188,10 +190,13 @@ void World::slave_asked(SlaveInput& input) {
   moment_.slave_gap_s = moment_.t_s - slave_ran_s_;
   moment_.stop_at_slave = input.stop;
   if (input.stop) ghost_.ended(moment_.t_s);
+  saboteur_.before_ghost(input);
   moment_.given_badly = !ghost_.slave_given(moment_.t_s, moment_.slave_gap_s, input.commands);
+  saboteur_.ask(input);
 }
 
 void World::slave_answered(SlaveOutput& out) {
+  saboteur_.answer(out);
   moment_.moves = out.joint_setpoint_rad.has_value();
   moment_.setpoint_rad = out.joint_setpoint_rad.value_or(moment_.setpoint_rad);
   const bool meddled =
@@ -228,6 +233,7 @@ void World::master_asked(MasterInput& input) {
 }
 
 void World::master_answered(MasterOutput& out) {
+  saboteur_.answer(out);
   moment_.F_H_M = out.F_H_M;
   hook(&FaultKind::command, out);
   if (out.command) ghost_.master_sent(moment_.t_s, out.sequence, *out.command);
@@ -278,7 +284,8 @@ bool World::change(google::protobuf::Message& present, const google::protobuf::M
   } catch (const ConfigError&) {
     return false;
   }
-  if (beyond_ceiling(start, *after) || !longreach::refused_changes(present, *after, engaged).empty()) {
+  const bool beyond = beyond_ceiling(start, *after) && !saboteur_.frees_limits();
+  if (beyond || !longreach::refused_changes(present, *after, engaged).empty()) {
     ++refused_changes_;
     return false;
   }

@@ -9,6 +9,7 @@
 #include "tests/experiments/faults/kind.hpp"
 #include "tests/experiments/faults/moment.hpp"
 #include "tests/experiments/faults/person.hpp"
+#include "tests/experiments/faults/sabotage.hpp"
 #include "tests/experiments/faults/scenario.hpp"
 #include "tests/experiments/faults/wire.hpp"
 #include "tests/experiments/laboratory.hpp"
@@ -26,7 +27,7 @@ struct Levels {
 
 class World : public Meddler {
  public:
-  World(const Scenario& scenario, const Schedule& schedule);
+  World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage = Sabotage::kNone);
 
   /// One tick; what happened in it.
   const Moment& step();
@@ -88,6 +89,7 @@ class World : public Meddler {
   Schedule schedule_;
   Laboratory lab_;
   WireWay up_, down_;
+  Saboteur saboteur_;
   Person person_;
   Ghost ghost_;
   proto::SlaveConfig slave_config_;

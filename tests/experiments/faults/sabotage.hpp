@@ -1,0 +1,69 @@
+#pragma once
+// Controls: a product in which a guard is missing or a limit does not hold, made by lying to it, or about it,
+// at its boundary and behind the oracle's back. The campaign must find each of them.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "tests/experiments/meddler.hpp"
+
+namespace longreach {
+
+enum class Sabotage : std::uint8_t {
+  kNone,
+  kSilenceUnnoticed,  // the slave thinks that it has just heard the master
+  kRequestsUnheard,   // holds and stops become requests to go on
+  kStopUnheard,       // a stop at the slave does not reach its node
+  kForceUnfelt,       // the force sensor tells nothing
+  kForgeriesTaken,    // a command that nobody sent is among those taken
+  kAgeUnknown,        // each command seems to answer what the slave has just sent
+  kLimitsFree,        // clients may loosen everything
+  kSetpointsShake,    // beyond the joints' limits
+  kPictureFrozen,     // the picture is that of the first moment
+  kHandPushed,        // by ten times what was rendered
+  kCauseWrong,        // each hold is said to be another master's
+  kCount
+};
+
+struct SabotageFacts {
+  std::string_view name;
+  std::string_view invariant;  // that must see it
+};
+constexpr std::array<SabotageFacts, static_cast<std::size_t>(Sabotage::kCount)> kSabotages = {{
+    {"none", ""},
+    {"silence unnoticed", "I8"},
+    {"requests unheard", "I11"},
+    {"stop unheard", "I11"},
+    {"force unfelt", "I21"},
+    {"forgeries taken", "I13-15"},
+    {"age unknown", "I16"},
+    {"limits free", "I20"},
+    {"setpoints shake", "I5"},
+    {"picture frozen", "I25"},
+    {"hand pushed", "I22"},
+    {"cause wrong", "I30"},
+}};
+
+/// What is done to a side in a tick; remembers what it needs.
+class Saboteur {
+ public:
+  explicit Saboteur(Sabotage what) : what_(what) {}
+
+  [[nodiscard]] bool frees_limits() const { return what_ == Sabotage::kLimitsFree; }
+  void tell(RobotState& told) const;
+  void before_ghost(SlaveInput& input);  // what the ghost sees, too
+  void ask(SlaveInput& input);
+  void answer(SlaveOutput& out);
+  void answer(MasterOutput& out) const;
+
+ private:
+  Sabotage what_;
+  std::vector<Received<MotionCommand>> commands_;
+  std::uint64_t ticks_ = 0;
+  std::optional<Pose> first_{};
+};
+
+}  // namespace longreach
