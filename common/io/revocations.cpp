@@ -138,7 +138,7 @@ class Check final : public grpc::AuthMetadataProcessor {
                        OutputMetadata*) override {
     if (!is_revoked(*caller)) return grpc::Status::OK;
     constexpr const char* kWhy = "the certificate of this host has been revoked: pair it again";
-    note_rpc_refusal("", kWhy);
+    note_rpc_refusal("connection", kWhy);
     return {grpc::StatusCode::PERMISSION_DENIED, kWhy};
   }
 };

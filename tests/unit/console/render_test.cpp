@@ -191,6 +191,7 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   s.view.far.clamps.joint_position = true;
   EXPECT_TRUE(contains(happening(s), "a joint of the robot is at the end of its range"));
   s.view.in_contact = true;
+  s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   EXPECT_TRUE(contains(happening(s), "touching: ") && contains(happening(s), "at the end of its range"));
   s.view.far.engagement = s.view.engagement + 1;  // of another engagement: no news of this one
   EXPECT_FALSE(contains(happening(s), "at the end of its range"));
