@@ -39,7 +39,8 @@ void DelayWatch::step(Time now) {
 
 std::optional<double> DelayWatch::median(Time now) {
   while (!samples_.empty() && now - samples_.front().at > kWindow) samples_.pop();
-  if (samples_.size() < kSamplesMin || now - samples_.front().at < kSpanMin) return std::nullopt;
+  if (samples_.size() < kSamplesMin || samples_.back().at - samples_.front().at < kSpanMin)
+    return std::nullopt;
   for (std::size_t i = 0; i < samples_.size(); ++i) scratch_[i] = samples_[i].rtt_ns;
   const auto begin = scratch_.begin(), end = begin + static_cast<std::ptrdiff_t>(samples_.size());
   const auto middle = begin + static_cast<std::ptrdiff_t>(samples_.size() / 2);
