@@ -40,6 +40,9 @@ std::string held_back(const MasterView& view) {
   if (robot.unreachable)
     return "the goal is out of the robot's reach: it does not follow any further this way";
   if (robot.force_guard) return "the force guard lets the robot go no deeper";
+  // A limit of speed is met by every quick motion; it is told when the robot is behind by what can be seen.
+  constexpr double kBehind_m = 0.01;
+  if (!((view.far.X_WE_goal.p - view.far.X_WE.p).norm() > kBehind_m)) return "";
   if (robot.singularity) return "near a singular pose the robot follows slowly";
   if (robot.joint_speed) return "a joint of the robot is at its speed limit: it follows late";
   if (robot.tool_speed) return "the robot is at its speed limit: it follows late";

@@ -187,6 +187,8 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+  s.view.far.X_WE_goal.p = s.view.far.X_WE.p + Vector3(0.002, 0.0, 0.0);
+  EXPECT_TRUE(contains(happening(s), "moving freely")) << "quick, and not behind: " << happening(s);
   s.view.far.clamps = {};
   s.view.far.clamps.joint_position = true;
   EXPECT_TRUE(contains(happening(s), "a joint of the robot is at the end of its range"));
