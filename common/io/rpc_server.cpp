@@ -360,6 +360,7 @@ void RpcServer::stop() {
   state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);
   state_->server->Wait();
   state_->server.reset();
+  state_->socket.reset();  // its port is free
 }
 
 const std::string& RpcServer::address() const { return state_->address; }

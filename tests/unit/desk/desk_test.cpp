@@ -175,7 +175,8 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
   const proto::Frame frame = to_frame(s, 0.05);
   EXPECT_EQ(frame.state(), "Engaged");
   EXPECT_EQ(frame.mode(), "rate");
-  EXPECT_EQ(frame.happening(), "moving freely: the hand's deflection sets the robot's speed");
+  EXPECT_EQ(frame.happening(),
+            "the robot stands at the edge of its workspace: it does not follow any further this way");
   ASSERT_EQ(frame.clamped_size(), 1);
   EXPECT_EQ(frame.clamped(0), "robot: the goal is outside of the workspace");
   EXPECT_EQ(frame.goal_m(2), 0.3);
