@@ -15,9 +15,9 @@ TEST_F(Station, AClientSwitchesNoGuardOffAtEitherSide) {
   const std::string slave = slave_.get(""), master = master_.get("");
   for (const Assignments& asked : {Assignments{{"sensing.zero_s", "100"}},
                                    {{"sensing.tool.mass_kg", "8"}, {"sensing.gravity_m_per_s2", "0,0,-9.81"}},
-                                   {{"sensing.touch_n", "99"}},
+                                   {{"sensing.release_n", "1e-6"}},
                                    {{"command.force_guard_n", "100"}},
-                                   {{"command.acceleration_max_m_per_s2", "0.01"}},
+                                   {{"command.guard_stiffness_n_per_m", "19000"}},
                                    {{"safety.gap_s", "2"}}})
     EXPECT_NE(slave_.set(asked).find(kWhatToDo), std::string::npos) << asked.front().first;
   for (const Assignments& asked : {Assignments{{"rendering.force_max_n", "100"}},

@@ -79,7 +79,7 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
             ":1:1: unknown field \"maping\" in MasterConfig; did you mean \"mapping\"?");
   EXPECT_EQ(load_error("safety { colour: 1 }"),
             ":1:10: unknown field \"colour\" in MasterSafety; it has: silence_s, resume_s, engage_at_start, "
-            "presence, presence_s");
+            "presence, presence_s, gap_s, delay_rise_max_s");
 }
 
 TEST(TextFile, RefusesAGapTimerThatIsTooShortForAnyMasterAndAHoldThatWouldLoseTheContact) {
