@@ -104,7 +104,9 @@ TEST(RealTimeLoop, TellsATickHowLongTheHostWasSuspendedAndHowManyTicksItMissed) 
   RealTimeLoop loop(1000.0, {Host::read, Host::sleep});
   Time last{};
   loop.run(stop, [&](Time now, const LoopFigures& figures) {
-    EXPECT_EQ(now - last, figures.ticks == 10 ? milliseconds(60001) : milliseconds(1)) << figures.ticks;
+    // The deadline that has come by then is kept at once.
+    const auto passed = milliseconds(figures.ticks == 10 ? 60001 : figures.ticks == 11 ? 0 : 1);
+    EXPECT_EQ(now - last, passed) << figures.ticks;
     last = now;
     if (figures.ticks == 9) Host::suspended = std::chrono::seconds(60);
     stop = figures.ticks == 20;
