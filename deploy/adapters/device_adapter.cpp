@@ -177,8 +177,8 @@ double number_of(const char* text) {
 int main(int argc, char** argv) {
   const bool pushes = argc == 4 && std::strcmp(argv[2], "--push") == 0;
   const double way_m = pushes ? number_of(argv[3]) : 0.0;
-  if ((argc != 2 && !pushes) || std::isnan(way_m)) {
-    std::fputs("usage: longreach-reference-device PATH [--push METRES], PATH of the socket to listen on\n",
+  if ((argc != 2 && !pushes) || argv[1][0] != '/' || std::isnan(way_m)) {
+    std::fputs("usage: longreach-reference-device PATH [--push METRES], PATH: from the root, of its socket\n",
                stderr);
     return 2;
   }

@@ -182,8 +182,8 @@ double number_of(const char* text) {
 int main(int argc, char** argv) {
   const bool placed = argc == 4 && std::strcmp(argv[2], "--wall") == 0;
   const double way_m = placed ? number_of(argv[3]) : 0.1;
-  if ((argc != 2 && !placed) || std::isnan(way_m)) {
-    std::fputs("usage: longreach-reference-robot PATH [--wall METRES], PATH of the socket to listen on\n",
+  if ((argc != 2 && !placed) || argv[1][0] != '/' || std::isnan(way_m)) {
+    std::fputs("usage: longreach-reference-robot PATH [--wall METRES], PATH: from the root, of its socket\n",
                stderr);
     return 2;
   }

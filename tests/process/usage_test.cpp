@@ -76,10 +76,10 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"nope"}, "nope is not a command");
 }
 
-TEST(Usage, ReferenceAdaptersTakeAPortAndNothingElse) {
+TEST(Usage, ReferenceAdaptersTakeAPathAndNothingElse) {
   for (const std::string name : {"longreach-reference-device", "longreach-reference-robot"})
-    for (const std::string port : {"99999", "-1", "abc", "--help", ""})
-      expect_one_sentence(run(name, {port}), 2, "usage: " + name + " PORT", name + " " + port);
+    for (const std::string path : {"99999", "-1", "abc", "--help", ""})
+      expect_one_sentence(run(name, {path}), 2, "usage: " + name + " PATH", name + " " + path);
 }
 
 TEST(Usage, AConfigurationFileWithAMistakeIsNamedWithItsLine) {

@@ -115,7 +115,7 @@ TEST(UnixChannel, TrustsThisUserAndRoot) {
 }
 
 TEST(UnixChannel, RefusesWhatIsNoAddressOfAnAdapter) {
-  for (const std::string address :
+  for (const std::string& address :
        {std::string("127.0.0.1:47101"), std::string("/run/robot"), std::string("unix:here"),
         std::string("unix:"), "unix:/" + std::string(107, 'x')})
     EXPECT_THROW(UnixChannel{address}, AddressError) << address;

@@ -78,7 +78,7 @@ TEST(JointWitness, DoubtsWhatIsBeyondLimitsOfPositionAndSpeed) {
   EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
   w.robot.joint_rad[4] = 1.4 + 0.11;
   EXPECT_EQ(w.after(1e-3), JointDoubt::kOutside);
-  w.robot.joint_rad[4] = 1.4;
+  w.robot.joint_rad[4] = 1.4 + 0.09;
   w.robot.joint_rad_per_s[4] = -1e9;
   EXPECT_EQ(w.after(1e-3), JointDoubt::kTooFast);
   w.robot.joint_rad_per_s[4] = -0.6;
