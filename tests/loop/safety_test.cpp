@@ -189,9 +189,9 @@ class Reengagement : public testing::Test {
   Random random_{5};
   HandTarget hand_{};
   Cut cut_{};
-  std::unique_ptr<Laboratory> lab_ =
-      laboratory({"profile=lab", "scene_file=scenes/free.txtpb", "master.link.impairment.delay_s=0.01",
-                  "slave.link.impairment.delay_s=0.01", "playout.adaptive=false"});
+  std::unique_ptr<Laboratory> lab_ = laboratory(
+      {"profile=lab", "scene_file=scenes/free.txtpb", "master.link.impairment.delay_s=0.01",
+       "slave.link.impairment.delay_s=0.01", "playout.adaptive=false", "safety.engage_at_start=false"});
 };
 
 TEST_F(Reengagement, CommandsNoStepAndHappensByTheOperatorAlone) {
