@@ -6,8 +6,9 @@
 //                     is at fault
 //   else              no: it rests by its own brakes, whoever moves it, and the setpoint follows what is
 //   measured
-// An engagement of a robot that is not commanded begins where it is, so it has to be at rest, and within 1
-// mrad (mm) of its position limits; one that is commanded goes on from its setpoint, so it has to be there.
+// An engagement of a robot that is not commanded begins where it is, so it has to be at rest, in its
+// workspace (the node sees to that), and within 1 mrad (mm) of its position limits; one that is commanded
+// goes on from its setpoint, so it has to be there.
 
 #include <cmath>
 

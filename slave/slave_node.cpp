@@ -92,8 +92,7 @@ struct SlaveNode::State {
   SlaveContact contact;
   SlaveContact turn_contact;  // places are rotation vectors from the anchor, in W
   Playout playout;            // of position goals
-  Playout
-      turn_playout;  // of orientation goals, in the place of positions: each datagram carries one of the two
+  Playout turn_playout;       // of orientation goals: each datagram carries one of the two
   SlaveView view;
 
   bool robot_ok = true;
@@ -177,7 +176,8 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.peer_session_count = input.peer_session_count;
   in.taken = input.taken;
   in.robot_ok = robot_ok;
-  in.robot_ready = robot_ok && right.may_begin(input.robot, motion.joint_setpoint_rad());
+  in.robot_ready =
+      robot_ok && motion.in_workspace() && right.may_begin(input.robot, motion.joint_setpoint_rad());
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
   in.sensor_fault = robot_ok && !sensor_ok;

@@ -67,8 +67,9 @@ std::string robot_trouble(const SlaveView& view) {
   if (view.joints.doubt != JointDoubt::kNone) return in_words(view.joints);
   const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
   if (idle && view.robot_seen && !view.robot_ready)
-    return "the robot moves, or stands beyond a limit of its joints: it can be engaged when it rests within "
-           "them";
+    return "the robot moves, or stands beyond a limit of its joints or outside command.workspace_m: move it "
+           "back by "
+           "its own means; it can be engaged when it rests within them";
   return "";
 }
 

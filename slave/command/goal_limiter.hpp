@@ -64,8 +64,8 @@ class GoalLimiter {
   [[nodiscard]] const std::optional<Pose>& goal() const {
     return X_WE_goal_;
   }  // of the last step, in the workspace
-  [[nodiscard]] bool within(const Vector3& p_WE) const {
-    return (p_WE - centre_m_).norm() <= config_.workspace_m;
+  [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
+    return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
   }
   [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
   [[nodiscard]] const Twist& velocity() const { return V_WE_; }

@@ -92,15 +92,19 @@ TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
   EXPECT_TRUE(waits([](RobotState& robot) { robot.joint_rad_per_s[0] = 0.006; }));
   EXPECT_FALSE(waits([](RobotState& robot) { robot.joint_rad_per_s[0] = 0.004; }));
   EXPECT_FALSE(waits([](RobotState&) {}));
-  Loop loop(test::wall_config(5.0, 1000.0));
-  JointVector q = test::start_joints();
-  q[4] = 1.4 + 0.01;
-  loop.arm.displace(q);
-  loop.command.engagement = 1;
-  loop.command.request = Request::kEngage;
-  loop.run(0.5);
-  EXPECT_EQ(loop.view().state, SafetyState::kObserving);
-  EXPECT_FALSE(loop.view().robot_ready);
+  // Beyond a joint's limit, and outside the workspace of 3 m: nothing calls it back.
+  const std::pair<int, double> places[] = {{4, 1.4 + 0.01}, {0, 0.5}};
+  for (const auto& [joint, rad] : places) {
+    Loop loop(test::wall_config(5.0, 1000.0));
+    JointVector q = test::start_joints();
+    q[joint] = rad;
+    loop.arm.displace(q);
+    loop.command.engagement = 1;
+    loop.command.request = Request::kEngage;
+    loop.run(0.5);
+    EXPECT_EQ(loop.view().state, SafetyState::kObserving) << joint;
+    EXPECT_FALSE(loop.view().robot_ready) << joint;
+  }
 }
 
 TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
