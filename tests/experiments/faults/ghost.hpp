@@ -3,9 +3,9 @@
 // outside of both. From it follows whether anything may move the robot: the right to move.
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "common/link/envelope.hpp"
 #include "common/link/motion_command.hpp"
@@ -33,7 +33,7 @@ struct Right {
 class Ghost {
  public:
   /// Times of the slave's safety: it holds after the one, and goes on by itself within the other.
-  Ghost(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) { sent_.reserve(1 << 15); }
+  Ghost(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
   /// From now on the slave follows this session, and the master too if it was handed to it.
   void lease(double t_s, std::uint64_t session, bool to_master);
@@ -53,7 +53,7 @@ class Ghost {
   [[nodiscard]] const Right& right() const { return right_; }
   [[nodiscard]] std::uint64_t given() const { return given_; }
   [[nodiscard]] std::uint64_t asks() const { return asks_; }
-  [[nodiscard]] const std::vector<SentCommand>& sent() const { return sent_; }
+  [[nodiscard]] const std::deque<SentCommand>& sent() const { return sent_; }
   /// Greatest engagement that the master has sent.
   [[nodiscard]] std::uint32_t numbers() const { return numbers_; }
 
@@ -63,7 +63,7 @@ class Ghost {
 
   double gap_s_, resume_s_;
   std::uint64_t session_ = 1, master_session_ = 1;
-  std::vector<SentCommand> sent_;  // numbers rise
+  std::deque<SentCommand> sent_;  // numbers rise
   std::uint64_t newest_ = 0;
   std::uint32_t ended_ = 0;  // engagements up to this one are over
   std::uint32_t numbers_ = 0;

@@ -65,12 +65,12 @@ class Tracks : public Invariant {
   void see(const Moment& m) override {
     const Right& right = m.ghost->right();
     const bool engaged = right.engaged && m.claimed == SafetyState::kEngaged;
-    if (!engaged || m.engagement != engagement_) {
+    if (engaged && m.engagement != engagement_) {
       engagement_ = m.engagement;
       anchor_m_ = m.X_WE.p;
       goal_m_.setZero();
-      begun_s_ = m.t_s;
     }
+    if (!engaged) begun_s_ = m.t_s;
     if (engaged && right.newest->command.goal_kind == GoalKind::kPosition)
       goal_m_ = right.newest->command.position_m;
     const bool limited = m.telemetry && limits(m.telemetry->clamps);

@@ -107,7 +107,7 @@ class StopsInTime : public Invariant {
  private:
   RightClock right_;
   double stopping_s_;
-  double touched_s_ = 0.0;
+  double touched_s_ = -1e9;
 };
 
 /// A slave that does not run any more: the robot's own watchdog.
