@@ -43,7 +43,8 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
   sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
   if (!first_heard_) first_heard_ = now;
-  last_heard_ = now;
+  // What was overtaken is no news: who lets one datagram through and holds the others back is silent.
+  if (!sample.late) last_heard_ = now;
 }
 
 LinkFigures DelayMonitor::figures(Time now) const {

@@ -13,7 +13,8 @@ class TruePicture : public Invariant {
       : Invariant("I25", "what the operator sees was true of the robot one delay ago") {}
   void see(const Moment& m) override {
     if (m.telemetry) {
-      if (m.since(Spoils::kJoints) > 0.1)
+      // While the robot says that it has failed, its pose is the last that was believed.
+      if (m.told.ok && m.since(Spoils::kJoints) > 0.1 && m.claimed != SafetyState::kFault)
         at_most(m, (m.telemetry->X_WE.p - m.X_WE.p).norm(), 1e-6, "m between what is told and what is");
       that(m, m.telemetry->state == m.claimed || m.since(Spoils::kSlave) < 0.1,
            "the picture shows another state than the report");

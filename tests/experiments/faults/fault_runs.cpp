@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "tests/experiments/faults/faults.hpp"
+#include "tests/experiments/faults/scenario.hpp"
 #include "tests/experiments/faults/twin.hpp"
 #include "tests/experiments/on_all_cores.hpp"
 
@@ -29,7 +30,9 @@ Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<v
 
 bool repeat_faults(const Schedule& schedule, std::string& said) {
   const Trial trial = run_trial(schedule);
-  said = to_text(schedule);
+  said = "# longreach-lab run touch";
+  for (const std::string& setting : draw_scenario(schedule.seed).settings) said += " --set " + setting;
+  said += "\n" + to_text(schedule);
   for (const Violation& v : trial.violations) {
     char when[32];
     std::snprintf(when, sizeof when, "%.3f", v.t_s);

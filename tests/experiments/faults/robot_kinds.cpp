@@ -7,15 +7,25 @@ namespace {
 
 int joint_of(const Active& fault) { return static_cast<int>(fault.fault.seed % kMaxJoints); }
 
+/// In the end somebody restarts the robot, as the words of the fault ask for.
+bool restarted(const Active& fault, RobotState& told) {
+  if (fault.age_s < fault.fault.duration_s - 0.02) return false;
+  told.ok = false;
+  return true;
+}
+
 void jump(World&, Active& fault, RobotState& told) {
+  if (restarted(fault, told)) return;
   told.joint_rad[joint_of(fault)] += log_scale(fault.fault.size, 1e-3, 1.0);
 }
 void freeze(World&, Active& fault, RobotState& told) {
   if (fault.begins) fault.robot = told;
+  if (restarted(fault, told)) return;
   told.joint_rad = fault.robot.joint_rad;
   told.joint_rad_per_s.setZero();
 }
 void leave_range(World& world, Active& fault, RobotState& told) {
+  if (restarted(fault, told)) return;
   const JointConfig& joint = world.scenario().slave.robot.joint[static_cast<std::size_t>(joint_of(fault))];
   told.joint_rad[joint_of(fault)] = joint.max_rad + log_scale(fault.fault.size, 0.01, 10.0);
 }

@@ -14,7 +14,10 @@ class ToolSpeed : public Invariant {
   explicit ToolSpeed(const Scenario& s)
       : Invariant("I6", "the tool keeps its speed"), command_(s.slave.command), arm_(s.slave.robot) {}
   void see(const Moment& m) override {
-    if (m.since(Spoils::kRobot) > kRecovers_s && m.since(Spoils::kScene) > kRecovers_s)
+    // A robot that nobody commands brakes by its joints' own limits.
+    if (!m.moves) rested_s_ = m.t_s;
+    if (m.t_s - rested_s_ > 1.0 && m.since(Spoils::kRobot) > kRecovers_s &&
+        m.since(Spoils::kJoints) > kRecovers_s && m.since(Spoils::kScene) > kRecovers_s)
       at_most(m, m.v_WE.norm(), 1.1 * command_.speed_max_m_per_s, "m/s of the tool");
     if (!m.moves) {
       known_ = known_ && !m.slave_ran;
@@ -36,6 +39,7 @@ class ToolSpeed : public Invariant {
   Kinematics arm_;
   Pose X_{};
   bool known_ = false;
+  double rested_s_ = 0.0;
 };
 
 class Workspace : public Invariant {
