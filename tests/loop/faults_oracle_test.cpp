@@ -137,6 +137,24 @@ TEST_F(Oracle, SeesForgeryOldNumbersAndLooseLimits) {
   for (const char* name : {"I13-15", "I19", "I20", "I27"}) EXPECT_TRUE(broken(name)) << name;
 }
 
+TEST_F(Oracle, SeesThatItFollowsWhatIsOld) {
+  MotionCommand command;
+  command.engagement = moment_.engagement = 1;
+  command.request = Request::kEngage;
+  ghost_.asked();
+  for (std::uint64_t n = 1; n <= 4000; ++n) ghost_.master_sent(1e-3 * static_cast<double>(n), n, command);
+  run(4000, [&](Moment& m, int i) {
+    // From the second second on time goes on and the commands stay those of then.
+    const auto number = static_cast<std::uint64_t>(std::min(i, 1000) + 1);
+    Received<MotionCommand> received;
+    received.sequence = number;
+    received.message = command;
+    if (i <= 1000) ghost_.slave_given(m.t_s, m.slave_gap_s, {&received, 1});
+    claim(SafetyState::kEngaged);
+  });
+  EXPECT_TRUE(broken("I16"));
+}
+
 TEST_F(Oracle, SeesAForceAboveTheGuard) {
   run(1, [this](Moment& m, int) { m.F_E_W.force.x() = 1.4 * scenario_.slave.command.force_guard_n; });
   EXPECT_TRUE(broken("I21"));
@@ -184,7 +202,10 @@ TEST_P(FaultsControl, IsFound) {
   const SabotageFacts& facts = kSabotages[static_cast<std::size_t>(GetParam())];
   std::string others;
   for (std::uint64_t seed = 1; seed <= kFound; ++seed) {
-    for (const Violation& v : run_trial(schedule_of(seed), static_cast<Sabotage>(GetParam())).violations) {
+    Schedule schedule = schedule_of(seed);
+    if (!facts.fault.empty()) schedule.faults.push_back({std::string(facts.fault), 8.0, 3.0, 0.9, seed});
+    std::ranges::stable_sort(schedule.faults, {}, &Fault::start_s);
+    for (const Violation& v : run_trial(schedule, static_cast<Sabotage>(GetParam())).violations) {
       if (v.invariant == facts.invariant) return;
       others += v.invariant + " ";
     }

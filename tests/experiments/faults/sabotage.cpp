@@ -23,14 +23,9 @@ void Saboteur::ask(SlaveInput& input) {
       input.stop = false;
       break;
     case Sabotage::kRequestsUnheard:
-    case Sabotage::kAgeUnknown:
       commands_.assign(input.commands.begin(), input.commands.end());
       for (Received<MotionCommand>& c : commands_) {
-        if (what_ == Sabotage::kAgeUnknown) {
-          if (c.echo_sent) c.echo_sent = input.now;
-        } else if (c.message.engagement > 0) {
-          c.message.request = Request::kEngage;
-        }
+        if (c.message.engagement > 0) c.message.request = Request::kEngage;
       }
       input.commands = commands_;
       break;

@@ -19,7 +19,6 @@ enum class Sabotage : std::uint8_t {
   kStopUnheard,       // a stop at the slave does not reach its node
   kForceUnfelt,       // the force sensor tells nothing
   kForgeriesTaken,    // a command that nobody sent is among those taken
-  kAgeUnknown,        // each command seems to answer what the slave has just sent
   kLimitsFree,        // clients may loosen everything
   kSetpointsShake,    // beyond the joints' limits
   kPictureFrozen,     // the picture is that of the first moment
@@ -31,20 +30,20 @@ enum class Sabotage : std::uint8_t {
 struct SabotageFacts {
   std::string_view name;
   std::string_view invariant;  // that must see it
+  std::string_view fault{};    // that brings it out
 };
 constexpr std::array<SabotageFacts, static_cast<std::size_t>(Sabotage::kCount)> kSabotages = {{
     {"none", ""},
-    {"silence unnoticed", "I8"},
-    {"requests unheard", "I11"},
-    {"stop unheard", "I11"},
+    {"silence unnoticed", "I11", "half-open-up"},
+    {"requests unheard", "I11", "holds"},
+    {"stop unheard", "I11", "stops-at-slave"},
     {"force unfelt", "I21"},
     {"forgeries taken", "I13-15"},
-    {"age unknown", "I16"},
-    {"limits free", "I20"},
+    {"limits free", "I20", "limits-loosened"},
     {"setpoints shake", "I5"},
     {"picture frozen", "I25"},
     {"hand pushed", "I22"},
-    {"cause wrong", "I30"},
+    {"cause wrong", "I30", "half-open-up"},
 }};
 
 /// What is done to a side in a tick; remembers what it needs.
