@@ -139,7 +139,10 @@ void judge(const Freeze& f, Worst& worst) {
   }
   if (f.slave) lab.freeze_slave(f.seconds);
   if (f.master) lab.freeze_master(f.seconds);
-  for (const double end_s = lab.now_s() + f.seconds; lab.now_s() < end_s;) lab.step();
+  for (const double end_s = lab.now_s() + f.seconds; lab.now_s() < end_s;) {
+    lab.step();
+    if (!f.slave) box.see(lab.setpoint_rad(), lab.arm().true_pose().p);
+  }
   const bool long_enough = f.seconds > 1.0 + 0.01;
   bool held = false, engaged_by_itself = false;
   for (const double end_s = lab.now_s() + 3.0 + 4.0 * f.delay_s; lab.now_s() < end_s;) {
