@@ -120,7 +120,7 @@ class Blocked : public Station {
 
 TEST_F(Blocked, ATerminalThatNobodyReadsLeavesTheKeysAsTheyAre) {
   const Terminal terminal;
-  start_slave({"--set", "scene.name=free"});
+  start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master(keyboard("auto"), {terminal.inner, terminal.inner, -1});
   ASSERT_TRUE(eventually([&] { return terminal.full(); })) << outputs();
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -140,7 +140,7 @@ TEST_F(Blocked, ATerminalThatNobodyReadsLeavesTheKeysAsTheyAre) {
 
 TEST_F(Blocked, AHandThatNobodyAsksAnyMoreIsAHoldAndStaysOne) {
   const Terminal terminal;
-  start_slave({"--set", "scene.name=free"});
+  start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master(keyboard("none"), {terminal.inner, -1, -1});
   ASSERT_TRUE(both_engaged()) << outputs();
   terminal.type("WWWW");

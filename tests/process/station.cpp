@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "common/io/rpc_channel.hpp"
@@ -100,11 +101,11 @@ void Station::start_slave(const std::vector<std::string>& more, const Streams& s
 
 void Station::start_master(const std::vector<std::string>& more, const Streams& streams) {
   std::vector<std::string> arguments = {
-      "--set",  "link.slave=" + link_address(),
-      "--set",  "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc),
-      "--set",  "link.listen=127.0.0.1:0",
-      "--set",  "rpc.listen=127.0.0.1:" + std::to_string(ports_.master_rpc),
-      "--view", "none"};
+      "--set", "link.slave=" + link_address(),
+      "--set", "link.slave_rpc=127.0.0.1:" + std::to_string(ports_.slave_rpc),
+      "--set", "link.listen=127.0.0.1:0",
+      "--set", "rpc.listen=127.0.0.1:" + std::to_string(ports_.master_rpc)};
+  if (std::ranges::find(more, "--view") == more.end()) arguments.insert(arguments.end(), {"--view", "none"});
   arguments.insert(arguments.end(), more.begin(), more.end());
   master_program_ = std::make_unique<RunningProgram>("longreach-master", arguments, streams);
 }
