@@ -33,7 +33,7 @@ bool repeat_faults(const Schedule& schedule, std::string& said) {
   said = "# longreach-lab run touch";
   for (const std::string& setting : draw_scenario(schedule.seed).settings) said += " --set " + setting;
   said += "\n" + to_text(schedule);
-  for (const Violation& v : trial.violations) {
+  for (const Breach& v : trial.violations) {
     char when[32];
     std::snprintf(when, sizeof when, "%.3f", v.t_s);
     said += "\n" + v.invariant + " is violated at " + when + " s: " + v.words +

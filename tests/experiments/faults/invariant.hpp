@@ -14,7 +14,7 @@
 
 namespace longreach {
 
-struct Violation {
+struct Breach {
   std::string invariant;  // its name
   double t_s = 0.0;
   std::string words;
@@ -31,7 +31,7 @@ class Invariant {
   [[nodiscard]] std::string_view says() const { return says_; }
   [[nodiscard]] std::uint64_t judged() const { return judged_; }
   [[nodiscard]] std::uint64_t violated() const { return violated_; }
-  [[nodiscard]] const Violation& first() const { return first_; }
+  [[nodiscard]] const Breach& first() const { return first_; }
 
  protected:
   /// `value` is at most `bound`; NaN is not.
@@ -43,7 +43,7 @@ class Invariant {
 
   std::string_view name_, says_;
   std::uint64_t judged_ = 0, violated_ = 0;
-  Violation first_{};
+  Breach first_{};
 };
 
 using Invariants = std::vector<std::unique_ptr<Invariant>>;

@@ -60,7 +60,7 @@ Schedule shrink(const Schedule& schedule, const Fails& fails) { return Shrinker(
 Schedule shrink(const Schedule& schedule, std::string_view invariant) {
   return shrink(schedule, [invariant](const Schedule& candidate) -> std::optional<double> {
     const Trial trial = run_trial(candidate);
-    const auto at = std::ranges::find(trial.violations, invariant, &Violation::invariant);
+    const auto at = std::ranges::find(trial.violations, invariant, &Breach::invariant);
     return at == trial.violations.end() ? std::nullopt : std::optional(at->t_s);
   });
 }

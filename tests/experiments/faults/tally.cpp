@@ -39,7 +39,7 @@ void Tally::add(std::uint64_t seed, const Trial& trial) {
     judged[std::string(j.name)] += j.times;
     violated[std::string(j.name)] += j.violated;
   }
-  for (const Violation& v : trial.violations) failures.push_back({seed, v});
+  for (const Breach& v : trial.violations) failures.push_back({seed, v});
   trajectories = mixed(trajectories, trial.trajectory);
 }
 

@@ -13,7 +13,7 @@ namespace longreach {
 
 struct Failure {
   std::uint64_t seed = 0;
-  Violation violation{};
+  Breach violation{};
 };
 
 struct Tally {

@@ -22,7 +22,7 @@ struct Trial {
   std::vector<std::uint64_t> injected;  // by kind
   std::vector<Judged> judged;           // by invariant
   std::map<std::string, std::uint64_t> guards;
-  std::vector<Violation> violations;  // the first of each invariant
+  std::vector<Breach> violations;  // the first of each invariant
   double virtual_s = 0.0, engaged_s = 0.0;
   std::uint64_t trajectory = 0;  // hash of all setpoints and wrenches
 };
