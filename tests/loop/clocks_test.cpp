@@ -140,8 +140,9 @@ void judge(const Freeze& f, Worst& worst) {
   if (f.slave) lab.freeze_slave(f.seconds);
   if (f.master) lab.freeze_master(f.seconds);
   for (const double end_s = lab.now_s() + f.seconds; lab.now_s() < end_s;) {
+    const std::optional<JointVector> before = lab.setpoint_rad();
     lab.step();
-    if (!f.slave) box.see(lab.setpoint_rad(), lab.arm().true_pose().p);
+    if (!f.slave || lab.setpoint_rad() != before) box.see(lab.setpoint_rad(), lab.arm().true_pose().p);
   }
   const bool long_enough = f.seconds > 1.0 + 0.01;
   bool held = false, engaged_by_itself = false;
