@@ -14,6 +14,7 @@ using std::chrono::seconds;
 
 constexpr Duration kWindow = seconds(2);
 constexpr Duration kSettlingMax = seconds(1);
+constexpr Duration kOvertakenMax = seconds(1);  // by jitter; what is later than that is no news
 constexpr Duration kRateSpanMin = milliseconds(100);  // a shorter span says nothing about a rate
 constexpr std::size_t kCapacity = 16384;              // 3 s at 5 kHz
 
@@ -43,8 +44,9 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
   sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
   if (!first_heard_) first_heard_ = now;
-  // What was overtaken is no news: who lets one datagram through and holds the others back is silent.
-  if (!sample.late) last_heard_ = now;
+  // Who lets one datagram through and holds the others back is silent.
+  newest_sent_ = std::max(newest_sent_.value_or(sent), sent);
+  if (saturating_sub(to_ns(*newest_sent_), to_ns(sent)) <= kOvertakenMax.count()) last_heard_ = now;
 }
 
 LinkFigures DelayMonitor::figures(Time now) const {
@@ -93,6 +95,7 @@ LinkFigures DelayMonitor::figures(Time now) const {
 void DelayMonitor::clear() {
   samples_.clear();
   newest_.fill(0);
+  newest_sent_.reset();
   forgotten_.fill({});
   first_heard_.reset();
   last_heard_.reset();
