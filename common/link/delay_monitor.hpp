@@ -10,7 +10,7 @@
 // earlier (up to 1 s) as the overtaken were late. Does not count what was sent before the first datagram of a
 // session.
 //
-// A datagram that the peer sent more than 1 s before another that came already counts in all figures, but is
+// A datagram that the peer sent more than 0.5 s before another that came already counts in all figures, but is
 // not heard: it tells nothing of the peer's life.
 
 #include <algorithm>

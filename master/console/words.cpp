@@ -151,7 +151,8 @@ std::string_view cause_in_words(HoldCause cause) {
       "nothing new has come from the hand",
       "the force sensor says what no contact could do",
       "the force grows as the robot gives way: sign or frame of the force sensor?",
-      "the force does not fall as the robot gives way"};
+      "the force does not fall as the robot gives way: does something come, is it carried, or stiffer than "
+      "command.guard_stiffness_n_per_m?"};
   return name_of(cause, kNames);
 }
 

@@ -15,6 +15,7 @@ constexpr double kNoise = 8.0;         // likewise, deviations
 constexpr double kRest_s = 0.02;       // on end: the tool rests
 constexpr double kRemembered_s = 0.5;  // of a place
 constexpr double kOwn = 10.0;          // times k_max: what grows faster is not by the way gone
+constexpr double kAgainst = 0.5;       // cosine, of a way against the force
 constexpr double kInnocent_m = 1e-3;   // on a way of this the force did not grow again
 
 double share_of(double dt, double tau_s) { return tau_s > 0.0 ? -std::expm1(-dt / tau_s) : 1.0; }
@@ -80,11 +81,13 @@ void GrowthWatch::look_back(const Vector3& normal) {
     const Vector3 way_m = p_m_ - place.p_m;
     place.deepest_m = std::max(place.deepest_m, -normal.dot(way_m));
     const double grown_n = size_n_ - place.force_n, own_n = grown_n - k * place.deepest_m;
-    const double length_m = way_m.norm();
+    const double length_m = way_m.norm(), along = normal.dot(way_m) / std::max(length_m, kApart_m);
+    if (along < -kAgainst) continue;
     if (own_n <= most_n || length_m < kApart_m || grown_n > kOwn * k * length_m + seen_n) continue;
     most_n = own_n;
     direction_ = way_m / length_m;
     slope_n_per_m_ = grown_n / length_m;
+    may_be_stiff_ = along < kAgainst && slope_n_per_m_ > k;
     seen_m_ = p_m_;
     seen_n_ = size_n_;
     age_s_ = 0.0;

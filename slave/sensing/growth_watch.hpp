@@ -6,7 +6,7 @@
 // for every place p_i of the last half millimetre and half second, to the deepest approach since. What grows
 // by more than that and noise, and not faster than ten times k_max on the way gone, grows along d = p - p_i:
 // the sign or the frame of the sensor is wrong, or the surface comes. What grows while the tool rests is not
-// its own.
+// its own; nor is what grows within 60 degrees of against the force: there it is but a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -38,6 +38,8 @@ class GrowthWatch {
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // since it last did
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
+  /// A surface stiffer than k_max, on which the tool slides, could do that too.
+  [[nodiscard]] bool may_be_stiff() const { return may_be_stiff_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // |F|, smooth
   [[nodiscard]] const Vector3& place_m() const { return p_m_; }
 
@@ -66,6 +68,7 @@ class GrowthWatch {
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
   double slope_n_per_m_ = 0.0;  // of that growth
+  bool may_be_stiff_ = false;   // likewise
 };
 
 }  // namespace longreach

@@ -4,7 +4,7 @@
 // that comes goes on to push, and what a carried body does in motion ends with the motion. After 60 ms, over
 // all of them and over the last 20 ms,
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor
-//   else                                          no relief
+//   else, or where a stiff surface could do it    no relief
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,7 @@ class SignTrial {
     verdict_ = Verdict::kPending;
     direction_ = growth.direction();
     slope_n_per_m_ = growth.slope_n_per_m();
+    may_be_stiff_ = growth.may_be_stiff();
     from_ = {growth.place_m(), growth.size_n()};
   }
   void reset() { *this = {}; }
@@ -35,8 +36,8 @@ class SignTrial {
     if (time_s_ < kTrial_s - kLast_s) last_ = now;
     time_s_ += dt;
     if (time_s_ < kTrial_s) return;
-    verdict_ = as_before(from_, now, noise_n) && as_before(last_, now, noise_n) ? Verdict::kSign
-                                                                                : Verdict::kNoRelief;
+    const bool as_grown = as_before(from_, now, noise_n) && as_before(last_, now, noise_n);
+    verdict_ = as_grown && !may_be_stiff_ ? Verdict::kSign : Verdict::kNoRelief;
   }
   [[nodiscard]] Verdict verdict() const { return verdict_; }
 
@@ -58,6 +59,7 @@ class SignTrial {
   }
 
   Verdict verdict_ = Verdict::kNone;
+  bool may_be_stiff_ = false;
   double time_s_ = 0.0, slope_n_per_m_ = 0.0;
   Vector3 direction_ = Vector3::Zero();
   Point from_{}, last_{};
