@@ -15,8 +15,8 @@ using std::chrono::seconds;
 constexpr Duration kWindow = seconds(2);
 constexpr Duration kSettlingMax = seconds(1);
 constexpr Duration kOvertakenMax = milliseconds(500);  // by jitter; what is later than that is no news
-constexpr Duration kRateSpanMin = milliseconds(100);  // a shorter span says nothing about a rate
-constexpr std::size_t kCapacity = 16384;              // 3 s at 5 kHz
+constexpr Duration kRateSpanMin = milliseconds(100);   // a shorter span says nothing about a rate
+constexpr std::size_t kCapacity = 16384;               // 3 s at 5 kHz
 
 }  // namespace
 

@@ -10,8 +10,8 @@
 // earlier (up to 1 s) as the overtaken were late. Does not count what was sent before the first datagram of a
 // session.
 //
-// A datagram that the peer sent more than 0.5 s before another that came already counts in all figures, but is
-// not heard: it tells nothing of the peer's life.
+// A datagram that the peer sent more than 0.5 s before another that came already counts in all figures, but
+// is not heard: it tells nothing of the peer's life.
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,7 @@ class DelayMonitor {
   Ring<Sample> samples_;
   mutable std::vector<std::int64_t> scratch_;
   std::array<std::uint64_t, kDatagramTypes> newest_{};  // highest sequence of each type
-  std::optional<PeerTime> newest_sent_{};                // of all types
+  std::optional<PeerTime> newest_sent_{};               // of all types
   std::array<Mark, kDatagramTypes>
       forgotten_{};  // of the samples that left the ring, the one with the highest sequence
   std::optional<Time> first_heard_{};
