@@ -348,8 +348,9 @@ void SlaveNode::State::doubt(double dt) {
   if (!holds && now != SafetyState::kEngaged) return;
   const double bound_n = holds ? hold_limit_n(limits) : kNear * limits.force_guard_n;
   const bool lately = !growth.direction().isZero(0.0) && growth.age_s() < (holds ? kHeldS : kLatelyS);
-  if (lately && contact.force().force_n > bound_n) trial.begin(growth);
-  trial.step(growth, noise_n, dt);
+  const bool could_be_stiff = growth.across() && growth.slope_n_per_m() > limits.guard_stiffness_n_per_m;
+  if (lately && !could_be_stiff && contact.force().force_n > bound_n) trial.begin(growth);
+  trial.step(growth, contact.force().reaction, growth.bounds(), dt);
 }
 
 // What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its
@@ -362,6 +363,7 @@ ContactForce SlaveNode::State::pressed() const {
   force.grows = growth.direction();
   force.grows_lead_m = force.grows.dot(lead_m);
   force.trusted = trial.verdict() == SignTrial::Verdict::kNone;
+  force.ease_m_per_s = trial.ease_m_per_s();
   return force;
 }
 

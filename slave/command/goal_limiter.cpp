@@ -80,7 +80,8 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
 // True: the tool would give way, but the force has not answered.
 bool GoalLimiter::brake(const ContactForce& contact, double dt) {
   const double wanted = hold_off(contact);
-  const Vector3 back = std::min(wanted, give_way_max(contact)) * contact.reaction;
+  const Vector3 back =
+      std::max(std::min(wanted, give_way_max(contact)), contact.ease_m_per_s) * contact.reaction;
   V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * dt);
   V_WE_.angular -= clamp_norm(V_WE_.angular, config_.acceleration_max_rad_per_s2 * dt);
   X_WE_.p += V_WE_.linear * dt;

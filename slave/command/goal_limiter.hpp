@@ -31,6 +31,7 @@ struct ContactForce {
   Vector3 grows = Vector3::Zero();     // unit, in which the force grows though it should not; zero: none
   double grows_lead_m = 0.0;           // of the setpoint in that direction
   bool trusted = true;                 // false: the tool gives way to nothing
+  double ease_m_per_s = 0.0;           // but without a goal so fast, to see whether the force answers
 };
 
 struct LimiterInput {

@@ -87,7 +87,7 @@ void GrowthWatch::look_back(const Vector3& normal) {
     most_n = own_n;
     direction_ = way_m / length_m;
     slope_n_per_m_ = grown_n / length_m;
-    may_be_stiff_ = along < kAgainst && slope_n_per_m_ > k;
+    across_ = along < kAgainst;
     seen_m_ = p_m_;
     seen_n_ = size_n_;
     age_s_ = 0.0;

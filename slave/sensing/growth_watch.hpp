@@ -30,6 +30,7 @@ class GrowthWatch {
  public:
   explicit GrowthWatch(const GrowthBounds& bounds) : bounds_(bounds), places_(kPlaces) {}
   void configure(const GrowthBounds& bounds) { bounds_ = bounds; }
+  [[nodiscard]] const GrowthBounds& bounds() const { return bounds_; }
   void reset();
   void step(const GrowthSample& sample);
 
@@ -38,8 +39,8 @@ class GrowthWatch {
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // since it last did
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
-  /// A surface stiffer than k_max, on which the tool slides, could do that too.
-  [[nodiscard]] bool may_be_stiff() const { return may_be_stiff_; }
+  /// It grows across the force: a surface stiffer than k_max, on which the tool slides, could do that too.
+  [[nodiscard]] bool across() const { return across_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // |F|, smooth
   [[nodiscard]] const Vector3& place_m() const { return p_m_; }
 
@@ -68,7 +69,7 @@ class GrowthWatch {
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
   double slope_n_per_m_ = 0.0;  // of that growth
-  bool may_be_stiff_ = false;   // likewise
+  bool across_ = false;         // likewise
 };
 
 }  // namespace longreach

@@ -4,7 +4,10 @@
 // that comes goes on to push, and what a carried body does in motion ends with the motion. After 60 ms, over
 // all of them and over the last 20 ms,
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor
-//   else, or where a stiff surface could do it    no relief
+//   else                                          no relief
+// What grew across the force could be a surface stiffer than k_max, too, on which the tool slides. If it does
+// not go on to grow, it is. Else the tool gives way along the force by 0.1 mm: from such a surface the force
+// falls by more than k_max does on half of that way.
 
 #include <algorithm>
 #include <cmath>
@@ -18,28 +21,32 @@ class SignTrial {
  public:
   enum class Verdict : std::uint8_t { kNone, kPending, kSign, kNoRelief };
 
-  /// Unless it has begun. While it is pending the robot must brake.
+  /// Unless it has begun. While it is pending the robot must brake, but for ease_m_per_s().
   void begin(const GrowthWatch& growth) {
     if (verdict_ != Verdict::kNone) return;
     verdict_ = Verdict::kPending;
     direction_ = growth.direction();
     slope_n_per_m_ = growth.slope_n_per_m();
-    may_be_stiff_ = growth.may_be_stiff();
+    across_ = growth.across();
     from_ = {growth.place_m(), growth.size_n()};
   }
   void reset() { *this = {}; }
 
-  /// `noise_n` of the sensor; dt in s.
-  void step(const GrowthWatch& growth, double noise_n, double dt) {
+  /// `reaction`: unit, of the force on the tool; `bounds` those of `growth`; dt in s.
+  void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt) {
     if (verdict_ != Verdict::kPending) return;
     const Point now{growth.place_m(), growth.size_n()};
     if (time_s_ < kTrial_s - kLast_s) last_ = now;
     time_s_ += dt;
-    if (time_s_ < kTrial_s) return;
-    const bool as_grown = as_before(from_, now, noise_n) && as_before(last_, now, noise_n);
-    verdict_ = as_grown && !may_be_stiff_ ? Verdict::kSign : Verdict::kNoRelief;
+    if (easing_) {
+      see_answer(now, bounds);
+    } else if (time_s_ >= kTrial_s) {
+      see_rest(now, reaction, bounds);
+    }
   }
   [[nodiscard]] Verdict verdict() const { return verdict_; }
+  /// Speed along the force that the tool shall give way with.
+  [[nodiscard]] double ease_m_per_s() const { return pending() && easing_ ? kEase_m_per_s : 0.0; }
 
  private:
   static constexpr double kTrial_s = 0.06;
@@ -47,21 +54,49 @@ class SignTrial {
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
+  static constexpr double kEase_m = 1e-4;
+  static constexpr double kEase_m_per_s = 2e-3;
+  static constexpr double kEaseMax_s = 0.5;
+  static constexpr double kAnswer = 0.5;  // of k_max
 
   struct Point {
     Vector3 p_m = Vector3::Zero();
     double force_n = 0.0;
   };
+  [[nodiscard]] bool pending() const { return verdict_ == Verdict::kPending; }
   [[nodiscard]] bool as_before(const Point& then, const Point& now, double noise_n) const {
     const double expected_n = slope_n_per_m_ * direction_.dot(now.p_m - then.p_m);
     const double may_n = std::max(kChange_n, kNoise * noise_n) + kShare * std::abs(expected_n);
     return std::abs(now.force_n - then.force_n - expected_n) <= may_n;
   }
+  void see_rest(const Point& now, const Vector3& reaction, const GrowthBounds& bounds) {
+    const bool as_grown = as_before(from_, now, bounds.noise_n) && as_before(last_, now, bounds.noise_n);
+    if (!across_) {
+      verdict_ = as_grown ? Verdict::kSign : Verdict::kNoRelief;
+    } else if (!as_grown) {
+      reset();
+    } else {
+      easing_ = true;
+      direction_ = reaction;
+      from_ = now;
+    }
+  }
+  void see_answer(const Point& now, const GrowthBounds& bounds) {
+    const double fell_n = from_.force_n - now.force_n;
+    const double answer_n = std::max(kAnswer * bounds.stiffness_n_per_m * kEase_m, kNoise * bounds.noise_n);
+    if (fell_n >= answer_n) {
+      reset();
+    } else if (direction_.dot(now.p_m - from_.p_m) >= kEase_m) {
+      verdict_ = Verdict::kSign;
+    } else if (time_s_ > kTrial_s + kEaseMax_s) {
+      verdict_ = Verdict::kNoRelief;
+    }
+  }
 
   Verdict verdict_ = Verdict::kNone;
-  bool may_be_stiff_ = false;
+  bool across_ = false, easing_ = false;
   double time_s_ = 0.0, slope_n_per_m_ = 0.0;
-  Vector3 direction_ = Vector3::Zero();
+  Vector3 direction_ = Vector3::Zero();  // of the growth; then of giving way
   Point from_{}, last_{};
 };
 

@@ -116,6 +116,18 @@ TEST(Touch, IsTheSameWithASensorThatCarriesAToolAndHasABias) {
   EXPECT_EQ(v.at("false_holds"), 0.0);
 }
 
+/// Stiffer than command.guard_stiffness_n_per_m, and the hand slides on it a little.
+TEST(Touch, AWallOfSteelIsNotTakenForAWrongSensor) {
+  for (const char* wall : {"5e4", "1e5", "1e6"}) {
+    for (std::uint64_t seed = 1; seed <= (full_size() ? 30U : 5U); ++seed) {
+      const Values v =
+          touch({"estimator.exponent=1", std::string("scene.material.wall.stiffness_n_per_m=") + wall}, seed);
+      EXPECT_GT(v.at("probing_cycles_done"), 0.0) << wall << " N/m, seed " << seed;
+      EXPECT_EQ(v.at("false_holds"), 0.0) << wall << " N/m, seed " << seed;
+    }
+  }
+}
+
 TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   const Values v =
       touch({"profile=moon-relay", "scene.material.wall.stiffness_n_per_m=5000", "rendering.law=NAIVE"}, 1);
