@@ -350,7 +350,9 @@ void SlaveNode::State::doubt(double dt) {
   const bool lately = !growth.direction().isZero(0.0) && growth.age_s() < (holds ? kHeldS : kLatelyS);
   const bool could_be_stiff = growth.across() && growth.slope_n_per_m() > limits.guard_stiffness_n_per_m;
   if (lately && !could_be_stiff && contact.force().force_n > bound_n) trial.begin(growth);
+  const bool doubted = trial.verdict() != SignTrial::Verdict::kNone;
   trial.step(growth, contact.force().reaction, growth.bounds(), dt);
+  if (doubted && trial.verdict() == SignTrial::Verdict::kNone) growth.reset();
 }
 
 // What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its

@@ -58,7 +58,7 @@ bool DockingOperator::looked(const DockingOperatorInput& in) {
 // Rate mode: a deflection towards the target, none when the ghost is there.
 bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
   choose(in, MotionMode::kRate);
-  const Vector3 error = target_m - in.master->goal_m;
+  const Vector3 error = target_m - in.ghost_m;
   const double distance = error.norm();
   hand_m_ = centre_m_;
   if (distance < 0.006) return true;
@@ -72,7 +72,7 @@ bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& targe
 // Position mode: the hand goes on until the ghost is there, and relocates at the end of its room.
 bool DockingOperator::carry(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
   choose(in, MotionMode::kPosition);
-  const Vector3 error = target_m - in.master->goal_m;
+  const Vector3 error = target_m - in.ghost_m;
   if (relocating_s_ || (hand_m_.norm() > kRoom_m && error.norm() > 0.004)) {
     if (!relocating_s_) relocate_to_ = -0.9 * kRoom_m * error.normalized();
     relocate(in, *relocate_to_);
@@ -102,7 +102,7 @@ bool DockingOperator::relocate(const DockingOperatorInput& in, const Vector3& to
 
 void DockingOperator::turn(const DockingOperatorInput& in, const Vector3& target_rad) {
   if (relocating_s_) return;
-  const Vector3 error = target_rad - in.master->goal_rad;
+  const Vector3 error = target_rad - in.ghost_rad;
   hand_rad_ += in.dt_s / in.master->scale * clamp_norm(error / 1.0, 0.03);
   hand_rad_ = clamp_norm(hand_rad_, 0.6);
 }
@@ -111,9 +111,27 @@ Vector3 DockingOperator::striker_from_tool(const DockingOperatorInput& in) const
   return in.picture.striker_m - in.picture.tool.p;
 }
 
+// A hold is looked at, then he engages again where the robot is.
+bool DockingOperator::held(const DockingOperatorInput& in) {
+  if (phase_ == DockingPhase::kWait) return false;
+  if (in.master->state == SafetyState::kEngaged) {
+    if (held_s_) hand_m_ = centre_m_ = in.master->p_MH;
+    held_s_.reset();
+    return false;
+  }
+  relocating_s_.reset();
+  hand_m_ = in.master->p_MH;
+  if (!held_s_) held_s_ = in.t_s;
+  if (in.t_s - *held_s_ > in.rtt_s + reaction_s_ + 1.0) {
+    out_.requests.engage = true;
+    held_s_ = in.t_s;
+  }
+  return true;
+}
+
 DockingOperatorOutput DockingOperator::step(const DockingOperatorInput& in) {
   out_ = {};
-  act(in);
+  if (!held(in)) act(in);
   out_.requests.load = closed_;
   out_.target.position_m = hand_m_;
   out_.target.rotation_rad = hand_rad_;
@@ -195,7 +213,7 @@ void DockingOperator::align(const DockingOperatorInput& in) {
     ++rounds_;
   }
   turn(in, aim_rad_);
-  const bool there = carry(in, aim_m_, kFine_m_per_s) && (aim_rad_ - in.master->goal_rad).norm() < 0.003;
+  const bool there = carry(in, aim_m_, kFine_m_per_s) && (aim_rad_ - in.ghost_rad).norm() < 0.003;
   if (!there || !looked(in)) return;
   look_s_.reset();
   if (++rounds_ >= 4) enter(DockingPhase::kInsert, in);
@@ -258,7 +276,7 @@ void DockingOperator::release(const DockingOperatorInput& in) {
 
 void DockingOperator::retreat(const DockingOperatorInput& in) {
   if (rounds_ == 0) {
-    aim_m_ = in.master->goal_m - 0.08 * Vector3::UnitX();
+    aim_m_ = in.ghost_m - 0.08 * Vector3::UnitX();
     ++rounds_;
   }
   if (carry(in, aim_m_, kFine_m_per_s) && looked(in)) enter(DockingPhase::kDone, in);

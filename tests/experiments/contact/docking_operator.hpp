@@ -58,6 +58,8 @@ struct DockingOperatorInput {
   double dt_s = 0.001;
   const MasterView* master = nullptr;
   DockingPicture picture{};
+  Vector3 ghost_m = Vector3::Zero();  // the goal, from where the tool started
+  Vector3 ghost_rad = Vector3::Zero();
   double rtt_s = 0.0;
 };
 
@@ -80,6 +82,7 @@ class DockingOperator {
 
  private:
   void enter(DockingPhase phase, const DockingOperatorInput& in);
+  bool held(const DockingOperatorInput& in);
   void act(const DockingOperatorInput& in);
   void approach(const DockingOperatorInput& in);
   void reach(const DockingOperatorInput& in);
@@ -109,7 +112,7 @@ class DockingOperator {
   double reaction_s_;
   DockingPhase phase_ = DockingPhase::kWait;
   double entered_s_ = 0.0;
-  std::optional<double> there_s_{}, look_s_{}, relocating_s_{};
+  std::optional<double> there_s_{}, look_s_{}, relocating_s_{}, held_s_{};
   std::optional<Vector3> relocate_to_{};
   MotionMode mode_ = MotionMode::kPosition;
   bool closed_ = false;

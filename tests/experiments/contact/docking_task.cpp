@@ -76,6 +76,8 @@ class Task {
                                                        .dt_s = lab_.period_s(),
                                                        .master = &lab_.master(),
                                                        .picture = pictures_.front().second,
+                                                       .ghost_m = ghost().p,
+                                                       .ghost_rad = log_rotation(ghost().q),
                                                        .rtt_s = lab_.link().rtt_s.value_or(0.0)});
       lab_.drive(hand.target);
       lab_.requests() = hand.requests;
@@ -98,6 +100,14 @@ class Task {
     const Pose moved = bodies().displaced(0);
     const Vector3 centre = bodies().body(0).X_start.p;
     return centre + moved.p + moved.q * (kMiddle + p - centre);
+  }
+
+  /// The goal, from where the tool started.
+  [[nodiscard]] Pose ghost() const {
+    const MasterView& m = lab_.master();
+    if (lab_.slave().engagement == 0) return {m.goal_m, exp_rotation(m.goal_rad)};
+    const Pose &anchor = lab_.slave().X_WE_anchor, &start = lab_.arm().start_pose();
+    return {anchor.p - start.p + m.goal_m, exp_rotation(m.goal_rad) * anchor.q * start.q.conjugate()};
   }
 
   void show() {
