@@ -136,6 +136,7 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"rejected_values", static_cast<double>(m.rejected_values + s.rejected_values), ""},
           {"false_holds", static_cast<double>(m.false_holds + s.false_holds), ""},
           {"limit_violations", static_cast<double>(s.limit_violations), ""},
+          {"sensor_faulted", s.cause == HoldCause::kSensorFault ? 1.0 : 0.0, ""},
           {"haptic_return_datagrams_per_s",
            static_cast<double>(w.return_after.datagrams - w.return_before.datagrams) / probed_s, "1/s"},
           {"haptic_return_bit_per_s",

@@ -75,6 +75,8 @@ ExtremeCell wall(const std::string& n, const std::string& k) {
         const double force_n = figures["tool_force_peak_n"], rendered = figures["rendered_stiffness_n_per_m"];
         if (force_n < kTouch_n)
           return refused(format_number(force_n) + " N are below sensing.touch_n: not felt");
+        if (figures["sensor_faulted"] > 0.0)
+          return refused("the force leaps as no surface lets it: taken for a fault of the sensor");
         if (figures["probing_cycles_done"] < 1.0) return bad("the wall was not probed");
         // A wall that is stiffer than the device can render feels as stiff as what is rendered.
         const bool limited = rendered >= kDevice_n_per_m && figures["reference_stiffness_n_per_m"] > rendered;
