@@ -12,14 +12,7 @@ inline bool awaited(std::string_view name) {
   static const std::vector<std::string_view> kAwaited = {
       // 1.00 to 1.07 mJ come out of the handle where 1 mJ may: in rate mode with no fault at all, at a hand
       // that lets go in a wall, and where positions of the handle lie.
-      "I23",
-      // I21, I6, L2: a robot that somebody has pressed into the wall is engaged there with the force it has.
-      "robot-moved",
-      // L3: a robot that has crept away does not come back to its goal.
-      "robot-creeps",
-      // I8: what is left of a braking way is set after the robot's own watchdog has stopped it, 2.02 mrad of
-      // 2.
-      "slave-frozen"};
+      "I23"};
   return std::ranges::find(kAwaited, name) != kAwaited.end();
 }
 

@@ -21,12 +21,25 @@ class Guarded : public Invariant {
       : Invariant("I21", "the force is at most 1.35 times the guard"),
         bound_n_(kGuardOvershoot * s.slave.command.force_guard_n) {}
   void see(const Moment& m) override {
-    if (as_reckoned(m) && !m.F_E_W.force.isZero())
-      at_most(m, m.F_E_W.force.norm(), bound_n_, "N at the tool");
+    const double force_n = m.F_E_W.force.norm();
+    const bool engaged = m.claimed == SafetyState::kEngaged;
+    if (!as_reckoned(m)) {
+      pressed_n_ = force_n;
+      engaged_s_ = 0.0;
+      return;
+    }
+    if (force_n <= bound_n_) pressed_n_ = 0.0;
+    if (engaged) engaged_s_ += m.period_s;
+    const double most_n = pressed_n_ > 0.0 && engaged_s_ < kRelief_s ? kRise * pressed_n_ : bound_n_;
+    if (force_n > 0.0) at_most(m, force_n, most_n, "N at the tool");
   }
 
  private:
+  static constexpr double kRelief_s = 3.0, kRise = 1.05;
+
   double bound_n_;
+  // Somebody has pressed the robot in: it may stay so till it is engaged, and is then relieved.
+  double pressed_n_ = 0.0, engaged_s_ = 0.0;
 };
 
 /// A second and a half after the last right to move what presses has come down to the hold limit.

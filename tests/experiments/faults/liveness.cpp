@@ -37,8 +37,16 @@ class Hears : public Invariant {
 class Engages : public Invariant {
  public:
   explicit Engages(const Scenario& s)
-      : Invariant("L2", "an engagement that is asked for comes about"), round_trip_s_(s.round_trip_s) {}
+      : Invariant("L2", "an engagement that is asked for comes about"),
+        round_trip_s_(s.round_trip_s),
+        centre_m_(start_pose(s).p),
+        workspace_m_(s.slave.command.workspace_m) {}
   void see(const Moment& m) override {
+    // Somebody may have carried the tool out of its workspace: an engagement waits till it is back.
+    if ((m.X_WE.p - centre_m_).norm() > workspace_m_) {
+      asked_s_ = 0.0;
+      return;
+    }
     const bool calm = calm_.since(m) > kSettles_s + round_trip_s_;
     if (m.shown == SafetyState::kEngaged) {
       if (asked_s_ > 0.0) at_most(m, m.t_s - asked_s_, bound_s(), "s from asking to being engaged");
@@ -54,6 +62,8 @@ class Engages : public Invariant {
   [[nodiscard]] double bound_s() const { return round_trip_s_ + 0.5 + 0.005; }
   Calm calm_;
   double round_trip_s_;
+  Vector3 centre_m_;
+  double workspace_m_;
   double asked_s_ = 0.0;
 };
 

@@ -17,19 +17,24 @@ constexpr double kRelief_m = 0.02;  // without the answer that a contact gives
 constexpr double kAnswer_n_per_m = 100.0;
 constexpr double kRecovers_s = 2.0;
 
-/// Seconds since there was the right to move; 0 while there is.
+/// Seconds since there was the right to move; 0 while there is. A slave that was frozen goes after that what
+/// was left of its braking way.
 class RightClock {
  public:
   explicit RightClock(const Scenario& s) : gap_s_(gap_s(s.slave.safety, sent_hz(s.master.link))) {}
   double since(const Moment& m) {
     const Right& right = m.ghost->right();
-    if (right.engaged && m.t_s - right.heard_s <= gap_s_) last_s_ = m.t_s;
+    const bool thawed = m.slave_ran && m.slave_gap_s > gap_s_ && !stood_;
+    if (thawed || (right.engaged && m.t_s - right.heard_s <= gap_s_)) last_s_ = m.t_s;
+    if (m.slave_ran) stood_ = (m.setpoint_rad - setpoint_rad_).isZero(0.0), setpoint_rad_ = m.setpoint_rad;
     return m.t_s - last_s_;
   }
 
  private:
   double gap_s_;
   double last_s_ = 0.0;
+  JointVector setpoint_rad_ = JointVector::Zero();
+  bool stood_ = false;  // in the slave's tick before
 };
 
 /// Until the robot stands: it brakes, its setpoint lags by its jerk, its joints by their servos.

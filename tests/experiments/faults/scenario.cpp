@@ -7,6 +7,7 @@
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
 #include "common/core/random.hpp"
+#include "slave/robot/kinematics.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/faults/kind.hpp"
 
@@ -90,6 +91,13 @@ Scenario draw_scenario(std::uint64_t seed) {
   scenario.round_trip_s = down.delay_s + up.delay_s + 2.0 * (down.jitter_s + up.jitter_s);
   scenario.metamorphic = down.jitter_s + up.jitter_s + down.loss + up.loss + down.reorder + up.reorder == 0.0;
   return scenario;
+}
+
+Pose start_pose(const Scenario& scenario) {
+  JointVector start;
+  for (int i = 0; i < kMaxJoints; ++i)
+    start[i] = scenario.slave.robot.joint[static_cast<std::size_t>(i)].start_rad;
+  return Kinematics(scenario.slave.robot).forward(start);
 }
 
 }  // namespace longreach

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/spatial/spatial.hpp"
 #include "master/master_config.hpp"
 #include "proto/config.pb.h"
 #include "slave/slave_config.hpp"
@@ -21,5 +22,8 @@ struct Scenario {
 };
 
 Scenario draw_scenario(std::uint64_t seed);
+
+/// Of the tool, in W, where the robot starts.
+Pose start_pose(const Scenario& scenario);
 
 }  // namespace longreach

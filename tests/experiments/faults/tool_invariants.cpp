@@ -44,13 +44,10 @@ class ToolSpeed : public Invariant {
 
 class Workspace : public Invariant {
  public:
-  explicit Workspace(const Scenario& s) : Invariant("I7", "the tool stays in its workspace") {
-    JointVector start;
-    for (int i = 0; i < kMaxJoints; ++i)
-      start[i] = s.slave.robot.joint[static_cast<std::size_t>(i)].start_rad;
-    centre_m_ = Kinematics(s.slave.robot).forward(start).p;
-    bound_m_ = s.slave.command.workspace_m + 1e-3;
-  }
+  explicit Workspace(const Scenario& s)
+      : Invariant("I7", "the tool stays in its workspace"),
+        centre_m_(start_pose(s).p),
+        bound_m_(s.slave.command.workspace_m + 1e-3) {}
   void see(const Moment& m) override {
     if (m.since(Spoils::kRobot) < kRecovers_s) outside_ = true;  // others may have carried it off
     const double off_m = (m.X_WE.p - centre_m_).norm();
@@ -59,8 +56,8 @@ class Workspace : public Invariant {
   }
 
  private:
-  Vector3 centre_m_ = Vector3::Zero();
-  double bound_m_ = 0.0;
+  Vector3 centre_m_;
+  double bound_m_;
   bool outside_ = false;
 };
 
