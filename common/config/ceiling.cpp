@@ -14,12 +14,11 @@ using google::protobuf::Message;
 
 proto::Remote remote(const FieldDescriptor& field) { return field.options().GetExtension(proto::remote); }
 
-// What has no order is no number: nothing is tighter.
+// Of a limit; the schema has none that is neither a number nor one of a list in order (a test looks).
 double number(const Message& message, const FieldDescriptor* field) {
   const auto* reflection = message.GetReflection();
-  if (field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) return reflection->GetDouble(message, field);
   return field->cpp_type() == FieldDescriptor::CPPTYPE_ENUM ? reflection->GetEnumValue(message, field)
-                                                            : std::numeric_limits<double>::quiet_NaN();
+                                                            : reflection->GetDouble(message, field);
 }
 
 // The limit that a number stands for; `zero` where 0 is found by the program.

@@ -28,7 +28,7 @@ class DelayWatch {
   [[nodiscard]] std::optional<double> median_s() const { return median_s_; }  // of the last half second
   [[nodiscard]] std::optional<double> least_s() const { return least_s_; }    // since the engagement
   [[nodiscard]] bool rose(double bound_s) const {
-    return median_s_ && least_s_ && *median_s_ - *least_s_ > bound_s;
+    return median_s_ && *median_s_ - *least_s_ > bound_s;  // none without the other
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "common/config/config.hpp"
@@ -250,6 +251,16 @@ TEST(Ceiling, LeavesNothingElseToClientsThanThis) {
   }
   EXPECT_EQ(free_fields<proto::SlaveConfig>(), slave);
   EXPECT_EQ(free_fields<proto::MasterConfig>(), master);
+}
+
+TEST(Ceiling, WhatIsLeftToClientsGoesEitherWay) {
+  const proto::MasterConfig start;
+  for (const auto& [path, one, other] :
+       {std::array{"operator.direction", "0,1,0", "1,0,0"}, std::array{"mapping.scale", "0.1", "1"},
+        std::array{"mapping.mode", "RATE", "POSITION"}, std::array{"link.impairment.delay_s", "0", "5"}}) {
+    EXPECT_EQ(beyond_ceiling(start, with(start, path, one)), std::nullopt) << path;
+    EXPECT_EQ(beyond_ceiling(with(start, path, one), with(start, path, other)), std::nullopt) << path;
+  }
 }
 
 TEST(Ceiling, LimitsAreNumbersInOrder) {

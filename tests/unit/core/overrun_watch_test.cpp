@@ -65,5 +65,21 @@ TEST(OverrunWatch, OneStallIsNoOverrunHoweverLong) {
   EXPECT_FALSE(loop.watch.overrun());
 }
 
+TEST(OverrunWatch, MoreThanItRemembersWithinASecondIsForgottenAsWell) {
+  Loop loop;
+  for (int i = 0; i < 5000; ++i) loop.tick(1, Duration{0});
+  EXPECT_TRUE(loop.watch.overrun());
+  loop.tick(0, std::chrono::seconds(1));
+  EXPECT_FALSE(loop.watch.overrun());
+}
+
+TEST(OverrunWatch, ACountThatBeginsAnewIsNoLateTick) {
+  Loop loop;
+  for (int i = 0; i < 400; ++i) loop.tick(1);
+  loop.overdue = 0;
+  for (int i = 0; i < 50; ++i) loop.tick(1);
+  EXPECT_FALSE(loop.watch.overrun());
+}
+
 }  // namespace
 }  // namespace longreach

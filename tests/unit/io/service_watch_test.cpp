@@ -60,11 +60,53 @@ TEST(ServiceWatch, TellsThatItIsReadyAndLivesOnlyWhileTheLoopTicks) {
   }
   watch.look(2);
   EXPECT_EQ(systemd.heard(), "WATCHDOG=1");
+  watch.look(3);
+  EXPECT_EQ(systemd.heard(), "") << "not more often than is asked for";
+}
+
+TEST(ServiceWatch, WithoutAPeriodItTellsThatItIsReadyOnly) {
+  for (const char* us : {"", "0", "-5", "soon"}) {
+    const TemporaryFolder folder;
+    const Supervisor systemd(folder.path() / "notify");
+    *us == '\0' ? ::unsetenv("WATCHDOG_USEC") : ::setenv("WATCHDOG_USEC", us, 1);
+    ServiceWatch watch;
+    watch.look(1);
+    watch.look(2);
+    EXPECT_EQ(systemd.heard(), "READY=1") << us;
+    EXPECT_EQ(systemd.heard(), "") << us;
+  }
+}
+
+TEST(ServiceWatch, AnAbstractNameIsOneToo) {
+  const std::string name = "longreach-notify-" + std::to_string(::getpid());
+  const int heard = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  name.copy(address.sun_path + 1, sizeof address.sun_path - 1);
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  ASSERT_EQ(::bind(heard, reinterpret_cast<const sockaddr*>(&address), size), 0);
+  ::setenv("NOTIFY_SOCKET", ("@" + name).c_str(), 1);
+  ServiceWatch watch;
+  ::unsetenv("NOTIFY_SOCKET");
+  watch.look(1);
+  std::array<char, 64> bytes{};
+  EXPECT_EQ(::recv(heard, bytes.data(), bytes.size(), 0), 7);
+  EXPECT_EQ(std::string(bytes.data()), "READY=1");
+  ::close(heard);
 }
 
 TEST(ServiceWatch, SaysNothingToNobody) {
-  ServiceWatch watch;
-  watch.look(1);
+  ServiceWatch nobody;
+  nobody.look(1);
+  // Neither a path nor an abstract name; and one that no address holds.
+  const TemporaryFolder folder;
+  const Supervisor systemd(folder.path() / "notify");
+  for (const std::string& name : {std::string("notify"), std::string(), "/" + std::string(500, 'x')}) {
+    ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
+    ServiceWatch watch;
+    watch.look(1);
+    EXPECT_EQ(systemd.heard(), "") << name;
+  }
 }
 
 TEST(Mailbox, KeepsNothingOfACommandThatWasAnswered) {

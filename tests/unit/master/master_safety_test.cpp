@@ -160,6 +160,89 @@ TEST(MasterSafety, FaultsWithTheDevice) {
   EXPECT_EQ(d.safety.state(), SafetyState::kFault) << "latched";
 }
 
+TEST(MasterSafety, AFaultOfTheSlaveHasTheCauseThatItNamesElseItIsTheRobots) {
+  for (const HoldCause told : {HoldCause::kNone, HoldCause::kSensorFault}) {
+    Driver d;
+    d.engage();
+    d.slave_says(SafetyState::kFault, told);
+    d.tick(1.1);
+    EXPECT_EQ(d.safety.state(), SafetyState::kHolding);
+    EXPECT_EQ(d.safety.cause(), told == HoldCause::kNone ? HoldCause::kRobotFault : told);
+  }
+}
+
+TEST(MasterSafety, AHoldBeforeTheFirstAnswerIsNoFalseHold) {
+  Driver d({.silence_s = 0.5, .resume_s = 1.0});
+  d.hear(0.0);
+  d.in.engage = true;
+  d.tick(0.0);
+  d.tick(0.6);
+  ASSERT_EQ(d.safety.state(), SafetyState::kHolding);
+  d.hear(0.7);
+  d.slave_says(SafetyState::kEngaged);
+  EXPECT_TRUE(d.tick(0.7)) << "it begins now";
+  EXPECT_EQ(d.safety.false_holds(), 0U);
+}
+
+TEST(MasterSafety, SaysWhenTheAnswerCanBeHere) {
+  Driver d;
+  d.hear(0.0);
+  d.tick(0.0);
+  d.in.rtt_s = 2.5;
+  EXPECT_FALSE(d.safety.answer_in_s(d.in)) << "nobody has asked";
+  d.in.engage = true;
+  d.tick(0.1);
+  d.hear(1.0);
+  d.tick(1.1);
+  EXPECT_NEAR(d.safety.answer_in_s(d.in).value_or(-1.0), 1.5, 1e-9);
+  d.hear(3.0);
+  d.tick(3.1);
+  EXPECT_EQ(d.safety.answer_in_s(d.in), 0.0) << "it is late";
+  d.in.rtt_s.reset();
+  EXPECT_FALSE(d.safety.answer_in_s(d.in));
+  d.in.rtt_s = 2.5;
+  d.slave_says(SafetyState::kEngaged);
+  d.tick(3.2);
+  EXPECT_FALSE(d.safety.answer_in_s(d.in)) << "it is here";
+}
+
+TEST(MasterSafety, ByItselfItEngagesNeitherWithoutAHandNorAfterTheOperatorHasSpoken) {
+  Driver d({.engage_at_start = true, .presence = Presence::kHold});
+  d.in.held = false;
+  d.hear(0.0);
+  d.tick(0.0);
+  EXPECT_EQ(d.safety.engagement(), 0U);
+  d.in.held = true;
+  d.tick(0.1);
+  EXPECT_EQ(d.safety.engagement(), 1U);
+  d.tick(0.2);
+  EXPECT_EQ(d.safety.engagement(), 1U) << "once";
+  Driver held({.engage_at_start = true});
+  held.in.hold = true;
+  held.tick(0.0);
+  held.hear(0.1);
+  held.tick(0.1);
+  held.tick(0.2);
+  EXPECT_EQ(held.safety.engagement(), 0U);
+}
+
+TEST(MasterSafety, ARobotThatIsTakenInASilenceExplainsIt) {
+  Driver d({.silence_s = 0.5, .resume_s = 1.0});
+  d.engage();
+  d.tick(1.6);
+  ASSERT_EQ(d.safety.cause(), HoldCause::kLinkSilent);
+  d.in.taken = true;
+  d.tick(1.7);
+  EXPECT_EQ(d.safety.cause(), HoldCause::kTaken);
+  Driver other({.silence_s = 0.5, .resume_s = 1.0});
+  other.engage();
+  other.in.hold = true;
+  other.tick(1.1);
+  other.in.taken = true;
+  other.tick(1.2);
+  EXPECT_EQ(other.safety.cause(), HoldCause::kOperator) << "the first cause stays";
+}
+
 TEST(MasterSafety, EngagesByItselfOnceWhenConfigured) {
   Driver d({.engage_at_start = true});
   d.hear(0.0);

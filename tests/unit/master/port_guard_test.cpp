@@ -70,6 +70,37 @@ TEST(PortGuard, RampsToZeroWhenNothingIsEngagedButForWhatIsAlwaysThere) {
   }
 }
 
+// E_port += -f[k-1] . (x[k] - x[k-1])
+TEST(PortGuard, SumsTheEnergyThatTheHandPutsIn) {
+  PortGuard guard = opened();
+  EXPECT_EQ(guard.observe(Vector3(0.01, 0.0, 0.0)), 0.0) << "no force yet";
+  guard.apply({Vector3(2.0, 0.0, -1.0), Vector3::Zero(), Vector3::Zero(), true}, kTick_s);
+  EXPECT_NEAR(guard.observe(Vector3(-0.001, 5.0, 0.0)), 0.002, 1e-15);
+  EXPECT_NEAR(guard.observe(Vector3(0.0, 0.0, -0.003)), -0.003, 1e-15);
+  EXPECT_NEAR(guard.port_energy_j(), -0.001, 1e-15);
+  guard.reset();
+  EXPECT_EQ(guard.observe(Vector3::Ones()), 0.0) << "the force is gone";
+  EXPECT_NEAR(guard.port_energy_j(), -0.001, 1e-15);
+}
+
+TEST(PortGuard, DampsNoHandThatRestsNorOneThatNothingIsRenderedTo) {
+  const Vector3 rate(0.1, 0.0, 0.0);
+  PortGuard guard = opened();
+  guard.owe(1e-4);
+  EXPECT_EQ(guard.apply({Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true}, kTick_s), Vector3::Zero());
+  EXPECT_FALSE(guard.injecting());
+  PortGuard closed{PortGuardConfig{}};
+  closed.reset();
+  closed.owe(1e-4);
+  EXPECT_EQ(closed.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s), Vector3::Zero());
+  EXPECT_FALSE(closed.injecting());
+  closed.reset();
+  closed.open();
+  EXPECT_EQ(closed.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s), Vector3::Zero())
+      << "what was owed before is forgotten";
+  EXPECT_EQ(closed.deficit_max_j(), 1e-4);
+}
+
 TEST(PortGuard, TakesBackByDampingWhatLeakedAndNoMoreThanASampleBears) {
   const PortGuardConfig config{.handle_mass = 0.2};
   const Vector3 rate(0.1, 0.0, 0.0);

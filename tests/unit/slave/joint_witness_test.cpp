@@ -85,5 +85,38 @@ TEST(JointWitness, DoubtsWhatIsBeyondLimitsOfPositionAndSpeed) {
   EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
 }
 
+TEST(JointWitness, LimitsHoldBothWaysForEachJoint) {
+  const RobotConfig arm = test::space_arm();
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const JointConfig& j = arm.joint[static_cast<std::size_t>(i)];
+    for (const double rad : {j.min_rad - 0.11, j.min_rad - 0.09, j.max_rad + 0.09, j.max_rad + 0.11}) {
+      Witnessed w;
+      w.robot.joint_rad[i] = rad;
+      const bool outside = rad < j.min_rad - 0.1 || rad > j.max_rad + 0.1;
+      EXPECT_EQ(w.after(1e-3), outside ? JointDoubt::kOutside : JointDoubt::kNone) << i << ' ' << rad;
+    }
+    for (const double way : {-1.0, 1.0}) {
+      Witnessed w;
+      w.robot.joint_rad_per_s[i] = way * (10.0 * j.speed_max_rad_per_s + 0.09);
+      EXPECT_EQ(w.after(1e-3), JointDoubt::kNone) << i;
+      w.robot.joint_rad_per_s[i] = way * (10.0 * j.speed_max_rad_per_s + 0.11);
+      EXPECT_EQ(w.after(1e-3), JointDoubt::kTooFast) << i;
+    }
+  }
+}
+
+TEST(JointWitness, AFixedJointMayBeToldAnything) {
+  RobotConfig arm = test::space_arm();
+  arm.joint[2].kind = JointKind::kFixed;
+  JointWitness witness(arm);
+  RobotState robot;
+  robot.joint_rad = test::start_joints();
+  for (int i = 0; i < 3; ++i) {
+    robot.joint_rad[2] = 50.0 * i;
+    robot.joint_rad_per_s[2] = 1e6;
+    EXPECT_EQ(witness.look(robot, Time{std::chrono::seconds(i)}).doubt, JointDoubt::kNone) << i;
+  }
+}
+
 }  // namespace
 }  // namespace longreach

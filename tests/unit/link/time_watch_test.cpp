@@ -1,0 +1,79 @@
+#include "common/link/time_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace longreach {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kGap_s = 0.1;
+
+struct Side {
+  TimeWatch watch{1000.0};
+  Time now{std::chrono::hours(1)};
+  std::uint64_t overdue = 0;
+
+  void tick(int ms, std::uint64_t late = 0) {
+    now += milliseconds(ms);
+    overdue += late;
+    watch.step(now, kGap_s, overdue);
+  }
+  void hear(std::vector<double> rtts_s) {
+    std::vector<Received<int>> received(rtts_s.size());
+    for (std::size_t i = 0; i < rtts_s.size(); ++i) received[i].rtt = from_seconds(rtts_s[i]);
+    watch.hear(now, std::span<const Received<int>>(received));
+  }
+};
+
+TEST(TimeWatch, ATickThatComesLaterThanTheGapTimerIsAStallFromTheTickBefore) {
+  Side side;
+  EXPECT_FALSE(side.watch.stalls(side.now + std::chrono::hours(9), kGap_s))
+      << "there was none before the first";
+  side.tick(0);
+  EXPECT_FALSE(side.watch.passed_s());
+  EXPECT_FALSE(side.watch.stalled_since());
+  side.tick(100);
+  EXPECT_FALSE(side.watch.stalled_since()) << "at the gap timer, not over it";
+  EXPECT_DOUBLE_EQ(side.watch.passed_s().value_or(0.0), 0.1);
+  const Time before = side.now;
+  EXPECT_TRUE(side.watch.stalls(before + milliseconds(101), kGap_s));
+  EXPECT_FALSE(side.watch.stalls(before + milliseconds(99), kGap_s));
+  side.tick(101);
+  EXPECT_EQ(side.watch.stalled_since(), before);
+  EXPECT_DOUBLE_EQ(side.watch.passed_s().value_or(0.0), 0.101);
+  side.tick(1);
+  EXPECT_FALSE(side.watch.stalled_since()) << "of this tick alone";
+}
+
+TEST(TimeWatch, LateTicksBeforeAStallDoNotCountAfterIt) {
+  Side side;
+  for (int i = 0; i < 520; ++i) side.tick(1, 1);
+  EXPECT_TRUE(side.watch.overrun());
+  side.tick(200, 199);
+  EXPECT_FALSE(side.watch.overrun());
+  for (int i = 0; i < 480; ++i) side.tick(1, 1);
+  EXPECT_FALSE(side.watch.overrun());
+  for (int i = 0; i < 30; ++i) side.tick(1, 1);
+  EXPECT_TRUE(side.watch.overrun());
+}
+
+TEST(TimeWatch, HearsTheRoundTripsOfWhatComesUntilTheNextEngagement) {
+  Side side;
+  for (int i = 0; i < 600; ++i) {
+    side.hear({0.05, -1.0, 0.05, 0.9});
+    side.tick(1);
+  }
+  EXPECT_NEAR(side.watch.delay().median_s().value_or(0.0), 0.05, 1e-6);
+  EXPECT_NEAR(side.watch.delay().least_s().value_or(0.0), 0.05, 1e-3);
+  side.watch.rebase();
+  EXPECT_FALSE(side.watch.delay().median_s());
+  side.hear({});
+  side.tick(20);
+  EXPECT_FALSE(side.watch.delay().median_s());
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,234 @@
+// The force guard of the limiter, law by law: speeds by the equations of slave/command/goal_limiter.hpp.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "slave/command/goal_limiter.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr double kGuard_n = 20.0, kHold_n = 10.0, kStiffest_n_per_m = 2e4, kBleed_s = 0.2;
+constexpr double kAcceleration = 1.25, kSpeed = 0.25;
+
+const Vector3 kOut = -Vector3::UnitX();  // of the contact
+
+/// At rest at zero, then in a contact that does not change.
+struct Touching {
+  GoalLimiter limiter{CommandConfig{}, Vector3::Zero()};
+  ContactForce contact{.in_contact = true, .reaction = kOut};
+  LimiterOutput out{};
+
+  explicit Touching(double force_n) {
+    contact.force_n = force_n;
+    limiter.reset({});
+  }
+  Vector3 go_to(const Vector3& goal_m, int ticks = 300) {
+    for (int i = 0; i < ticks; ++i) out = limiter.step({Pose{goal_m, Quaternion::Identity()}, contact, kDt});
+    return limiter.velocity().linear;
+  }
+  Vector3 hold(int ticks = 300) {
+    for (int i = 0; i < ticks; ++i) out = limiter.step({std::nullopt, contact, kDt});
+    return limiter.velocity().linear;
+  }
+};
+
+TEST(GoalLimiterGuard, WhereTheForceGrowsTheSpeedIsBoundedWhateverItsDirection) {
+  for (const double force_n : {0.0, 15.0, 19.9, 20.0, 25.0}) {
+    for (const double lead_m : {-1e-3, 0.0, 1e-4}) {
+      Touching t(force_n);
+      t.contact.grows = Vector3::UnitY();
+      t.contact.grows_lead_m = lead_m;
+      const double left_m = (kGuard_n - force_n) / kStiffest_n_per_m - std::max(lead_m, 0.0);
+      const double allowed = std::min(std::sqrt(2.0 * kAcceleration * std::max(left_m, 0.0)), kSpeed);
+      EXPECT_NEAR(t.go_to(Vector3(0, 2, 0)).y(), allowed, 1e-12) << force_n << ' ' << lead_m;
+      EXPECT_TRUE(t.out.force_guard);
+      EXPECT_LT(t.go_to(Vector3(0, -2, 0)).y(), -0.2) << "the way back is free";
+      EXPECT_EQ(t.out.force_guard, force_n > kGuard_n) << "but for what is above the guard";
+    }
+  }
+}
+
+TEST(GoalLimiterGuard, WhereTheForceGrowsMattersInContactOnly) {
+  Touching t(15.0);
+  t.contact.grows = Vector3::UnitY();
+  t.contact.in_contact = false;
+  EXPECT_NEAR(t.go_to(Vector3(0, 2, 0)).y(), kSpeed, 1e-12);
+}
+
+TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {
+  for (const double stiffness : {0.0, 500.0, 5e3}) {
+    Touching t(kGuard_n + 2.0);
+    t.contact.stiffness_n_per_m = stiffness;
+    const double k = stiffness > 0.0 ? stiffness : kStiffest_n_per_m;
+    EXPECT_NEAR(t.go_to(Vector3(0.1, 0, 0)).x(), -2.0 / (k * kBleed_s), 1e-12) << stiffness;
+    EXPECT_TRUE(t.out.force_guard);
+    EXPECT_FALSE(t.out.no_relief);
+  }
+  Touching soft(kGuard_n + 10.0);
+  soft.contact.stiffness_n_per_m = 10.0;
+  EXPECT_LE(soft.go_to(Vector3(0.1, 0, 0), 100).norm(), kSpeed);
+}
+
+TEST(GoalLimiterGuard, WhatIsStillComingIsTakenBackButNoFurther) {
+  Touching t(kGuard_n);
+  t.contact.lead_m = 1e-4;
+  EXPECT_NEAR(t.go_to(Vector3(0.1, 0, 0), 100).x(), -std::sqrt(2.0 * kAcceleration * 1e-4), 1e-12);
+  Touching behind(kGuard_n + 1.0);
+  behind.contact.lead_m = -1e-3;  // the tool is ahead of its setpoint
+  EXPECT_NEAR(behind.go_to(Vector3(0.1, 0, 0)).x(), -1.0 / (kStiffest_n_per_m * kBleed_s), 1e-12);
+}
+
+TEST(GoalLimiterGuard, GivesWayToNothingThatIsNotTrustedNorWhereTheForceGrows) {
+  for (const bool holds : {false, true}) {
+    const auto moves_out = [&](bool trusted, const Vector3& grows) {
+      Touching t(kGuard_n + 10.0);
+      t.contact.stiffness_n_per_m = 1e3;
+      t.contact.trusted = trusted;
+      t.contact.grows = grows;
+      return kOut.dot(holds ? t.hold(20) : t.go_to(Vector3(0.1, 0, 0), 20)) > 1e-4;
+    };
+    EXPECT_TRUE(moves_out(true, Vector3::Zero())) << holds;
+    EXPECT_TRUE(moves_out(true, Vector3::UnitY())) << holds << ": across it is no matter";
+    EXPECT_TRUE(moves_out(true, -kOut)) << holds;
+    EXPECT_FALSE(moves_out(false, Vector3::Zero())) << holds;
+    EXPECT_FALSE(moves_out(true, kOut)) << holds;
+    EXPECT_FALSE(moves_out(true, (0.4 * kOut + Vector3::UnitY()).normalized())) << holds;
+  }
+}
+
+TEST(GoalLimiterGuard, AForceThatDoesNotAnswerIsGivenWayToForTwentyMillimetres) {
+  for (const bool holds : {false, true}) {
+    Touching t(kGuard_n + 10.0);
+    t.contact.stiffness_n_per_m = 100.0;
+    if (holds)
+      t.hold(3000);
+    else
+      t.go_to(Vector3(0.1, 0, 0), 3000);
+    EXPECT_NEAR(kOut.dot(t.limiter.setpoint().p), 0.02, 5e-4) << holds;
+    EXPECT_TRUE(t.out.no_relief) << holds;
+    EXPECT_TRUE(t.limiter.velocity().linear.isZero(1e-9)) << holds;
+  }
+}
+
+TEST(GoalLimiterGuard, AForceThatHasGoneForFiftyMillisecondsIsANewOneWhenItComes) {
+  for (const int calm_ticks : {40, 60}) {
+    for (const double calm_n : {0.0, 15.0}) {
+      Touching t(kGuard_n + 10.0);
+      t.contact.stiffness_n_per_m = 100.0;
+      t.go_to(Vector3(0.1, 0, 0), 3000);
+      ASSERT_TRUE(t.out.no_relief);
+      const Vector3 there_m = t.limiter.setpoint().p;
+      t.contact.force_n = calm_n;
+      t.contact.in_contact = calm_n > 0.0;
+      t.go_to(there_m, calm_ticks);
+      t.contact.in_contact = true;
+      t.contact.force_n = kGuard_n + 10.0;
+      t.go_to(there_m, 3000);
+      EXPECT_NEAR(kOut.dot(t.limiter.setpoint().p - there_m), calm_ticks > 50 ? 0.02 : 0.0, 5e-4)
+          << calm_ticks << ' ' << calm_n;
+    }
+  }
+}
+
+TEST(GoalLimiterGuard, AHoldComesDownByTheStiffnessThatIsKnown) {
+  for (const double stiffness : {5e3, 2e4}) {
+    Touching t(15.0);
+    t.contact.stiffness_n_per_m = stiffness;
+    const double speed = (15.0 - 0.95 * kHold_n) / (stiffness * kBleed_s);
+    EXPECT_NEAR(kOut.dot(t.hold(1 + static_cast<int>(std::ceil(speed / (kAcceleration * kDt))))), speed,
+                1e-9);
+    EXPECT_NEAR(kOut.dot(t.hold(150)), std::min(10.0 * speed, kSpeed), 1e-9)
+        << "a force that falls by less is that of a contact up to ten times as soft";
+  }
+}
+
+TEST(GoalLimiterGuard, AHoldBelowItsLimitKeepsTheContactAsItIs) {
+  for (const double force_n : {0.5, 5.0, 9.9}) {
+    Touching t(force_n);
+    t.hold();
+    EXPECT_TRUE(t.limiter.at_rest()) << force_n;
+    EXPECT_EQ(t.limiter.setpoint().p, Vector3::Zero()) << force_n;
+    EXPECT_FALSE(t.out.no_relief);
+  }
+}
+
+TEST(GoalLimiterGuard, AHoldThatHasBegunToComeDownGoesOnToItsAim) {
+  Touching t(10.5);
+  t.hold(5);
+  ASSERT_GT(kOut.dot(t.limiter.velocity().linear), 0.0);
+  t.contact.force_n = 9.8;  // below the limit, above the aim
+  EXPECT_GT(kOut.dot(t.hold(5)), 0.0);
+  t.contact.force_n = 9.5;
+  t.hold(5);
+  EXPECT_TRUE(t.limiter.at_rest());
+  t.contact.force_n = 9.8;
+  t.hold(5);
+  EXPECT_TRUE(t.limiter.at_rest()) << "it has been there";
+  t.contact.force_n = 10.5;
+  t.hold(5);
+  t.contact.in_contact = false;
+  t.hold(5);
+  EXPECT_TRUE(t.limiter.at_rest()) << "the contact is lost";
+}
+
+// Pushed in further, the force tells nothing of the stiffness: the stiffest is reckoned with again.
+TEST(GoalLimiterGuard, AHoldThatIsPushedInDoesNotRushOut) {
+  Touching t(15.0);
+  t.hold(20);
+  t.contact.force_n = 19.0;
+  t.contact.lead_m = -5e-3;
+  const double speed = (19.0 - 0.95 * kHold_n) / (kStiffest_n_per_m * kBleed_s);
+  EXPECT_LE(kOut.dot(t.hold(1)), speed + 1e-12);
+  EXPECT_GT(kOut.dot(t.limiter.velocity().linear), 0.0);
+}
+
+// A wall of 1 N/mm that the limiter knows nothing of, or takes for five times as stiff.
+TEST(GoalLimiterGuard, AHoldIsDownWithinASecondWhateverIsKnown) {
+  for (const double known : {0.0, 1e3, 5e3}) {
+    constexpr double kWall_n_per_m = 1e3;
+    Touching t(18.0);
+    t.contact.stiffness_n_per_m = known;
+    double least_n = 18.0;
+    for (int i = 0; i < 1000; ++i) {
+      t.hold(1);
+      t.contact.force_n = 18.0 - kWall_n_per_m * kOut.dot(t.limiter.setpoint().p);
+      least_n = std::min(least_n, t.contact.force_n);
+    }
+    EXPECT_LE(t.contact.force_n, kHold_n) << known;
+    EXPECT_GE(least_n, 8.5) << known << ": the contact is kept";
+  }
+}
+
+TEST(GoalLimiterGuard, AGoalWhoseTurnIsNotFiniteIsNone) {
+  Touching t(0.0);
+  t.contact.in_contact = false;
+  t.go_to(Vector3(1, 0, 0), 100);
+  Pose goal{Vector3(1, 0, 0), Quaternion::Identity()};
+  goal.q.z() = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 300; ++i) t.limiter.step({goal, {}, kDt});
+  EXPECT_TRUE(t.limiter.at_rest());
+  EXPECT_TRUE(t.limiter.setpoint().q.coeffs().allFinite());
+}
+
+TEST(GoalLimiterGuard, WhatTheRobotCouldNotDoIsCorrectedWithinTheSpeedLimits) {
+  Touching t(0.0);
+  t.contact.in_contact = false;
+  t.go_to(Vector3(1, 0, 0), 100);
+  const Pose before = t.limiter.setpoint();
+  t.go_to(Vector3(1, 0, 0), 1);
+  const Pose there{before.p + Vector3(1e-4, 0, 0), exp_rotation(Vector3(0, 0, 1e-4))};
+  t.limiter.correct(there, kDt);
+  EXPECT_EQ(t.limiter.setpoint().p, there.p);
+  EXPECT_NEAR(t.limiter.velocity().linear.x(), 0.1, 1e-9);
+  EXPECT_NEAR(t.limiter.velocity().angular.z(), 0.1, 1e-9);
+  t.limiter.correct({before.p + Vector3(0, 1, 0), exp_rotation(Vector3(0, 0, 1))}, kDt);
+  EXPECT_NEAR(t.limiter.velocity().linear.norm(), kSpeed, 1e-12);
+  EXPECT_NEAR(t.limiter.velocity().angular.norm(), 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,130 @@
+#include "slave/sensing/sign_trial.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/unit/slave/pressed_tool.hpp"
+
+namespace longreach {
+namespace {
+
+using test::PressedTool;
+using Verdict = SignTrial::Verdict;
+
+const Vector3 kIn = Vector3::UnitX();
+constexpr double kBrake_m_per_s2 = 1.25;
+
+/// The tool goes on until the force grows as it should not; then it brakes, as the slave does in a trial.
+struct Tried {
+  PressedTool tool;
+  SignTrial trial{};
+  double noise_n = 0.05;
+
+  explicit Tried(double stiffness_n_per_m) : tool(stiffness_n_per_m) {}
+  bool press(const Vector3& m_per_s, double until_n = 15.0) {
+    while (!tool.accused && tool.force_n() < until_n) tool.go(m_per_s);
+    return tool.accused;
+  }
+  Verdict brake(Vector3 m_per_s, double seconds = 0.1) {
+    trial.begin(tool.watch);
+    for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
+      m_per_s -= clamp_norm(m_per_s, 1e-3 * kBrake_m_per_s2);
+      tool.go(m_per_s);
+      trial.step(tool.watch, noise_n, 1e-3);
+    }
+    return trial.verdict();
+  }
+};
+
+TEST(SignTrial, AWrongSignOrAFrameTurnedByAQuarterIsTheSensors) {
+  for (const double stiffness : {1e3, 5e3, 1e4}) {
+    for (const Matrix3& sensor :
+         {Matrix3(-Matrix3::Identity()), test::turned(0.5 * std::numbers::pi, Vector3::UnitZ()),
+          test::turned(-0.5 * std::numbers::pi, Vector3::UnitY())}) {
+      for (const double noise : {0.0, 0.05}) {
+        Tried t(stiffness);
+        t.tool.sensor = sensor;
+        t.tool.noise_n = noise;
+        const Vector3 velocity = std::min(0.02, 50.0 / stiffness) * kIn;
+        ASSERT_TRUE(t.press(velocity)) << stiffness;
+        EXPECT_EQ(t.brake(velocity), Verdict::kSign) << stiffness << '\n' << sensor;
+      }
+    }
+  }
+}
+
+TEST(SignTrial, IsPendingForSixtyMillisecondsAndJudgesOnce) {
+  Tried t(1e3);
+  t.trial.step(t.tool.watch, 0.0, 1.0);
+  EXPECT_EQ(t.trial.verdict(), Verdict::kNone) << "nothing has begun";
+  t.tool.sensor = -Matrix3::Identity();
+  ASSERT_TRUE(t.press(0.01 * kIn));
+  EXPECT_EQ(t.brake(0.01 * kIn, 0.055), Verdict::kPending);
+  EXPECT_EQ(t.brake(Vector3::Zero(), 0.01), Verdict::kSign) << "it has begun once, not twice";
+  t.tool.wall_m -= 0.01;
+  EXPECT_EQ(t.brake(Vector3::Zero(), 0.1), Verdict::kSign);
+  t.trial.reset();
+  EXPECT_EQ(t.trial.verdict(), Verdict::kNone);
+}
+
+TEST(SignTrial, AStiffWallThatIsSlidOnIsNotAccused) {
+  for (const double stiffness : {1e5, 1e6}) {
+    Tried t(stiffness);
+    const double slope =
+        3e4 / stiffness;  // of the way: 3e4 N a metre of it, more than the stiffest that counts
+    const Vector3 velocity = 0.002 * Vector3(slope, std::sqrt(1.0 - slope * slope), 0.0);
+    ASSERT_TRUE(t.press(velocity)) << stiffness;
+    EXPECT_EQ(t.brake(velocity), Verdict::kNoRelief) << stiffness;
+  }
+}
+
+TEST(SignTrial, AWallThatComesGoesOnToPush) {
+  Tried t(2e3);
+  const Vector3 away = -0.002 * kIn;
+  for (int i = 0; i < 2000 && !t.tool.accused; ++i) {
+    t.tool.wall_m -= 1e-3 * 0.01;
+    t.tool.go(away);
+  }
+  ASSERT_TRUE(t.tool.accused);
+  t.trial.begin(t.tool.watch);
+  for (int i = 0; i < 100; ++i) {
+    t.tool.wall_m -= 1e-3 * 0.01;
+    t.tool.go(Vector3::Zero());
+    t.trial.step(t.tool.watch, t.noise_n, 1e-3);
+  }
+  EXPECT_EQ(t.trial.verdict(), Verdict::kNoRelief);
+}
+
+// What comes and stops: the sum may fit, the last of it does not.
+TEST(SignTrial, WhatStillChangesAtTheEndIsNoWrongSensor) {
+  Tried t(1e3);
+  t.tool.sensor = -Matrix3::Identity();
+  ASSERT_TRUE(t.press(0.01 * kIn));
+  t.trial.begin(t.tool.watch);
+  for (int i = 0; i < 70; ++i) {
+    t.tool.wall_m += i < 40 ? 1.5e-5 : i < 57 ? -3.53e-5 : 0.0;  // 0.6 N less, then as before
+    t.tool.go(Vector3::Zero());
+    t.trial.step(t.tool.watch, 0.0, 1e-3);
+  }
+  EXPECT_EQ(t.trial.verdict(), Verdict::kNoRelief);
+}
+
+TEST(SignTrial, ABodyThatIsCarriedEndsItsForceWithTheMotion) {
+  Tried t(0.0);
+  for (int i = 0; i < 200 && !t.tool.accused; ++i) {
+    t.tool.p_m += 1e-5 * kIn;
+    t.tool.tell((1.0 + 0.02 * i) * kIn);
+  }
+  ASSERT_TRUE(t.tool.accused);
+  t.trial.begin(t.tool.watch);
+  const double from_n = t.tool.watch.size_n();
+  for (int i = 0; i < 100; ++i) {
+    t.tool.tell(std::max(0.2, from_n - 0.05 * i) * kIn);
+    t.trial.step(t.tool.watch, t.noise_n, 1e-3);
+  }
+  EXPECT_EQ(t.trial.verdict(), Verdict::kNoRelief);
+}
+
+}  // namespace
+}  // namespace longreach
