@@ -58,7 +58,7 @@ class Engages : public Invariant {
   }
 
  private:
-  static constexpr double kSettles_s = 3.0;
+  static constexpr double kSettles_s = 1.0;  // both sides hear each other again: L1
   [[nodiscard]] double bound_s() const { return round_trip_s_ + 0.5 + 0.005; }
   Calm calm_;
   double round_trip_s_;

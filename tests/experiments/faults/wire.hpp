@@ -53,7 +53,7 @@ class WireWay {
   }
 
   WayMeddling meddling{};
-  [[nodiscard]] const std::vector<Bytes>& heard() const { return heard_; }  // some of what went here
+  [[nodiscard]] const std::vector<Bytes>& heard() const { return heard_; }  // some of what arrived
   [[nodiscard]] std::uint64_t oversized() const { return oversized_; }      // of those that were read
 
  private:
@@ -63,6 +63,7 @@ class WireWay {
     double due_s;
     Bytes datagram;
   };
+  void arrive(Bytes datagram);
   void store(Bytes datagram);
 
   Random random_;
