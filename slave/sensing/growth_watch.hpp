@@ -34,6 +34,7 @@ class GrowthWatch {
   void reset();
   void step(const GrowthSample& sample);
 
+  [[nodiscard]] bool in_contact() const { return begun_; }
   /// Unit; zero: the force grows in no direction that it should not. Until the contact ends, or the tool goes
   /// that way and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }

@@ -7,7 +7,7 @@
 //   else                                          no relief
 // What grew across the force could be a surface stiffer than k_max, too, on which the tool slides. If it does
 // not go on to grow, it is. Else the tool gives way along the force by 0.1 mm: from such a surface the force
-// falls by more than k_max does on half of that way.
+// falls by more than k_max does on half of that way, or the contact ends. That acquits at any time.
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +35,7 @@ class SignTrial {
   /// `reaction`: unit, of the force on the tool; `bounds` those of `growth`; dt in s.
   void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt) {
     if (verdict_ != Verdict::kPending) return;
+    if (!growth.in_contact()) return reset();
     const Point now{growth.place_m(), growth.size_n()};
     if (time_s_ < kTrial_s - kLast_s) last_ = now;
     time_s_ += dt;
