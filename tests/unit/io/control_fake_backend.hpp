@@ -138,6 +138,7 @@ class FakeBackend : public ControlBackend {
     explicit Inside(FakeBackend& backend) : backend_(backend), lock_(backend.mutex_, std::defer_lock) {
       const int now = ++backend_.inside_;
       if (now > backend_.overlap_) backend_.overlap_ = now;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // time for another one to come in
       lock_.lock();
     }
     ~Inside() { --backend_.inside_; }

@@ -26,6 +26,16 @@ TEST(ContactDetector, TouchesAboveOneForceAndReleasesBelowAnother) {
   EXPECT_FALSE(settle(detector, Vector3(-0.29, 0, 0)).in_contact);
 }
 
+TEST(ContactDetector, WhatMayBeNoForceMakesNoContactButEndsNoneEither) {
+  constexpr double kDoubt_n = 2.0;
+  ContactDetector detector(SensingConfig{});
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(detector.step(Vector3(-2.2, 0, 0), kDt, kDoubt_n).in_contact);
+  bool touches = false;
+  for (int i = 0; i < 200; ++i) touches = detector.step(Vector3(-2.4, 0, 0), kDt, kDoubt_n).in_contact;
+  EXPECT_TRUE(touches);
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(detector.step(Vector3(-1.0, 0, 0), kDt, kDoubt_n).in_contact);
+}
+
 TEST(ContactDetector, AnnouncesBeginAndEndOnce) {
   ContactDetector detector(SensingConfig{});
   int began = 0, ended = 0;

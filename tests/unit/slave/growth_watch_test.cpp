@@ -97,10 +97,10 @@ TEST(GrowthWatch, KnowsThatASlowSensorIsLate) {
 TEST(GrowthWatch, WhatGrowsWhileTheToolRestsIsNotItsOwn) {
   PressedTool tool(0.0);
   tool.p_m = Vector3::Zero();
-  for (int i = 0; i < 1000; ++i) tool.tell((5.0 + 0.02 * i) * Vector3::UnitY());
+  for (int i = 0; i < 1300; ++i) tool.tell((5.0 + 0.02 * i) * Vector3::UnitY());
   for (int i = 0; i < 1000; ++i) {
     tool.p_m += 1e-5 * kIn;
-    tool.tell(25.0 * Vector3::UnitY());
+    tool.tell(31.0 * Vector3::UnitY());
   }
   EXPECT_FALSE(tool.accused);
 }
