@@ -10,9 +10,6 @@ namespace longreach {
 
 inline bool awaited(std::string_view name) {
   static const std::vector<std::string_view> kAwaited = {
-      // 1.00 to 1.07 mJ come out of the handle where 1 mJ may: in rate mode with no fault at all, at a hand
-      // that lets go in a wall, and where positions of the handle lie.
-      "I23",
       // I21, I6, L2: a robot that somebody has pressed into the wall is engaged there with the force it has.
       "robot-moved",
       // L3: a robot that has crept away does not come back to its goal.
