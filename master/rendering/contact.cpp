@@ -177,7 +177,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     }
     if (a.known) {
       a.surface = locate(a, handle, mapping);
-      a.spring.set_surface(handle.held ? a.surface : std::max(a.surface, s));
+      a.spring.set_surface(handle.held ? a.surface : std::max(a.surface, s), handle.rate_mode);
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
     }

@@ -35,8 +35,9 @@ bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
   return true;
 }
 
-bool ContactSpring::set_surface(double surface_m) {
+bool ContactSpring::set_surface(double surface_m, bool comes_along) {
   if (!std::isfinite(surface_m)) return false;
+  comes_along_ = comes_along;
   surface_m_ = surface_m;
   return true;
 }
@@ -71,7 +72,8 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
   const double most = config_.force_max_n / k;
   // A wall that was learnt late, far behind: it grows; a hand that leaves it goes free.
   const double fastest = most * dt_s / kFullForce_s;
-  leaving_ = s_m < s_slow_m_ && (leaving_ || -move > fastest);
+  // Where it comes along, easing would let the hand back in, to be pushed out again.
+  leaving_ = !comes_along_ && s_m < s_slow_m_ && (leaving_ || -move > fastest);
   if (leaving_) {
     anchor_m_ += share * depth;
     return;

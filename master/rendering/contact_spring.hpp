@@ -36,8 +36,9 @@ class ContactSpring {
   /// Stiffness to reach, N/m; clamped to 0..stiffness_max. Returns false, changing nothing, if not finite.
   bool set_stiffness(double s_m, double stiffness_n_per_m);
 
-  /// Registered surface, m. Returns false, changing nothing, if not finite.
-  bool set_surface(double surface_m);
+  /// Registered surface, m; one that comes along with the hand cannot be left. Returns false, changing
+  /// nothing, if not finite.
+  bool set_surface(double surface_m, bool comes_along = false);
 
   /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
   /// tank. Returns the force >= 0, N, against the inward direction.
@@ -64,6 +65,7 @@ class ContactSpring {
   double paid_j_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;
+  bool comes_along_ = false;
   bool leaving_ = false;  // the hand retreats from a wall that was far behind it
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -178,6 +179,23 @@ TEST_F(Oracle, SeesEnergyComeOutOfTheHandle) {
     m.F_H_M.force.x() = 1.0;
     m.x_MH.x() += 1e-5;
   });
+  EXPECT_TRUE(broken("I23"));
+}
+
+TEST_F(Oracle, SeesEnergyComeOutAfterALieOnlyFromAPortThatRested) {
+  const auto push = [](Moment& m, int) {
+    m.F_H_M.force.x() = 1.0;
+    m.x_MH.x() += 1e-5;
+  };
+  const auto spoilt = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(Spoils::kHandle)));
+  moment_.spoilt_s[spoilt] = 0.0;
+  run(200, push);
+  moment_.spoilt_s[spoilt] = 1e9;
+  run(1000, push);  // what a spring that was stretched meanwhile gives back
+  EXPECT_FALSE(broken("I23"));
+  run(1, [](Moment& m, int) { m.F_H_M.force.setZero(); });
+  run(1, [](Moment&, int) {});
+  run(1000, push);
   EXPECT_TRUE(broken("I23"));
 }
 

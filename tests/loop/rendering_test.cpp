@@ -34,6 +34,7 @@ TEST(HostileUpdates, GiveNoEnergyAndNoStepAndTheNaiveLawFailsUnderTheSame) {
 TEST(Idle, AHandThatNobodyMovesIsQuietAndGetsNoEnergyAndDampingOnEncoderStepsIsNot) {
   auto m = metrics("idle");
   EXPECT_EQ(m.at("not_engaged"), 0.0);
+  EXPECT_EQ(m.at("not_touched"), 0.0);
   EXPECT_GE(m.at("pressed_at_cap"), 5.0);
   EXPECT_LE(m.at("energy_out_max_j"), 1e-4);
   EXPECT_LE(m.at("rotation_energy_out_max_j"), 1e-4);

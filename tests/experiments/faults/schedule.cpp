@@ -6,7 +6,6 @@
 
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
-#include "tests/experiments/faults/awaited.hpp"
 #include "tests/experiments/faults/kind.hpp"
 
 namespace longreach {
@@ -49,8 +48,7 @@ Schedule draw_schedule(std::uint64_t seed, double round_trip_s) {
   schedule.faults_end_s = begin_s + log_scale(random.uniform(), 10.0, 30.0);
   schedule.end_s = schedule.faults_end_s + 7.0 + 6.0 * round_trip_s;
   std::vector<const FaultKind*> all;
-  for (const FaultKind& kind : fault_kinds())
-    if (!awaited(kind.name) && !awaited(kind.group)) all.push_back(&kind);
+  for (const FaultKind& kind : fault_kinds()) all.push_back(&kind);
   const std::size_t kinds = 1 + below(random, kKindsMax);
   for (std::size_t k = 0; k < kinds; ++k) {
     const FaultKind& kind = *all[below(random, all.size())];

@@ -38,6 +38,11 @@ bool bad(const IdleResult& r) {
          beyond(r.translation) > kRipple_n || beyond(r.rotation) > kRipple_nm;
 }
 
+/// It was to press, and did not.
+bool missed(const Judged& j) {
+  return (j.draw.wall_n_per_m > 0.0 || j.draw.wall_nm_per_rad > 0.0) && !j.result.touched;
+}
+
 std::vector<Judged> run_all(const ExperimentRun& run, std::size_t count, std::size_t every,
                             double raw_damping) {
   const std::vector<MasterConfig> masters = idle_masters(run.config);
@@ -114,6 +119,7 @@ std::vector<Metric> run_idle(const ExperimentRun& run) {
       {"draws", static_cast<double>(draws), ""},
       {"virtual_h", static_cast<double>(draws) * IdleDraw{}.duration_s / 3600.0, "h"},
       {"not_engaged", number_of(all, [](const Judged& j) { return !j.result.engaged; }), ""},
+      {"not_touched", number_of(all, [](const Judged& j) { return missed(j); }), ""},
       {"pressed", number_of(all, pressed), ""},
       {"pressed_at_cap", number_of(all, [&](const Judged& j) { return pressed(j) && j.result.at_cap; }), ""},
       {"let_go", number_of(all, [](const Judged& j) { return j.draw.lets_go; }), ""},

@@ -50,9 +50,8 @@ class PlayedSlave {
   StiffnessReport report_{};
 };
 
-constexpr double kBeyondDeadZone_m = 0.011;  // that the hand deflects the handle in rate mode
-
-constexpr double kComes_s = 0.5;  // until the handle is there, about
+constexpr double kComes_s = 0.5;         // until the handle is where it meets the surface
+constexpr double kFeels_m_per_s = 0.01;  // on from there, where friction kept it short of it
 
 /// A way of the hand at a constant speed, `since_s` after it set off.
 double reach(double goal, double speed, double since_s) { return std::clamp(speed * since_s, 0.0, goal); }
@@ -170,10 +169,13 @@ class IdleRun {
   [[nodiscard]] double depth_m() const { return draw_.press_n / draw_.wall_n_per_m; }
 
   /// Where the hand wants the handle along the surface's normal, m: through the surface and as far as
-  /// pressing takes.
-  [[nodiscard]] double pressing_m(double since_s) const {
+  /// pressing takes; further while it is not felt.
+  double pressing_m(double since_s) {
     const double through_m = kSurface_m / draw_.master.mapping.scale + depth_m();
-    return reach(through_m + draw_.press_n / hand_n_per_m(), kApproach_m_per_s, since_s);
+    const bool short_of_it =
+        since_s > kComes_s && !node_.view().surface_known && !gone(since_s + kApproach_s);
+    if (short_of_it) further_m_ += kFeels_m_per_s * period_s();
+    return reach(through_m + draw_.press_n / hand_n_per_m(), kApproach_m_per_s, since_s) + further_m_;
   }
 
   /// In rate mode: out of the dead zone until the goal is as deep, then back, against what is felt.
@@ -221,7 +223,7 @@ class IdleRun {
   double raw_ = 0.0, raw_turning_ = 0.0;
   std::size_t delay_ = 0;
   std::int64_t tick_ = 0;
-  double driven_m_ = 0.0;
+  double driven_m_ = 0.0, further_m_ = 0.0;
   bool deep_ = false;
   bool rests_ = false, asked_ = false, began_ = false, injected_ = false;
 };

@@ -31,7 +31,7 @@ struct IdlePort {
   double out_j = 0.0;    // energy that came out
   double ripple = 0.0;   // of the force, peak to peak in a second
   double allowed = 0.0;  // one count at the handle times the stiffness rendered
-  double motion = 0.0;   // of the handle, truly, peak to peak in a second
+  double motion = 0.0;   // of the handle, truly, to and fro within a second
   double count = 0.0;    // longest way of the handle within one count of every encoder
   double force = 0.0;    // mean at the end
   double quiet_s = 0.0;  // judged for ripple: the handle did not go on by a tenth of a count

@@ -17,7 +17,8 @@ namespace {
 constexpr std::array kDevices = {"paper", "falcon", "desktop"};
 constexpr double kDepth_m = 0.005;  // that a press goes into a surface, at most
 constexpr double kDepth_rad = 0.1;
-constexpr double kFarthest = 0.98;  // of the workspace: into its soft stop
+constexpr double kDeflects_m = 0.018;  // at most, a handle that the hand drives in rate mode
+constexpr double kFarthest = 0.98;     // of the workspace: into its soft stop
 
 Vector3 direction(Random& random) {
   return Vector3(random.normal(), random.normal(), random.normal()).stableNormalized();
@@ -72,6 +73,8 @@ IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed,
   // What stands between a handle that was let go and its home eases slowly: it would not be still.
   if (draw.lets_go && draw.inward.dot(to) < 0.0) to = -to;
   if (draw.lets_go && draw.inward.dot(about) < 0.0) about = -about;
+  // The centre of rate mode comes along with a handle that goes home: it would not leave the dead zone.
+  if (m.mapping.mode == MotionMode::kRate && draw.inward.dot(to) < 0.0) to = -to;
   const double far = std::cbrt(random.uniform()), far_turned = std::cbrt(random.uniform());
   const double kind = random.uniform();
   double farthest_m = kFarthest * m.device.delta.workspace_m;
@@ -83,7 +86,9 @@ IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed,
         std::min(1.1 * m.rendering.force_max_n, 0.7 * motor_force_n(m.device, 0.5 * farthest_m * to));
     draw.press_n = random.uniform(0.5, most_n);
     draw.wall_n_per_m = wall(random, draw.press_n, kDepth_m, least.damping_n_s_per_m / lag_s);
-    farthest_m = 0.93 * m.device.delta.workspace_m - 0.002 / m.mapping.scale - kDepth_m;
+    const double goes_m =
+        m.mapping.mode == MotionMode::kRate ? kDeflects_m : 0.002 / m.mapping.scale + kDepth_m;
+    farthest_m = 0.93 * m.device.delta.workspace_m - goes_m;
   }
   if (kind > 2.0 / 3.0 && m.mapping.mode == MotionMode::kPosition) {
     draw.press_nm = random.uniform(0.01, 1.1 * m.rendering.moment_max_nm);

@@ -59,7 +59,7 @@ class PortWitness {
       highest_j_ = std::max(highest_j_, unspent_j_);
       fallen_j_ = std::max(fallen_j_, highest_j_ - unspent_j_);
     }
-    if (calm) motion_ = std::max(motion_, ripple(x_, now.x));
+    if (calm) motion_ = std::max(motion_, to_and_fro(x_));
     // A handle that goes on is no standstill: its spring follows.
     if (calm && drift(x_, now.x) < 0.1 * count_) {
       ripple_ = std::max(ripple_, ripple(f_, now.f));
@@ -91,6 +91,18 @@ class PortWitness {
       high = high.cwiseMax(off);
     }
     return (high - low).norm();
+  }
+
+  /// The way that it went and came back, in either order: none of a handle that eases to its place.
+  static double to_and_fro(const Second& y) {
+    Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
+    for (const Vector3& at : y) {
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+      rise = rise.cwiseMax(at - low);
+      fall = fall.cwiseMax(high - at);
+    }
+    return rise.cwiseMin(fall).norm();
   }
 
   double energy_j_ = 0.0, lowest_j_ = 0.0;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/core/random.hpp"
 
@@ -58,6 +60,41 @@ TEST(CertainMotion, NeverPointsAgainstTheTrueOne) {
     moved += rate != 0.0;
   }
   EXPECT_GT(moved, 1000);
+}
+
+// A count every tenth of a second is a slow motion.
+TEST(CertainMotion, IsNoBlowWhenACountComesAlone) {
+  CertainVelocity v(0.5 * kCount);
+  double fastest = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double moved = i % 100 == 99 ? kCount : 0.0;
+    const double speed = v.step(Vector3(moved, 0.0, 0.0), kTick_s, 0.002).x();
+    if (i > 200) fastest = std::max(fastest, speed);
+  }
+  EXPECT_GT(fastest, 0.0);
+  EXPECT_LT(fastest, 0.25 * kCount / (3.0 * kTick_s));  // of what the filter leaves of a blow
+}
+
+TEST(CertainMotion, PutsAHandleAtRestThatGoesToAndFroAndGetsNowhere) {
+  CertainMotion motion({.m = 5e-6, .rad = 5e-6}, 0.0);
+  HandleState at;
+  std::vector<double> places, angles;
+  for (int i = 0; i < 200; ++i) {
+    at.p_MH.x() = i % 2 == 0 ? 0.0 : 1e-5;
+    at.q_MH = exp_rotation(at.p_MH);
+    const HandleState told = motion.step(at, kTick_s);
+    places.push_back(told.p_MH.x());
+    angles.push_back(log_rotation(told.q_MH).x());
+  }
+  EXPECT_EQ(places[5], 1e-5);  // as measured at first
+  for (std::size_t i = 100; i < 200; ++i) {
+    EXPECT_NEAR(places[i], 5e-6, 1e-15) << i;
+    EXPECT_NEAR(angles[i], 5e-6, 1e-15) << i;
+  }
+  at.p_MH.x() = 3e-5;  // it goes: as measured again
+  EXPECT_EQ(motion.step(at, kTick_s).p_MH.x(), 3e-5);
+  at.p_MH.x() = 2.5e-5;
+  EXPECT_EQ(motion.step(at, kTick_s).p_MH.x(), 2.5e-5);
 }
 
 TEST(CertainMotion, TakesThePlaceOfWhatADeviceSaysOfItsVelocities) {

@@ -115,6 +115,26 @@ TEST(ContactSpring, PaysForAnOutwardAnchorFromTheTankExactly) {
   EXPECT_GE(spring.tank.level_j(), 0.0);
 }
 
+// Far behind the hand, as rate mode has it; the hand gives way slowly.
+TEST(ContactSpring, GoesOnPressingWhereTheSurfaceComesAlongAndElseLetsTheHandGo) {
+  const auto pressed_n = [](bool along) {
+    EnergyTank tank(0.02);
+    tank.fill(0.02);
+    ContactSpring spring({});
+    double s = 0.02, force_n = 0.0;
+    spring.begin(s, 0.0);
+    spring.set_stiffness(s, 1000.0);
+    for (int i = 0; i < 1500; ++i) {
+      s += i < 50 ? 1e-5 : -1e-6;
+      spring.set_surface(s - 0.04, along);
+      force_n = spring.step(s, 1e-3, tank);
+    }
+    return force_n;
+  };
+  EXPECT_GT(pressed_n(true), 1.0);
+  EXPECT_LT(pressed_n(false), 0.5);
+}
+
 TEST(EnergyTank, NamesWhatItCouldNotTakeOrPayAndSpendsOnlyWhatIsThere) {
   EnergyTank tank(0.02);
   EXPECT_NEAR(tank.fill(0.05), 0.03, 1e-15);
