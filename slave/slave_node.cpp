@@ -8,12 +8,11 @@
 #include "slave/command/servo_lag.hpp"
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
+#include "slave/force_doubt.hpp"
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
 #include "slave/robot_watch.hpp"
-#include "slave/sensing/growth_watch.hpp"
 #include "slave/sensing/sensor_watch.hpp"
-#include "slave/sensing/sign_trial.hpp"
 #include "slave/sensing/tool_load.hpp"
 #include "slave/slave_reports.hpp"
 #include "slave/slave_safety.hpp"
@@ -24,13 +23,6 @@ namespace {
 constexpr double kDtMax = 0.02;     // a later tick moves no further than this
 constexpr double kReachedM = 1e-3;  // a goal counts as reached
 constexpr double kZeroMax = 0.5;    // of the guard, that a zero may take for the sensor's bias
-constexpr double kNear = 0.9;       // of the guard, or of what a hold comes down to
-constexpr double kLatelyS = 0.05;   // a growth that is still going on
-constexpr double kHeldS = 1.0;      // likewise, before the hold in which the robot rests
-
-GrowthBounds growth_bounds(const SlaveConfig& c) {
-  return {c.command.guard_stiffness_n_per_m, c.sensing.force_noise_n, c.sensing.bandwidth_hz};
-}
 
 }  // namespace
 
@@ -46,10 +38,8 @@ struct SlaveNode::State {
         watch(config.robot),
         right(config.robot),
         servo(config.robot.servo_hz),
-        limits(config.command),
-        noise_n(config.sensing.force_noise_n),
         witness(config.sensing, config.command),
-        growth(growth_bounds(config)),
+        doubt(config.sensing, config.command),
         sensor(config.sensing, kZeroMax * config.command.force_guard_n),
         contact(config.sensing, config.estimator),
         turn_contact(rotational(config.sensing), rotational(config.estimator)),
@@ -66,7 +56,6 @@ struct SlaveNode::State {
   Pose play(Time now);
   void look(const RobotState& robot, Time now);
   void feel(double dt);
-  void doubt(double dt);
   [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
   [[nodiscard]] ContactForce pressed() const;
   void book_reached();
@@ -83,11 +72,8 @@ struct SlaveNode::State {
   CommandRight right;
   ServoLag servo;
   Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
-  CommandConfig limits;
-  double noise_n;
   SensorWatch witness;
-  GrowthWatch growth;
-  SignTrial trial;
+  ForceDoubt doubt;
   ToolCompensation sensor;
   SlaveContact contact;
   SlaveContact turn_contact;  // places are rotation vectors from the anchor, in W
@@ -122,10 +108,8 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.reports.configure(config.link);
   s.safety.configure(config.safety);
   s.motion.configure(config.command);
-  s.limits = config.command;
-  s.noise_n = config.sensing.force_noise_n;
   s.witness.configure(config.sensing, config.command);
-  s.growth.configure(growth_bounds(config));
+  s.doubt.configure(config.sensing, config.command);
   s.sensor.configure(config.sensing, kZeroMax * config.command.force_guard_n);
   s.contact.configure(config.sensing, config.estimator);
   s.turn_contact.configure(rotational(config.sensing), rotational(config.estimator));
@@ -181,8 +165,8 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
   in.sensor_fault = robot_ok && !sensor_ok;
-  in.sensor_sign = trial.verdict() == SignTrial::Verdict::kSign;
-  in.no_relief = motion.no_relief() || trial.verdict() == SignTrial::Verdict::kNoRelief;
+  in.sensor_sign = doubt.wrong_sign();
+  in.no_relief = motion.no_relief() || doubt.no_relief();
   in.sensor_ready = sensor.ready();
   in.stop = input.stop;
   in.send_hz = input.send_hz;
@@ -233,7 +217,7 @@ void SlaveNode::State::follow(const RobotState& robot) {
 // was missed is caught up within them.
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
-  const bool brakes = safety.brakes() || trial.verdict() != SignTrial::Verdict::kNone;
+  const bool brakes = safety.brakes() || doubt.rests();
   const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt});
   lead_m = servo.step(motion.X_WE().p, dt);
   return clamps;
@@ -242,8 +226,7 @@ Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
 void SlaveNode::State::begin_engagement() {
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
-  growth.reset();
-  trial.reset();
+  doubt.reset();
   turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
@@ -325,7 +308,7 @@ void SlaveNode::State::feel(double dt) {
   if (needs.contact) {
     contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
                   view.clamps.force_guard, sensor.doubt_n()});
-    doubt(dt);
+    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(), safety.state());
   }
   if (needs.rotation) {
     const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
@@ -340,21 +323,6 @@ void SlaveNode::State::feel(double dt) {
   }
 }
 
-// A force near its bound that grows where it should not: the robot rests till it is clear why.
-void SlaveNode::State::doubt(double dt) {
-  growth.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt});
-  const SafetyState now = safety.state();
-  const bool holds = now == SafetyState::kHolding;
-  if (!holds && now != SafetyState::kEngaged) return;
-  const double bound_n = holds ? hold_limit_n(limits) : kNear * limits.force_guard_n;
-  const bool lately = !growth.direction().isZero(0.0) && growth.age_s() < (holds ? kHeldS : kLatelyS);
-  const bool could_be_stiff = growth.across() && growth.slope_n_per_m() > limits.guard_stiffness_n_per_m;
-  if (lately && !could_be_stiff && contact.force().force_n > bound_n) trial.begin(growth);
-  const bool doubted = trial.verdict() != SignTrial::Verdict::kNone;
-  trial.step(growth, contact.force().reaction, growth.bounds(), dt);
-  if (doubted && trial.verdict() == SignTrial::Verdict::kNone) growth.reset();
-}
-
 // What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its
 // sensor is not believed.
 ContactForce SlaveNode::State::pressed() const {
@@ -362,10 +330,7 @@ ContactForce SlaveNode::State::pressed() const {
   ContactForce force = contact.force();
   if (!moves || !robot_ok || !sensor_ok) force.force_n = 0.0;
   force.lead_m = -force.reaction.dot(lead_m);
-  force.grows = growth.direction();
-  force.grows_lead_m = force.grows.dot(lead_m);
-  force.trusted = trial.verdict() == SignTrial::Verdict::kNone;
-  force.ease_m_per_s = trial.ease_m_per_s();
+  doubt.tell(force, lead_m);
   return force;
 }
 
