@@ -66,6 +66,9 @@ VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
   result.limited = result.limited || change.stableNorm() > reach;
   result.velocity =
       worst ? brake_for(*worst, p.velocity, wanted, limits) : p.velocity + clamp_norm(change, reach);
+  // Backing out while the rest of the motion has yet to end. From within the ball its nearest place is no
+  // further.
+  if (p.velocity.stableNorm() <= limits.speed) result.velocity = clamp_norm(result.velocity, limits.speed);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "slave/command/goal_limiter.hpp"
+#include "slave/command/vector_limit.hpp"
 
 namespace longreach {
 namespace {
@@ -228,6 +229,20 @@ TEST(GoalLimiterGuard, WhatTheRobotCouldNotDoIsCorrectedWithinTheSpeedLimits) {
   t.limiter.correct({before.p + Vector3(0, 1, 0), exp_rotation(Vector3(0, 0, 1))}, kDt);
   EXPECT_NEAR(t.limiter.velocity().linear.norm(), kSpeed, 1e-12);
   EXPECT_NEAR(t.limiter.velocity().angular.norm(), 0.3, 1e-12);
+}
+
+// What presses shall be backed out of faster than the tool may go, while it still moves along the surface.
+TEST(Pursue, BacksOutWithinItsSpeedWhileTheRestOfTheMotionEnds) {
+  const VectorLimits limits{.speed = 0.15, .acceleration = 1.25, .dt = 1e-3};
+  VectorPursuit p{.velocity = {-0.05, 0.14, 0.0}, .goal_velocity = {0.1, 0.1, 0.0}};
+  p.caps[0] = {.direction = Vector3::UnitX(), .speed = -1.0, .active = true};
+  for (int i = 0; i < 400; ++i) {
+    const Vector3 velocity = pursue(p, limits).velocity;
+    EXPECT_LE(velocity.norm(), limits.speed * (1 + 1e-12)) << i;
+    EXPECT_LE((velocity - p.velocity).norm(), limits.acceleration * limits.dt * (1 + 1e-9)) << i;
+    p.velocity = velocity;
+  }
+  EXPECT_NEAR(p.velocity.x(), -limits.speed, 1e-3);
 }
 
 }  // namespace
