@@ -7,7 +7,8 @@ namespace longreach {
 namespace {
 
 constexpr double kBrakingShare = 0.8;
-constexpr double kRounding = 1e-14;  // of a pose in metres and radians: so near a goal is reached
+constexpr double kFull = 1.0 + 1e-9;  // of the speed, with its rounding
+constexpr double kRounding = 1e-14;   // of a pose in metres and radians: so near a goal is reached
 
 // Brakes along the cap first and spends what acceleration is left on the rest: both moves end inside the
 // ball.
@@ -68,7 +69,8 @@ VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
       worst ? brake_for(*worst, p.velocity, wanted, limits) : p.velocity + clamp_norm(change, reach);
   // Backing out while the rest of the motion has yet to end. From within the ball its nearest place is no
   // further.
-  if (p.velocity.stableNorm() <= limits.speed) result.velocity = clamp_norm(result.velocity, limits.speed);
+  if (p.velocity.stableNorm() <= kFull * limits.speed)
+    result.velocity = clamp_norm(result.velocity, limits.speed);
   return result;
 }
 
