@@ -67,8 +67,10 @@ void Port::drain(Time now, bool stalled) {
       impairment_.push(now, datagram, channel_.origin());
     }
   }
+  // What is under way in the artificial network was overtaken by that.
+  const Time until = stalled_ ? Time::max() : now;
   for (int i = 0; i < kPopsPerReceive && !impairment_.clear(); ++i) {
-    const auto datagram = impairment_.pop(now);
+    const auto datagram = impairment_.pop(until);
     if (!datagram) break;
     count(judge(now, *datagram, impairment_.origin()));
   }
