@@ -6,7 +6,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kTicks_s = 0.003;  // a state changes a tick later
+constexpr double kTicks_s = 0.003;    // a state changes a tick later
+constexpr double kOvertaken_s = 0.5;  // what is later is not heard
 
 bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || a == b; }
 
@@ -49,7 +50,13 @@ bool Ghost::slave_given(double t_s, double slept_s, std::span<const Received<Mot
       good = false;
       continue;
     }
-    if (!received.newest) continue;
+    // A hold that lasted longer needs a new engagement.
+    if (t_s - right_.had_s > resume_s_ + kTicks_s) ended_ = std::max(ended_, right_.engagement);
+    right_.engaged = right_.engaged && right_.engagement > ended_;
+    if (!received.newest) {
+      if (!slept && sent->t_s >= right_.sent_s - kOvertaken_s) right_.heard_s = t_s;
+      continue;
+    }
     good = good && received.sequence > newest_;
     newest_ = std::max(newest_, received.sequence);
     obey(t_s, *sent, slept);
@@ -60,8 +67,6 @@ bool Ghost::slave_given(double t_s, double slept_s, std::span<const Received<Mot
 
 void Ghost::obey(double t_s, const SentCommand& sent, bool slept) {
   const MotionCommand& command = sent.command;
-  // A hold that lasted longer needs a new engagement.
-  if (t_s - right_.had_s > resume_s_ + kTicks_s) ended_ = std::max(ended_, right_.engagement);
   right_.request = command.request;
   right_.newest = &sent;
   right_.sent_s = sent.t_s;

@@ -42,8 +42,10 @@ class Engages : public Invariant {
         centre_m_(start_pose(s).p),
         workspace_m_(s.slave.command.workspace_m) {}
   void see(const Moment& m) override {
-    // Somebody may have carried the tool out of its workspace: an engagement waits till it is back.
-    if ((m.X_WE.p - centre_m_).norm() > workspace_m_) {
+    // Somebody may have carried the tool out of its workspace: an engagement waits till it is back. A client
+    // may have tightened how old news may be.
+    tightened_ = tightened_ || m.configured;
+    if (tightened_ || (m.X_WE.p - centre_m_).norm() > workspace_m_) {
       asked_s_ = 0.0;
       return;
     }
@@ -64,6 +66,7 @@ class Engages : public Invariant {
   double round_trip_s_;
   Vector3 centre_m_;
   double workspace_m_;
+  bool tightened_ = false;
   double asked_s_ = 0.0;
 };
 

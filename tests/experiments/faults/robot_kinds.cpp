@@ -54,7 +54,9 @@ void lag(World&, Active& fault, JointVector& setpoint) {
   if (fault.queue.size() > ticks) fault.queue.pop_front();
   setpoint = fault.queue.front();
 }
-void creep(World&, Active& fault, JointVector& setpoint) {
+/// Its drives, not its brakes.
+void creep(World& world, Active& fault, JointVector& setpoint) {
+  if (!world.moment().moves) return;
   setpoint[joint_of(fault)] += fault.age_s * log_scale(fault.fault.size, 1e-4, 0.05);
 }
 
