@@ -67,10 +67,10 @@ void Port::drain(Time now, bool stalled) {
       impairment_.push(now, datagram, channel_.origin());
     }
   }
-  // What is under way in the artificial network was overtaken by that.
-  const Time until = stalled_ ? Time::max() : now;
+  // What is under way in the artificial network while this side stands still was overtaken by what lay there.
   for (int i = 0; i < kPopsPerReceive && !impairment_.clear(); ++i) {
-    const auto datagram = impairment_.pop(until);
+    auto datagram = impairment_.pop(now);
+    if (!datagram && stalled_) datagram = impairment_.pop(Time::max());
     if (!datagram) break;
     count(judge(now, *datagram, impairment_.origin()));
   }
