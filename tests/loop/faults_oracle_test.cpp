@@ -174,6 +174,35 @@ TEST_F(Oracle, SeesAHandThatIsPushedTooHard) {
   EXPECT_TRUE(broken("I22"));
 }
 
+TEST_F(Oracle, SeesAForceOnTheHandThatLeaps) {
+  moment_.shown = SafetyState::kEngaged;
+  run(1, [](Moment& m, int) { m.F_H_M.force.x() = 2.0; });
+  EXPECT_FALSE(broken("I22"));
+  run(1, [](Moment& m, int) { m.F_H_M.force.x() = 9.0; });
+  EXPECT_TRUE(broken("I22"));
+}
+
+TEST_F(Oracle, SeesAForceOnAHandThatIsNotEngaged) {
+  moment_.handle.held = true;
+  moment_.F_H_M.force.x() = 0.01;
+  run(30, [](Moment&, int) {});
+  EXPECT_FALSE(broken("I22"));
+  run(100, [](Moment&, int) {});
+  EXPECT_TRUE(broken("I22"));
+}
+
+TEST_F(Oracle, SeesAStiffnessThatRisesWithoutAReport) {
+  run(5000, [](Moment& m, int) { m.rendered_n_per_m = 500.0; });
+  EXPECT_FALSE(broken("I24"));
+  run(1, [](Moment& m, int) { m.rendered_n_per_m = 501.0; });
+  EXPECT_TRUE(broken("I24"));
+}
+
+TEST_F(Oracle, SeesATickWithoutEnd) {
+  run(1, [](Moment& m, int) { m.given = 1000; });
+  EXPECT_TRUE(broken("I26"));
+}
+
 TEST_F(Oracle, SeesEnergyComeOutOfTheHandle) {
   run(1000, [](Moment& m, int) {
     m.F_H_M.force.x() = 1.0;

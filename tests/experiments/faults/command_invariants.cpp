@@ -1,7 +1,8 @@
-// I13 to I20: what was sent, what was taken, what was changed.
+// I13 to I20, I26: what was sent, what was taken, what was changed, and how much of it.
 
 #include <algorithm>
 
+#include "common/wire/port.hpp"
 #include "tests/experiments/faults/invariant.hpp"
 
 namespace longreach {
@@ -63,6 +64,19 @@ class Limits : public Invariant {
   }
 };
 
+/// What a side does in a tick, however much there is to do: what a node is given of a type, what leaves.
+class Bounded : public Invariant {
+ public:
+  explicit Bounded(const Scenario&) : Invariant("I26", "the work of a tick is bounded") {}
+  void see(const Moment& m) override {
+    at_most(m, static_cast<double>(m.given), static_cast<double>(kInboxCapacity), "commands in a tick");
+    at_most(m, static_cast<double>(m.datagrams), kLeave, "datagrams that left in a tick");
+  }
+
+ private:
+  static constexpr double kLeave = 3.0;  // a command, a report, telemetry
+};
+
 }  // namespace
 
 void add_command_invariants(const Scenario& s, Invariants& all) {
@@ -70,6 +84,7 @@ void add_command_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Fresh>(s));
   all.push_back(std::make_unique<Nonces>(s));
   all.push_back(std::make_unique<Limits>(s));
+  all.push_back(std::make_unique<Bounded>(s));
 }
 
 }  // namespace longreach

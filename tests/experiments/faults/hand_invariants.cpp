@@ -1,4 +1,5 @@
-// I22, I23: the wrench on the hand, and the energy that it does at the handle's true motion.
+// I22 to I24: the wrench on the hand, the energy that it does at the handle's true motion, and what becomes of
+// a stiffness that is old.
 
 #include <algorithm>
 
@@ -7,18 +8,69 @@
 namespace longreach {
 namespace {
 
+/// Only the rise is limited: a force that falls gives no energy away. What the device does by itself, where it
+/// is let go or at its edge, stays (master/devices/handle_behaviour.hpp).
 class HandForce : public Invariant {
  public:
   explicit HandForce(const Scenario& s)
-      : Invariant("I22", "the hand is pushed within the limits of force and rise"), r_(s.master.rendering) {}
+      : Invariant("I22", "the hand is pushed within the limits of force and rise, and not when not engaged"),
+        r_(s.master.rendering),
+        edge_m_(s.master.device.behaviour.stop_share * s.master.device.delta.workspace_m),
+        edge_rad_(s.master.device.behaviour.stop_share * s.master.device.spherical.workspace_rad) {}
   void see(const Moment& m) override {
     if (!m.master_ran) return;
-    at_most(m, m.F_H_M.force.norm(), r_.force_max_n * 1.0001, "N on the hand");
-    at_most(m, m.F_H_M.moment.norm(), r_.moment_max_nm * 1.0001, "N m on the hand");
+    at_most(m, m.F_H_M.force.norm(), r_.force_max_n * kSlack, "N on the hand");
+    at_most(m, m.F_H_M.moment.norm(), r_.moment_max_nm * kSlack, "N m on the hand");
+    at_most(m, rise(F_.force, m.F_H_M.force), r_.slew_n_per_s * m.period_s * kSlack, "N more on the hand");
+    at_most(m, rise(F_.moment, m.F_H_M.moment), r_.slew_nm_per_s * m.period_s * kSlack,
+            "N m more on the hand");
+    F_ = m.F_H_M;
+    see_rest(m);
   }
 
  private:
+  static constexpr double kSlack = 1.0001, kReacts_s = 0.01;
+  static double rise(const Vector3& before, const Vector3& now) {
+    return now.norm() > before.norm() ? (now - before).norm() : 0.0;
+  }
+  void see_rest(const Moment& m) {
+    const bool live = m.shown == SafetyState::kEngaged || m.shown == SafetyState::kHolding;
+    const bool by_itself = !m.handle.held || m.since(Spoils::kHandle) == 0.0 ||
+                           m.x_MH.norm() > edge_m_ - kNear_m ||
+                           log_rotation(m.q_MH).norm() > edge_rad_ - kNear_rad;
+    rests_s_ = live || by_itself ? 0.0 : rests_s_ + m.period_s;
+    if (rests_s_ < r_.ramp_s + kReacts_s) return;
+    at_most(m, m.F_H_M.force.norm(), 0.0, "N on a hand that is not engaged");
+    at_most(m, m.F_H_M.moment.norm(), 0.0, "N m on a hand that is not engaged");
+  }
+
+  static constexpr double kNear_m = 1e-3, kNear_rad = 0.02;  // what the encoders and the structure leave open
   RenderingConfig r_;
+  double edge_m_, edge_rad_;
+  Wrench F_{};
+  double rests_s_ = 0.0;
+};
+
+/// What the master says that it renders. Its honesty is I23's: a spring that is stiffer than it says gives back
+/// what nobody put in.
+class StaleStiffness : public Invariant {
+ public:
+  explicit StaleStiffness(const Scenario& s)
+      : Invariant("I24", "without a report the stiffness does not rise"),
+        silence_s_(s.master.safety.silence_s) {}
+  void see(const Moment& m) override {
+    if (!m.master_ran) return;
+    if (m.report_came) came_s_ = m.t_s;
+    const bool stale = m.t_s - came_s_ > silence_s_;
+    if (stale && known_) at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
+    rendered_n_per_m_ = m.rendered_n_per_m;
+    known_ = stale;
+  }
+
+ private:
+  double silence_s_;
+  double came_s_ = 0.0, rendered_n_per_m_ = 0.0;
+  bool known_ = false;
 };
 
 /// What the hand has put in and not got back, by the true motion. A device that lies, that nobody holds, or
@@ -66,6 +118,7 @@ class PortEnergy : public Invariant {
 void add_hand_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<HandForce>(s));
   all.push_back(std::make_unique<PortEnergy>(s));
+  all.push_back(std::make_unique<StaleStiffness>(s));
 }
 
 }  // namespace longreach

@@ -29,6 +29,7 @@ struct Moment {
   Pose X_WE{};                                     // true
   Vector3 v_WE = Vector3::Zero();
   Wrench F_E_W{};
+  std::size_t given = 0;                    // commands, in this tick
   bool given_badly = false;                 // the slave took a command that nobody sent so
   bool stop_at_slave = false;               // asked for in this tick
   std::optional<StiffnessReport> report{};  // as it left
@@ -43,6 +44,8 @@ struct Moment {
   HandleState handle{};  // as told
   Wrench F_H_M{};        // as written
   bool engage_asked = false, hold_asked = false, stop_asked = false;
+  bool report_came = false;                // one that is newest was given to the master
+  double rendered_n_per_m = 0.0;           // as the master says
   SafetyState shown = SafetyState::kIdle;  // to the operator
   std::optional<Telemetry> seen{};         // newest telemetry that the master was given, if it came now
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/time.hpp"
 #include "common/spatial/spatial.hpp"
 #include "master/master_config.hpp"
 #include "proto/config.pb.h"
@@ -19,6 +20,11 @@ struct Scenario {
   std::vector<std::string> settings;  // as `longreach-lab run --set` takes them
   double round_trip_s = 0.0;          // of the link while nothing is wrong
   bool metamorphic = false;           // nothing of its link is drawn
+};
+
+/// What the clocks of both sides show when a run begins, beyond what they show otherwise.
+struct Clocks {
+  Duration slave_ahead{0}, master_ahead{0};
 };
 
 Scenario draw_scenario(std::uint64_t seed);

@@ -54,10 +54,10 @@ void Tally::add(const Tally& other) {
   trajectories = mixed(trajectories, other.trajectories);
 }
 
-void Tally::judge_twin(std::uint64_t seed, bool same) {
-  ++judged["I17"];
-  violated["I17"] += same ? 0 : 1;
-  if (!same) failures.push_back({seed, {"I17", 0.0, "a refused datagram has changed the run"}});
+void Tally::judge(std::uint64_t seed, const char* invariant, bool good, const char* words) {
+  ++judged[invariant];
+  violated[invariant] += good ? 0 : 1;
+  if (!good) failures.push_back({seed, {invariant, 0.0, words}});
 }
 
 std::string to_text(const Tally& t) {

@@ -25,8 +25,8 @@ struct Tally {
 
   void add(std::uint64_t seed, const Trial& trial);
   void add(const Tally& other);
-  /// Of a run with and without forged datagrams (twin.hpp).
-  void judge_twin(std::uint64_t seed, bool same);
+  /// Of what was tried besides the trial (twin.hpp).
+  void judge(std::uint64_t seed, const char* invariant, bool good, const char* words);
 };
 
 std::string to_text(const Tally& tally);

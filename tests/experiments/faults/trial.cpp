@@ -29,9 +29,9 @@ class Hash {
 
 Schedule schedule_of(std::uint64_t seed) { return draw_schedule(seed, draw_scenario(seed).round_trip_s); }
 
-Trial run_trial(const Schedule& schedule, Sabotage sabotage) {
-  const Scenario scenario = draw_scenario(schedule.seed);
-  World world(scenario, schedule, sabotage);
+namespace {
+
+Trial run(const Scenario& scenario, const Schedule& schedule, World& world) {
   const Invariants invariants = all_invariants(scenario);
   GuardWatch guards;
   Hash hash;
@@ -55,6 +55,19 @@ Trial run_trial(const Schedule& schedule, Sabotage sabotage) {
     if (i->violated() > 0) trial.violations.push_back(i->first());
   }
   return trial;
+}
+
+}  // namespace
+
+Trial run_trial(const Schedule& schedule, Sabotage sabotage) {
+  const Scenario scenario = draw_scenario(schedule.seed);
+  World world(scenario, schedule, sabotage);
+  return run(scenario, schedule, world);
+}
+
+Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks) {
+  World world(scenario, schedule, Sabotage::kNone, clocks);
+  return run(scenario, schedule, world);
 }
 
 }  // namespace longreach

@@ -31,6 +31,7 @@ struct Trial {
 Schedule schedule_of(std::uint64_t seed);
 
 Trial run_trial(const Schedule& schedule, Sabotage sabotage = Sabotage::kNone);
+Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks);
 
 /// When a schedule fails, if it does.
 using Fails = std::function<std::optional<double>(const Schedule&)>;

@@ -5,12 +5,12 @@
 
 #include "tests/experiments/faults/kind.hpp"
 #include "tests/experiments/faults/scenario.hpp"
-#include "tests/experiments/faults/trial.hpp"
 
 namespace longreach {
 namespace {
 
 constexpr std::string_view kForgeries = "datagrams";
+constexpr double kTwin_s = 20.0, kLoss = 0.01;
 
 bool harmless(const FaultKind& kind) {
   return kind.group == kForgeries && kind.spoils == 0 && kind.name != "swapped";
@@ -28,7 +28,7 @@ std::optional<bool> refused_changes_nothing(std::uint64_t seed) {
   std::erase_if(plain.faults, [](const Fault& fault) {
     return by_chance(fault.kind) || harmless(fault_kinds()[fault_kind(fault.kind)]);
   });
-  plain.end_s = std::min(plain.end_s, 20.0);
+  plain.end_s = std::min(plain.end_s, kTwin_s);
   Schedule attacked = plain;
   Random random = Random(seed).child("forgeries");
   for (const FaultKind& kind : fault_kinds()) {
@@ -38,6 +38,30 @@ std::optional<bool> refused_changes_nothing(std::uint64_t seed) {
   }
   std::ranges::stable_sort(attacked.faults, {}, &Fault::start_s);
   return run_trial(plain).trajectory == run_trial(attacked).trajectory;
+}
+
+bool clocks_change_nothing(std::uint64_t seed) {
+  const Scenario scenario = draw_scenario(seed);
+  Schedule schedule = schedule_of(seed);
+  schedule.end_s = std::min(schedule.end_s, kTwin_s);
+  const Clocks shifted{std::chrono::hours(31) + std::chrono::nanoseconds(12345), std::chrono::hours(7)};
+  return run_trial(scenario, schedule, {}).trajectory == run_trial(scenario, schedule, shifted).trajectory;
+}
+
+Trial run_calm(std::uint64_t seed, double seconds) {
+  Scenario scenario = draw_scenario(seed);
+  scenario.master.link.impairment.loss = scenario.slave.link.impairment.loss = kLoss;
+  Schedule schedule;
+  schedule.seed = seed;
+  schedule.faults_end_s = schedule.end_s = seconds;
+  return run_trial(scenario, schedule, {});
+}
+
+std::uint64_t false_alarms(const Trial& calm) {
+  std::uint64_t all = 0;
+  for (const auto& [name, times] : calm.guards)
+    if (name.starts_with("slave: ") || name.starts_with("master: ")) all += times;
+  return all;
 }
 
 }  // namespace longreach

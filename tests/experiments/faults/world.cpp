@@ -42,7 +42,7 @@ std::vector<Bytes> past_life(Random random) {
 
 }  // namespace
 
-World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage)
+World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage, const Clocks& clocks)
     : scenario_(scenario),
       schedule_(schedule),
       lab_(scenario.master, scenario.slave, schedule.seed),
@@ -56,6 +56,8 @@ World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabota
       sessions_(Random(schedule.seed).child("sessions")),
       injected_(fault_kinds().size(), 0),
       past_life_(longreach::past_life(Random(schedule.seed).child("past life"))),
+      slave_ahead_(clocks.slave_ahead),
+      master_ahead_(clocks.master_ahead),
       up_now_(scenario.slave.link.impairment),
       down_now_(scenario.master.link.impairment) {
   moment_.ghost = &ghost_;
@@ -71,8 +73,8 @@ const Moment& World::step() {
   moment_.faults_over = now_s >= schedule_.faults_end_s;
   moment_.slave_ran = moment_.master_ran = moment_.moves = moment_.stop_at_slave = false;
   moment_.engage_asked = moment_.hold_asked = moment_.stop_asked = false;
-  moment_.number_again = moment_.configured = false;
-  moment_.datagrams = 0;
+  moment_.number_again = moment_.configured = moment_.report_came = false;
+  moment_.datagrams = moment_.given = 0;
   moment_.report.reset();
   moment_.telemetry.reset();
   moment_.seen.reset();
@@ -189,6 +191,7 @@ void World::slave_asked(SlaveInput& input) {
   moment_.slave_ran = true;
   moment_.slave_gap_s = moment_.t_s - slave_ran_s_;
   moment_.stop_at_slave = input.stop;
+  moment_.given = input.commands.size();
   if (input.stop) ghost_.ended(moment_.t_s);
   saboteur_.before_ghost(input);
   moment_.given_badly = !ghost_.slave_given(moment_.t_s, moment_.slave_gap_s, input.commands);
@@ -229,6 +232,7 @@ void World::master_asked(MasterInput& input) {
   moment_.hold_asked = input.requests.hold;
   moment_.stop_asked = input.requests.stop;
   if (input.requests.engage) ghost_.asked();
+  moment_.report_came = std::ranges::any_of(input.reports, [](const auto& r) { return r.newest; });
   if (!input.telemetry.empty()) moment_.seen = input.telemetry.back().message;
 }
 
@@ -247,6 +251,7 @@ void World::finish() {
   moment_.x_MH = lab_.devices().delta().position_m();
   moment_.q_MH = lab_.devices().spherical().orientation();
   moment_.shown = lab_.master().state;
+  moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
   moment_.received = lab_.arrived() + up_.oversized() + down_.oversized();
   moment_.accounted = 0;
   for (const Port* port :

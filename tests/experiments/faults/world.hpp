@@ -27,7 +27,8 @@ struct Levels {
 
 class World : public Meddler {
  public:
-  World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage = Sabotage::kNone);
+  World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage = Sabotage::kNone,
+        const Clocks& clocks = {});
 
   /// One tick; what happened in it.
   const Moment& step();
@@ -102,7 +103,7 @@ class World : public Meddler {
   std::vector<Running> running_;
   std::vector<std::uint64_t> injected_;
   std::vector<Bytes> past_life_;
-  Duration slave_ahead_{0}, master_ahead_{0};
+  Duration slave_ahead_, master_ahead_;
   ImpairmentConfig up_now_{}, down_now_{};
   Moment moment_{};
   double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
