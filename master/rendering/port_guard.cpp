@@ -24,6 +24,10 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
   Vector3 out = gain_ * in.rendered + in.always;
   clamped_ = injecting_ = false;
   if (out.allFinite() && in.rate.allFinite()) {
+    const double v2 = in.rate.squaredNorm();
+    injecting_ = gain_ > 0.0 && deficit_j_ > 0.0 && v2 > 0.0;
+    if (injecting_)
+      out -= gain_ * std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
     // Only the rise is limited: a force that falls gives no energy away.
     const Vector3 rise = out - f_last_;
     const double most = config_.slew_per_s * dt_s;
@@ -31,10 +35,6 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
       out = f_last_ + clamp_norm(rise, most);
       clamped_ = true;
     }
-    const double v2 = in.rate.squaredNorm();
-    injecting_ = gain_ > 0.0 && deficit_j_ > 0.0 && v2 > 0.0;
-    if (injecting_)
-      out -= gain_ * std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
     clamped_ = clamped_ || norm(out) > config_.force_max;
     out = clamp_norm(out, config_.force_max);
   }

@@ -1,5 +1,8 @@
 // I21: the force at the plant, and what becomes of it when the robot stops.
 
+#include <algorithm>
+#include <cmath>
+
 #include "slave/command/guard_config.hpp"
 #include "tests/experiments/faults/invariant.hpp"
 
@@ -15,15 +18,33 @@ bool as_reckoned(const Moment& m) {
   return true;
 }
 
+/// dF/dp of the stiffest material at this force.
+double stiffest_n_per_m(const SceneConfig& scene, double force_n) {
+  double most = 0.0;
+  for (const MaterialConfig& m : scene.material) {
+    const double k = m.stiffness_n_per_m / std::pow(m.reference_depth_m, m.exponent - 1.0);
+    most = std::max(most, m.exponent * force_n / std::pow(force_n / k, 1.0 / m.exponent));
+  }
+  return most;
+}
+
+/// Within the envelope that is published: a touch at FirstTouch's speed on its stiffness (guard_config.hpp).
 class Guarded : public Invariant {
  public:
   explicit Guarded(const Scenario& s)
-      : Invariant("I21", "the force is at most 1.35 times the guard"),
-        bound_n_(kGuardOvershoot * s.slave.command.force_guard_n) {}
+      : Invariant("I21", "within its envelope the force is at most 1.35 times the guard"),
+        bound_n_(kGuardOvershoot * s.slave.command.force_guard_n),
+        stiff_(stiffest_n_per_m(s.slave.scene, bound_n_) > FirstTouch{}.stiffness_n_per_m) {}
   void see(const Moment& m) override {
     const double force_n = m.F_E_W.force.norm();
     const bool engaged = m.claimed == SafetyState::kEngaged;
-    if (!as_reckoned(m)) {
+    const bool touched = force_n > 0.0 && last_n_ == 0.0;
+    if (touched)
+      beyond_ = stiff_ || -m.v_WE.dot(m.F_E_W.force) > kSwift * FirstTouch{}.speed_m_per_s * force_n;
+    last_n_ = force_n;
+    settled_s_ = touched || force_n > bound_n_ ? 0.0 : settled_s_ + m.period_s;
+    beyond_ = beyond_ && (force_n > 0.0 && settled_s_ < kRelief_s);
+    if (!as_reckoned(m) || beyond_) {
       pressed_n_ = force_n;
       engaged_s_ = 0.0;
       return;
@@ -35,9 +56,12 @@ class Guarded : public Invariant {
   }
 
  private:
-  static constexpr double kRelief_s = 3.0, kRise = 1.05;
+  static constexpr double kRelief_s = 3.0, kRise = 1.05, kSwift = 1.05;
 
   double bound_n_;
+  bool stiff_;
+  bool beyond_ = false;
+  double last_n_ = 0.0, settled_s_ = 0.0;
   // Somebody has pressed the robot in: it may stay so till it is engaged, and is then relieved.
   double pressed_n_ = 0.0, engaged_s_ = 0.0;
 };

@@ -51,8 +51,8 @@ class HandForce : public Invariant {
   double rests_s_ = 0.0;
 };
 
-/// What the master says that it renders. Its honesty is I23's: a spring that is stiffer than it says gives back
-/// what nobody put in.
+/// What the master says that it renders, along one direction; a hand that returns to the handle finds again what
+/// it has let go. Its honesty is I23's: a spring that is stiffer than it says gives back what nobody put in.
 class StaleStiffness : public Invariant {
  public:
   explicit StaleStiffness(const Scenario& s)
@@ -61,16 +61,20 @@ class StaleStiffness : public Invariant {
   void see(const Moment& m) override {
     if (!m.master_ran) return;
     if (m.report_came) came_s_ = m.t_s;
+    const bool same = m.rendered_along == along_ && m.handle.held == held_;
     const bool stale = m.t_s - came_s_ > silence_s_;
-    if (stale && known_) at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
+    if (stale && known_ && same) at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
     rendered_n_per_m_ = m.rendered_n_per_m;
+    along_ = m.rendered_along;
+    held_ = m.handle.held;
     known_ = stale;
   }
 
  private:
   double silence_s_;
   double came_s_ = 0.0, rendered_n_per_m_ = 0.0;
-  bool known_ = false;
+  Vector3 along_ = Vector3::Zero();
+  bool known_ = false, held_ = false;
 };
 
 /// What the hand has put in and not got back, by the true motion. A device that lies, that nobody holds, or

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "slave/robot/kinematics.hpp"
 #include "tests/experiments/faults/invariant.hpp"
 
 namespace longreach {
@@ -70,17 +71,18 @@ class Engages : public Invariant {
   double asked_s_ = 0.0;
 };
 
-/// The hand rests then: the robot is where it is asked to be, where nothing keeps it from there.
+/// The hand rests then: the robot is where it is asked to be, where nothing keeps it from there. An engagement is
+/// anchored where the robot was asked to be then; somebody may have moved it off there.
 class Tracks : public Invariant {
  public:
   explicit Tracks(const Scenario& s)
-      : Invariant("L3", "the robot follows the hand again"), round_trip_s_(s.round_trip_s) {}
+      : Invariant("L3", "the robot follows the hand again"), arm_(s.slave.robot), round_trip_s_(s.round_trip_s) {}
   void see(const Moment& m) override {
     const Right& right = m.ghost->right();
     const bool engaged = right.engaged && m.claimed == SafetyState::kEngaged;
     if (engaged && m.engagement != engagement_) {
       engagement_ = m.engagement;
-      anchor_m_ = m.X_WE.p;
+      anchor_m_ = arm_.forward(m.setpoint_rad).p;
       goal_m_.setZero();
     }
     if (!engaged) begun_s_ = m.t_s;
@@ -99,6 +101,7 @@ class Tracks : public Invariant {
     return c.joint_position || c.workspace || c.force_guard || c.singularity || c.unreachable ||
            c.tool_speed || c.joint_speed;
   }
+  Kinematics arm_;
   Calm calm_;
   double round_trip_s_;
   std::uint32_t engagement_ = 0;

@@ -92,8 +92,9 @@ class TrueCause : public Invariant {
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
   }
   [[nodiscard]] bool was_there(const Moment& m) const {
-    const auto lately = [&](double s) { return m.t_s - s < recent_s_; };
-    const auto spoilt = [&](Spoils what) { return m.since(what) < recent_s_; };
+    const double recent_s = recent_s_ + m.slave_gap_s;  // it may have slept through it
+    const auto lately = [&](double s) { return m.t_s - s < recent_s; };
+    const auto spoilt = [&](Spoils what) { return m.since(what) < recent_s; };
     const bool robot = spoilt(Spoils::kRobot) || spoilt(Spoils::kJoints);
     switch (m.cause) {
       case HoldCause::kOperator:

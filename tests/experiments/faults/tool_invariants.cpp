@@ -61,7 +61,8 @@ class Workspace : public Invariant {
   bool outside_ = false;
 };
 
-/// At the tick in which an engagement begins.
+/// At the tick in which an engagement begins. A setpoint that moved before, as in a hold, may go on with its
+/// speed.
 class NoJump : public Invariant {
  public:
   explicit NoJump(const Scenario& s)
@@ -70,9 +71,10 @@ class NoJump : public Invariant {
     if (!m.slave_ran) return;
     const bool engaged = m.claimed == SafetyState::kEngaged;
     if (m.report && engaged && !engaged_ && m.engagement != engagement_ && m.moves)
-      judge(m, known_ ? last_rad_ : m.told.joint_rad);
+      judge(m, known_ ? JointVector(2.0 * last_rad_ - before_last_rad_) : m.told.joint_rad);
     if (engaged) engagement_ = m.engagement;
     engaged_ = engaged;
+    before_last_rad_ = known_ ? last_rad_ : m.setpoint_rad;
     last_rad_ = m.setpoint_rad;
     known_ = m.moves;
   }
@@ -86,7 +88,7 @@ class NoJump : public Invariant {
   }
   Kinematics arm_;
   std::uint32_t engagement_ = 0;
-  JointVector last_rad_ = JointVector::Zero();
+  JointVector last_rad_ = JointVector::Zero(), before_last_rad_ = JointVector::Zero();
   bool known_ = false, engaged_ = false;
 };
 

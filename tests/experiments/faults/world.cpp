@@ -252,6 +252,7 @@ void World::finish() {
   moment_.q_MH = lab_.devices().spherical().orientation();
   moment_.shown = lab_.master().state;
   moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
+  moment_.rendered_along = lab_.master().inward;
   moment_.received = lab_.arrived() + up_.oversized() + down_.oversized();
   moment_.accounted = 0;
   for (const Port* port :
