@@ -51,7 +51,8 @@ bool Ghost::slave_given(double t_s, double slept_s, std::span<const Received<Mot
       continue;
     }
     // A hold that lasted longer needs a new engagement.
-    if (t_s - right_.had_s > resume_s_ + kTicks_s) ended_ = std::max(ended_, right_.engagement);
+    if (t_s - right_.had_s > resume_s_ + kTicks_s && entered_ >= right_.engagement)
+      ended_ = std::max(ended_, right_.engagement);
     right_.engaged = right_.engaged && right_.engagement > ended_;
     if (!received.newest) {
       if (!slept && sent->t_s >= right_.sent_s - kOvertaken_s) right_.heard_s = t_s;

@@ -2,6 +2,7 @@
 // What the master really sent, and when; what of it the slave was given, and when. It was written down
 // outside of both. From it follows whether anything may move the robot: the right to move.
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -47,6 +48,9 @@ class Ghost {
   /// but for a stop.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
   [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this one are over
+  /// The slave says that it is engaged in it: a long silence from now on ends it. One that has not come about may
+  /// wait.
+  void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
   /// Something at the slave ended every engagement there was.
   void ended(double t_s);
 
@@ -66,6 +70,7 @@ class Ghost {
   std::deque<SentCommand> sent_;  // numbers rise
   std::uint64_t newest_ = 0;
   std::uint32_t ended_ = 0;  // engagements up to this one are over
+  std::uint32_t entered_ = 0;
   std::uint32_t numbers_ = 0;
   std::uint64_t asks_ = 0, given_ = 0;
   Right right_{};

@@ -82,7 +82,7 @@ class StaleStiffness : public Invariant {
 /// told by the place that is measured, and a handle without a hand is moved by its motors. The balance rests
 /// meanwhile, and goes on when the port rests: the springs that such a time leaves stretched were loaded by
 /// what was not booked, and give back no more than that. A port at rest stores nothing but what its tanks
-/// hold.
+/// hold; after such a time they may be full.
 class PortEnergy : public Invariant {
  public:
   explicit PortEnergy(const Scenario& s)
@@ -95,7 +95,9 @@ class PortEnergy : public Invariant {
     const bool rests = F_.force.norm() < kRest_n && F_.moment.norm() < kRest_nm &&
                        moved_m.norm() < kRest_m_per_s * m.period_s &&
                        turned_rad.norm() < kRest_rad_per_s * m.period_s;
+    const bool begins = honest && rests && !books_;
     books_ = honest && (books_ || rests);
+    if (begins) energy_j_ = tanks_j_;
     if (books_) energy_j_ -= F_.force.dot(moved_m) + F_.moment.dot(turned_rad);
     if (books_ && rests) energy_j_ = std::min(energy_j_, tanks_j_);
     if (books_) at_most(m, -energy_j_, 1e-3, "J out of the handle");

@@ -214,6 +214,7 @@ void World::slave_answered(SlaveOutput& out) {
   if (out.report) {
     moment_.report = out.report;
     moment_.claimed = out.report->state;
+    if (moment_.claimed == SafetyState::kEngaged) ghost_.entered(out.report->engagement);
     moment_.cause = out.report->cause;
     moment_.engagement = out.report->engagement;
   }
