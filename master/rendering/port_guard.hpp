@@ -6,9 +6,9 @@
 //   E_port += -f[k-1] . (x[k] - x[k-1])      (positive: from the hand into the device)
 // A spring held for a sample acts like negative damping K T/2; where E_port - E_stored falls for that reason
 // and the tank cannot pay, the deficit is paid back by injected damping, at most 0.4 m/T with m the handle
-// alone (Hannaford and Ryu 2002, bounded). Damping on the velocity of one encoder count in a sample would
-// feed the handle instead: the velocity is that of certain_motion.hpp. Force in N and motion in m, or N m and
-// rad.
+// alone (Hannaford and Ryu 2002, bounded), and within the limits of force and rise as all else is. Damping on
+// the velocity of one encoder count in a sample would feed the handle instead: the velocity is that of
+// certain_motion.hpp. Force in N and motion in m, or N m and rad.
 
 #include <algorithm>
 

@@ -79,7 +79,8 @@ class Relieved : public Invariant {
       lied_ = false;
     }
     lied_ = lied_ || !as_reckoned(m);
-    if (m.t_s - held_s_ > 1.5 && !lied_) at_most(m, m.F_E_W.force.norm(), 1.05 * limit_n_ + 0.3, "N in a hold");
+    if (m.t_s - held_s_ > 1.5 && !lied_)
+      at_most(m, m.F_E_W.force.norm(), 1.05 * limit_n_ + 0.3, "N in a hold");
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "tests/experiments/faults/kind.hpp"
@@ -17,6 +18,36 @@ struct Row {
   std::uint64_t times = 0;
   std::uint64_t violated = 0;
 };
+/// What does not exist in virtual time, and the tests with real programs that try it (tests/process,
+/// tests/unit).
+struct Elsewhere {
+  const char* what;
+  const char* tests;
+};
+constexpr Elsewhere kElsewhere[] = {
+    {"kill -9 of either side, free and in contact", "SafetyOfPrograms"},
+    {"restarts; engaged again and again", "SafetyOfPrograms"},
+    {"frozen for 10 ms to 60 s, real programs", "ClocksOfPrograms"},
+    {"the host suspended", "RealTimeLoop, SideClock"},
+    {"full or slow disk for recordings", "Recording"},
+    {"a log or a terminal that nobody reads", "Blocked"},
+    {"idle connections, unfinished handshakes", "Connections, Soak"},
+    {"descriptors exhausted", "Connections"},
+    {"flood of RPC and of forged datagrams", "UnderLoad"},
+    {"streams that nobody reads", "Soak, View"},
+    {"stop beside thousands of changes", "StopAtOnce"},
+    {"wrong, foreign and expired certificates", "Refusals"},
+    {"two to five masters; a stolen session", "Lease, Refusals"},
+    {"another source address", "HostileSocket"},
+    {"another local user with a socket", "Adapters, View"},
+    {"adapters that are killed, stall or lie", "Adapters"},
+    {"I18 one lease, one key", "Lease, Refusals"},
+    {"I26 memory and descriptors over a day", "Soak"},
+    {"L5 a dead master's lease", "Lease"},
+    {"L6 a call after an attack", "StopAtOnce, Soak"},
+    {"L7 the recorder goes on", "Recording"},
+};
+
 struct Section {
   const char* title;
   const char* what;
@@ -55,6 +86,17 @@ std::string row_at(int x, int y, const Row& row) {
          text_at(x + kName_px + std::max(1, length) + 5, y + 12, "font-size=\"11\" fill=\"#444444\"", count);
 }
 
+void programs(std::string& body, int x, int y) {
+  body += text_at(x + kName_px - 6, y - 8, "font-size=\"13\" font-weight=\"bold\" text-anchor=\"end\"",
+                  "with real programs") +
+          text_at(x + kName_px, y - 8, "font-size=\"12\" fill=\"#666666\"", "tests");
+  for (const Elsewhere& e : kElsewhere) {
+    body += text_at(x + kName_px - 6, y + 12, "font-size=\"12\" text-anchor=\"end\"", e.what) +
+            text_at(x + kName_px, y + 12, "font-size=\"11\" fill=\"#444444\"", e.tests);
+    y += kRow_px;
+  }
+}
+
 std::string svg(const Tally& tally) {
   std::string body;
   int x = 8, lowest = 0;
@@ -74,7 +116,9 @@ std::string svg(const Tally& tally) {
   column(all[0], half, all[0].rows.size(), kTop_px);
   x += kColumn_px;
   const int y = column(all[1], 0, all[1].rows.size(), kTop_px);
-  column(all[2], 0, all[2].rows.size(), y + 3 * kRow_px);
+  const int below = column(all[2], 0, all[2].rows.size(), y + 3 * kRow_px);
+  programs(body, x, below + 2 * kRow_px);
+  lowest = std::max(lowest, below + (3 + static_cast<int>(std::size(kElsewhere))) * kRow_px);
   const std::string width = std::to_string(x + kColumn_px + 8), height = std::to_string(lowest + 12);
   char hours[96];
   std::snprintf(hours, sizeof hours,
@@ -95,6 +139,8 @@ std::string csv(const Tally& tally) {
       text += std::string(section.title) + ",\"" + row.name + "\"," + std::to_string(row.times) + "," +
               std::to_string(row.violated) + "\n";
   }
+  for (const Elsewhere& e : kElsewhere)
+    text += std::string("with real programs,\"") + e.what + "\",\"" + e.tests + "\",\n";
   return text;
 }
 

@@ -48,8 +48,8 @@ class Ghost {
   /// but for a stop.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
   [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this one are over
-  /// The slave says that it is engaged in it: a long silence from now on ends it. One that has not come about may
-  /// wait.
+  /// The slave says that it is engaged in it: a long silence from now on ends it. One that has not come about
+  /// may wait.
   void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
   /// Something at the slave ended every engagement there was.
   void ended(double t_s);

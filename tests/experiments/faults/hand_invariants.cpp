@@ -1,5 +1,5 @@
-// I22 to I24: the wrench on the hand, the energy that it does at the handle's true motion, and what becomes of
-// a stiffness that is old.
+// I22 to I24: the wrench on the hand, the energy that it does at the handle's true motion, and what becomes
+// of a stiffness that is old.
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@
 namespace longreach {
 namespace {
 
-/// Only the rise is limited: a force that falls gives no energy away. What the device does by itself, where it
-/// is let go or at its edge, stays (master/devices/handle_behaviour.hpp).
+/// Only the rise is limited: a force that falls gives no energy away. What the device does by itself, where
+/// it is let go or at its edge, stays (master/devices/handle_behaviour.hpp).
 class HandForce : public Invariant {
  public:
   explicit HandForce(const Scenario& s)
@@ -51,8 +51,9 @@ class HandForce : public Invariant {
   double rests_s_ = 0.0;
 };
 
-/// What the master says that it renders, along one direction; a hand that returns to the handle finds again what
-/// it has let go. Its honesty is I23's: a spring that is stiffer than it says gives back what nobody put in.
+/// What the master says that it renders, along one direction; a hand that returns to the handle finds again
+/// what it has let go. Its honesty is I23's: a spring that is stiffer than it says gives back what nobody put
+/// in.
 class StaleStiffness : public Invariant {
  public:
   explicit StaleStiffness(const Scenario& s)
@@ -63,7 +64,8 @@ class StaleStiffness : public Invariant {
     if (m.report_came) came_s_ = m.t_s;
     const bool same = m.rendered_along == along_ && m.handle.held == held_;
     const bool stale = m.t_s - came_s_ > silence_s_;
-    if (stale && known_ && same) at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
+    if (stale && known_ && same)
+      at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
     rendered_n_per_m_ = m.rendered_n_per_m;
     along_ = m.rendered_along;
     held_ = m.handle.held;

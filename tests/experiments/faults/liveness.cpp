@@ -71,12 +71,14 @@ class Engages : public Invariant {
   double asked_s_ = 0.0;
 };
 
-/// The hand rests then: the robot is where it is asked to be, where nothing keeps it from there. An engagement is
-/// anchored where the robot was asked to be then; somebody may have moved it off there.
+/// The hand rests then: the robot is where it is asked to be, where nothing keeps it from there. An
+/// engagement is anchored where the robot was asked to be then; somebody may have moved it off there.
 class Tracks : public Invariant {
  public:
   explicit Tracks(const Scenario& s)
-      : Invariant("L3", "the robot follows the hand again"), arm_(s.slave.robot), round_trip_s_(s.round_trip_s) {}
+      : Invariant("L3", "the robot follows the hand again"),
+        arm_(s.slave.robot),
+        round_trip_s_(s.round_trip_s) {}
   void see(const Moment& m) override {
     const Right& right = m.ghost->right();
     const bool engaged = right.engaged && m.claimed == SafetyState::kEngaged;

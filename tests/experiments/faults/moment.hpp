@@ -44,8 +44,8 @@ struct Moment {
   HandleState handle{};  // as told
   Wrench F_H_M{};        // as written
   bool engage_asked = false, hold_asked = false, stop_asked = false;
-  bool report_came = false;                // one that is newest was given to the master
-  double rendered_n_per_m = 0.0;           // as the master says, along:
+  bool report_came = false;       // one that is newest was given to the master
+  double rendered_n_per_m = 0.0;  // as the master says, along:
   Vector3 rendered_along = Vector3::Zero();
   SafetyState shown = SafetyState::kIdle;  // to the operator
   std::optional<Telemetry> seen{};         // newest telemetry that the master was given, if it came now

@@ -1,6 +1,6 @@
 #pragma once
-// What must not matter, tried by running a seed twice: the trajectories of robot and hand are the same, bit for
-// bit. And what must not happen where nothing goes wrong.
+// What must not matter, tried by running a seed twice: the trajectories of robot and hand are the same, bit
+// for bit. And what must not happen where nothing goes wrong.
 
 #include <cstdint>
 #include <optional>

@@ -102,7 +102,7 @@ TEST(PortGuard, DampsNoHandThatRestsNorOneThatNothingIsRenderedTo) {
 }
 
 TEST(PortGuard, TakesBackByDampingWhatLeakedAndNoMoreThanASampleBears) {
-  const PortGuardConfig config{.handle_mass = 0.2};
+  const PortGuardConfig config{.handle_mass = 0.2, .slew_per_s = 1e9};
   const Vector3 rate(0.1, 0.0, 0.0);
   PortGuard guard = opened(config);
   guard.owe(1e-4);
@@ -114,6 +114,18 @@ TEST(PortGuard, TakesBackByDampingWhatLeakedAndNoMoreThanASampleBears) {
               -0.4 * 0.2 / kTick_s * 0.1, 1e-9);
   EXPECT_EQ(guard.repay(2.0), 2.0 - 1.0001);
   EXPECT_EQ(guard.apply({Vector3::Zero(), Vector3::Zero(), rate, true}, kTick_s), Vector3::Zero());
+}
+
+// A handle whose reading leaps is a swift one.
+TEST(PortGuard, WhatItTakesBackRisesNoFasterThanAnyForce) {
+  PortGuard guard = opened({.slew_per_s = 5000.0});
+  const PortForce leaps{Vector3::Zero(), Vector3::Zero(), Vector3(300.0, 0.0, 0.0), true};
+  guard.owe(1.0);
+  EXPECT_NEAR(guard.apply(leaps, kTick_s).x(), -3.333333, 1e-6);  // 1 J over 300 m/s and a tick
+  guard.owe(1e3);
+  EXPECT_NEAR(guard.apply(leaps, kTick_s).x(), -8.333333, 1e-6);
+  EXPECT_TRUE(guard.injecting());
+  EXPECT_TRUE(guard.clamped());
 }
 
 }  // namespace
