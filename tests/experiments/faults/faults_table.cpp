@@ -4,14 +4,17 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 
+#include "tests/experiments/faults/invariant.hpp"
 #include "tests/experiments/faults/kind.hpp"
 
 namespace longreach {
 namespace {
 
-constexpr int kRow_px = 17, kTop_px = 92, kColumn_px = 400, kName_px = 205, kBar_px = 110;
+constexpr int kRow_px = 17, kTop_px = 92, kColumn_px = 400, kName_px = 205, kBar_px = 110, kCount_px = 185,
+              kRoom_px = 130;
 
 struct Row {
   std::string name;
@@ -97,6 +100,19 @@ void programs(std::string& body, int x, int y) {
   }
 }
 
+/// What each invariant says.
+void words(std::string& body, const Section& invariants, int x, int y) {
+  std::map<std::string_view, std::string_view> says = {
+      {"I17", "what is refused changes nothing but counters (the same run, attacked)"},
+      {"L4", "nothing holds where nothing is wrong but 1 % of loss"},
+      {"M1", "other clocks change nothing (the same run, hours later)"}};
+  for (const auto& invariant : all_invariants(draw_scenario(1))) says[invariant->name()] = invariant->says();
+  for (const Row& row : invariants.rows) {
+    body += text_at(x, y + 12, "font-size=\"12\"", std::string(says[row.name]));
+    y += kRow_px;
+  }
+}
+
 std::string svg(const Tally& tally) {
   std::string body;
   int x = 8, lowest = 0;
@@ -111,15 +127,18 @@ std::string svg(const Tally& tally) {
     lowest = std::max(lowest, y);
     return y;
   };
-  column(all[0], 0, half, kTop_px);
+  int left = column(all[0], 0, half, kTop_px);
   x += kColumn_px;
-  column(all[0], half, all[0].rows.size(), kTop_px);
-  x += kColumn_px;
-  const int y = column(all[1], 0, all[1].rows.size(), kTop_px);
-  const int below = column(all[2], 0, all[2].rows.size(), y + 3 * kRow_px);
-  programs(body, x, below + 2 * kRow_px);
-  lowest = std::max(lowest, below + (3 + static_cast<int>(std::size(kElsewhere))) * kRow_px);
-  const std::string width = std::to_string(x + kColumn_px + 8), height = std::to_string(lowest + 12);
+  left = std::max(left, column(all[0], half, all[0].rows.size(), kTop_px)) + 3 * kRow_px;
+  x += kColumn_px + kRoom_px;
+  const int right = column(all[1], 0, all[1].rows.size(), kTop_px) + 3 * kRow_px;
+  programs(body, x, right);
+  lowest = std::max(lowest, right + static_cast<int>(std::size(kElsewhere)) * kRow_px);
+  const int right_px = x + kColumn_px;
+  x = 8;
+  column(all[2], 0, all[2].rows.size(), left);
+  words(body, all[2], x + kName_px + kCount_px, left);
+  const std::string width = std::to_string(right_px + 8), height = std::to_string(lowest + 12);
   char hours[96];
   std::snprintf(hours, sizeof hours,
                 "%.1f virtual hours of %llu seeds, %.0f %% of them engaged; bars are logarithmic",
