@@ -45,6 +45,7 @@ struct Moment {
   Wrench F_H_M{};        // as written
   bool engage_asked = false, hold_asked = false, stop_asked = false;
   bool report_came = false;       // one that is newest was given to the master
+  double report_age_s = 0.0;      // of the last that did
   double rendered_n_per_m = 0.0;  // as the master says, along:
   Vector3 rendered_along = Vector3::Zero();
   SafetyState shown = SafetyState::kIdle;  // to the operator

@@ -90,6 +90,16 @@ class TrueCause : public Invariant {
     if (right.request == Request::kLetGo) let_go_s_ = m.t_s;
     if (m.slave_ran && m.slave_gap_s > 1.5 * m.period_s) slept_s_ = m.t_s;
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
+    remember_delay(m);
+  }
+  /// Who repeats datagrams fills a narrow link with them.
+  void remember_delay(const Moment& m) {
+    const Right& right = m.ghost->right();
+    if (right.heard_s == m.t_s) up_s_ = m.t_s - right.sent_s;
+    if (m.report_came) down_s_ = m.report_age_s;
+    least_up_s_ = std::min(least_up_s_, up_s_);
+    least_down_s_ = std::min(least_down_s_, down_s_);
+    if (up_s_ - least_up_s_ + down_s_ - least_down_s_ > kRise_s) rose_s_ = m.t_s;
   }
   [[nodiscard]] bool was_there(const Moment& m) const {
     const double recent_s = recent_s_ + m.slave_gap_s;  // it may have slept through it
@@ -103,7 +113,7 @@ class TrueCause : public Invariant {
         return lately(silent_s_);
       case HoldCause::kLinkStale:
       case HoldCause::kDelayRose:
-        return spoilt(Spoils::kLink) || lately(slept_s_) || spoilt(Spoils::kMasterTime);
+        return lately(rose_s_) || spoilt(Spoils::kLink) || lately(slept_s_) || spoilt(Spoils::kMasterTime);
       case HoldCause::kPeerRestarted:
       case HoldCause::kTaken:
         return spoilt(Spoils::kLease);
@@ -134,7 +144,10 @@ class TrueCause : public Invariant {
   double gap_s_, recent_s_;
   HoldCause cause_ = HoldCause::kNone;
   SafetyState state_ = SafetyState::kIdle;
-  double silent_s_ = -1e9, asked_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9, pressed_s_ = -1e9;
+  static constexpr double kRise_s = 0.5;
+  double up_s_ = 1e9, down_s_ = 1e9, least_up_s_ = 1e9, least_down_s_ = 1e9;
+  double rose_s_ = -1e9, silent_s_ = -1e9, asked_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9,
+         pressed_s_ = -1e9;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kPastSession = 77;
 constexpr int kPastDatagrams = 64;
+constexpr std::size_t kReports = 8192;  // whose time is kept
 
 Session draw(Random& random, std::uint64_t number) {
   Session session{.number = number};
@@ -214,6 +215,8 @@ void World::slave_answered(SlaveOutput& out) {
   if (out.report) {
     moment_.report = out.report;
     moment_.claimed = out.report->state;
+    reports_s_[out.report_sequence] = moment_.t_s;
+    if (reports_s_.size() > kReports) reports_s_.erase(reports_s_.begin());
     if (moment_.claimed == SafetyState::kEngaged) ghost_.entered(out.report->engagement);
     moment_.cause = out.report->cause;
     moment_.engagement = out.report->engagement;
@@ -233,7 +236,12 @@ void World::master_asked(MasterInput& input) {
   moment_.hold_asked = input.requests.hold;
   moment_.stop_asked = input.requests.stop;
   if (input.requests.engage) ghost_.asked();
-  moment_.report_came = std::ranges::any_of(input.reports, [](const auto& r) { return r.newest; });
+  for (const auto& received : input.reports) {
+    const auto left = reports_s_.find(received.sequence);
+    if (!received.newest || left == reports_s_.end()) continue;
+    moment_.report_came = true;
+    moment_.report_age_s = moment_.t_s - left->second;
+  }
   if (!input.telemetry.empty()) moment_.seen = input.telemetry.back().message;
 }
 
@@ -276,6 +284,7 @@ void World::end_faults() {
 void World::lease(bool to_master) {
   const Session session = draw(sessions_, ++leases_);
   lab_.hand_slave(session);
+  reports_s_.clear();
   if (to_master) lab_.hand_master(session);
   ghost_.lease(moment_.t_s, session.number, to_master);
 }

@@ -106,6 +106,7 @@ class World : public Meddler {
   Duration slave_ahead_, master_ahead_;
   ImpairmentConfig up_now_{}, down_now_{};
   Moment moment_{};
+  std::map<std::uint64_t, double> reports_s_;  // when the last of them left, by number
   double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
   std::uint64_t refused_changes_ = 0;
   bool slave_turn_ = true;  // the next who has spoken on the wire
