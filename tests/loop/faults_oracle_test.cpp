@@ -192,6 +192,7 @@ TEST_F(Oracle, SeesAForceOnAHandThatIsNotEngaged) {
 }
 
 TEST_F(Oracle, SeesAStiffnessThatRisesWithoutAReport) {
+  moment_.felt = true;
   run(5000, [](Moment& m, int) { m.rendered_n_per_m = 500.0; });
   EXPECT_FALSE(broken("I24"));
   run(1, [](Moment& m, int) { m.rendered_n_per_m = 501.0; });

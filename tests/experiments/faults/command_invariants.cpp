@@ -19,10 +19,12 @@ class Authentic : public Invariant {
 };
 
 /// While it is engaged, what it follows is no older than the least since the engagement and a documented
-/// excess.
+/// excess, by medians: the link's own jitter adds to it.
 class Fresh : public Invariant {
  public:
-  explicit Fresh(const Scenario&) : Invariant("I16", "what is followed is fresh") {}
+  explicit Fresh(const Scenario& s)
+      : Invariant("I16", "what is followed is fresh"),
+        rise_s_(1.0 + 2.0 * (s.master.link.impairment.jitter_s + s.slave.link.impairment.jitter_s)) {}
   void see(const Moment& m) override {
     const Right& right = m.ghost->right();
     if (!m.slave_ran || m.claimed != SafetyState::kEngaged || right.newest == nullptr) {
@@ -32,7 +34,7 @@ class Fresh : public Invariant {
     const double age_s = m.t_s - right.sent_s;
     if (m.engagement != engagement_) least_s_ = 1e9;
     engagement_ = m.engagement;
-    if (age_s > least_s_ + kRise_s) {
+    if (age_s > least_s_ + rise_s_) {
       old_s_ += m.slave_gap_s;
     } else {
       old_s_ = 0.0;
@@ -42,7 +44,8 @@ class Fresh : public Invariant {
   }
 
  private:
-  static constexpr double kRise_s = 1.0, kLong_s = 0.8, kDrift = 1e-3;
+  static constexpr double kLong_s = 0.8, kDrift = 1e-3;
+  double rise_s_;
   std::uint32_t engagement_ = 0;
   double least_s_ = 1e9, old_s_ = 0.0;
 };

@@ -51,7 +51,7 @@ class HandForce : public Invariant {
   double rests_s_ = 0.0;
 };
 
-/// What the master says that it renders, along one direction; a hand that returns to the handle finds again
+/// What the master says that it renders, along what is felt; a hand that returns to the handle finds again
 /// what it has let go. Its honesty is I23's: a spring that is stiffer than it says gives back what nobody put
 /// in.
 class StaleStiffness : public Invariant {
@@ -62,13 +62,14 @@ class StaleStiffness : public Invariant {
   void see(const Moment& m) override {
     if (!m.master_ran) return;
     if (m.report_came) came_s_ = m.t_s;
-    const bool same = m.rendered_along == along_ && m.handle.held == held_;
+    const bool same = m.felt && felt_ && m.rendered_along == along_ && m.handle.held == held_;
     const bool stale = m.t_s - came_s_ > silence_s_;
     if (stale && known_ && same)
       at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
     rendered_n_per_m_ = m.rendered_n_per_m;
     along_ = m.rendered_along;
     held_ = m.handle.held;
+    felt_ = m.felt;
     known_ = stale;
   }
 
@@ -76,7 +77,7 @@ class StaleStiffness : public Invariant {
   double silence_s_;
   double came_s_ = 0.0, rendered_n_per_m_ = 0.0;
   Vector3 along_ = Vector3::Zero();
-  bool known_ = false, held_ = false;
+  bool known_ = false, held_ = false, felt_ = false;
 };
 
 /// What the hand has put in and not got back, by the true motion. A device that lies, that nobody holds, or
