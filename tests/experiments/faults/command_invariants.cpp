@@ -19,7 +19,7 @@ class Authentic : public Invariant {
 };
 
 /// While it is engaged, what it follows is no older than the least since the engagement and a documented
-/// excess, by medians: the link's own jitter adds to it.
+/// excess. By means, since a single datagram may be let past; the link's own jitter adds to it.
 class Fresh : public Invariant {
  public:
   explicit Fresh(const Scenario& s)
@@ -32,22 +32,25 @@ class Fresh : public Invariant {
       return;
     }
     const double age_s = m.t_s - right.sent_s;
-    if (m.engagement != engagement_) least_s_ = 1e9;
-    engagement_ = m.engagement;
-    if (age_s > least_s_ + rise_s_) {
-      old_s_ += m.slave_gap_s;
-    } else {
-      old_s_ = 0.0;
+    if (m.engagement != engagement_) {
+      least_s_ = 1e9;
+      mean_s_ = age_s;
+      known_s_ = 0.0;
     }
-    least_s_ = std::min(least_s_ + kDrift * m.slave_gap_s, age_s);
+    engagement_ = m.engagement;
+    known_s_ += m.slave_gap_s;
+    mean_s_ += std::min(1.0, m.slave_gap_s / kMean_s) * (age_s - mean_s_);
+    old_s_ = age_s > least_s_ + rise_s_ ? old_s_ + m.slave_gap_s : 0.0;
+    least_s_ += kDrift * m.slave_gap_s;
+    if (known_s_ > kMean_s) least_s_ = std::min(least_s_, mean_s_);
     at_most(m, old_s_, kLong_s, "s long engaged by commands that are too old");
   }
 
  private:
-  static constexpr double kLong_s = 0.8, kDrift = 1e-3;
+  static constexpr double kLong_s = 0.8, kDrift = 1e-3, kMean_s = 0.25;
   double rise_s_;
   std::uint32_t engagement_ = 0;
-  double least_s_ = 1e9, old_s_ = 0.0;
+  double least_s_ = 1e9, mean_s_ = 0.0, known_s_ = 0.0, old_s_ = 0.0;
 };
 
 class Nonces : public Invariant {

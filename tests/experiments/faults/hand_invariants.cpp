@@ -62,7 +62,8 @@ class StaleStiffness : public Invariant {
   void see(const Moment& m) override {
     if (!m.master_ran) return;
     if (m.report_came) came_s_ = m.t_s;
-    const bool same = m.felt && felt_ && m.rendered_along == along_ && m.handle.held == held_;
+    const bool same = m.felt && felt_ && m.rendered_along == along_ &&
+                      std::abs(m.rendered_from_m - from_m_) < kFar_m && m.handle.held == held_;
     const bool stale = m.t_s - came_s_ > silence_s_;
     if (stale && known_ && same)
       at_most(m, m.rendered_n_per_m, (1.0 + 1e-12) * rendered_n_per_m_, "N/m of the past");
@@ -70,13 +71,16 @@ class StaleStiffness : public Invariant {
     along_ = m.rendered_along;
     held_ = m.handle.held;
     felt_ = m.felt;
+    from_m_ = m.rendered_from_m;
     known_ = stale;
   }
 
  private:
   double silence_s_;
   double came_s_ = 0.0, rendered_n_per_m_ = 0.0;
+  static constexpr double kFar_m = 2e-4;  // another surface
   Vector3 along_ = Vector3::Zero();
+  double from_m_ = 0.0;
   bool known_ = false, held_ = false, felt_ = false;
 };
 

@@ -48,6 +48,7 @@ struct Moment {
   double report_age_s = 0.0;      // of the last that did
   double rendered_n_per_m = 0.0;  // as the master says, along:
   Vector3 rendered_along = Vector3::Zero();
+  double rendered_from_m = 0.0;            // where its surface lies
   bool felt = false;                       // with some force
   SafetyState shown = SafetyState::kIdle;  // to the operator
   std::optional<Telemetry> seen{};         // newest telemetry that the master was given, if it came now

@@ -262,6 +262,7 @@ void World::finish() {
   moment_.shown = lab_.master().state;
   moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
   moment_.rendered_along = lab_.master().inward;
+  moment_.rendered_from_m = lab_.master().surface_m;
   moment_.felt = !lab_.master().spring_force_n.isZero(0.0);
   moment_.received = lab_.arrived() + up_.oversized() + down_.oversized();
   moment_.accounted = 0;
