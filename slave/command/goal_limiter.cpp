@@ -70,7 +70,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   V_WE_ = {about.velocity, along.velocity};
   const bool pressed = input.contact.in_contact && input.contact.force_n > config_.force_guard_n;
   if (pressed && along.capped[0]) give_way(input.contact, input.dt);
-  out.no_relief = pressed && !relief_.may_go_on(input.contact.force_n);
+  out.no_relief = pressed && !relief_.may_go_on();
   X_WE_.p += along.velocity * input.dt;
   X_WE_.q = (exp_rotation(about.velocity * input.dt) * X_WE_.q).normalized();
   out.X_WE = X_WE_;
@@ -89,18 +89,18 @@ bool GoalLimiter::brake(const ContactForce& contact, double dt) {
   X_WE_goal_.reset();
   V_WE_goal_ = {};
   if (wanted > 0.0) give_way(contact, dt);
-  return wanted > 0.0 && !relief_.may_go_on(contact.force_n);
+  return wanted > 0.0 && !relief_.may_go_on();
 }
 
 // Speed from which it can still end within what is left of its way.
 double GoalLimiter::give_way_max(const ContactForce& contact) const {
   if (!contact.trusted || contact.grows.dot(contact.reaction) > kAlong) return 0.0;
-  const double left_m = relief_.may_go_on(contact.force_n) ? relief_.left_m(contact.force_n) : 0.0;
+  const double left_m = relief_.may_go_on() ? relief_.left_m() : 0.0;
   return std::sqrt(kBraking * 2.0 * config_.acceleration_max_m_per_s2 * left_m);
 }
 
 void GoalLimiter::give_way(const ContactForce& contact, double dt) {
-  relief_.go(V_WE_.linear.dot(contact.reaction) * dt, contact.force_n);
+  relief_.go(V_WE_.linear.dot(contact.reaction) * dt, contact.force_n, dt);
 }
 
 void GoalLimiter::forget_relief(const ContactForce& contact, double dt) {

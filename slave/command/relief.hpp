@@ -1,9 +1,10 @@
 #pragma once
 // How far a robot may give way to a force. On a way s, from the largest force F_0 that was met on it to F
-// now,
+// now, smoothed,
 //   s <= 20 mm + (F_0 - F)/(100 N/m)
 // Each contact that pushes falls by more than that. What does not is no contact that giving way relieves: a
-// sensor that lies, a wall that comes, a body that the robot carries. It counts until the force has gone.
+// sensor that lies, a wall that comes, a body that the robot carries. What the force has fallen beyond what s
+// asks for is forgotten: a lie that eases by itself buys that much again at most. It counts until the force has gone.
 
 #include <algorithm>
 
@@ -14,24 +15,27 @@ class Relief {
   static constexpr double kUnanswered_m = 0.02;
   static constexpr double kAnswer_n_per_m = 100.0;
 
-  /// It has gone `way_m`, in again where that is negative, and the force is now `force_n`.
-  void go(double way_m, double force_n) {
+  /// It has gone `way_m` in `dt` s, in again where that is negative, and the force is now `force_n`.
+  void go(double way_m, double force_n, double dt) {
     way_m_ = std::max(way_m_ + way_m, 0.0);
-    most_n_ = std::max(most_n_, force_n);
+    force_n_ = most_n_ > 0.0 ? force_n_ + std::min(dt / kSmooth_s, 1.0) * (force_n - force_n_) : force_n;
+    const double asked_n = kNoise_n + kAnswer_n_per_m * way_m_;
+    most_n_ = std::min(std::max(most_n_, force_n_), force_n_ + asked_n);
   }
   /// Way that is left.
-  [[nodiscard]] double left_m(double force_n) const {
-    return kUnanswered_m + std::max(most_n_ - force_n - kNoise_n, 0.0) / kAnswer_n_per_m - way_m_;
+  [[nodiscard]] double left_m() const {
+    return kUnanswered_m + std::max(most_n_ - force_n_ - kNoise_n, 0.0) / kAnswer_n_per_m - way_m_;
   }
-  [[nodiscard]] bool may_go_on(double force_n) const { return left_m(force_n) > kEnd_m; }
-  void reset() { way_m_ = most_n_ = 0.0; }
+  [[nodiscard]] bool may_go_on() const { return left_m() > kEnd_m; }
+  void reset() { way_m_ = most_n_ = force_n_ = 0.0; }
 
  private:
   static constexpr double kNoise_n = 0.5;  // no answer
   static constexpr double kEnd_m = 1e-4;   // so near the end is at it
+  static constexpr double kSmooth_s = 0.02;
 
   double way_m_ = 0.0;
-  double most_n_ = 0.0;
+  double most_n_ = 0.0, force_n_ = 0.0;
 };
 
 }  // namespace longreach

@@ -16,6 +16,7 @@ constexpr double kFree_m = 1e-3;    // without contact
 constexpr double kRelief_m = 0.02;  // without the answer that a contact gives
 constexpr double kAnswer_n_per_m = 100.0;
 constexpr double kRecovers_s = 2.0;
+constexpr double kSoon_s = 0.01, kLate_s = 0.1, kEased_n = 2.0, kMost_n = 1e3;  // of the force that is told
 
 /// Seconds since there was the right to move; 0 while there is. A slave that was frozen goes after that what
 /// was left of its braking way.
@@ -66,6 +67,7 @@ class Standstill : public Invariant {
       return;
     }
     const double force_n = m.F_E_W.force.norm();
+    if (eases(m)) begun_ = false;
     if (!begun_) begin(m);
     const double way_m = (m.X_WE.p - last_m_).norm();
     if (last_n_ - force_n >= kAnswer_n_per_m * way_m) answered_m_ += way_m;
@@ -78,6 +80,13 @@ class Standstill : public Invariant {
   }
 
  private:
+  /// A lie that eases has answered; noise has not.
+  bool eases(const Moment& m) {
+    const double told_n = std::min(kMost_n, m.told.F_F_W.force.norm());
+    soon_n_ += m.period_s / kSoon_s * (told_n - soon_n_);
+    late_n_ += m.period_s / kLate_s * (told_n - late_n_);
+    return late_n_ - soon_n_ > kEased_n;
+  }
   void begin(const Moment& m) {
     begun_ = true;
     pressed_ = false;
@@ -92,6 +101,7 @@ class Standstill : public Invariant {
   Pose at_{};
   Vector3 last_m_ = Vector3::Zero();
   double last_n_ = 0.0, answered_m_ = 0.0;
+  double soon_n_ = 0.0, late_n_ = 0.0;
 };
 
 class StopsInTime : public Invariant {
