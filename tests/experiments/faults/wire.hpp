@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/wire/port.hpp"
 #include "common/core/random.hpp"
 #include "common/wire/memory_channel.hpp"
 
@@ -57,7 +58,7 @@ class WireWay {
   [[nodiscard]] std::uint64_t oversized() const { return oversized_; }      // of those that were read
 
  private:
-  static constexpr std::size_t kSocket = 2048, kRead = 1000, kHeard = 512, kKept = 20000;
+  static constexpr std::size_t kSocket = 2048, kRead = kDatagramsPerReceive, kHeard = 512, kKept = 20000;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct Kept {
     double due_s;
