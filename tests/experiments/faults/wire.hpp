@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/wire/port.hpp"
 #include "common/core/random.hpp"
 #include "common/wire/memory_channel.hpp"
+#include "common/wire/port.hpp"
 
 namespace longreach {
 
