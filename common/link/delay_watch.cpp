@@ -18,11 +18,7 @@ constexpr std::size_t kCapacity = 4096;  // 0.5 s at 8 kHz
 
 DelayWatch::DelayWatch() : samples_(kCapacity), scratch_(kCapacity) {}
 
-void DelayWatch::rebase() {
-  samples_.clear();
-  median_s_.reset();
-  least_s_.reset();
-}
+void DelayWatch::rebase() { least_s_ = median_s_; }
 
 void DelayWatch::add(Time now, Duration rtt) {
   if (rtt >= Duration{0}) samples_.push({now, rtt.count()});

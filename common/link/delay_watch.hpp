@@ -18,7 +18,7 @@ class DelayWatch {
  public:
   DelayWatch();
 
-  /// An engagement begins: what was measured before does not count.
+  /// An engagement begins: it accepts the delay that is, and none that comes in the next moment.
   void rebase();
   /// A datagram has told a round trip; below zero: it has not.
   void add(Time now, Duration rtt);

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "tests/experiments/faults/kind.hpp"
+#include "tests/experiments/faults/twin.hpp"
+#include "tests/experiments/on_all_cores.hpp"
 #include "tests/property/campaign.hpp"
 
 namespace longreach {
@@ -32,6 +34,20 @@ TEST(Faults, TheSameSeedIsTheSameRun) {
   const Tally one = run_faults(1, count), other = run_faults(1, count);
   EXPECT_EQ(one.trajectories, other.trajectories);
   EXPECT_EQ(to_text(one), to_text(other));
+}
+
+// L4, by the hour: LONGREACH_FULL has 24 of them.
+TEST(Faults, NothingHoldsForHoursWhereNothingIsWrong) {
+  const auto runs = static_cast<std::size_t>(campaign(24, 2));
+  const double length_s = campaign(3600, 60);
+  std::vector<Trial> trials(runs);
+  on_all_cores(runs, [&](std::size_t i) { trials[i] = run_calm(i + 1, length_s); }, {});
+  for (std::size_t i = 0; i < runs; ++i) {
+    EXPECT_EQ(false_alarms(trials[i]), 0U) << "seed " << i + 1;
+    EXPECT_GT(trials[i].engaged_s, length_s - 30.0);
+    for (const Breach& v : trials[i].violations)
+      ADD_FAILURE() << v.invariant << " at " << v.t_s << " s: " << v.words << ", seed " << i + 1;
+  }
 }
 
 TEST(Faults, AScheduleIsReadAsItWasPrinted) {

@@ -68,8 +68,11 @@ TEST(Log, AReaderThatStopsReadingDelaysNobodyAndIsToldWhatIsMissing) {
   ::close(reader);
   std::filesystem::remove(pipe);
   EXPECT_NE(read.find("info slave first"), std::string::npos);
-  const std::string lost = std::to_string(log_lost() - before);
-  EXPECT_TRUE(std::regex_search(read, std::regex("Z warning slave log lost=" + lost + "\n"))) << lost;
+  std::uint64_t told = 0;
+  const std::regex line("Z warning slave log lost=([0-9]+)\n");
+  for (auto at = std::sregex_iterator(read.begin(), read.end(), line); at != std::sregex_iterator(); ++at)
+    told += std::stoull((*at)[1]);
+  EXPECT_EQ(told, log_lost() - before);
   EXPECT_NE(read.find("line=999 "), std::string::npos);
 }
 

@@ -56,11 +56,18 @@ TEST(DelayWatch, SeesARampButForTheMillisecondASecondThatTheLeastMayRise) {
 TEST(DelayWatch, TheLeastIsOfTheEngagement) {
   Hearing h;
   h.listen(5.0, 100.0, [](double) { return 0.05; });
+  EXPECT_TRUE(h.listen(1.0, 100.0, [](double) { return 25.0; }));
   h.watch.rebase();
-  EXPECT_FALSE(h.watch.least_s());
   EXPECT_FALSE(h.listen(5.0, 100.0, [](double) { return 25.0; })) << "accepted by the engagement";
   EXPECT_NEAR(h.watch.least_s().value_or(0.0), 25.0, 0.01);
   EXPECT_TRUE(h.listen(1.0, 100.0, [](double) { return 26.1; }));
+}
+
+TEST(DelayWatch, WhatComesRightAfterTheEngagementIsNotAccepted) {
+  Hearing h;
+  h.listen(5.0, 100.0, [](double) { return 0.05; });
+  h.watch.rebase();
+  EXPECT_TRUE(h.listen(1.0, 100.0, [](double) { return 1.2; }));
 }
 
 TEST(DelayWatch, ASmallerDelayIsTheLeastFromThenOn) {

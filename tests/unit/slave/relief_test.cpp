@@ -25,6 +25,11 @@ TEST(Relief, WithoutAnswerItEndsAfterTwentyMillimetres) {
   EXPECT_FALSE(relief.may_go_on());
 }
 
+TEST(Relief, NoiseIsNoAnswer) {
+  Relief relief;
+  EXPECT_NEAR(way_m(relief, [](double way) { return way < 1e-3 ? 30.0 : 29.6; }), 0.02, 2.1e-4);
+}
+
 TEST(Relief, GoesAsFarAsTheForceAnswers) {
   for (const double stiffness : {50.0, 90.0, 130.0, 1000.0, 1e5}) {
     Relief relief;
