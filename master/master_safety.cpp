@@ -102,6 +102,7 @@ void MasterSafety::observe(const MasterSafetyInput& in) {
   if (in.held) held_at_ = in.now;
   hand_missing_ = config_.presence == Presence::kHold && !in.held;
   let_go_ = hand_missing_ && to_seconds(in.now - held_at_) > config_.presence_s;
+  if (!says(State::kHolding)) held_since_ = in.now;
   told_ = told_ || in.hold || in.stop;
 }
 
@@ -165,7 +166,10 @@ bool MasterSafety::says(SafetyState state) const {
   return far_engagement_ == engagement_ && far_state_ == state;
 }
 
+// A slave that has engaged, and held before the news of that was here, goes on by itself within resume_s or
+// not at all.
 bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
+  if (to_seconds(in.now - held_since_) > config_.resume_s) return true;
   return to_seconds(in.now - asked_at_) > in.rtt_s.value_or(kUnknownTrip_s) + kAnswer_s;
 }
 

@@ -115,6 +115,7 @@ class MasterSafety {
   bool told_ = false;       // the operator has engaged, held or stopped, or engage_at_start was answered
   bool confirmed_ = false;  // the present engagement was confirmed
   Time asked_at_{};         // for the present engagement
+  Time held_since_{};       // the slave says that it holds in it
   Time left_at_{};          // when Engaged, or asking for it, was left: of a stall, when it began
   std::uint64_t false_holds_ = 0;
 };

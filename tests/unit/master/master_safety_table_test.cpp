@@ -321,6 +321,21 @@ TEST(MasterSafetyTable, ARequestThatNobodyAnswersLapses) {
   }
 }
 
+TEST(MasterSafetyTable, ARequestThatTheSlaveHasTakenAndHoldsInLapsesWhenItCannotGoOn) {
+  Machine m = machine_at(Start::kAsking);
+  m.in.rtt_s = 2.6;
+  m.slave_says(State::kHolding, Cause::kDelayRose);
+  for (int i = 0; i < 990; ++i) m.hear();
+  EXPECT_EQ(m.safety.request(), Request::kEngage) << "it may go on by itself";
+  for (int i = 0; i < 20; ++i) m.hear();
+  EXPECT_EQ(m.safety.request(), Request::kHold);
+  EXPECT_EQ(m.safety.cause(), Cause::kUnanswered);
+  m.in.engage = true;
+  m.hear();
+  EXPECT_EQ(m.safety.engagement(), 2U);
+  EXPECT_EQ(m.safety.request(), Request::kEngage);
+}
+
 TEST(MasterSafetyTable, AHandThatIsAwayForAMomentDoesNotMatterAndOneThatIsNotThereDoesNotEngage) {
   Machine m = machine_at(Start::kEngaged);
   m.in.held = false;
