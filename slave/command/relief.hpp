@@ -4,7 +4,7 @@
 //   s <= 20 mm + (F_0 - F)/(100 N/m)
 // Each contact that pushes falls by more than that. What does not is no contact that giving way relieves: a
 // sensor that lies, a wall that comes, a body that the robot carries. What the force has fallen beyond what s
-// asks for is forgotten: a lie that eases by itself buys that much again at most. It counts until the force
+// asks for is forgotten: a lie that eases by itself buys 20 mm again at most. It counts until the force
 // has gone.
 
 #include <algorithm>
