@@ -11,7 +11,7 @@
 namespace longreach {
 namespace {
 
-constexpr auto kPollPeriod = std::chrono::milliseconds(20);
+constexpr auto kStatusPeriod = std::chrono::milliseconds(20);
 
 }  // namespace
 
@@ -69,7 +69,7 @@ Housekeeping::Housekeeping(const RunOptions& options, const MasterConfig& config
 
 void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeker) {
   while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
-    std::this_thread::sleep_for(kPollPeriod);
+    std::this_thread::sleep_for(kStatusPeriod);
     const MasterSnapshot s = service_.snapshot();
     watch_.look(s.side.loop.ticks);
     std::string trouble = seeker.trouble();

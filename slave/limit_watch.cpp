@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kSlack = 1.01;
+constexpr double kLimitSlack = 1.01;
 
 }  // namespace
 
@@ -46,21 +46,21 @@ void LimitWatch::step(const JointVector& joint_rad, const Pose& X_WE, const Comm
   for (int i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
     position[i] = joint_rad[i] < j.min_rad || joint_rad[i] > j.max_rad;
-    fast[i] = std::abs(speed[i]) > kSlack * j.speed_max_rad_per_s;
-    hard[i] = std::abs(acceleration[i]) > kSlack * j.acceleration_max_rad_per_s2;
-    jerky[i] = std::abs(jerk[i]) > kSlack * j.jerk_max_rad_per_s3;
+    fast[i] = std::abs(speed[i]) > kLimitSlack * j.speed_max_rad_per_s;
+    hard[i] = std::abs(acceleration[i]) > kLimitSlack * j.acceleration_max_rad_per_s2;
+    jerky[i] = std::abs(jerk[i]) > kLimitSlack * j.jerk_max_rad_per_s3;
   }
   violated_ = false;
   book(Limit::kJointPosition, position);
   book(Limit::kJointSpeed, fast);
   book(Limit::kJointAcceleration, hard);
   book(Limit::kJointJerk, jerky);
-  book(Limit::kToolSpeed, JointFlags::Constant(V.linear.norm() > kSlack * command.speed_max_m_per_s ||
-                                               V.angular.norm() > kSlack * command.speed_max_rad_per_s));
+  book(Limit::kToolSpeed, JointFlags::Constant(V.linear.norm() > kLimitSlack * command.speed_max_m_per_s ||
+                                               V.angular.norm() > kLimitSlack * command.speed_max_rad_per_s));
   book(Limit::kToolAcceleration,
        JointFlags::Constant(
-           (V.linear - V_WE_.linear).norm() > kSlack * command.acceleration_max_m_per_s2 * dt ||
-           (V.angular - V_WE_.angular).norm() > kSlack * command.acceleration_max_rad_per_s2 * dt));
+           (V.linear - V_WE_.linear).norm() > kLimitSlack * command.acceleration_max_m_per_s2 * dt ||
+           (V.angular - V_WE_.angular).norm() > kLimitSlack * command.acceleration_max_rad_per_s2 * dt));
   if (violated_) ++violations_;
   X_WE_ = X_WE;
   V_WE_ = V;

@@ -12,12 +12,6 @@ constexpr double kSingularBand = 0.08;  // conditioning below which the arm is a
 constexpr double kAside = 5e-3;         // of the reach: so far the tool may leave its way there
 constexpr double kTurningShare = 0.8;   // of what a joint may do, on its way to another solution
 
-JointVector start_joints(const RobotConfig& robot) {
-  JointVector q;
-  for (int i = 0; i < kMaxJoints; ++i) q[i] = robot.joint[static_cast<std::size_t>(i)].start_rad;
-  return q;
-}
-
 }  // namespace
 
 SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)

@@ -13,15 +13,15 @@
 namespace longreach {
 namespace {
 
-class Descriptor {
+class OpenFile {
  public:
-  explicit Descriptor(const std::filesystem::path& file)
+  explicit OpenFile(const std::filesystem::path& file)
       : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
-  ~Descriptor() {
+  ~OpenFile() {
     if (number_ >= 0) (void)::close(number_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
   [[nodiscard]] int number() const { return number_; }
 
  private:
@@ -49,7 +49,7 @@ std::string why_not(int descriptor, std::size_t max_bytes) {
 
 std::string read_user_file(const std::filesystem::path& file, std::size_t max_bytes) {
   const auto fail = [&file](const std::string& why) { throw ConfigError(file.string() + ": " + why); };
-  const Descriptor descriptor(file);
+  const OpenFile descriptor(file);
   if (const std::string why = why_not(descriptor.number(), max_bytes); !why.empty()) fail(why);
   constexpr std::size_t kBlock = 1U << 16U;
   std::string text;

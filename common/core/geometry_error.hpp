@@ -2,7 +2,10 @@
 // A mechanism that cannot be built. Thrown at start-up only; the text names the parameter and says what is
 // wrong.
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace longreach {
 
@@ -10,5 +13,11 @@ class GeometryError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
+
+/// `value`, if it is finite.
+inline double require_finite(std::string_view name, double value) {
+  if (!std::isfinite(value)) throw GeometryError(std::string(name) + " is not a finite number");
+  return value;
+}
 
 }  // namespace longreach

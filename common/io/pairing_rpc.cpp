@@ -14,8 +14,8 @@ namespace longreach {
 namespace {
 
 constexpr int kMessageMaxBytes = 1 << 14;
-constexpr int kThreadsMax = 8;
-constexpr auto kFinishGrace = std::chrono::seconds(2);
+constexpr int kPairingThreadsMax = 8;
+constexpr auto kPairingGrace = std::chrono::seconds(2);
 
 class Service final : public proto::Pairing::Service {
  public:
@@ -57,7 +57,7 @@ PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tri
   builder.SetMaxReceiveMessageSize(kMessageMaxBytes);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
-  builder.SetResourceQuota(grpc::ResourceQuota("longreach-pairing").SetMaxThreads(kThreadsMax));
+  builder.SetResourceQuota(grpc::ResourceQuota("longreach-pairing").SetMaxThreads(kPairingThreadsMax));
   int port = 0;
   builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&state_->service);
@@ -69,7 +69,7 @@ PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tri
 }
 
 PairingServer::~PairingServer() {
-  state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);
+  state_->server->Shutdown(std::chrono::system_clock::now() + kPairingGrace);
   state_->server->Wait();
 }
 

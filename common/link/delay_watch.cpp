@@ -7,16 +7,16 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Duration kWindow = milliseconds(500);
+constexpr Duration kLeastWindow = milliseconds(500);
 constexpr Duration kSpanMin = milliseconds(250);  // a few odd ones are then a minority
 constexpr Duration kLook = milliseconds(20);
 constexpr std::size_t kSamplesMin = 3;
-constexpr double kRise_s_per_s = 1e-3;   // of the least: clocks drift, and paths lengthen
-constexpr std::size_t kCapacity = 4096;  // 0.5 s at 8 kHz
+constexpr double kRise_s_per_s = 1e-3;        // of the least: clocks drift, and paths lengthen
+constexpr std::size_t kLeastCapacity = 4096;  // 0.5 s at 8 kHz
 
 }  // namespace
 
-DelayWatch::DelayWatch() : samples_(kCapacity), scratch_(kCapacity) {}
+DelayWatch::DelayWatch() : samples_(kLeastCapacity), scratch_(kLeastCapacity) {}
 
 void DelayWatch::rebase() { least_s_ = median_s_; }
 
@@ -34,7 +34,7 @@ void DelayWatch::step(Time now) {
 }
 
 std::optional<double> DelayWatch::median(Time now) {
-  while (!samples_.empty() && now - samples_.front().at > kWindow) samples_.pop();
+  while (!samples_.empty() && now - samples_.front().at > kLeastWindow) samples_.pop();
   if (samples_.size() < kSamplesMin || samples_.back().at - samples_.front().at < kSpanMin)
     return std::nullopt;
   for (std::size_t i = 0; i < samples_.size(); ++i) scratch_[i] = samples_[i].rtt_ns;

@@ -20,6 +20,8 @@ struct Pose {
   Quaternion q = Quaternion::Identity();  // orientation, unit quaternion
 };
 
+inline bool is_finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
+
 struct Twist {
   Vector3 angular = Vector3::Zero();  // rad/s
   Vector3 linear = Vector3::Zero();   // m/s
@@ -35,6 +37,13 @@ inline double norm(const Vector3& v) {
   const double square = v.squaredNorm();
   if (square > 1e-200 && square < 1e200) return std::sqrt(square);
   return v.isZero(0.0) ? 0.0 : v.stableNorm();
+}
+
+/// [v]×, so that [v]× w = v × w.
+inline Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
 }
 
 /// Rotation vector (axis times angle, rad) to unit quaternion; exact at zero, valid for every finite vector.

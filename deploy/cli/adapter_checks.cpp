@@ -47,8 +47,11 @@ class AdapterCheck {
 
  private:
   void add(bool ok, const char* what, std::string text, std::string advice) {
-    section_.findings.push_back(
-        {ok ? Verdict::kOk : Verdict::kFailure, what, std::move(text), ok ? "" : std::move(advice), {}});
+    section_.findings.push_back({ok ? FindingVerdict::kOk : FindingVerdict::kFailure,
+                                 what,
+                                 std::move(text),
+                                 ok ? "" : std::move(advice),
+                                 {}});
   }
 
   [[nodiscard]] std::string wrong() const {
@@ -103,7 +106,7 @@ class AdapterCheck {
         "send 500 to 4000 times a second, evenly: with real-time priority, by absolute deadlines");
     add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
     if (longest_s < kWatchdog_s) return;
-    section_.findings.back().verdict = Verdict::kWarning;
+    section_.findings.back().verdict = FindingVerdict::kWarning;
     section_.findings.back().advice = "20 ms without a datagram are a fault: longreach holds then";
   }
 

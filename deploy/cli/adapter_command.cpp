@@ -21,7 +21,7 @@ ExitStatus run_adapter_check(const Options& options, const AdapterCheckCommand& 
     } else {
       std::cout << diagnosis_text(section) << "\n" << diagnosis_summary(diagnosis) << std::endl;
     }
-    return count(diagnosis, Verdict::kFailure) == 0 ? ExitStatus::kDone : ExitStatus::kFailed;
+    return count(diagnosis, FindingVerdict::kFailure) == 0 ? ExitStatus::kDone : ExitStatus::kFailed;
   } catch (const AddressError& error) {
     throw UsageError(error.what());
   }

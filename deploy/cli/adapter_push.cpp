@@ -37,7 +37,7 @@ class Pushing {
   Section run() {
     rest_ = listen(1.0);
     if (rest_.count == 0) {
-      section_.findings.push_back({Verdict::kFailure, "answers", "nothing has come back in 1 s",
+      section_.findings.push_back({FindingVerdict::kFailure, "answers", "nothing has come back in 1 s",
                                    "start it, and see what `longreach adapter check` says without --push"});
       return std::move(section_);
     }
@@ -52,7 +52,7 @@ class Pushing {
       for (Finding& finding : judge_pushes(*sensor)) section_.findings.push_back(std::move(finding));
     judge_way();
     section_.findings.push_back(
-        {Verdict::kOk, "unknown",
+        {FindingVerdict::kOk, "unknown",
          "a scale that is a little off, and an origin of the moments off the tool's, stay unknown"});
     return std::move(section_);
   }
@@ -98,11 +98,11 @@ class Pushing {
   void judge_joints() {
     const DescribedRobot::Wrong wrong = robot_.look(rest_.joint_rad);
     if (!wrong.text.empty())
-      section_.findings.push_back({Verdict::kFailure, "joints", wrong.text, wrong.advice, {}});
+      section_.findings.push_back({FindingVerdict::kFailure, "joints", wrong.text, wrong.advice, {}});
   }
   void judge_way() {
     if (moved_ <= kMoved) return;
-    section_.findings.push_back({Verdict::kWarning, "way",
+    section_.findings.push_back({FindingVerdict::kWarning, "way",
                                  in_text("the joints gave way by up to %.3f rad (or m)", moved_),
                                  "without kMove a robot rests where it is, whatever pushes"});
   }

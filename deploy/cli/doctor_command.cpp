@@ -53,7 +53,7 @@ ExitStatus run_doctor(const Options& options, const DoctorCommand& command) {
     add(std::move(machine));
   }
   std::cout << (options.json ? diagnosis_json(all) : diagnosis_summary(all)) << std::endl;
-  return count(all, Verdict::kFailure) == 0 ? ExitStatus::kDone : ExitStatus::kFailed;
+  return count(all, FindingVerdict::kFailure) == 0 ? ExitStatus::kDone : ExitStatus::kFailed;
 }
 
 }  // namespace longreach

@@ -34,7 +34,7 @@ Finding examine_clock() {
   clock_getres(CLOCK_MONOTONIC, &resolution);
   const double resolution_s =
       static_cast<double>(resolution.tv_sec) + 1e-9 * static_cast<double>(resolution.tv_nsec);
-  Finding out{Verdict::kOk, "clock", "monotonic, resolution " + with_unit(1e9 * resolution_s, "ns")};
+  Finding out{FindingVerdict::kOk, "clock", "monotonic, resolution " + with_unit(1e9 * resolution_s, "ns")};
   if (const std::string source =
           first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource");
       !source.empty())
@@ -44,7 +44,7 @@ Finding examine_clock() {
   std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
   out.text += "; the wall clock says " + std::string(text.data()) + ", which only dates the log";
   if (resolution_s > 1e-5) {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice = "choose another clock source of the kernel: a loop of 1 kHz needs 10 us or better";
   }
   return out;
@@ -59,8 +59,8 @@ Finding examine_priority() {
     error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
   }).join();
   if (error == 0)
-    return {Verdict::kOk, "priority", "SCHED_FIFO " + std::to_string(kPriority) + " is permitted"};
-  return {Verdict::kWarning, "priority",
+    return {FindingVerdict::kOk, "priority", "SCHED_FIFO " + std::to_string(kPriority) + " is permitted"};
+  return {FindingVerdict::kWarning, "priority",
           "SCHED_FIFO " + std::to_string(kPriority) + " is not permitted: " + std::strerror(error),
           "permit it: LimitRTPRIO=50 in the systemd unit, 'rtprio 50' in /etc/security/limits.conf, or "
           "CAP_SYS_NICE; "
@@ -71,8 +71,9 @@ Finding examine_memory() {
   const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
   const int error = errno;
   if (locked) munlockall();
-  if (locked) return {Verdict::kOk, "memory", "locking is permitted"};
-  return {Verdict::kWarning, "memory", std::string("locking is not permitted: ") + std::strerror(error),
+  if (locked) return {FindingVerdict::kOk, "memory", "locking is permitted"};
+  return {FindingVerdict::kWarning, "memory",
+          std::string("locking is not permitted: ") + std::strerror(error),
           "permit it: LimitMEMLOCK=infinity in the systemd unit, 'memlock unlimited' in "
           "/etc/security/limits.conf, or "
           "CAP_IPC_LOCK; or set loop.lock_memory false"};
@@ -80,7 +81,7 @@ Finding examine_memory() {
 
 Finding examine_processor() {
   const unsigned cores = std::thread::hardware_concurrency();
-  Finding out{Verdict::kOk, "processor", std::to_string(cores) + (cores == 1 ? " core" : " cores")};
+  Finding out{FindingVerdict::kOk, "processor", std::to_string(cores) + (cores == 1 ? " core" : " cores")};
   const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   const std::string isolated = first_line("/sys/devices/system/cpu/isolated");
   out.text += governor.empty() ? ", no frequency governor visible" : ", governor " + governor;
@@ -90,10 +91,10 @@ Finding examine_processor() {
     out.text += std::string(", Linux ") + system.release +
                 (std::strstr(system.version, "PREEMPT_RT") != nullptr ? " PREEMPT_RT" : "");
   if (cores < 2) {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice = "use two cores or more: one side and its RPC keep one busy";
   } else if (!governor.empty() && governor != "performance") {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice =
         "set the governor to performance (cpupower frequency-set -g performance): slow cores wake up late";
   }
@@ -124,13 +125,13 @@ Finding examine_loop(double seconds) {
     }
   }).join();
   const double p99_s = figures.lateness_quantile_s(0.99);
-  Finding out{Verdict::kOk, "bare loop",
+  Finding out{FindingVerdict::kOk, "bare loop",
               "1 kHz for " + with_unit(seconds, "s") + ": 99 % of ticks late by at most " +
                   with_unit(p99_s, "s") + ", worst " + with_unit(to_seconds(figures.lateness_max), "s") +
                   ", " + std::to_string(figures.missed_ticks) + " missed",
               "", histogram_of(late_s)};
   if (p99_s > 1.0 / kLoop_hz) {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice = "end other programs, give the loop its priority, isolate a core, or lower loop.rate_hz";
   }
   return out;

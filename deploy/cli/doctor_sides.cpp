@@ -61,9 +61,10 @@ Watched watch(SideClient& client, double seconds) {
 Finding not_running(Side side, const std::string& address) {
   const std::string program = "longreach-" + std::string(name_of(side));
   if (is_loopback(address))
-    return {Verdict::kWarning, "RPC", "nobody listens at " + address + ": it does not run on this machine",
+    return {FindingVerdict::kWarning, "RPC",
+            "nobody listens at " + address + ": it does not run on this machine",
             "start " + program + ", or say where it is with --" + std::string(name_of(side)) + " HOST:PORT"};
-  return {Verdict::kFailure, "RPC", "no answer from " + address,
+  return {FindingVerdict::kFailure, "RPC", "no answer from " + address,
           "start " + program +
               " there, with rpc.listen at an address that this host reaches (not 127.0.0.1), and let "
               "TCP port " +
@@ -73,7 +74,7 @@ Finding not_running(Side side, const std::string& address) {
 /// A side that could not be asked: why.
 Finding unanswered(Side side, const std::string& address, const std::string& error, double timeout_s) {
   if (!takes_connections(address, timeout_s)) return not_running(side, address);
-  return {Verdict::kFailure, "RPC", error,
+  return {FindingVerdict::kFailure, "RPC", error,
           "somebody takes connections there: seconds away, give it more time with --timeout 120; if no "
           "longreach-" +
               std::string(name_of(side)) + " runs there, another program has the port: ss -ltnp 'sport = :" +
@@ -81,7 +82,7 @@ Finding unanswered(Side side, const std::string& address, const std::string& err
 }
 
 Finding rpc_finding(const Watched& seen, bool insecure) {
-  return {Verdict::kOk, "RPC",
+  return {FindingVerdict::kOk, "RPC",
           std::string(insecure ? "answers, in clear" : "answers, with a certificate of the same site") +
               "; median " + with_unit(median(seen.rpc_s), "s"),
           "", histogram_of(seen.rpc_s)};
@@ -89,20 +90,21 @@ Finding rpc_finding(const Watched& seen, bool insecure) {
 
 Finding version_finding(const proto::Status& status) {
   if (status.version() == LONGREACH_VERSION)
-    return {Verdict::kOk, "version", status.version() + ", as this program"};
-  return {Verdict::kFailure, "version", "it is " + status.version() + ", this program is " LONGREACH_VERSION,
+    return {FindingVerdict::kOk, "version", status.version() + ", as this program"};
+  return {FindingVerdict::kFailure, "version",
+          "it is " + status.version() + ", this program is " LONGREACH_VERSION,
           "install one version on all hosts"};
 }
 
 Finding state_finding(const proto::Status& status) {
   std::string text = status.state() + (status.cause().empty() ? "" : " (" + status.cause() + ")");
-  if (!status.trouble().empty()) return {Verdict::kFailure, "session", text + "; " + status.trouble()};
+  if (!status.trouble().empty()) return {FindingVerdict::kFailure, "session", text + "; " + status.trouble()};
   if (status.side() == "slave")
     text += status.lease().empty() ? "; the robot is free"
                                    : "; the robot is with the master at " + status.lease();
   if (status.state() == "Fault")
-    return {Verdict::kFailure, "state", text, "see its log; engage to begin anew"};
-  return {Verdict::kOk, "state", text};
+    return {FindingVerdict::kFailure, "state", text, "see its log; engage to begin anew"};
+  return {FindingVerdict::kOk, "state", text};
 }
 
 Finding loop_finding(const Watched& seen, double wanted_hz) {
@@ -113,7 +115,7 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
   const double all = missed + static_cast<double>(counter(status, "ticks"));
   const double p99_s = 1e-6 * static_cast<double>(counter(status, "lateness_p99_us"));
   const std::uint64_t very_late = counter(status, "ticks_late_100ms");
-  Finding out{Verdict::kOk, "loop",
+  Finding out{FindingVerdict::kOk, "loop",
               format_number(std::round(achieved_hz)) + " of " + format_number(wanted_hz) +
                   " Hz; since its start 99 % of ticks late by at most " + with_unit(p99_s, "s") + ", worst " +
                   with_unit(1e-6 * static_cast<double>(counter(status, "lateness_max_us")), "s") + ", " +
@@ -127,10 +129,10 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
       "else lower "
       "loop.rate_hz";
   if (achieved_hz < 0.9 * wanted_hz) {
-    out.verdict = Verdict::kFailure;
+    out.verdict = FindingVerdict::kFailure;
     out.advice = kAdvice;
   } else if (very_late > 0 || missed > 0.01 * all || p99_s > 1.0 / wanted_hz) {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice = kAdvice;
   }
   return out;
@@ -140,12 +142,12 @@ Finding link_finding(const Watched& seen, Side side) {
   const proto::Figures& link = seen.last.link();
   const std::string other = side == Side::kMaster ? "the slave" : "a master";
   if (link.silence_s() < 0.0)
-    return {side == Side::kMaster ? Verdict::kFailure : Verdict::kOk, "link",
+    return {side == Side::kMaster ? FindingVerdict::kFailure : FindingVerdict::kOk, "link",
             "nothing heard of " + other + " yet"};
   if (side == Side::kSlave && seen.last.lease().empty())
-    return {Verdict::kOk, "link", "idle: no master is connected"};
+    return {FindingVerdict::kOk, "link", "idle: no master is connected"};
   if (link.silence_s() > kSilence_s)
-    return {Verdict::kFailure, "link",
+    return {FindingVerdict::kFailure, "link",
             "nothing heard of " + other + " for " + with_unit(link.silence_s(), "s"),
             "does it run, and does UDP get through in this direction?"};
   std::string text =
@@ -155,9 +157,9 @@ Finding link_finding(const Watched& seen, Side side) {
           format_number(std::round(link.rate_hz())) + " datagrams/s";
   if (const std::string artificial = in_words(seen.last.impairment()); artificial != "none")
     text += "; artificial: " + artificial;
-  Finding out{Verdict::kOk, "link", text, "", histogram_of(seen.udp_s)};
+  Finding out{FindingVerdict::kOk, "link", text, "", histogram_of(seen.udp_s)};
   if (link.loss() > kLoss) {
-    out.verdict = Verdict::kWarning;
+    out.verdict = FindingVerdict::kWarning;
     out.advice = "motion is late, not lost: lower link.send_hz if the link is too narrow";
   }
   return out;
@@ -167,8 +169,8 @@ Finding refusals_finding(const proto::Status& status) {
   const std::uint64_t rpc = counter(status, "rpc_refused"),
                       forged = counter(status, "rejected_authentication");
   if (rpc + forged == 0)
-    return {Verdict::kOk, "intruders", "none: nobody was refused by certificate or seal"};
-  return {Verdict::kWarning, "intruders",
+    return {FindingVerdict::kOk, "intruders", "none: nobody was refused by certificate or seal"};
+  return {FindingVerdict::kWarning, "intruders",
           std::to_string(rpc) + " connections or calls refused, " + std::to_string(forged) +
               " datagrams forged or damaged; all without effect",
           "its log says when and why (rpc refused=...)"};
@@ -189,7 +191,8 @@ std::string link_address(SideClient& client, const std::string& rpc) {
 
 Finding datagram_finding(Side side, SideClient& client, const std::string& address, const std::string& rpc) {
   if (is_loopback(address) && !is_loopback(rpc))
-    return {Verdict::kFailure, "datagrams", "it takes datagrams of its own machine alone, at " + address,
+    return {FindingVerdict::kFailure, "datagrams",
+            "it takes datagrams of its own machine alone, at " + address,
             "start it with --set link.listen=0.0.0.0:" + port_of(address)};
   // Rejected by the version, or, at the master, since they are not the slave's: which counter tells.
   const std::string name = side == Side::kSlave ? "rejected_version" : "strangers";
@@ -204,10 +207,10 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
   }
   const std::string mtu = probe.mtu > 0 ? "; path MTU " + std::to_string(probe.mtu) : "";
   if (arrived > 0)
-    return {Verdict::kOk, "datagrams",
+    return {FindingVerdict::kOk, "datagrams",
             std::to_string(arrived) + " of " + std::to_string(probe.sent) + " of 508 bytes arrived at " +
                 address + mtu};
-  return {Verdict::kFailure, "datagrams",
+  return {FindingVerdict::kFailure, "datagrams",
           "none of " + std::to_string(probe.sent) + " of 508 bytes arrived at " + address + mtu +
               (probe.error.empty() ? "" : " (" + probe.error + ")"),
           "let UDP port " + port_of(address) +
@@ -232,7 +235,7 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
 void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
-  out.findings.push_back({Verdict::kFailure, "datagrams",
+  out.findings.push_back({FindingVerdict::kFailure, "datagrams",
                           std::string("another program has the UDP port of ") + kLink,
                           "ss -ulnp 'sport = :47001' names it; end it, or choose another with link.listen"});
 }
@@ -246,7 +249,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
   // A client would make one.
   if (!options.insecure && !site_exists(site)) {
     out.findings.push_back(takes_connections(address, options.timeout_s)
-                               ? Finding{Verdict::kFailure, "RPC",
+                               ? Finding{FindingVerdict::kFailure, "RPC",
                                          "somebody listens, but this host has no site",
                                          "join its site with longreach pair"}
                                : not_running(side, address));
@@ -257,10 +260,11 @@ Section examine_side(Side side, const Options& options, double seconds) {
     examine_running(out, side, client, address, options.insecure, seconds);
   } catch (const SiteError&) {
     out.findings.push_back(
-        {Verdict::kFailure, "RPC", "not asked: the site folder cannot be used, see above"});
+        {FindingVerdict::kFailure, "RPC", "not asked: the site folder cannot be used, see above"});
   } catch (const std::runtime_error& error) {
     out.findings.push_back(unanswered(side, address, error.what(), options.timeout_s));
-    if (side == Side::kSlave && is_loopback(address) && out.findings.back().verdict == Verdict::kWarning)
+    if (side == Side::kSlave && is_loopback(address) &&
+        out.findings.back().verdict == FindingVerdict::kWarning)
       examine_free_port(out);
   }
   return out;

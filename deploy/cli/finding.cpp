@@ -15,13 +15,13 @@ namespace {
 constexpr std::size_t kBarWidth = 40;
 constexpr std::size_t kTextColumn = 28;  // of what was found
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(FindingVerdict verdict) {
   switch (verdict) {
-    case Verdict::kOk:
+    case FindingVerdict::kOk:
       return "ok";
-    case Verdict::kWarning:
+    case FindingVerdict::kWarning:
       return "warning";
-    case Verdict::kFailure:
+    case FindingVerdict::kFailure:
       break;
   }
   return "failure";
@@ -109,7 +109,7 @@ Histogram histogram_of(const std::vector<double>& times_s) {
   return out;
 }
 
-std::uint64_t count(const Diagnosis& diagnosis, Verdict verdict) {
+std::uint64_t count(const Diagnosis& diagnosis, FindingVerdict verdict) {
   std::uint64_t out = 0;
   for (const Section& section : diagnosis)
     for (const Finding& finding : section.findings) out += finding.verdict == verdict ? 1U : 0U;
@@ -129,14 +129,14 @@ std::string diagnosis_text(const Section& section) {
 }
 
 std::string diagnosis_summary(const Diagnosis& diagnosis) {
-  const std::uint64_t ok = count(diagnosis, Verdict::kOk);
-  return std::to_string(ok) + " ok, " + plural(count(diagnosis, Verdict::kWarning), "warning") + ", " +
-         plural(count(diagnosis, Verdict::kFailure), "failure");
+  const std::uint64_t ok = count(diagnosis, FindingVerdict::kOk);
+  return std::to_string(ok) + " ok, " + plural(count(diagnosis, FindingVerdict::kWarning), "warning") + ", " +
+         plural(count(diagnosis, FindingVerdict::kFailure), "failure");
 }
 
 std::string diagnosis_json(const Diagnosis& diagnosis) {
-  std::string out = "{\"failures\":" + std::to_string(count(diagnosis, Verdict::kFailure)) +
-                    ",\"warnings\":" + std::to_string(count(diagnosis, Verdict::kWarning)) +
+  std::string out = "{\"failures\":" + std::to_string(count(diagnosis, FindingVerdict::kFailure)) +
+                    ",\"warnings\":" + std::to_string(count(diagnosis, FindingVerdict::kWarning)) +
                     ",\"findings\":[";
   const char* comma = "";
   for (const Section& section : diagnosis) {

@@ -7,7 +7,7 @@
 
 namespace longreach {
 
-enum class Verdict { kOk, kWarning, kFailure };
+enum class FindingVerdict { kOk, kWarning, kFailure };
 
 /// How often a time was met.
 struct Histogram {
@@ -22,7 +22,7 @@ struct Histogram {
 Histogram histogram_of(const std::vector<double>& times_s);
 
 struct Finding {
-  Verdict verdict = Verdict::kOk;
+  FindingVerdict verdict = FindingVerdict::kOk;
   std::string what;      // what was looked at, a word or two
   std::string text;      // what was found
   std::string advice{};  // what to do; empty: nothing
@@ -36,7 +36,7 @@ struct Section {
 
 using Diagnosis = std::vector<Section>;
 
-std::uint64_t count(const Diagnosis& diagnosis, Verdict verdict);
+std::uint64_t count(const Diagnosis& diagnosis, FindingVerdict verdict);
 std::string diagnosis_text(const Section& section);
 /// "14 ok, 1 warning, 0 failures"
 std::string diagnosis_summary(const Diagnosis& diagnosis);

@@ -85,7 +85,7 @@ struct Shown {
   std::string error;
 };
 
-Shown ask(Side side, const Options& options) {
+Shown ask_link(Side side, const Options& options) {
   try {
     return {SideClient(side, options).link(), {}};
   } catch (const SideError& error) {
@@ -96,8 +96,8 @@ Shown ask(Side side, const Options& options) {
 }  // namespace
 
 ExitStatus run_link_show(const Options& options) {
-  auto slave = std::async(std::launch::async, ask, Side::kSlave, options);
-  const Shown down = ask(Side::kMaster, options);
+  auto slave = std::async(std::launch::async, ask_link, Side::kSlave, options);
+  const Shown down = ask_link(Side::kMaster, options);
   const Shown up = slave.get();
   const std::string error = up.error + (up.error.empty() || down.error.empty() ? "" : "; ") + down.error;
   if (options.json) {

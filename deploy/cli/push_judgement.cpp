@@ -52,7 +52,7 @@ std::string exchanged(const PushedSensor& sensor) {
 }
 
 Finding wrong(const PushedSensor& sensor, std::string text, std::string advice) {
-  return {Verdict::kFailure, sensor.what, std::move(text), std::move(advice), {}};
+  return {FindingVerdict::kFailure, sensor.what, std::move(text), std::move(advice), {}};
 }
 
 Finding judge_direction(const PushedSensor& sensor) {
@@ -61,9 +61,11 @@ Finding judge_direction(const PushedSensor& sensor) {
   const auto against = [](const Push& push, const Vector3& axis) { return Vector3(-in_tool(push, axis)); };
   const std::string name = sensor.what;
   if (fits(sensor, in_tool)) {
-    if (!fits(sensor, in_base)) return {Verdict::kOk, sensor.what, "has the sign and the axes of the tool"};
+    if (!fits(sensor, in_base))
+      return {FindingVerdict::kOk, sensor.what, "has the sign and the axes of the tool"};
     return {
-        Verdict::kWarning, sensor.what, "has the right sign, but the tool's axes are the base's in this pose",
+        FindingVerdict::kWarning, sensor.what,
+        "has the right sign, but the tool's axes are the base's in this pose",
         "turn the tool by a quarter and check again: whether it is told along the tool cannot be known here"};
   }
   if (fits(sensor, against))
@@ -87,8 +89,8 @@ Finding judge_direction(const PushedSensor& sensor) {
 
 Finding judge_rest(const PushedSensor& sensor) {
   const std::string text = "tells " + in_text(sensor.rest) + " " + sensor.unit + " while nobody touches it";
-  if (sensor.rest.norm() <= sensor.rest_max) return {Verdict::kOk, "rest", text};
-  return {Verdict::kFailure, "rest", text,
+  if (sensor.rest.norm() <= sensor.rest_max) return {FindingVerdict::kOk, "rest", text};
+  return {FindingVerdict::kFailure, "rest", text,
           "take the tool's weight off in the adapter, or describe it in sensing.tool with gravity; whether "
           "it is weight "
           "or no zero shows when the tool is turned over"};

@@ -12,7 +12,7 @@
 namespace longreach {
 namespace {
 
-constexpr auto kRetryAfter = std::chrono::milliseconds(500);
+constexpr auto kFeedRetryAfter = std::chrono::milliseconds(500);
 constexpr auto kSlavePeriod = std::chrono::milliseconds(1000);
 constexpr auto kAnchorPeriod = std::chrono::milliseconds(100);  // while an engagement's anchor is missing
 constexpr double kFrameHz = 60.0;
@@ -64,7 +64,7 @@ bool ViewFeed::rest(std::chrono::milliseconds time) {
 void ViewFeed::follow() {
   do {
     talk_.tell("down", told("down", read_frames()));
-  } while (rest(kRetryAfter));
+  } while (rest(kFeedRetryAfter));
 }
 
 /// Until the stream ends; returns why.

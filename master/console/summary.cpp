@@ -1,11 +1,11 @@
 #include "master/console/summary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
+
+#include "master/console/formatted.hpp"
 
 namespace longreach {
 namespace {
@@ -19,15 +19,8 @@ constexpr double kSpringForceMinN = 0.2;
 constexpr double kSettleS = 1.0;  // beside one RTT, after the first touch
 constexpr std::uint64_t kSamplesMin = 50;
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  std::array<char, 256> line{};
-  std::snprintf(line.data(), line.size(), format, values...);
-  return line.data();
-}
-
 std::string count_text(std::uint64_t count, const char* what) {
-  return text("%llu ", static_cast<unsigned long long>(count)) + what;
+  return formatted("%llu ", static_cast<unsigned long long>(count)) + what;
 }
 
 double median(std::vector<double> values) {
@@ -124,29 +117,30 @@ Summary RunSummary::finish(const ConsoleSnapshot& last) const {
 
 void RunSummary::add_checks(Summary& s) const {
   std::vector<SummaryCheck>& checks = s.checks;
-  checks.push_back({s.rtt_s ? text("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
-                    s.rtt_s.has_value()});
-  checks.push_back({text("engaged for %.1f s", s.engaged_s), s.engaged_s > 0.0});
+  checks.push_back(
+      {s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
+       s.rtt_s.has_value()});
+  checks.push_back({formatted("engaged for %.1f s", s.engaged_s), s.engaged_s > 0.0});
   const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
   if (both) {
     const double shown = *s.displayed_stiffness_n_per_m;
     const double estimated = *s.expected_stiffness_n_per_m;
     const double expected = config_.wall_n_per_m ? config_.ke * *config_.wall_n_per_m : estimated;
     const double error = shown / expected - 1.0;
-    std::string line = text("displayed stiffness %.3f N/mm, ", shown * 1e-3);
-    if (config_.wall_n_per_m) line += text("the wall %.3f N/mm, ", expected * 1e-3);
-    line += text("estimated %.3f N/mm (%+.1f %%)", estimated * 1e-3, error * 100.0);
+    std::string line = formatted("displayed stiffness %.3f N/mm, ", shown * 1e-3);
+    if (config_.wall_n_per_m) line += formatted("the wall %.3f N/mm, ", expected * 1e-3);
+    line += formatted("estimated %.3f N/mm (%+.1f %%)", estimated * 1e-3, error * 100.0);
     checks.push_back({line, std::fabs(error) <= config_.stiffness_error_max});
   } else if (config_.contact_expected) {
     checks.push_back(
         {s.touched ? "displayed stiffness: touched too shortly to measure it" : "no contact", false});
   }
   checks.push_back(
-      {text("port energy at least %.3f mJ, %.3f mJ came out of the rendering", in_mj(s.port_energy_min_j),
-            in_mj(s.energy_drawdown_j)),
+      {formatted("port energy at least %.3f mJ, %.3f mJ came out of the rendering",
+                 in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
        s.port_energy_min_j >= -config_.energy_out_max_j && s.energy_drawdown_j <= config_.energy_out_max_j});
   checks.push_back(
-      {text("largest force step by a report %.3f N", s.force_step_max_n), s.force_step_excess_n <= 0.0});
+      {formatted("largest force step by a report %.3f N", s.force_step_max_n), s.force_step_excess_n <= 0.0});
   const RunCounters& n = s.counters;
   checks.push_back({count_text(n.late_ticks, "ticks late by over 100 ms"), n.late_ticks == 0});
   checks.push_back({count_text(n.false_holds, "false holds"), n.false_holds == 0});

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "master/console/formatted.hpp"
 
 namespace longreach {
 namespace {
@@ -13,20 +14,13 @@ std::string_view name_of(Enum value, const std::array<std::string_view, N>& name
   return index < N ? names[index] : std::string_view("unknown");
 }
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(), format, values...);
-  return line.data();
-}
-
 bool heard(const ConsoleSnapshot& s) { return s.view.far_known || std::isfinite(s.link.silence_s); }
 
 /// Of what is said of the robot: how long ago it was so.
 std::string as_of(const ConsoleSnapshot& s) {
   constexpr double kNoticed_s = 0.1;
   const auto age_s = age_of_news_s(s);
-  return age_s && *age_s >= kNoticed_s ? text(" (%.1f s ago)", *age_s) : "";
+  return age_s && *age_s >= kNoticed_s ? formatted(" (%.1f s ago)", *age_s) : "";
 }
 
 /// Which limit keeps the robot from following; empty: none does.
@@ -54,17 +48,17 @@ std::string touching(const ConsoleSnapshot& s) {
   if (!(k > 0.0)) return "touching: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
-    return text("the robot touches; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
+    return formatted("the robot touches; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
   }
-  return text("touching: the wall gives %.2f N/mm", k * 1e-3);
+  return formatted("touching: the wall gives %.2f N/mm", k * 1e-3);
 }
 
 std::string engaging(const ConsoleSnapshot& s) {
   if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's answer";
   if (*s.view.answer_in_s < 0.05)
-    return text("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
-  return text("engaging: the slave's answer can be here in %.1f s (round trip %.2f s)", *s.view.answer_in_s,
-              *s.link.rtt_s);
+    return formatted("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
+  return formatted("engaging: the slave's answer can be here in %.1f s (round trip %.2f s)",
+                   *s.view.answer_in_s, *s.link.rtt_s);
 }
 
 std::string following(const ConsoleSnapshot& s) {
@@ -73,12 +67,12 @@ std::string following(const ConsoleSnapshot& s) {
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
   if (s.view.spring_force_n.norm() > 0.0) {
-    return text("the hand is in the wall as remembered, %.2f N/mm; no news of the robot's touch yet",
-                s.view.stiffness_n_per_m * 1e-3);
+    return formatted("the hand is in the wall as remembered, %.2f N/mm; no news of the robot's touch yet",
+                     s.view.stiffness_n_per_m * 1e-3);
   }
   const bool rate = s.view.mode == MotionMode::kRate;
   return (rate ? "moving freely: the hand's deflection sets the robot's speed"
-               : text("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale)) +
+               : formatted("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale)) +
          as_of(s);
 }
 
@@ -87,15 +81,15 @@ std::string holding(const ConsoleSnapshot& s) {
   switch (s.view.cause) {
     case HoldCause::kLinkSilent:
       if (s.view.silent)
-        return text("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
+        return formatted("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
                (s.view.resumes ? "" : "; engage when the link is back");
-      return text("holding: nothing came from the slave for %.1f s; the link is back: ",
-                  s.view.hold_silence_s) +
+      return formatted("holding: nothing came from the slave for %.1f s; the link is back: ",
+                       s.view.hold_silence_s) +
              (s.view.resumes ? "it goes on by itself" : "engage to go on");
     case HoldCause::kDelayRose:
       if (!s.view.rtt_s || !s.view.rtt_least_s) break;
-      return text("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
-                  *s.view.rtt_least_s, *s.view.rtt_s);
+      return formatted("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
+                       *s.view.rtt_least_s, *s.view.rtt_s);
     case HoldCause::kHandleLetGo:
       return s.view.hand_missing ? "holding: no hand is on the handle" : "holding: engage to go on";
     case HoldCause::kNone:
@@ -109,8 +103,8 @@ std::string holding(const ConsoleSnapshot& s) {
 
 std::string observing(const ConsoleSnapshot& s) {
   if (s.view.silent)
-    return text("observing: nothing has come from the slave for %.1f s; engage when it is back",
-                s.link.silence_s);
+    return formatted("observing: nothing has come from the slave for %.1f s; engage when it is back",
+                     s.link.silence_s);
   if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
   if (s.view.far_state == SafetyState::kFault) {
     const std::string why(s.view.far_known ? cause_in_words(s.view.far.cause) : "");

@@ -10,7 +10,7 @@
 namespace longreach {
 namespace {
 
-constexpr const char* kLibrary = "libSDL2-2.0.so.0";
+constexpr const char* kSdlLibrary = "libSDL2-2.0.so.0";
 constexpr Uint32 kParts = SDL_INIT_GAMECONTROLLER | SDL_INIT_HAPTIC;
 constexpr Uint32 kRumble_ms = 200;
 
@@ -41,13 +41,13 @@ struct Sdl {
   decltype(&SDL_JoystickRumble) rumble;
 
   Sdl() {
-    void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+    void* const library = dlopen(kSdlLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw std::runtime_error(std::string("a gamepad needs SDL, and ") + kLibrary +
-                               " cannot be loaded; install libsdl2-2.0-0 (deploy/setup)");
+      throw std::runtime_error(std::string("a gamepad needs SDL, and ") + kSdlLibrary +
+                               " cannot be loaded; install libsdl2-2.0-0");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-      if (function == nullptr) throw std::runtime_error(std::string(kLibrary) + " has no " + name);
+      if (function == nullptr) throw std::runtime_error(std::string(kSdlLibrary) + " has no " + name);
     };
     take(set_hint, "SDL_SetHint");
     take(begin, "SDL_InitSubSystem");

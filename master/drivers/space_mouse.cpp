@@ -10,7 +10,7 @@
 namespace longreach {
 namespace {
 
-constexpr const char* kLibrary = "libspnav.so.0";
+constexpr const char* kSpnavLibrary = "libspnav.so.0";
 constexpr double kFull = 350.0;   // of an axis, as the daemon tells it
 constexpr double kRetry_s = 1.0;  // between looks for the daemon
 constexpr double kStuck_s = 1.0;  // a puck in a hand never keeps still: this long without news it is let go
@@ -25,13 +25,13 @@ struct Spnav {
   decltype(&spnav_dev_name) device_name;
 
   Spnav() {
-    void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+    void* const library = dlopen(kSpnavLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw std::runtime_error(std::string("a SpaceMouse needs libspnav, and ") + kLibrary +
+      throw std::runtime_error(std::string("a SpaceMouse needs libspnav, and ") + kSpnavLibrary +
                                " cannot be loaded; install libspnav0 and spacenavd (deploy/setup)");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-      if (function == nullptr) throw std::runtime_error(std::string(kLibrary) + " has no " + name);
+      if (function == nullptr) throw std::runtime_error(std::string(kSpnavLibrary) + " has no " + name);
     };
     take(open, "spnav_open");
     take(close, "spnav_close");

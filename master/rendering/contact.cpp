@@ -7,10 +7,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kSameAxis = 0.2;     // sine: 11 degrees
-constexpr double kAcross = 0.5;       // cosine: 60 degrees
-constexpr double kLeastShare = 1e-3;  // of the largest stiffness: less is no surface but noise
-constexpr double kLeastSense = 0.02;  // cosine of the motion with an axis that tells its sense
+constexpr double kSameSurfaceAxis = 0.2;  // sine: 11 degrees
+constexpr double kAcross = 0.5;           // cosine: 60 degrees
+constexpr double kLeastShare = 1e-3;      // of the largest stiffness: less is no surface but noise
+constexpr double kLeastSense = 0.02;      // cosine of the motion with an axis that tells its sense
 
 struct Principal {
   Vector3 values;  // ascending
@@ -86,7 +86,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<V
     if (!a.known) continue;
     const Vector3 row = left * a.n_W;
     const double k = a.n_W.dot(row);
-    if (k > least && (row - k * a.n_W).norm() <= kSameAxis * k) {
+    if (k > least && (row - k * a.n_W).norm() <= kSameSurfaceAxis * k) {
       // Met again, or known better: another touch while this one lasts does not move it.
       if (goal && (a.released || (a.touch == contact.touch && !config_.by_arrival))) a.goal = *goal;
       a.touch = a.released ? contact.touch : a.touch;
@@ -115,7 +115,7 @@ Vector3 Contact::inward(const Vector3& n, const Vector3& motion) const {
   const double sense = n.dot(motion);
   if (std::abs(sense) > kLeastSense * motion.norm()) return sense > 0.0 ? n : Vector3(-n);
   for (const Vector3& met : met_) {
-    if (std::abs(n.dot(met)) > 1.0 - kSameAxis) return n.dot(met) > 0.0 ? n : Vector3(-n);
+    if (std::abs(n.dot(met)) > 1.0 - kSameSurfaceAxis) return n.dot(met) > 0.0 ? n : Vector3(-n);
   }
   return Vector3::Zero();
 }

@@ -15,8 +15,6 @@ constexpr double kBraking = 0.8;         // of the acceleration, for the end of 
 constexpr double kCalm_s = 0.05;         // below the guard: the force has gone
 constexpr double kAlong = 0.3;           // cosine: not across
 
-bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
-
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
   return log_rotation(to * from.conjugate());
 }
@@ -46,7 +44,7 @@ void GoalLimiter::correct(const Pose& X_WE, double dt) {
 LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   LimiterOutput out;
   X_WE_before_ = X_WE_;
-  if (!input.X_WE_goal || !finite(*input.X_WE_goal)) {
+  if (!input.X_WE_goal || !is_finite(*input.X_WE_goal)) {
     out.no_relief = brake(input.contact, input.dt);
     out.X_WE = X_WE_;
     return out;

@@ -7,8 +7,8 @@ namespace longreach {
 namespace {
 
 constexpr double kBrakingShare = 0.8;
-constexpr double kFull = 1.0 + 1e-9;  // of the speed, with its rounding
-constexpr double kRounding = 1e-14;   // of a pose in metres and radians: so near a goal is reached
+constexpr double kFull = 1.0 + 1e-9;     // of the speed, with its rounding
+constexpr double kGoalRounding = 1e-14;  // of a pose in metres and radians: so near a goal is reached
 
 // Brakes along the cap first and spends what acceleration is left on the rest: both moves end inside the
 // ball.
@@ -41,7 +41,7 @@ VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
   const double distance = gap.stableNorm();
   const double speed = braking_speed(distance, kBrakingShare * limits.acceleration, limits.dt);
   Vector3 wanted = p.goal_velocity;
-  if (distance > kRounding) wanted += gap * (speed / distance);
+  if (distance > kGoalRounding) wanted += gap * (speed / distance);
   const Vector3 clamped = clamp_norm(wanted, limits.speed);
   result.limited = clamped != wanted;
   wanted = clamped;

@@ -7,23 +7,23 @@
 namespace longreach {
 namespace {
 
-constexpr double kPriorN = 1.5, kPriorNSd = 0.5;
+constexpr double kCurvePriorN = 1.5, kCurvePriorNSd = 0.5;
 constexpr double kGivenNSd = 1e-6;
-constexpr double kPriorASd = 2.5;  // s/m
+constexpr double kCurvePriorASd = 2.5;  // s/m
 constexpr double kLowestN = 0.5, kHighestN = 3.5;
 constexpr double kStepN = 0.5;      // at most
 constexpr double kStepDepth = 0.5;  // of the depth, at most
 constexpr double kFarthest = 1e3;   // depth, over the way that was seen
 constexpr int kTrials = 3;          // of a step, before the samples to come are waited for
 constexpr double kDampingLeast = 1e-6, kDampingMost = 1e6;
-constexpr int kShareUnused = 32;
+constexpr int kCurveShareUnused = 32;
 constexpr int kUnusedMost = 128;  // at a long memory
 constexpr int kUnusedLeast = 32;
-constexpr int kSamplesMin = 6;
+constexpr int kCurveSamplesMin = 6;
 constexpr double kPlaced = 0.2;  // of the depth, sd of the surface: until then it is looked for anew
 
 // A bin behind the surface, with what the law makes of its place.
-struct Row {
+struct DepthRow {
   double w, v, vv, f, fv;
   double g;          // ξⁿ
   double h;          // ξᵐ
@@ -32,7 +32,7 @@ struct Row {
 };
 
 struct Rows {
-  std::array<Row, DepthBins::kBins> row;
+  std::array<DepthRow, DepthBins::kBins> row;
   int count = 0;
 };
 
@@ -64,10 +64,11 @@ struct ContactCurve::Fitted {
 
 ContactCurve::ContactCurve(const Law& law)
     : law_(law),
-      prior_n_(law.exponent > 0.0 ? law.exponent : kPriorN),
-      prior_n_sd_(law.exponent > 0.0 ? kGivenNSd : kPriorNSd),
-      memory_(static_cast<int>(std::clamp(1.0 / (1.0 - law.forgetting), double{kShareUnused * kUnusedLeast},
-                                          double{kShareUnused * kUnusedMost}))) {
+      prior_n_(law.exponent > 0.0 ? law.exponent : kCurvePriorN),
+      prior_n_sd_(law.exponent > 0.0 ? kGivenNSd : kCurvePriorNSd),
+      memory_(
+          static_cast<int>(std::clamp(1.0 / (1.0 - law.forgetting), double{kCurveShareUnused * kUnusedLeast},
+                                      double{kCurveShareUnused * kUnusedMost}))) {
   place_.n = prior_n_;
 }
 
@@ -79,7 +80,7 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
   const Rows rows = behind(bins_, place.x0, place.n, result.reference_m, law_.kelvin_voigt);
   double S0 = 0.0, S1 = 0.0, S2 = 0.0, R0 = 0.0, R1 = 0.0;
   for (int i = 0; i < rows.count; ++i) {
-    const Row& r = rows.row[static_cast<std::size_t>(i)];
+    const DepthRow& r = rows.row[static_cast<std::size_t>(i)];
     S0 += r.w * r.g * r.g;
     S1 += r.v * r.g * r.h;
     S2 += r.vv * r.h * r.h;
@@ -87,7 +88,8 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
     R1 += r.fv * r.h;
   }
   const double c = S0 > 0.0 ? R0 / S0 : 0.0;
-  const double ridge = variance / (c * c * kPriorASd * kPriorASd + std::numeric_limits<double>::min());
+  const double ridge =
+      variance / (c * c * kCurvePriorASd * kCurvePriorASd + std::numeric_limits<double>::min());
   const double determinant = S0 * (S2 + ridge) - S1 * S1;
   const double c0 = (R0 * (S2 + ridge) - R1 * S1) / determinant;
   const double c1 = (R1 * S0 - R0 * S1) / determinant;
@@ -100,7 +102,7 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
 
   Eigen::Matrix4d& A = result.information;
   for (int i = 0; i < rows.count; ++i) {
-    const Row& r = rows.row[static_cast<std::size_t>(i)];
+    const DepthRow& r = rows.row[static_cast<std::size_t>(i)];
     // Columns of the law in its parameters: u + w v.
     const double d = law_.kelvin_voigt ? 0.0 : r.g * c1;  // the damping moves with the surface and n
     const double slope = -place.n * r.per_depth;
@@ -130,7 +132,7 @@ double ContactCurve::step(const PenetrationSample& sample, double force_variance
   deepest_m_ = std::max(deepest_m_, sample.x_m);
   bins_.add(sample, law_.forgetting);
   samples_ = std::min(samples_ + 1, memory_);
-  if (++unused_ * kShareUnused >= samples_ && samples_ >= kSamplesMin) refresh(force_variance_n2);
+  if (++unused_ * kCurveShareUnused >= samples_ && samples_ >= kCurveSamplesMin) refresh(force_variance_n2);
   return innovation;
 }
 

@@ -22,7 +22,7 @@ constexpr double kDriftShare = 0.08;  // of the force; less is not felt
 constexpr double kDriftFloor = 0.25;  // of the force at the reference: shallower contact counts as that
 constexpr double kClipSd = 10.0, kClipShare = 0.5;  // of one innovation: a single one is no change
 constexpr double kSlowTouch = 0.01;                 // a v at the fastest: this, with an sd of this
-constexpr int kEnough = 1000;                       // samples that should have told everything
+constexpr int kEnoughSamples = 1000;                // samples that should have told everything
 constexpr double kPositionShare = 0.1;
 constexpr double kShareSd = 0.05, kExponentSd = 0.05, kDampingShareSd = 0.2;
 constexpr double kSecantSd = 0.0155;  // 3 of them within 5 %, and some room
@@ -190,7 +190,7 @@ void Identifier::step(const PenetrationSample& sample, double dt) {
     innovation = sample.force_n - known.force_at(sample);
   } else {
     innovation = std::visit([&](auto& e) { return e.step(sample, variance_n2_); }, estimator_);
-    samples_ = std::min(samples_ + 1, kEnough);
+    samples_ = std::min(samples_ + 1, kEnoughSamples);
   }
   if (settled_ && std::isfinite(innovation)) watch(innovation, sample.force_n - innovation);
 }
@@ -263,7 +263,7 @@ ContactAnswer Identifier::answer_at(double depth_m) const {
   a.stiffness.sd = a.stiffness.value * sd_along(elastic.covariance, {1.0, tangent_by_n, 0.0, by_surface});
 
   const bool biased = position_sd() > kPositionShare * f.reference_m;
-  const bool enough = biased || samples_ >= kEnough || held_ > kHeldMax;
+  const bool enough = biased || samples_ >= kEnoughSamples || held_ > kHeldMax;
   const auto judge = [&](Identified& p, double limit, bool early) {
     const bool known = !biased && !early && p.sd <= limit;
     p.verdict = known ? Verdict::kIdentified : enough ? Verdict::kNotIdentifiable : Verdict::kNotYet;

@@ -11,7 +11,7 @@ constexpr int kSpecialPlaces = 4;  // 1-2-3, 2-3-4, 3-4-5, 4-5-6
 constexpr double kApart = 1e-9;    // of the reach: parallel axes nearer to each other count as one
 
 // Tz(before) Tx(a) Rx(α) Tz(behind)
-struct Row {
+struct LinkRow {
   double before_m = 0.0, a_m = 0.0, alpha_rad = 0.0, behind_m = 0.0;
 };
 
@@ -26,7 +26,7 @@ Rigid rotation_x(double alpha_rad) {
 
 Rigid shift(double x_m, double z_m) { return {Matrix3::Identity(), Vector3(x_m, 0, z_m)}; }
 
-Rigid to_rigid(const Row& row) {
+Rigid to_rigid(const LinkRow& row) {
   return shift(row.a_m, row.before_m) * rotation_x(row.alpha_rad) * shift(0.0, row.behind_m);
 }
 
@@ -36,10 +36,11 @@ struct Reading {
   bool backwards;
 };
 
-// The links in loop order, before they are simplified. The one with the pose keeps its slides in a Row, too.
+// The links in loop order, before they are simplified. The one with the pose keeps its slides in a LinkRow,
+// too.
 struct OpenLoop {
   std::array<LoopJoint, 6> joint{};
-  std::array<Row, 6> row{};
+  std::array<LinkRow, 6> row{};
   std::size_t pose = 0;
 };
 
@@ -57,15 +58,15 @@ OpenLoop unroll(const Kinematics& arm, const Reading& reading) {
       continue;
     }
     const DhLink& l = links[static_cast<std::size_t>(behind)];
-    loop.row[role] =
-        reading.backwards ? Row{0.0, -l.a_m, -l.alpha_rad, -l.d_m} : Row{l.d_m, l.a_m, l.alpha_rad, 0.0};
+    loop.row[role] = reading.backwards ? LinkRow{0.0, -l.a_m, -l.alpha_rad, -l.d_m}
+                                       : LinkRow{l.d_m, l.a_m, l.alpha_rad, 0.0};
   }
   return loop;
 }
 
 // Offsets along an axis pass through its joint: off the link `role`, onto those beside it.
 void slide_off(OpenLoop& loop, std::size_t role) {
-  Row& row = loop.row[role];
+  LinkRow& row = loop.row[role];
   loop.row[(role + 5) % 6].behind_m += row.before_m;
   loop.row[(role + 1) % 6].before_m += row.behind_m;
   row.before_m = row.behind_m = 0.0;
@@ -74,7 +75,7 @@ void slide_off(OpenLoop& loop, std::size_t role) {
 // Parallel axes may point against each other: the joint behind `role` is counted the other way round, with
 // Rx(π) on both sides of it. The half turn before the next link goes where it is asked to.
 void align(OpenLoop& loop, std::size_t role, bool& flip_next) {
-  Row& row = loop.row[role];
+  LinkRow& row = loop.row[role];
   if (flip_next) {
     row.before_m = -row.before_m;
     row.alpha_rad += std::numbers::pi;
@@ -111,7 +112,7 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
     align(open, ArmLoop::kE, flip);
     // All offsets along the common direction add up.
     for (const std::size_t role : {ArmLoop::kD, ArmLoop::kE}) {
-      Row& row = open.row[role];
+      LinkRow& row = open.row[role];
       open.row[ArmLoop::kF].before_m += (flip ? -1.0 : 1.0) * (row.before_m + row.behind_m);
       row.before_m = row.behind_m = 0.0;
     }
@@ -126,7 +127,7 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
     loop.second = e(2, 1), loop.second_cos = e(2, 2);
   }
   slide_off(open, ArmLoop::kA);
-  const Row& a = open.row[ArmLoop::kA];
+  const LinkRow& a = open.row[ArmLoop::kA];
   loop.a_m = near_zero(a.a_m, arm.reach_m()) ? 0.0 : a.a_m;
   loop.sin_alpha = near_zero(std::sin(a.alpha_rad), 1.0) ? 0.0 : std::sin(a.alpha_rad);
   loop.cos_alpha =
@@ -136,8 +137,8 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
 
   // The last link ends in the tool, the first one begins at the base.
   const DhLink& end = arm.links()[5];
-  const Rigid tip = to_rigid(Row{end.d_m, end.a_m, end.alpha_rad, 0.0}) * arm.tool();
-  const Row around = open.row[open.pose];
+  const Rigid tip = to_rigid(LinkRow{end.d_m, end.a_m, end.alpha_rad, 0.0}) * arm.tool();
+  const LinkRow around = open.row[open.pose];
   loop.before = shift(0.0, around.before_m) * (reading.backwards ? inverse(arm.base()) : tip);
   loop.behind = (reading.backwards ? inverse(tip) : arm.base()) * shift(0.0, around.behind_m);
   for (const std::size_t role : {ArmLoop::kB, ArmLoop::kC, ArmLoop::kF}) {

@@ -15,8 +15,6 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
 constexpr double kFollowMaxRad = 0.1;
 
-bool finite(const Pose& X) { return X.p.allFinite() && X.q.coeffs().allFinite(); }
-
 }  // namespace
 
 Inverse::Inverse(const RobotConfig& robot)
@@ -161,7 +159,7 @@ InverseResult Inverse::slide(const Rigid& goal, const JointVector& near_rad) con
 InverseResult Inverse::solve(const Pose& X_WE_goal, const JointVector& near_rad,
                              const InverseTolerance& tolerance) const {
   const JointVector start = near_rad.cwiseMax(numeric_.min_rad()).cwiseMin(numeric_.max_rad());
-  if (!finite(X_WE_goal)) {
+  if (!is_finite(X_WE_goal)) {
     InverseResult result;
     result.joint_rad = start;
     result.X_WE = kinematics().forward(start);
@@ -177,7 +175,8 @@ InverseResult Inverse::solve(const Pose& X_WE_goal, const JointVector& near_rad,
 
 InverseResult Inverse::follow(const Pose& X_WE_goal, const JointVector& joint_rad,
                               const InverseTolerance& tolerance) const {
-  if (cartesian_ || !closed_.applies() || !finite(X_WE_goal)) return solve(X_WE_goal, joint_rad, tolerance);
+  if (cartesian_ || !closed_.applies() || !is_finite(X_WE_goal))
+    return solve(X_WE_goal, joint_rad, tolerance);
   const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
   Placed placed;
   if (choose(goal, joint_rad, placed) &&
@@ -191,7 +190,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
                               const InverseTolerance& tolerance) const {
   constexpr double kSame = 1e-6;  // rad
   InverseSolutions solutions;
-  if (!finite(X_WE_goal)) return solutions;
+  if (!is_finite(X_WE_goal)) return solutions;
   const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
   const auto add = [&](JointVector q) {
     for (int i = 0; i < kMaxJoints; ++i) q[i] = near_rad[i] + nearest_turn(q[i] - near_rad[i]);

@@ -25,6 +25,12 @@ Rigid behind_joint(const DhLink& row) {
 
 }  // namespace
 
+JointVector start_joints(const RobotConfig& robot) {
+  JointVector q;
+  for (int i = 0; i < kMaxJoints; ++i) q[i] = robot.joint[static_cast<std::size_t>(i)].start_rad;
+  return q;
+}
+
 Kinematics::Kinematics(const RobotConfig& robot) {
   const bool modified = robot.convention == DhConvention::kModified;
   for (std::size_t i = 0; i < kMaxJoints; ++i) {

@@ -31,6 +31,9 @@ struct DhLink {
   double a_m = 0.0, alpha_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
 };
 
+/// Joint values at which the robot starts, rad or m.
+JointVector start_joints(const RobotConfig& robot);
+
 class Kinematics {
  public:
   explicit Kinematics(const RobotConfig& robot);

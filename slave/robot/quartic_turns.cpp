@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kRounding = 2e-14;  // of the terms, in F at a touch
+constexpr double kTouchRounding = 2e-14;  // of the terms, in F at a touch
 
 using Coefficients = std::array<double, 5>;  // of t^0 .. t^4
 
@@ -62,7 +62,7 @@ Zeros between(const Coefficients& a, int degree, double bound, const Zeros& turn
       // Rounding hides how far apart the two zeros are.
       const double curvature = std::abs(2.0 * a[2] + high * (6.0 * a[3] + 12.0 * high * a[4]));
       const double aside =
-          std::sqrt(kRounding / kTouch * touch * (1.0 + high * high) * (1.0 + high * high) / curvature);
+          std::sqrt(kTouchRounding / kTouch * touch * (1.0 + high * high) * (1.0 + high * high) / curvature);
       found.add(high);
       if (aside < 0.1) found.add(high - aside), found.add(high + aside);
     }

@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kEnough = 0.4 * Refinement::kExact;
+constexpr double kEnoughMiss = 0.4 * Refinement::kExact;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Placed Refinement::at(const JointVector& joint_rad) const {
 
 bool Refinement::improve(Placed& placed) const {
   placed = at(placed.joint_rad);
-  if (placed.miss <= kEnough || newton(placed)) return true;
+  if (placed.miss <= kEnoughMiss || newton(placed)) return true;
   constexpr double kMet = 1e-8;
   constexpr int kTimes = 3;
   for (int i = 0; i < kTimes && placed.miss <= kMet; ++i) {
@@ -59,13 +59,13 @@ bool Refinement::newton(Placed& placed) const {
   for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience && next.miss < 1.0; ++i) {
     const Placed start = next;
     next = moved(start, true);
-    if (next.miss > kEnough) {
+    if (next.miss > kEnoughMiss) {
       const Placed along = moved(moved(start, false), true);
       if (along.miss < next.miss) next = along;
     }
     worse = next.miss < placed.miss ? 0 : worse + 1;
     if (next.miss < placed.miss) placed = next;
-    if (placed.miss <= kEnough) break;
+    if (placed.miss <= kEnoughMiss) break;
   }
   return placed.miss <= kExact;
 }

@@ -53,12 +53,6 @@ bool flexible(const JointConfig& joint) { return joint.stiffness_nm_per_rad > 0.
 
 ToolMotion tool_motion(const Pose& X_WE, double t_s) { return {.p_WE = X_WE.p, .q_WE = X_WE.q, .t_s = t_s}; }
 
-JointVector start_joints(const RobotConfig& robot) {
-  JointVector q;
-  for (int i = 0; i < kMaxJoints; ++i) q[i] = robot.joint[static_cast<std::size_t>(i)].start_rad;
-  return q;
-}
-
 }  // namespace
 
 SimulatedArm::SimulatedArm(const SlaveConfig& config, Random random)

@@ -8,21 +8,15 @@
 namespace longreach {
 namespace {
 
-constexpr int kIterationsMax = 30;
-constexpr int kHalvingsMax = 8;
-constexpr int kSplitsMax = 6;      // of a step that Newton does not solve: 64 parts
-constexpr double kExact = 1e-11;   // of the wrenches: converged,
-constexpr double kLeast_n = 1e-9;  // and this: what rounding of places makes of stiff bonds
-constexpr double kEnough = 1e3;    // times as much will do where no more is possible
+constexpr int kBodyIterationsMax = 30;
+constexpr int kBodyHalvingsMax = 8;
+constexpr int kSplitsMax = 6;           // of a step that Newton does not solve: 64 parts
+constexpr double kExactWrench = 1e-11;  // of the wrenches: converged,
+constexpr double kLeast_n = 1e-9;       // and this: what rounding of places makes of stiff bonds
+constexpr double kEnoughTimes = 1e3;    // times as much will do where no more is possible
 
 Pose relative(const Pose& start, const Pose& X) {
   return {X.p - start.p, (X.q * start.q.conjugate()).normalized()};
-}
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
 }
 
 // u = [turn; way] of a body to the way of a point at r from its middle.
@@ -78,9 +72,9 @@ void Bodies::advance(const Pose& X_tool, double dt, int splits) {
   Wrenches w = last_;  // it seldom changes much
   attempt(w, X_tool, dt, best_);
   Wrenches missing = best_.answer - w;
-  const auto exact = [this] { return kExact * best_.answer.norm() + kLeast_n; };
+  const auto exact = [this] { return kExactWrench * best_.answer.norm() + kLeast_n; };
   bool solved = missing.norm() <= exact();
-  for (int i = 0; i < kIterationsMax && !solved; ++i) {
+  for (int i = 0; i < kBodyIterationsMax && !solved; ++i) {
     Stiffness J = Stiffness::Identity(rows, rows);
     for (int b = 0; b < count(); ++b) {
       const auto c = rigid_compliance(body(b).mass, best_.to[static_cast<std::size_t>(b)].X, dt);
@@ -89,7 +83,7 @@ void Bodies::advance(const Pose& X_tool, double dt, int splits) {
     const Wrenches change = J.partialPivLu().solve(missing);
     double share = 1.0;
     bool better = false;
-    for (int h = 0; h < kHalvingsMax && !better; ++h, share *= 0.5) {
+    for (int h = 0; h < kBodyHalvingsMax && !better; ++h, share *= 0.5) {
       const Wrenches tried = w + share * change;
       attempt(tried, X_tool, dt, next_);
       const Wrenches error = next_.answer - tried;
@@ -99,7 +93,7 @@ void Bodies::advance(const Pose& X_tool, double dt, int splits) {
       w = tried;
       missing = error;
     }
-    solved = missing.norm() <= (better ? 1.0 : kEnough) * exact();
+    solved = missing.norm() <= (better ? 1.0 : kEnoughTimes) * exact();
     if (!better) break;
   }
   if (solved || splits == 0) {

@@ -8,9 +8,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kStraightRad = 1e-9;  // less is no turn
-constexpr double kBackRad = 3.1;       // more is no way
-constexpr double kRounding = 1e-12;    // of a leg that its turns fill exactly
+constexpr double kStraightRad = 1e-9;   // less is no turn
+constexpr double kBackRad = 3.1;        // more is no way
+constexpr double kLegRounding = 1e-12;  // of a leg that its turns fill exactly
 constexpr double kPi = 3.14159265358979323846;
 
 std::vector<Vector3> points(const PathConfig& config, const Vector3& p_WE_start) {
@@ -43,7 +43,7 @@ Path::Path(const PathConfig& config, const Vector3& p_WE_start) {
     const bool turns = turn_rad > kStraightRad && config.turn_radius_m > 0.0;
     const double next_cut_m = turns ? config.turn_radius_m * std::tan(0.5 * turn_rad) : 0.0;
     const double line_m = leg_m - cut_m - next_cut_m;
-    if (!(line_m >= -kRounding * leg_m))
+    if (!(line_m >= -kLegRounding * leg_m))
       throw std::invalid_argument("path: a leg is too short for its turns");
     add({.from_m = p[i] + cut_m * direction, .direction = direction, .length_m = std::max(line_m, 0.0)});
     if (turns) {

@@ -5,26 +5,20 @@
 namespace longreach {
 namespace {
 
-constexpr int kIterationsMax = 12;
-constexpr double kExact = 1e-15;
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
+constexpr int kTurnIterationsMax = 12;
+constexpr double kExactTurn = 1e-15;
 
 // dt Ω̄ in the body, by Newton on 2 I (Ω̄ - Ω) + dt Ω̄ × (I Ω̄ + dt T/2) - dt T = 0, T the moment in the body.
 Vector3 mean_turn(const Vector3& inertia, const Vector3& w, const Vector3& T, double dt) {
   Vector3 mean = w + 0.5 * dt * T.cwiseQuotient(inertia);
-  for (int i = 0; i < kIterationsMax; ++i) {
+  for (int i = 0; i < kTurnIterationsMax; ++i) {
     const Vector3 h = inertia.cwiseProduct(mean) + 0.5 * dt * T;
     const Vector3 error = 2.0 * inertia.cwiseProduct(mean - w) + dt * (mean.cross(h) - T);
     Matrix3 slope = dt * (cross_matrix(mean) * inertia.asDiagonal() - cross_matrix(h));
     slope.diagonal() += 2.0 * inertia;
     const Vector3 change = slope.inverse() * error;
     mean -= change;
-    if (!(change.norm() > kExact * mean.norm())) break;
+    if (!(change.norm() > kExactTurn * mean.norm())) break;
   }
   return dt * mean;
 }

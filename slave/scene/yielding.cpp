@@ -7,10 +7,10 @@
 namespace longreach {
 namespace {
 
-constexpr int kIterationsMax = 40;
-constexpr int kHalvingsMax = 12;
-constexpr double kExact = 1e-13;  // of the wrench: converged
-constexpr double kEnough = 1e-9;  // likewise, where rounding allows no more
+constexpr int kMeanIterationsMax = 40;
+constexpr int kMeanHalvingsMax = 12;
+constexpr double kExactMean = 1e-13;   // of the wrench: converged
+constexpr double kRoundedMean = 1e-9;  // likewise, where rounding allows no more
 
 ToolMotion moved(const ToolMotion& free, const Vector6& by) {
   ToolMotion to = free;
@@ -40,12 +40,12 @@ Yielded yield(const Scene& scene, const ToolMotion& from, const ToolMotion& free
   Vector6 missing = mean.wrench;  // what the scene answers, without what was assumed
   if (missing.isZero(0.0)) return best;
   std::optional<Yielded> spare;  // the last one tried that creates no energy
-  for (int i = 0; i < kIterationsMax; ++i) {
-    if (missing.norm() <= kExact * (mean.wrench.norm() + best.wrench.norm())) return best;
+  for (int i = 0; i < kMeanIterationsMax; ++i) {
+    if (missing.norm() <= kExactMean * (mean.wrench.norm() + best.wrench.norm())) return best;
     const Vector6 step = (Compliance::Identity() + mean.stiffness * compliance).partialPivLu().solve(missing);
     double share = 1.0;
     bool better = false;
-    for (int h = 0; h < kHalvingsMax && !better; ++h, share *= 0.5) {
+    for (int h = 0; h < kMeanHalvingsMax && !better; ++h, share *= 0.5) {
       Yielded next{best.wrench + share * step, {}, true};
       next.to = moved(free, compliance * next.wrench);
       const SceneMean answer = scene.mean_contact(from, next.to, dt);
@@ -59,7 +59,7 @@ Yielded yield(const Scene& scene, const ToolMotion& from, const ToolMotion& free
     }
     if (!better) break;
   }
-  best.converged = missing.norm() <= kEnough * (mean.wrench.norm() + best.wrench.norm());
+  best.converged = missing.norm() <= kRoundedMean * (mean.wrench.norm() + best.wrench.norm());
   if (best.converged || excess(from, best, missing) <= 0.0) return best;
   if (spare) return {spare->wrench, spare->to, false};
   // Sharp insides may have no answer that agrees with itself: then the tool is turned round on the spot.

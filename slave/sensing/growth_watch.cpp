@@ -10,7 +10,7 @@ namespace {
 constexpr double kSmooth_s = 4e-3;  // a quarter of the noise's variance at 1 kHz
 constexpr double kApart_m = 25e-6;  // of places: 24 of them are half a millimetre, or 24 ticks
 constexpr double kAtRest_m_per_s = 2e-5;
-constexpr double kSeen_n = 0.4;        // that the noise does not make
+constexpr double kGrowthSeen_n = 0.4;  // that the noise does not make
 constexpr double kNoise = 8.0;         // likewise, deviations
 constexpr double kRest_s = 0.02;       // on end: the tool rests
 constexpr double kRemembered_s = 0.5;  // of a place
@@ -74,7 +74,7 @@ bool GrowthWatch::rests(const Vector3& step_m, double dt) {
 }
 
 void GrowthWatch::look_back(const Vector3& normal) {
-  const double k = bounds_.stiffness_n_per_m, seen_n = std::max(kSeen_n, kNoise * bounds_.noise_n);
+  const double k = bounds_.stiffness_n_per_m, seen_n = std::max(kGrowthSeen_n, kNoise * bounds_.noise_n);
   double most_n = seen_n;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];

@@ -9,7 +9,7 @@ constexpr double kNoSensor_n = 1e5;      // more than any wrist sensor or arm of
 constexpr double kLever_m = 10.0;        // of a moment: likewise
 constexpr double kHard_n_per_m = 1e7;    // steel on steel
 constexpr double kComing_m_per_s = 0.1;  // of a wall
-constexpr double kNoise = 10.0;          // deviations
+constexpr double kGuardNoise = 10.0;     // deviations
 constexpr double kLong_s = 0.05;         // saturated, frozen
 constexpr double kMoved_m = 1e-3;        // a sensor with noise has changed its last digit
 constexpr double kSame = 1e-9;           // rounding of rotations, there and back
@@ -73,7 +73,7 @@ bool SensorWatch::felt(const Vector3& force_n, const Motion& motion, double doub
 double SensorWatch::leap_max_n(const Motion& motion) const {
   const double contact_n_per_s =
       kHard_n_per_m * motion.speed_m_per_s + command_.guard_stiffness_n_per_m * kComing_m_per_s;
-  return command_.force_guard_n + kNoise * sensing_.force_noise_n + 2.0 * sensing_.force_resolution_n +
+  return command_.force_guard_n + kGuardNoise * sensing_.force_noise_n + 2.0 * sensing_.force_resolution_n +
          motion.elapsed_s * contact_n_per_s;
 }
 

@@ -1,5 +1,5 @@
 // The real programs while nobody touches the keys: the hand is quiet, and no energy comes out of it.
-// LONGREACH_FULL: ten minutes instead of one.
+// LONGREACH_FULL: ten minutes instead of 20 s.
 
 #include <pty.h>
 #include <unistd.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "tests/process/load.hpp"
 #include "tests/process/station.hpp"
 #include "tests/property/campaign.hpp"
 
@@ -29,40 +30,51 @@ class IdleHand : public Station {
     ::close(inner_);
   }
 
-  /// What the master tells of its hand, as long as it lasts.
-  void watch(seconds time) {
+  struct Watched {
+    int pictures = 0, left = 0;
+    std::ptrdiff_t damped = 0;
+    double low_n = 1e9, high_n = 0.0, highest_j = -1e9, fallen_j = 0.0;
+  };
+
+  /// What the master reports of its hand, for so long, or until it is no longer engaged.
+  Watched watch(seconds time) {
+    Watched seen;
     const auto end = std::chrono::steady_clock::now() + time;
-    while (std::chrono::steady_clock::now() < end) {
+    while (seen.left == 0 && std::chrono::steady_clock::now() < end) {
       const auto now = master_.status();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       if (!now) continue;
-      ++pictures_;
-      left_ += now->state() != "Engaged";
-      damped_ += std::ranges::count(now->clamped(), "energy at the hand");
-      low_n_ = std::min(low_n_, now->force_n());
-      high_n_ = std::max(high_n_, now->force_n());
-      highest_j_ = std::max(highest_j_, now->energy_j());
-      fallen_j_ = std::max(fallen_j_, highest_j_ - now->energy_j());
+      ++seen.pictures;
+      seen.left += now->state() != "Engaged";
+      seen.damped += std::ranges::count(now->clamped(), "energy at the hand");
+      seen.low_n = std::min(seen.low_n, now->force_n());
+      seen.high_n = std::max(seen.high_n, now->force_n());
+      seen.highest_j = std::max(seen.highest_j, now->energy_j());
+      seen.fallen_j = std::max(seen.fallen_j, seen.highest_j - now->energy_j());
     }
+    return seen;
   }
 
   int outer_ = -1, inner_ = -1;
-  int pictures_ = 0, left_ = 0;
-  std::ptrdiff_t damped_ = 0;
-  double low_n_ = 1e9, high_n_ = 0.0, highest_j_ = -1e9, fallen_j_ = 0.0;
 };
 
 TEST_F(IdleHand, IsQuietAndGetsNoEnergyWhileNobodyTouchesAKey) {
   start_slave();
   start_master({"--operator", "keyboard", "--engage", "--profile", "lab"}, {.in = inner_});
-  ASSERT_TRUE(both_engaged()) << outputs();
-  std::this_thread::sleep_for(seconds(2));
-  watch(seconds(campaign(600, 60)));
-  EXPECT_GT(pictures_, 100);
-  EXPECT_EQ(left_, 0) << outputs();
-  EXPECT_EQ(damped_, 0);
-  EXPECT_LE(high_n_ - low_n_, kRipple_n + kStiffness_n_per_m * kCount_m);
-  EXPECT_LE(fallen_j_, kEnergy_j);
+  Watched seen;
+  // A stall of the machine is a hold: after one that a loop without work saw, too, the time starts again.
+  for (bool stalled = true; stalled;) {
+    ASSERT_TRUE(engaged()) << outputs();
+    std::this_thread::sleep_for(seconds(2));
+    BareLoops machine;
+    seen = watch(seconds(campaign(600, 20)));
+    stalled = seen.left > 0 && machine.end().stalls > 0;
+  }
+  EXPECT_GT(seen.pictures, 100);
+  EXPECT_EQ(seen.left, 0) << outputs();
+  EXPECT_EQ(seen.damped, 0);
+  EXPECT_LE(seen.high_n - seen.low_n, kRipple_n + kStiffness_n_per_m * kCount_m);
+  EXPECT_LE(seen.fallen_j, kEnergy_j);
   const auto last = master_.status();
   ASSERT_TRUE(last) << outputs();
   EXPECT_GE(last->energy_min_j(), -kEnergy_j);

@@ -8,10 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -87,21 +89,23 @@ std::string RunningProgram::output() const {
   return text.str();
 }
 
+// Below the range from which the system takes ports for connections: tests that run beside this one take none
+// of these.
 Ports free_ports() {
-  std::array<int, 3> sockets{};
+  static std::mt19937 random{std::random_device{}()};
+  std::uniform_int_distribution<int> port(10'000, 32'000);
   std::array<int, 3> ports{};
-  // All at once, so that they differ.
-  for (std::size_t i = 0; i < 3; ++i) {
-    sockets[i] = ::socket(AF_INET, i == 0 ? SOCK_DGRAM : SOCK_STREAM, 0);
+  for (std::size_t i = 0; i < 3;) {
+    const int candidate = port(random);
+    if (std::ranges::find(ports, candidate) != ports.end()) continue;
+    const int own = ::socket(AF_INET, (i == 0 ? SOCK_DGRAM : SOCK_STREAM) | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ::bind(sockets[i], reinterpret_cast<sockaddr*>(&address), size);
-    ::getsockname(sockets[i], reinterpret_cast<sockaddr*>(&address), &size);
-    ports[i] = ntohs(address.sin_port);
+    address.sin_port = htons(static_cast<std::uint16_t>(candidate));
+    if (::bind(own, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) ports[i++] = candidate;
+    ::close(own);
   }
-  for (const int s : sockets) ::close(s);
   return {ports[0], ports[1], ports[2]};
 }
 

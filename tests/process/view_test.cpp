@@ -44,7 +44,7 @@ class View : public Station {
                                             what,
                                             address_,
                                             pictures.string(),
-                                            LONGREACH_PAGE,
+                                            LONGREACH_NPM,
                                             LONGREACH_CHROMIUM};
     return std::make_unique<RunningProgram>("/usr/bin/nice", words);
   }

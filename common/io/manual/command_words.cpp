@@ -66,4 +66,10 @@ std::vector<CommandWords> command_words(const CLI::App& app) {
   return out;
 }
 
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
 }  // namespace longreach

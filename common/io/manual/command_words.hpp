@@ -25,4 +25,6 @@ struct CommandWords {
 /// The program first, each command before its own.
 std::vector<CommandWords> command_words(const CLI::App& app);
 
+std::string joined(const std::vector<std::string>& words, const char* between = " ");
+
 }  // namespace longreach

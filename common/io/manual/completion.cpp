@@ -8,12 +8,6 @@
 namespace longreach {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const char* between = " ") {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
-
 std::string key(const CommandWords& command) { return joined(command.path); }
 
 /// Its own options and, where they may stand behind it, those above.

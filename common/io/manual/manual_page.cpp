@@ -47,12 +47,6 @@ std::string paragraphs(const std::string& text) {
   return out + (verbatim ? ".fi\n" : "");
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
-
 std::string entry(const OptionWords& option) {
   std::string head = option.names.empty() ? "" : "\\fB" + escaped(joined(option.names, ", ")) + "\\fR";
   if (!option.what.empty()) head += (head.empty() ? "" : " ") + ("\\fI" + escaped(option.what) + "\\fR");

@@ -1,7 +1,7 @@
 // The arm as the slave last reported it, and the ghost of its tool where the operator's commands put it now.
 
-import { CylinderGeometry, Group, Matrix4, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, TorusGeometry,
-  Vector3 } from 'three';
+import { CylinderBufferGeometry, Group, Matrix4, Mesh, MeshStandardMaterial, Quaternion, SphereBufferGeometry,
+  TorusBufferGeometry, Vector3 } from 'three';
 
 import { at_limit, frames } from './kinematics.js';
 
@@ -11,7 +11,7 @@ const TIP_M = 0.3;     // of the last link, that the ghost repeats
 
 /** A tapered cylinder along y, from its first end. */
 function cone(length, from, to, material) {
-  const geometry = new CylinderGeometry(to, from, length, 24, 1);
+  const geometry = new CylinderBufferGeometry(to, from, length, 24, 1);
   geometry.translate(0, length / 2, 0);
   return new Mesh(geometry, material);
 }
@@ -29,10 +29,10 @@ export class Arm {
     this.robot = robot;
     this.group = new Group();
     this.metal = new MeshStandardMaterial({ color: colors.link, roughness: 0.55, metalness: 0.15 });
-    this.joint = new MeshStandardMaterial({ color: colors.robot, roughness: 0.5 });
-    this.limit = new MeshStandardMaterial({ color: colors.contact, roughness: 0.5 });
-    this.ghostly = new MeshStandardMaterial({ color: colors.operator, transparent: true, opacity: 0.45,
-      depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
+    this.joint = new MeshStandardMaterial({ color: colors.robot, roughness: 0.5, metalness: 0 });
+    this.limit = new MeshStandardMaterial({ color: colors.contact, roughness: 0.5, metalness: 0 });
+    this.ghostly = new MeshStandardMaterial({ color: colors.operator, roughness: 0.6, metalness: 0, transparent: true,
+      opacity: 0.45, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
     const start = frames(robot, robot.joint.map((joint) => joint.start_rad));
     const places = start.map(origin);
     const reach = places.slice(1).reduce((sum, p, i) => sum + p.distanceTo(places[i]), 0);
@@ -56,7 +56,7 @@ export class Arm {
     const length = places[i].distanceTo(places[i - 1]);
     const radius = this.robot.joint[i - 1]?.draw_radius_m || this.radius;
     if (!this.quill && this.robot.joint[i - 1] && this.robot.joint[i - 1].kind !== 'FIXED') {
-      const collar = new Mesh(new CylinderGeometry(1.35 * radius, 1.35 * radius, 2.2 * radius, 28), this.joint);
+      const collar = new Mesh(new CylinderBufferGeometry(1.35 * radius, 1.35 * radius, 2.2 * radius, 28), this.joint);
       collar.geometry.rotateX(Math.PI / 2);     // along the joint's own axis, z
       this.group.add(collar);
       this.joints.push({ mesh: collar, row: i - 1 });
@@ -83,7 +83,7 @@ export class Arm {
     const length = this.tip_length();
     const body = cone(length, this.tip_base(), Math.max(0.5 * this.tip_radius_m, 0.004), material);
     body.position.y = -length;
-    tip.add(body, new Mesh(new SphereGeometry(Math.max(this.tip_radius_m, 0.005), 24, 16), material));
+    tip.add(body, new Mesh(new SphereBufferGeometry(Math.max(this.tip_radius_m, 0.005), 24, 16), material));
     return tip;
   }
 
@@ -110,7 +110,7 @@ export class Arm {
     this.tool_q = new Quaternion().setFromRotationMatrix(tool);
     const before = places.findLast((p) => p.distanceTo(this.tool_m) > 1e-6) ?? this.tool_m.clone().sub(UP);
     this.approach = this.quill ? new Vector3(0, 0, -1) : this.tool_m.clone().sub(before).normalize();
-    this.along = this.approach.clone().applyQuaternion(this.tool_q.clone().invert());   // in the tool's frame
+    this.along = this.approach.clone().applyQuaternion(this.tool_q.clone().conjugate());   // in the tool's frame
     this.tip.position.copy(this.tool_m);
     this.tip.quaternion.setFromUnitVectors(UP, this.approach);
   }
@@ -126,6 +126,6 @@ export class Arm {
 
 /** A ring that faces the tool's way: where the robot was told to be, as last heard. */
 export function ring(radius, color) {
-  const mesh = new Mesh(new TorusGeometry(radius, 0.06 * radius, 10, 40), new MeshStandardMaterial({ color }));
-  return mesh;
+  return new Mesh(new TorusBufferGeometry(radius, 0.06 * radius, 10, 40),
+    new MeshStandardMaterial({ color, roughness: 1, metalness: 0 }));
 }

@@ -1,7 +1,7 @@
 // A force as an arrow: it points where the force points, its tail where it acts. Seen through everything, since it mostly
 // lies within the tool.
 
-import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { ConeBufferGeometry, CylinderBufferGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from 'three';
 
 const M_PER_N = 0.02;
 const LEAST_M = 0.035;
@@ -12,8 +12,8 @@ const UP = new Vector3(0, 1, 0);
 export class Arrow {
   constructor(color) {
     const material = new MeshBasicMaterial({ color, depthTest: false, transparent: true, opacity: 0.95 });
-    this.shaft = new Mesh(new CylinderGeometry(0.0022, 0.0022, 1, 12), material);
-    this.head = new Mesh(new ConeGeometry(0.007, 0.02, 16), material);
+    this.shaft = new Mesh(new CylinderBufferGeometry(0.0022, 0.0022, 1, 12), material);
+    this.head = new Mesh(new ConeBufferGeometry(0.007, 0.02, 16), material);
     this.group = new Group();
     this.group.add(this.shaft, this.head);
     for (const mesh of this.group.children) mesh.renderOrder = 10;

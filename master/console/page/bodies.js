@@ -2,8 +2,8 @@
 // not report where free bodies float: one is drawn where it started or was let go of, as a shade, and goes with the tool
 // while the gripper holds it.
 
-import { BoxGeometry, CapsuleGeometry, CylinderGeometry, Euler, Group, Mesh, MeshStandardMaterial, Quaternion,
-  SphereGeometry, Vector3 } from 'three';
+import { BoxBufferGeometry, CylinderBufferGeometry, Euler, Group, LatheBufferGeometry, Mesh, MeshStandardMaterial, Path,
+  Quaternion, SphereBufferGeometry, Vector3 } from 'three';
 
 const UP = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
@@ -25,11 +25,17 @@ function orientation(element, to_rad) {
 /** Capsules and cylinders stand along y here and along z in the file. */
 const upright = new Quaternion().setFromUnitVectors(UP, Z);
 
+/** Along y, `length` between the centres of its half spheres. */
+function capsule(radius, length) {
+  const outline = new Path().absarc(0, -length / 2, radius, -Math.PI / 2, 0).absarc(0, length / 2, radius, 0, Math.PI / 2);
+  return new LatheBufferGeometry(outline.getPoints(8), 24);
+}
+
 function geometry_of(kind, size, length) {
-  if (kind === 'sphere') return new SphereGeometry(size[0], 32, 20);
-  if (kind === 'box') return new BoxGeometry(2 * size[0], 2 * size[1], 2 * size[2]);
-  if (kind === 'capsule') return new CapsuleGeometry(size[0], length, 8, 24);
-  if (kind === 'cylinder') return new CylinderGeometry(size[0], size[0], length, 32);
+  if (kind === 'sphere') return new SphereBufferGeometry(size[0], 32, 20);
+  if (kind === 'box') return new BoxBufferGeometry(2 * size[0], 2 * size[1], 2 * size[2]);
+  if (kind === 'capsule') return capsule(size[0], length);
+  if (kind === 'cylinder') return new CylinderBufferGeometry(size[0], size[0], length, 32);
   return null;
 }
 
@@ -58,7 +64,7 @@ function body(element, colors, to_rad) {
   const free = element.querySelector(':scope > freejoint, :scope > joint[type="free"]') !== null;
   const is_tool = element.getAttribute('name') === 'tool';
   const material = new MeshStandardMaterial({ color: is_tool ? colors.link : colors.scene, roughness: 0.7,
-    transparent: free && !is_tool, opacity: free && !is_tool ? 0.55 : 1 });
+    metalness: 0, transparent: free && !is_tool, opacity: free && !is_tool ? 0.55 : 1 });
   group.position.set(...(numbers(element, 'pos') ?? [0, 0, 0]));
   group.quaternion.copy(orientation(element, to_rad));
   for (const child of element.children) {
@@ -95,7 +101,7 @@ export class Bodies {
   follow(tool_m, tool_q, holds) {
     if (this.bodies.length === 0) return;
     this.start_q ??= tool_q.clone();
-    const turn = tool_q.clone().multiply(this.start_q.clone().invert());
+    const turn = tool_q.clone().multiply(this.start_q.clone().conjugate());
     const place = tool_m.clone().sub(this.group.position);
     for (const one of this.bodies) {
       if (one.is_tool) {
@@ -112,7 +118,7 @@ export class Bodies {
       one.held = null;
       return;
     }
-    const back = turn.clone().invert();
+    const back = turn.clone().conjugate();
     one.held ??= { p: one.group.position.clone().sub(place).applyQuaternion(back),
       q: back.clone().multiply(one.group.quaternion) };
     one.group.position.copy(one.held.p).applyQuaternion(turn).add(place);

@@ -2,9 +2,9 @@
 // the one that is not chosen is shown small in the corner. Drawn when something has changed.
 
 import { AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, Line,
-  LineBasicMaterial, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer }
-  from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+  LineBasicMaterial, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, SphereBufferGeometry, Vector2, Vector3,
+  WebGLRenderer } from 'three';
+import { OrbitControls } from 'OrbitControls';
 
 import { Arm, ring } from './arm.js';
 import { Arrow } from './arrow.js';
@@ -13,16 +13,31 @@ import { rotation, start_frame, vector } from './kinematics.js';
 import { Scenery, ground } from './scenery.js';
 
 const TRAIL_POINTS = 1800;     // 30 s at 60 Hz
+const GAMMA = 2.2;     // of the screen; lighting is computed in linear colours
 const INSET = { width: 0.24, margin: 12 };
 
 /** Whether the picture is drawn by the processor, which then has little time for anything else. */
 function drawn_in_software() {
-  const gl = document.createElement('canvas').getContext('webgl2');
+  const gl = document.createElement('canvas').getContext('webgl');
   const names = gl?.getExtension('WEBGL_debug_renderer_info');
   const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software/i.test(name);
 }
+
+/** Lets pointer and wheel rotate, pan and zoom the camera. */
+function orbit(camera, canvas) {
+  // OrbitControls zooms by the number of events; here the distance that the wheel turns counts.
+  canvas.addEventListener('wheel', ({ deltaY, deltaMode }) => {
+    controls.zoomSpeed = Math.abs(deltaY) * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 0.01 : 0.16);
+  });
+  const controls = new OrbitControls(camera, canvas);
+  controls.addEventListener('end', () => { controls.zoomSpeed = 1; });
+  // The keys move the handle.
+  return Object.assign(controls, { screenSpacePanning: true, enableKeys: false });
+}
+
+const linear = (color) => new Color(color).convertGammaToLinear(GAMMA);
 
 class Trail {
   constructor(color) {
@@ -57,13 +72,15 @@ export class Picture {
     this.canvas = canvas;
     this.slow = drawn_in_software();
     this.pause_ms = this.slow ? 140 : 0;     // between two pictures
-    this.renderer = new WebGLRenderer({ canvas, antialias: !this.slow });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.slow, alpha: true });
+    // Physical light units: a white surface reflects 1/π of the irradiance.
+    Object.assign(this.renderer, { gammaOutput: true, gammaFactor: GAMMA, physicallyCorrectLights: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.near = new PerspectiveCamera(38, 1, 0.005, 200);
     this.whole = new PerspectiveCamera(38, 1, 0.05, 500);
     for (const camera of [this.near, this.whole]) camera.up.set(0, 0, 1);
-    this.orbit = new OrbitControls(this.near, canvas);
-    this.orbit_whole = new OrbitControls(this.whole, canvas);
+    this.orbit = orbit(this.near, canvas);
+    this.orbit_whole = orbit(this.whole, canvas);
     this.choose('tool');
     this.lasting = null;     // {robot, scene}, as last told
     this.last = null;        // frame and ghost, as last shown
@@ -72,8 +89,8 @@ export class Picture {
 
   /** The colours of the page; everything is built anew. */
   paint(colors) {
-    this.colors = colors;
-    this.renderer.setClearColor(new Color(colors.card), 1);
+    this.renderer.setClearColor(new Color(colors.card), 1);     // not converted by the renderer
+    this.colors = Object.fromEntries(Object.entries(colors).map(([name, color]) => [name, linear(color)]));
     if (this.lasting) this.build(this.lasting);
   }
 
@@ -90,7 +107,7 @@ export class Picture {
     const start = new Vector3().setFromMatrixPosition(start_frame(robot));
     this.start = start;
     this.space = new Scene();
-    this.space.add(new AmbientLight(0xffffff, 0.9), new HemisphereLight(0xffffff, 0x8899aa, 1.1));
+    this.space.add(new AmbientLight(0xffffff, 0.9), new HemisphereLight(0xffffff, linear(0x8899aa), 1.1));
     const sun = new DirectionalLight(0xffffff, 1.6);
     sun.position.set(-4, -6, 9);
     this.space.add(sun);
@@ -98,7 +115,7 @@ export class Picture {
     this.scenery = new Scenery(scene, start, this.colors);
     this.bodies = new Bodies(scene, start, this.colors);
     this.reported = ring(Math.max(2.2 * (scene.tool_radius_m ?? 0), 0.014), this.colors.robot);
-    this.workspace = new Mesh(new SphereGeometry(workspace_m || 3, 28, 16),
+    this.workspace = new Mesh(new SphereBufferGeometry(workspace_m || 3, 28, 16),
       new MeshBasicMaterial({ color: this.colors.line, wireframe: true, transparent: true, opacity: 0.22 }));
     this.workspace.position.copy(start);
     this.trails = { robot: new Trail(this.colors.robot), operator: new Trail(this.colors.operator) };
@@ -147,7 +164,7 @@ export class Picture {
 
   resize() {
     const { clientWidth, clientHeight } = this.canvas;
-    const size = this.renderer.getSize(new (this.near.position.constructor)());
+    const size = this.renderer.getSize(new Vector2());
     if (size.x !== clientWidth || size.y !== clientHeight) this.renderer.setSize(clientWidth, clientHeight, false);
     return { width: clientWidth, height: clientHeight };
   }

@@ -1,7 +1,7 @@
 // The live plots: the last half minute, drawn some times a second. What the operator commands is blue, what the robot has
 // reported is orange, as in the picture.
 
-import uPlot from 'uplot';
+import Dygraph from 'dygraphs';
 
 const SPAN_S = 30;
 const SAMPLE_S = 0.05;
@@ -10,53 +10,73 @@ const DRAW_MS = 66;
 const last_of = (frame, far, none = null) => (frame.far ? far(frame.far) : none);
 const axis_of = (p, axis) => p?.[axis] ?? null;
 
-/** name, unit, and its lines: name, colour, value of a frame and the anchor. */
+/** Name, unit, lines: name, colour, value of a frame and the anchor. `least`: smallest range of the axis, which begins at
+ * zero or is centred on the lines. A line with a fourth entry, its smallest range, has the axis on the right, from zero. */
 const PLOTS = [
-  { name: 'Position', unit: 'mm', axis: true, lines: [
+  { name: 'Position', unit: 'mm', axis: true, least: 2, lines: [
     ['goal', 'operator', (f, s) => 1e3 * axis_of(f.goal_m, s.axis)],
     ['measured', 'robot', (f, s) => (s.anchor && f.far ? 1e3 * (f.far.tool_m[s.axis] - s.anchor[s.axis]) : null)] ] },
-  { name: 'Force', unit: 'N', lines: [
+  { name: 'Force', unit: 'N', least: 1, zero: true, lines: [
     ['hand', 'operator', (f) => Math.hypot(...f.force_n)],
     ['tool', 'robot', (f) => last_of(f, (far) => Math.hypot(...far.force_n))] ] },
-  { name: 'Stiffness', unit: 'N/mm', lines: [
+  { name: 'Stiffness', unit: 'N/mm', least: 1, zero: true, lines: [
     ['felt', 'operator', (f) => 1e-3 * f.stiffness_n_per_m],
     ['estimated', 'robot', (f) => last_of(f, (far) => 1e-3 * far.stiffness_n_per_m)] ] },
-  { name: 'Energy', unit: 'mJ', lines: [
+  { name: 'Energy', unit: 'mJ', least: 2, lines: [
     ['net, into the hand', 'operator', (f) => 1e3 * f.energy_j] ] },
-  { name: 'Link', unit: '', lines: [
+  { name: 'Link', unit: '', least: 1, zero: true, lines: [
     ['round trip, s', 'operator', (f) => (f.link.rtt_known ? f.link.rtt_s : null)],
-    ['lost, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.up_loss ?? 0), 'percent'] ] },
+    ['lost, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.up_loss ?? 0), 5] ] },
 ];
 
-function options(plot, colors, size) {
-  const small = '11px system-ui, sans-serif';
-  const scale_of = (line) => line[3] ?? 'y';
-  const axis = (scale, side, color) => ({
-    scale, side, stroke: color, font: small, size: 40, gap: 3, ticks: { size: 3, stroke: colors.line },
-    grid: { stroke: colors.line, width: 1, show: side === 3 }, values: (u, all) => all.map((v) => +v.toPrecision(4)),
+const on_the_right = (line) => line[3] !== undefined;
+
+/** Range of the left or right axis. */
+function range(rows, { lines, least, zero }, right) {
+  let [low, high] = [Infinity, -Infinity];
+  lines.forEach((line, k) => {
+    if (on_the_right(line) !== right) return;
+    for (const row of rows) {
+      if (row[k + 1] === null) continue;
+      low = Math.min(low, row[k + 1]);
+      high = Math.max(high, row[k + 1]);
+    }
   });
-  const room = (least, zero) => (u, low, high) => {
-    if (low === null) return zero ? [0, least] : [-least, least];
-    const [from, to] = zero ? [0, Math.max(high, least)] : [low, high];
-    const middle = (from + to) / 2;
-    const half = Math.max((to - from) * 0.55, least / 2);
-    return zero ? [0, to * 1.1] : [middle - half, middle + half];
-  };
-  // Seconds before the newest sample.
-  const ago = { ...axis('x', 2, colors.quiet), size: 17, gap: 2, splits: (u, i, low, high) => [3, 2, 1, 0].map((n) => high - (n * SPAN_S) / 3),
-    values: (u, all) => all.map((t) => `${Math.round(t - all.at(-1))}${t === all.at(-1) ? ' s' : ''}`) };
-  const axes = [ago, axis('y', 3, plot.lines.length > 1 && plot.lines[1][3] ? colors[plot.lines[0][1]] : colors.quiet)];
-  const scales = { x: { time: false, range: (u, low, high) => [high - SPAN_S, high] },
-    y: { range: room(plot.name === 'Position' ? 2 : plot.name === 'Energy' ? 2 : 1, plot.name === 'Force'
-      || plot.name === 'Stiffness' || plot.name === 'Link') } };
-  if (plot.lines.some((line) => line[3])) {
-    axes.push(axis('percent', 1, colors.contact));
-    scales.percent = { range: room(5, true) };
-  }
+  if (right) return [0, 1.1 * Math.max(high, ...lines.filter(on_the_right).map((line) => line[3]))];
+  if (zero) return [0, 1.1 * Math.max(high, least)];
+  if (low > high) [low, high] = [0, 0];
+  const half = 0.55 * Math.max(high - low, least);
+  return [(low + high) / 2 - half, (low + high) / 2 + half];
+}
+
+/** Options that change with every sample. */
+function content(plot, rows) {
+  const file = rows.length > 0 ? rows : [[0, ...plot.lines.map(() => null)]];
+  const [last] = file.at(-1);
+  return { file, dateWindow: [last - SPAN_S, last],
+    axes: { y: { valueRange: range(rows, plot, false) }, y2: { valueRange: range(rows, plot, true) } } };
+}
+
+/** Labels in seconds before the newest sample. Dygraphs leaves out a label at the very end of the axis. */
+function seconds_ago(from, to) {
+  return [0, 1 / 3, 2 / 3, 1 - 1e-9].map((share) => {
+    const ago = Math.round((1 - share) * SPAN_S);
+    return { v: from + share * (to - from), label: ago > 0 ? `-${ago}` : '0 s' };
+  });
+}
+
+/** Options that depend on the colour scheme only. */
+function options(plot, colors) {
+  const axisLabelFormatter = (value) => String(+value.toPrecision(4));
+  const y = { axisLabelWidth: 34, axisLabelFormatter, independentTicks: true, pixelsPerLabel: 20 };
   return {
-    ...size, pxAlign: 0, cursor: { show: false }, legend: { show: false }, scales, axes, padding: [6, plot.lines.some((l) => l[3]) ? 0 : 10, 0, 0],
-    series: [{}, ...plot.lines.map((line) => ({ label: line[0], stroke: colors[line[1]], width: 1.6,
-      scale: scale_of(line), points: { show: false } }))],
+    labels: ['time', ...plot.lines.map((line) => line[0])], colors: plot.lines.map((line) => colors[line[1]]),
+    series: Object.fromEntries(plot.lines.filter(on_the_right).map((line) => [line[0], { axis: 'y2' }])),
+    strokeWidth: 1.6, pointSize: 0.8, legend: 'never', interactionModel: {},
+    axisLabelFontSize: 11, xAxisHeight: 17, axisLineColor: 'transparent', gridLineColor: colors.line, gridLineWidth: 1,
+    rightGap: plot.lines.some(on_the_right) ? 0 : 10,
+    underlayCallback: (g) => { g.lineJoin = 'round'; },     // mitred, noise has spikes
+    axes: { y, y2: { ...y }, x: { axisLabelWidth: 30, axisTickSize: 5, drawGrid: false, ticker: seconds_ago } },
   };
 }
 
@@ -72,16 +92,15 @@ export class Plots {
 
   clear() {
     this.samples = [];
-    this.times = [];
-    this.columns = PLOTS.map((plot) => plot.lines.map(() => []));
+    this.rows = PLOTS.map(() => []);
     this.next_s = -Infinity;
     this.drawn_ms = 0;
   }
 
   paint(colors) {
-    this.colors = colors;
+    for (const drawn of this.plots ?? []) drawn.destroy();
     this.root.replaceChildren();
-    this.plots = PLOTS.map((plot, i) => {
+    this.plots = PLOTS.map((plot) => {
       const box = document.createElement('div');
       const title = document.createElement('h3');
       title.textContent = plot.name;
@@ -95,11 +114,13 @@ export class Plots {
         one.style.color = colors[color];
         names.append(one, ' ');
       }
-      box.append(title, names);
+      const lines = document.createElement('div');
+      lines.className = 'lines';
+      box.append(title, names, lines);
       this.root.append(box);
-      const drawn = new uPlot(options(plot, colors, this.size(box)), [this.times, ...this.columns[i]], box);
-      return { box, drawn };
+      return new Dygraph(lines, content(plot, []).file, options(plot, colors));
     });
+    this.fill();
   }
 
   axis_choice() {
@@ -117,30 +138,28 @@ export class Plots {
     return choice;
   }
 
-  size(box) { return { width: Math.max(box.clientWidth - 12, 60), height: Math.max(box.clientHeight - 42, 50) }; }
-
-  resize() { for (const { box, drawn } of this.plots) drawn.setSize(this.size(box)); }
+  resize() { for (const drawn of this.plots) drawn.resize(); }
 
   add(frame) {
     if (frame.seconds < this.next_s - 1) this.clear();     // the master has started anew
     if (frame.seconds < this.next_s) return;
     this.next_s = frame.seconds + SAMPLE_S;
     this.samples.push(frame);
-    this.times.push(frame.seconds);
-    PLOTS.forEach((plot, i) => plot.lines.forEach((line, k) => {
-      const value = line[2](frame, this);
-      this.columns[i][k].push(Number.isFinite(value) ? value : null);
-    }));
-    while (this.times[0] < frame.seconds - SPAN_S) {
-      this.times.shift();
+    PLOTS.forEach((plot, i) => {
+      const values = plot.lines.map((line) => line[2](frame, this));
+      this.rows[i].push([frame.seconds, ...values.map((value) => (Number.isFinite(value) ? value : null))]);
+    });
+    while (this.samples[0].seconds < frame.seconds - SPAN_S) {
       this.samples.shift();
-      for (const columns of this.columns) for (const column of columns) column.shift();
+      for (const rows of this.rows) rows.shift();
     }
   }
+
+  fill() { PLOTS.forEach((plot, i) => this.plots[i].updateOptions(content(plot, this.rows[i]))); }
 
   draw(now_ms) {
     if (now_ms - this.drawn_ms < DRAW_MS) return;
     this.drawn_ms = now_ms;
-    this.plots.forEach(({ drawn }, i) => drawn.setData([this.times, ...this.columns[i]]));
+    this.fill();
   }
 }

@@ -1,8 +1,9 @@
 // What the robot can meet: the surfaces and the path of a scene (proto/config.proto, message Scene). A ball or any other
 // body turns red when the tool touches it; what was touched once keeps a tint.
 
-import { BoxGeometry, BufferGeometry, Color, CylinderGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,
-  LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
+import { BoxBufferGeometry, BufferGeometry, CylinderBufferGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,
+  LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, PlaneBufferGeometry, SphereBufferGeometry, Vector3 }
+  from 'three';
 
 import { rotation, vector } from './kinematics.js';
 
@@ -20,7 +21,7 @@ function plane(shape, start, material, colors) {
   const point = from_start(shape, shape.point_m, start);
   // The piece of it nearest to where the tool starts.
   const centre = start.clone().addScaledVector(normal, point.clone().sub(start).dot(normal));
-  const wall = new Mesh(new PlaneGeometry(WALL_M, WALL_M), material);
+  const wall = new Mesh(new PlaneBufferGeometry(WALL_M, WALL_M), material);
   wall.position.copy(centre);
   wall.quaternion.setFromUnitVectors(Z, normal);
   const grid = new GridHelper(WALL_M, 10, colors.quiet, colors.quiet);
@@ -34,7 +35,7 @@ function plane(shape, start, material, colors) {
 
 function sphere(shape, start, material) {
   const centre = from_start(shape, shape.centre_m, start);
-  const mesh = new Mesh(new SphereGeometry(shape.radius_m, 40, 24), material);
+  const mesh = new Mesh(new SphereBufferGeometry(shape.radius_m, 40, 24), material);
   mesh.position.copy(centre);
   return { mesh, distance: (p) => p.distanceTo(centre) - shape.radius_m };
 }
@@ -42,10 +43,10 @@ function sphere(shape, start, material) {
 function box(shape, start, material) {
   const centre = from_start(shape, shape.centre_m, start);
   const size = shape.size_m.length === 3 ? vector(shape.size_m) : new Vector3(0.04, 0.04, 0.04);
-  const mesh = new Mesh(new BoxGeometry(size.x, size.y, size.z), material);
+  const mesh = new Mesh(new BoxBufferGeometry(size.x, size.y, size.z), material);
   mesh.position.copy(centre);
   mesh.quaternion.copy(rotation(shape.rotation_rad));
-  const inverse = mesh.quaternion.clone().invert();
+  const inverse = mesh.quaternion.clone().conjugate();
   return {
     mesh,
     distance: (p) => {
@@ -60,7 +61,7 @@ function box(shape, start, material) {
 function cylinder(shape, start, material) {
   const centre = from_start(shape, shape.centre_m, start);
   const axis = shape.axis.length === 3 ? vector(shape.axis).normalize() : Z.clone();
-  const mesh = new Mesh(new CylinderGeometry(shape.radius_m, shape.radius_m, shape.length_m, 40), material);
+  const mesh = new Mesh(new CylinderBufferGeometry(shape.radius_m, shape.radius_m, shape.length_m, 40), material);
   mesh.position.copy(centre);
   mesh.quaternion.setFromUnitVectors(UP, axis);
   return {
@@ -79,7 +80,7 @@ function cylinder(shape, start, material) {
 function shade(scene, name, colors) {
   const k = scene.material?.find((one) => one.name === name)?.stiffness_n_per_m ?? 1000;
   const share = Math.min(Math.max((Math.log10(k) - 2) / 4, 0), 1);
-  return new Color(colors.soft).lerp(new Color(colors.hard), share);
+  return colors.soft.clone().lerp(colors.hard, share);
 }
 
 const SHAPES = { plane, sphere, box, cylinder };
@@ -107,15 +108,15 @@ export class Scenery {
   constructor(scene, start, colors) {
     this.group = new Group();
     this.tool_radius_m = scene.tool_radius_m ?? 0;
-    this.red = new Color(colors.contact);
+    this.red = colors.contact;
     this.bodies = [];
     for (const surface of scene.surface ?? []) {
       // The slave prints all shapes; the one that it has is the one that is somewhere.
       const kind = Object.keys(SHAPES).find((name) => surface[name]?.centre_m?.length || surface[name]?.point_m?.length);
       if (!kind) continue;     // a hinge is met by turning: it has no place
       const plain = shade(scene, surface.material, colors);
-      const material = new MeshStandardMaterial({ color: plain, roughness: 0.8, transparent: kind === 'plane',
-        opacity: kind === 'plane' ? 0.35 : 1 });
+      const material = new MeshStandardMaterial({ color: plain, roughness: 0.8, metalness: 0,
+        transparent: kind === 'plane', opacity: kind === 'plane' ? 0.35 : 1 });
       const body = SHAPES[kind](surface[kind], start, material, colors);
       this.bodies.push({ ...body, material, plain, solid: kind !== 'plane', touched: false });
       if (kind === 'box') body.mesh.add(new LineSegments(new EdgesGeometry(body.mesh.geometry), new LineBasicMaterial({ color: colors.line })));
@@ -147,7 +148,7 @@ export class Scenery {
       const now = body === nearest;
       if (now && body.solid) body.touched = true;
       const share = now ? 1 : body.touched ? 0.75 : 0;
-      body.material.color.lerpColors(body.plain, this.red, body.solid ? share : 0.6 * share);
+      body.material.color.copy(body.plain).lerp(this.red, body.solid ? share : 0.6 * share);
     }
   }
 }

@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kLeastLever = 1e-3;  // of the arm; nearer to singularity the motion is not followed
+constexpr double kLeastArmLever = 1e-3;  // of the arm; nearer to singularity the motion is not followed
 
 DeltaGeometry geometry_of(const DeltaConfig& c) {
   return DeltaGeometry(
@@ -42,7 +42,7 @@ DeltaPose DeltaDynamics::pose(const Vector3& p_m) const {
   at.p_m = p_m;
   at.theta_rad = angles.theta_rad;
   at.at = velocity(geometry(), angles.theta_rad, p_m);
-  at.closed = at.at.lever_m.cwiseAbs().minCoeff() > kLeastLever * geometry().arm_m();
+  at.closed = at.at.lever_m.cwiseAbs().minCoeff() > kLeastArmLever * geometry().arm_m();
   if (at.closed) at.rates = at.at.lever_m.cwiseInverse().asDiagonal() * at.at.rods;
   return at;
 }

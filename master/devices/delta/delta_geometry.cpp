@@ -10,19 +10,14 @@ namespace {
 
 constexpr double kSameAzimuth = 1e-3;  // |sin| of the angle between two legs that are called one
 
-double finite(std::string_view name, double value) {
-  if (!std::isfinite(value)) throw GeometryError(std::string(name) + " is not a finite number");
-  return value;
-}
-
 double positive(std::string_view name, double value) {
-  if (!(finite(name, value) > 0.0))
+  if (!(require_finite(name, value) > 0.0))
     throw GeometryError(std::string(name) + " is a length and must be positive");
   return value;
 }
 
 double not_negative(std::string_view name, double value) {
-  if (finite(name, value) < 0.0)
+  if (require_finite(name, value) < 0.0)
     throw GeometryError(std::string(name) + " is a length and must not be negative");
   return value;
 }
@@ -46,8 +41,8 @@ DeltaGeometry::DeltaGeometry(const DeltaGeneral& general)
     : arm_(positive("a", general.a)),
       rod_(positive("b", general.b)),
       offset_(not_negative("d", general.d) + not_negative("e", general.e)),
-      radius_(finite("r", general.r) - finite("c", general.c)),
-      side_(finite("s", general.s) - finite("f", general.f)),
+      radius_(require_finite("r", general.r) - require_finite("c", general.c)),
+      side_(require_finite("s", general.s) - require_finite("f", general.f)),
       up_(1.0) {
   place_legs(general.azimuth_rad);
   require_closed_loop();
@@ -57,8 +52,8 @@ DeltaGeometry::DeltaGeometry(const DeltaDimensions& d)
     : arm_(positive("arm_m", d.arm_m)),
       rod_(positive("rod_m", d.rod_m)),
       offset_(not_negative("offset_m", d.offset_m)),
-      radius_(finite("radius_m", d.radius_m)),
-      side_(finite("side_m", d.side_m)),
+      radius_(require_finite("radius_m", d.radius_m)),
+      side_(require_finite("side_m", d.side_m)),
       up_(d.upwards ? 1.0 : -1.0) {
   place_legs(d.azimuth_rad);
   require_closed_loop();
@@ -66,7 +61,7 @@ DeltaGeometry::DeltaGeometry(const DeltaDimensions& d)
 
 void DeltaGeometry::place_legs(const std::array<double, 3>& azimuth_rad) {
   for (int i = 0; i < 3; ++i) {
-    finite("azimuth", azimuth_rad[i]);
+    require_finite("azimuth", azimuth_rad[i]);
     cos_[i] = std::cos(azimuth_rad[i]);
     sin_[i] = std::sin(azimuth_rad[i]);
   }

@@ -9,26 +9,26 @@ namespace {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// The leg closes where U cos θ + w sin θ = H; D² = U² + w² - H².
-struct LegLoop {
+struct DeltaLegLoop {
   double U, w, H, D;
   bool closes;
   bool double_root;
 };
 
 /// Near a double root: D² and what rounding of H may do to it.
-void judge(LegLoop& leg, double D2, double slack) {
+void judge(DeltaLegLoop& leg, double D2, double slack) {
   leg.closes = D2 >= -slack;
   leg.double_root = D2 <= slack;
   leg.D = D2 > 0.0 ? std::sqrt(D2) : 0.0;
 }
 
-inline LegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
+inline DeltaLegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
   constexpr double kNearRoot = 1e-6;  // of D² in d²
   const Vector3 q = g.to_leg(i, p);
   const double arm = g.arm_m(), rod = g.rod_m();
   const double across = q.y() - g.side_m();
   double flat2 = (rod - across) * (rod + across);  // rods seen in the leg's plane, squared
-  LegLoop leg;
+  DeltaLegLoop leg;
   leg.closes = true;
   leg.double_root = false;
   if (!(flat2 >= 0.0)) {
@@ -52,13 +52,13 @@ inline LegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
 }
 
 // tan(θ/2) = (w - D) / (H + U) = (H - U) / (w + D): the form whose sum does not cancel.
-inline double first_root(const LegLoop& leg) {
+inline double first_root(const DeltaLegLoop& leg) {
   const double wide = leg.w + leg.D;
   if (leg.w < 0.0) return 2.0 * std::atan((leg.w - leg.D) / (leg.H + leg.U));
   return wide == 0.0 && leg.H == leg.U ? 0.0 : 2.0 * std::atan((leg.H - leg.U) / wide);
 }
 
-inline double second_root(const LegLoop& leg) {
+inline double second_root(const DeltaLegLoop& leg) {
   if (leg.D == 0.0) return first_root(leg);
   if (leg.w >= 0.0) return 2.0 * std::atan((leg.w + leg.D) / (leg.H + leg.U));
   return 2.0 * std::atan((leg.H - leg.U) / (leg.w - leg.D));
@@ -71,7 +71,7 @@ DeltaAngles DeltaKinematics::inverse(const Vector3& p_m, unsigned mode) const {
   bool singular = false;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
-    const LegLoop leg = leg_loop(g_, i, p_m);
+    const DeltaLegLoop leg = leg_loop(g_, i, p_m);
     if (!leg.closes) return {};
     singular |= leg.double_root;
     result.theta_rad[i] = (mode >> i & 1U) != 0 ? second_root(leg) : first_root(leg);
@@ -84,7 +84,7 @@ DeltaRoots DeltaKinematics::inverse_all(const Vector3& p_m) const {
   DeltaRoots result;
   bool singular = false;
   for (int i = 0; i < 3; ++i) {
-    const LegLoop leg = leg_loop(g_, i, p_m);
+    const DeltaLegLoop leg = leg_loop(g_, i, p_m);
     if (!leg.closes) return {};
     singular |= leg.double_root;
     result.first_rad[i] = first_root(leg);

@@ -10,7 +10,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kDependent = 1e-9;  // volume of the unit rods below which they are called dependent
+constexpr double kDependentRods = 1e-9;  // volume of the unit rods below which they are called dependent
 
 Matrix3 adjugate_columns(const Matrix3& rows) {
   Matrix3 columns;
@@ -62,7 +62,7 @@ DeltaSingularity singularity(const DeltaGeometry& g, const DeltaVelocity& at) {
 DeltaJacobian jacobian(const DeltaVelocity& at) {
   const Matrix3 columns = adjugate_columns(at.rods);
   const double volume = at.rods.row(0).dot(columns.col(0));
-  if (!(std::abs(volume) > kDependent)) return {};
+  if (!(std::abs(volume) > kDependentRods)) return {};
   return {SolutionStatus::kFound, columns * (at.lever_m / volume).asDiagonal()};
 }
 

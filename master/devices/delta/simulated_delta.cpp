@@ -7,11 +7,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kStep_s = 1e-3;
+constexpr double kDeltaStep_s = 1e-3;
 constexpr double kEdge_n_per_m = 2e4;  // rubber on metal
 constexpr double kEdge_n_s_per_m = 60.0;
-constexpr double kBeyond = 1.1;       // of the workspace that must be reachable: the edge gives way a little
-constexpr double kLeastLever = 0.05;  // of the arm, at the workspace's edge
+constexpr double kDeltaBeyond = 1.1;  // of the workspace that must be reachable: the edge gives way a little
+constexpr double kLeastEdgeLever = 0.05;  // of the arm, at the workspace's edge
 
 /// Directions of a cube's faces, edges and corners.
 template <class Visit>
@@ -34,7 +34,7 @@ SimulatedDelta::SimulatedDelta(const DeviceConfig& config)
 }
 
 void SimulatedDelta::require_workspace() const {
-  const double least = kLeastLever * dynamics_.geometry().arm_m();
+  const double least = kLeastEdgeLever * dynamics_.geometry().arm_m();
   const auto require = [&](const Vector3& x_m, const std::string& name) {
     const DeltaPose at = dynamics_.pose(dynamics_.home_m() + x_m);
     if (at.closed && at.at.lever_m.cwiseAbs().minCoeff() > least &&
@@ -44,7 +44,8 @@ void SimulatedDelta::require_workspace() const {
   };
   require(Vector3::Zero(), "home_height_m: the platform cannot be there");
   each_direction([&](const Vector3& d) {
-    require(kBeyond * workspace_m_ * d, "workspace_m: the device cannot move that far from home everywhere");
+    require(kDeltaBeyond * workspace_m_ * d,
+            "workspace_m: the device cannot move that far from home everywhere");
   });
 }
 
@@ -69,7 +70,7 @@ Vector3 SimulatedDelta::edge_force() const {
 
 void SimulatedDelta::step(double dt_s, const HandModel& hand, const Vector3& hand_m,
                           const Vector3& hand_m_per_s) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kStep_s - 1e-9)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kDeltaStep_s - 1e-9)));
   Hand at{hand, hand_m, hand_m_per_s};
   for (int i = 0; i < steps; ++i) {
     move(dt_s / steps, at);

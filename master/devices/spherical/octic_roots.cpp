@@ -8,22 +8,22 @@
 namespace longreach {
 namespace {
 
-constexpr int kDegree = 4;
-constexpr int kPowers = 2 * kDegree + 1;
+constexpr int kHalfDegree = 4;
+constexpr int kPowers = 2 * kHalfDegree + 1;
 using Octic = std::array<double, kPowers>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
 /// Coefficients in t of cos kχ (1 + t²)^4 and sin kχ (1 + t²)^4: parts of (1 + it)^(4+k) (1 - it)^(4-k).
 struct HalfAngle {
-  std::array<Octic, kDegree + 1> cosine{}, sine{};
+  std::array<Octic, kHalfDegree + 1> cosine{}, sine{};
 };
 
 HalfAngle half_angle() {
   HalfAngle table;
-  for (std::size_t k = 0; k <= kDegree; ++k) {
+  for (std::size_t k = 0; k <= kHalfDegree; ++k) {
     std::array<std::complex<double>, kPowers> product{1.0};
     for (std::size_t n = 0; n + 1 < kPowers; ++n) {
-      const std::complex<double> factor(0.0, n < kDegree + k ? 1.0 : -1.0);
+      const std::complex<double> factor(0.0, n < kHalfDegree + k ? 1.0 : -1.0);
       for (std::size_t p = n + 1; p > 0; --p) product[p] += factor * product[p - 1];
     }
     for (std::size_t p = 0; p < kPowers; ++p) {
@@ -40,7 +40,7 @@ const HalfAngle kHalfAngle = half_angle();
 Octic octic(const std::array<double, OcticRoots::kSamples>& F, double origin) {
   constexpr std::size_t n = OcticRoots::kSamples;
   Octic result{};
-  for (std::size_t k = 0; k <= kDegree; ++k) {
+  for (std::size_t k = 0; k <= kHalfDegree; ++k) {
     double a = 0.0, b = 0.0;
     for (std::size_t j = 0; j < n; ++j) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(n) - origin;

@@ -7,11 +7,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kStep_s = 1e-3;
+constexpr double kSphericalStep_s = 1e-3;
 constexpr double kEdge_nm_per_rad = 15.0;
 constexpr double kEdge_nm_s_per_rad = 0.03;
-constexpr double kBeyond = 1.05;       // of the workspace that must be reachable
-constexpr double kLeastMeasure = 0.1;  // distance from both singularities there
+constexpr double kSphericalBeyond = 1.05;  // of the workspace that must be reachable
+constexpr double kLeastMeasure = 0.1;      // distance from both singularities there
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void SimulatedSpherical::require_workspace() const {
   for (int i = 0; i < 27; ++i) {
     const Vector3 axis(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (axis.isZero(0.0)) continue;
-    require(exp_rotation(kBeyond * workspace_rad_ * axis.normalized()),
+    require(exp_rotation(kSphericalBeyond * workspace_rad_ * axis.normalized()),
             "workspace_rad: the device cannot turn that far from home about every axis");
   }
 }
@@ -62,7 +62,7 @@ Vector3 SimulatedSpherical::edge_moment() const {
 
 void SimulatedSpherical::step(double dt_s, const WristModel& wrist, const Vector3& hand_rad) {
   const Quaternion wanted = exp_rotation(hand_rad);
-  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kStep_s - 1e-9)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kSphericalStep_s - 1e-9)));
   for (int i = 0; i < steps; ++i) move(dt_s / steps, wrist, wanted);
 }
 

@@ -9,10 +9,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kSame = 1e-6;      // rad/2 between two solutions that are one
-constexpr double kClosed = 1e-13;   // residual of a closure that counts as zero
-constexpr double kSingular = 1e-6;  // 1 / |J^-1| below which a solution is called singular
-constexpr double kDependent =
+constexpr double kSame = 1e-6;              // rad/2 between two solutions that are one
+constexpr double kClosed = 1e-13;           // residual of a closure that counts as zero
+constexpr double kSingularSolution = 1e-6;  // 1 / |J^-1| below which a solution is called singular
+constexpr double kDependentRows =
     0.05;  // of its largest value, below which the linear elimination of ψ is not trusted
 
 Vector3 any_across(const Vector3& axis) { return axis.unitOrthogonal(); }
@@ -95,7 +95,7 @@ struct Candidates {
     const double d = t[0].A * t[1].B - t[1].A * t[0].B;
     const double size[2] = {std::hypot(t[0].A, t[0].B), std::hypot(t[1].A, t[1].B)};
     if (d != 0.0) add(std::atan2(y / d, x / d));
-    if (std::abs(d) > kDependent * size[0] * size[1]) return;
+    if (std::abs(d) > kDependentRows * size[0] * size[1]) return;
     for (std::size_t n = 0; n < 2; ++n) {
       if (size[n] < 1e-9) continue;
       const double middle = std::atan2(t[n].B, t[n].A);
@@ -123,7 +123,7 @@ class Collector {
       const double residual =
           std::max({std::abs(leg[0].half_gap), std::abs(leg[1].half_gap), std::abs(leg[2].half_gap)});
       const double norm = std::sqrt(inverse.square());
-      const bool singular = !(std::abs(inverse.volume) > kSingular * norm);
+      const bool singular = !(std::abs(inverse.volume) > kSingularSolution * norm);
       if (residual < kClosed && (singular || round == kRounds - 1)) return keep(q, singular);
       const Vector3 step = inverse.times(leg[0].half_gap, leg[1].half_gap, leg[2].half_gap) / -inverse.volume;
       const double length = step.norm();

@@ -13,20 +13,15 @@ constexpr double kGiven = 1e-6;      // how exactly given axes must be of unit l
 constexpr double kSameAxis = 1e-3;   // rad
 constexpr double kLeastLink = 1e-3;  // rad from 0 and from π
 
-double finite(std::string_view name, double value) {
-  if (!std::isfinite(value)) throw GeometryError(std::string(name) + " is not a finite number");
-  return value;
-}
-
 double link(std::string_view name, double angle) {
-  finite(name, angle);
+  require_finite(name, angle);
   if (!(angle >= kLeastLink && angle <= std::numbers::pi - kLeastLink))
     throw GeometryError(std::string(name) + " must lie between 0 and pi: a link needs an angle");
   return angle;
 }
 
 double cone(std::string_view name, double angle) {
-  finite(name, angle);
+  require_finite(name, angle);
   if (!(angle >= 0.0 && angle <= std::numbers::pi))
     throw GeometryError(std::string(name) + " must lie within 0 and pi");
   return angle;

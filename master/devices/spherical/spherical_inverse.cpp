@@ -7,7 +7,7 @@ namespace longreach {
 namespace {
 
 /// E cos θ + F sin θ + G = 0, D² = E² + F² - G².
-struct LegLoop {
+struct SphericalLegLoop {
   double E = 0.0, F = 0.0, G = 0.0, D = 0.0;
   bool closes = false;
   bool double_root = false;
@@ -19,9 +19,9 @@ struct LegLoop {
   }
 };
 
-LegLoop leg_loop(const SphericalGeometry& g, int i, const Vector3& v) {
+SphericalLegLoop leg_loop(const SphericalGeometry& g, int i, const Vector3& v) {
   const SphericalGeometry::Leg& l = g.leg(i);
-  LegLoop leg;
+  SphericalLegLoop leg;
   leg.E = l.w_cos.dot(v);
   leg.F = l.w_sin.dot(v);
   leg.G = l.w_axial.dot(v) - g.cos_alpha2();
@@ -45,7 +45,7 @@ SphericalMotors SphericalKinematics::inverse(const Quaternion& q, unsigned mode)
   SphericalMotors result;
   bool singular = false;
   for (int i = 0; i < 3; ++i) {
-    const LegLoop leg = leg_loop(g_, i, R * g_.leg(i).v);
+    const SphericalLegLoop leg = leg_loop(g_, i, R * g_.leg(i).v);
     if (!leg.closes) return {};
     singular |= leg.double_root;
     result.theta_rad[i] = leg.root((mode >> i & 1U) != 0 ? -1.0 : 1.0);
@@ -60,7 +60,7 @@ SphericalRoots SphericalKinematics::inverse_all(const Quaternion& q) const {
   SphericalRoots result;
   bool singular = false;
   for (int i = 0; i < 3; ++i) {
-    const LegLoop leg = leg_loop(g_, i, R * g_.leg(i).v);
+    const SphericalLegLoop leg = leg_loop(g_, i, R * g_.leg(i).v);
     if (!leg.closes) return {};
     singular |= leg.double_root;
     result.first_rad[i] = leg.root(1.0);

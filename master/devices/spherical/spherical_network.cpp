@@ -11,8 +11,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kSameAxis = 1e-9;  // between axes that are the same but for their last digits
-constexpr double kSingular = 1e-3;  // 1 / |J^-1| below which no step is taken; the workspace keeps far above
+constexpr double kTrainedAxis = 1e-9;  // between axes that are the same but for their last digits
+constexpr double kSingularStep =
+    1e-3;  // 1 / |J^-1| below which no step is taken; the workspace keeps far above
 
 // Four units at once, summed over the lanes at the end: the order of additions is part of the source, so
 // every processor gives the same bits, with two or with four numbers an instruction.
@@ -21,7 +22,9 @@ constexpr int kLanes = sizeof(Lanes) / sizeof(double);
 static_assert(SphericalPerceptron::kUnits % kLanes == 0);
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // as in spherical_tracking.cpp
+#ifndef __clang__                                         // Clang 14 leaves the name itself undefined
 [[gnu::target_clones("avx", "default")]]
+#endif
 #endif
 Vector3
 evaluate(const SphericalPerceptron& net, const Vector3& theta_rad) {
@@ -58,13 +61,13 @@ void require(bool condition, const std::string& sentence) {
 
 void require_same(const SphericalGeometry& mine, const SphericalGeometry& trained) {
   const std::string other = "the network was trained for another geometry: ";
-  require(std::abs(mine.cos_alpha2() - trained.cos_alpha2()) <= kSameAxis, other + "alpha2 differs");
+  require(std::abs(mine.cos_alpha2() - trained.cos_alpha2()) <= kTrainedAxis, other + "alpha2 differs");
   for (int i = 0; i < 3; ++i) {
     const SphericalGeometry::Leg &a = mine.leg(i), &b = trained.leg(i);
     const std::string differs = " axis of leg " + std::to_string(i + 1) + " differs";
-    require((a.u - b.u).norm() <= kSameAxis, other + "the base" + differs);
-    require((a.v - b.v).norm() <= kSameAxis, other + "the platform" + differs);
-    require((a.w_axial - b.w_axial).norm() + (a.w_cos - b.w_cos).norm() <= kSameAxis,
+    require((a.u - b.u).norm() <= kTrainedAxis, other + "the base" + differs);
+    require((a.v - b.v).norm() <= kTrainedAxis, other + "the platform" + differs);
+    require((a.w_axial - b.w_axial).norm() + (a.w_cos - b.w_cos).norm() <= kTrainedAxis,
             other + "the middle" + differs);
   }
 }
@@ -78,7 +81,7 @@ void require_numbers(const SphericalNetworkConfig& c) {
   require(c.cells.overlap > 0.0 && c.cells.overlap <= 0.5,
           "cells.overlap of the network is outside (0, 0.5]");
   const SphericalWorkspace& w = c.workspace;
-  require(w.home_rad.allFinite() && std::abs(w.q_home.norm() - 1.0) <= kSameAxis,
+  require(w.home_rad.allFinite() && std::abs(w.q_home.norm() - 1.0) <= kTrainedAxis,
           "the home of the network is not a unit quaternion with finite angles");
   require(w.common_rad > 0.0 && w.differential_rad > 0.0 && std::isfinite(w.common_rad + w.differential_rad),
           "the workspace of the network is empty");
@@ -115,7 +118,7 @@ SphericalNetwork::SphericalNetwork(const SphericalGeometry& geometry, SphericalN
   }
   const SphericalWorkspace& w = config_.workspace;
   const double volume = Closures(geometry_, w.home_rad, w.q_home).adjugate().volume;
-  require(std::abs(volume) > kSingular, "the home of the network is singular");
+  require(std::abs(volume) > kSingularStep, "the home of the network is singular");
   side_ = volume > 0.0 ? 1 : -1;
 }
 
@@ -169,7 +172,7 @@ SphericalEstimate SphericalNetwork::refined(const Vector3& theta_rad,
   const Closures closures(geometry_, theta_rad, estimate.q);
   const Adjugate inverse = closures.adjugate();
   const double square = inverse.volume * inverse.volume;
-  if (!(side_ * inverse.volume > 0.0 && square > kSingular * kSingular * inverse.square()))
+  if (!(side_ * inverse.volume > 0.0 && square > kSingularStep * kSingularStep * inverse.square()))
     return nothing(SolutionStatus::kSingular);
   const auto& legs = closures.legs;
   const Vector3 g =

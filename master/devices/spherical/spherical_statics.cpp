@@ -9,7 +9,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kDependent = 1e-9;  // lever, or volume of the unit normals, that counts as zero
+constexpr double kDependentNormals = 1e-9;  // lever, or volume of the unit normals, that counts as zero
 
 }  // namespace
 
@@ -31,13 +31,13 @@ SphericalSingularity singularity(const SphericalGeometry& g, const SphericalVelo
 }
 
 SphericalJacobian jacobian(const SphericalVelocity& at) {
-  if (!(at.lever.cwiseAbs().minCoeff() > kDependent)) return {};
+  if (!(at.lever.cwiseAbs().minCoeff() > kDependentNormals)) return {};
   return {SolutionStatus::kFound, at.lever.cwiseInverse().asDiagonal() * at.normals};
 }
 
 SphericalJacobian inverse_jacobian(const SphericalVelocity& at) {
   const Adjugate inverse(at.normals.row(0), at.normals.row(1), at.normals.row(2));
-  if (!(std::abs(inverse.volume) > kDependent)) return {};
+  if (!(std::abs(inverse.volume) > kDependentNormals)) return {};
   SphericalJacobian result;
   result.status = SolutionStatus::kFound;
   result.matrix << inverse.x, inverse.y, inverse.z;

@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kSingular = 1e-6;  // 1 / |J^-1| below which a pose is called singular
+constexpr double kSingularPose = 1e-6;  // 1 / |J^-1| below which a pose is called singular
 constexpr double kNear =
     0.02;  // the same, where an iteration that does not arrive was stopped by a singularity
 constexpr double kSmall = 2e-2;  // contraction below which the first Jacobian serves to the end
@@ -136,7 +136,9 @@ struct SphericalKinematics::Search {
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // whose runtime starts after the choice is made
 // Compiled twice and chosen by the processor when the program starts: instructions with three operands spare
 // a third of the moves. No contraction, so the results are the same to the bit.
+#ifndef __clang__  // Clang 14 leaves the name itself undefined
 [[gnu::target_clones("avx", "default")]]
+#endif
 #endif
 SphericalPose
 SphericalKinematics::forward(const Vector3& theta_rad, const SphericalPose& previous) const {
@@ -153,7 +155,7 @@ SphericalKinematics::forward(const Vector3& theta_rad, const SphericalPose& prev
     if (!first) inverse = Closures::adjugate(legs.gradient(search.g));
     const double volume2 = square(inverse.volume), norm2 = inverse.square();
     conditioning = volume2 / norm2;
-    if (!(volume2 > square(kSingular) * norm2)) break;
+    if (!(volume2 > square(kSingularPose) * norm2)) break;
     const int side = inverse.volume > 0.0 ? 1 : -1;
     if (side * result.side < 0) {  // the motors have moved across a singularity
       conditioning = 0.0;

@@ -3,7 +3,7 @@
 import { createRequire } from 'module';
 import { join } from 'path';
 
-/** `packages`: the folder that the build fetched the page's packages into. */
+/** `packages`: the folder that the build fetched the tests' packages into. */
 export async function open(packages, chromium) {
   const puppeteer = createRequire(join(packages, 'package.json'))('puppeteer-core');
   return puppeteer.launch({

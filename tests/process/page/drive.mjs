@@ -15,7 +15,8 @@ async function demo(person) {
   await person.see('engaged', () => longreach.frame().state === 'Engaged');
   await person.look(() => {
     longreach.was = longreach.frame();
-    longreach.ink = () => [...document.querySelectorAll('#plots canvas')].map((canvas) => canvas.toDataURL());
+    // Each plot has an empty canvas above that of its lines.
+    longreach.ink = () => [...document.querySelectorAll('#plots canvas:first-of-type')].map((canvas) => canvas.toDataURL());
     longreach.plotted = longreach.ink();
   });
   await person.see('the arm moves', () => {

@@ -38,9 +38,10 @@ TEST(Finding, TimesThatLieCloseTogetherAreToldApart) {
 }
 
 const Diagnosis kDiagnosis = {
-    {"Here", {{Verdict::kOk, "one", "fine"}, {Verdict::kWarning, "two", "so \"so\"", "mend it"}}},
+    {"Here",
+     {{FindingVerdict::kOk, "one", "fine"}, {FindingVerdict::kWarning, "two", "so \"so\"", "mend it"}}},
     {"There",
-     {{Verdict::kFailure,
+     {{FindingVerdict::kFailure,
        "three",
        std::string(300, 'a') + " " + std::string(60, 'b') + " " + std::string(60, 'c'),
        "do",

@@ -24,21 +24,21 @@ TEST(PushJudgement, KnowsSignBaseAndExchangedAxesInAnyPose) {
     const Vector3 turn = Vector3(random.normal(), random.normal(), random.normal()).normalized();
     const Matrix3 R = exp_rotation(random.uniform(1.2, 2.0) * turn).toRotationMatrix();
     const auto right = [&](const Vector3& f) { return Vector3(R.transpose() * f); };
-    EXPECT_EQ(judged(R, right).verdict, Verdict::kOk);
+    EXPECT_EQ(judged(R, right).verdict, FindingVerdict::kOk);
     EXPECT_EQ(judged(R, [&](const Vector3& f) { return Vector3(-right(f)); }).text, "has the wrong sign");
     const Finding base = judged(R, [](const Vector3& f) { return f; });
-    EXPECT_EQ(base.verdict, Verdict::kFailure);
+    EXPECT_EQ(base.verdict, FindingVerdict::kFailure);
     const Finding swapped = judged(R, [&](const Vector3& f) {
       const Vector3 e = right(f);
       return Vector3(e.y(), e.x(), e.z());
     });
-    EXPECT_EQ(swapped.verdict, Verdict::kFailure);
+    EXPECT_EQ(swapped.verdict, FindingVerdict::kFailure);
   }
 }
 
 TEST(PushJudgement, SaysWhatItCannotKnow) {
   const Finding found = judged(Matrix3::Identity(), [](const Vector3& f) { return f; });
-  EXPECT_EQ(found.verdict, Verdict::kWarning);
+  EXPECT_EQ(found.verdict, FindingVerdict::kWarning);
   EXPECT_NE(found.advice.find("turn the tool by a quarter"), std::string::npos);
 }
 
@@ -48,7 +48,7 @@ TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
   for (int i = 0; i < 2; ++i) sensor.push[static_cast<std::size_t>(i)].told = 20.0 * Vector3::Unit(i);
   const std::vector<Finding> found = judge_pushes(sensor);
   ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].verdict, Verdict::kFailure);
+  EXPECT_EQ(found[0].verdict, FindingVerdict::kFailure);
   EXPECT_EQ(found[1].text, "tells nothing along z of the base");
 }
 

@@ -1,7 +1,7 @@
 // Reads a recording with the library of its format's authors, decodes every message by the schemas in the file, and
 // prints what was found as one JSON object. Exit status 1 when anything is wrong.
-//   node check.mjs indexed FILE   by its summary and indexes, all CRCs checked
-//   node check.mjs stream FILE    from the start, as far as it goes: a file that was cut
+//   node check_recording.mjs indexed FILE   by its summary and indexes, all CRCs checked
+//   node check_recording.mjs stream FILE    from the start, as far as it goes: a file that was cut
 import { open, readFile } from 'node:fs/promises';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import protobuf from 'protobufjs';
