@@ -148,7 +148,7 @@ void add_counters(const BothReports& reports, std::vector<Line>& lines) {
 
 std::string answers(const SideReport& report) { return report.status ? "yes" : "no"; }
 
-std::string padded(const std::string& text, std::size_t width) {
+std::string column(const std::string& text, std::size_t width) {
   return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
 }
 
@@ -237,7 +237,7 @@ std::string status_table(const BothReports& reports) {
   }
   std::string text;
   for (const Line& line : lines) {
-    std::string row = padded(line.label, label_width) + padded(line.master, master_width) + line.slave;
+    std::string row = column(line.label, label_width) + column(line.master, master_width) + line.slave;
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
