@@ -7,6 +7,7 @@
 #include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/simulated_devices.hpp"
+#include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/mapping/turns.hpp"
 #include "master/master_safety.hpp"
@@ -72,6 +73,7 @@ struct MasterNode::State {
   RendererInput renderer_input();
   void take_reports(const MasterInput& input, const RendererInput& at);
   MotionCommand command();
+  void book_lead(std::uint64_t sent);
   void publish(const Wrench& F);
   void publish_ages(const MasterInput& input);
 
@@ -80,6 +82,7 @@ struct MasterNode::State {
   TimeWatch time;
   HandleBehaviour behaviour;
   Mapping mapping;
+  LeadBound lead{Mapping::kLead_m}, turn_lead{Mapping::kLead_rad};
   RenderedDevice device;
   CertainMotion motion;
   Renderer renderer;
@@ -147,6 +150,7 @@ RendererInput MasterNode::State::renderer_input() {
   at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
   at.stale = safety.stale();
   at.load = view.load;
+  at.clutched = view.clutched;
   return at;
 }
 
@@ -158,6 +162,8 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     safety.on_report(report);
     view.in_contact = report.translation.in_contact;
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
+    lead.on_report(report.translation, report.reached_sequence);
+    turn_lead.on_report(report.rotation, report.reached_sequence);
     if (renderer.on_report(report, history, at, mapping)) {
       ++view.reports;
       view.force_step_n = renderer.translation().contact.force_step();
@@ -171,6 +177,13 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     far_at = input.now;
     view.far_known = true;
   }
+}
+
+void MasterNode::State::book_lead(std::uint64_t sent) {
+  const GoalBound &bound = lead.bound(), &turn_bound = turn_lead.bound();
+  lead.on_command(sent, bound.direction.dot(mapping.goal().position_m - bound.place));
+  turn_lead.on_command(sent, turn_bound.direction.dot(log_rotation(
+                                 mapping.goal().rotation * exp_rotation(turn_bound.place).conjugate())));
 }
 
 MotionCommand MasterNode::State::command() {
@@ -210,6 +223,8 @@ void MasterNode::State::decide(const MasterInput& input) {
   // The goals of an engagement begin with the first command that asks for it.
   if (safety.engagement() != engagement || begun) {
     mapping.reset(handle);
+    lead.reset();
+    turn_lead.reset();
     history.clear();
   }
   if (begun) {
@@ -231,7 +246,9 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
   // Letting go moves the goal by nothing, wherever the handle goes then.
   const bool frozen = !engaged || s.view.clutched || !s.handle.held;
-  s.mapping.step({s.handle, s.view.mode, s.view.scale, frozen}, s.period_s);
+  MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
+  if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
+  s.mapping.step(moved, s.period_s);
 
   const RendererInput at = s.renderer_input();
   s.take_reports(input, at);
@@ -243,6 +260,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
     out.sequence = ++s.sequence;
     out.command = s.command();
+    s.book_lead(out.sequence);
     s.history.translation.push(out.sequence, s.mapping.goal().position_m);
     s.history.rotation.push(out.sequence, s.mapping.goal().rotation_rad);
   }

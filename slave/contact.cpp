@@ -185,8 +185,18 @@ ContactStiffness SlaveContact::report() const {
   result.touch = touch_;
   result.touch_sequence = touch_sequence_;
   result.in_contact = reading_.in_contact;
-  if (reading_.in_contact) result.stiffness = stiffness_;
+  if (reading_.in_contact) {
+    result.stiffness = stiffness_;
+    result.proof_depth = proof_depth_m();
+  }
   return result;
+}
+
+// Of the law F = k xⁿ, where it is known.
+double SlaveContact::proof_depth_m() const {
+  constexpr double kTwice = 2.0, kMost = 0.1;
+  if (!(answer_.valid && answer_.k.value > 0.0 && answer_.n.value > 0.0)) return 0.0;
+  return std::min(std::pow(kTwice * sensing_.touch_n / answer_.k.value, 1.0 / answer_.n.value), kMost);
 }
 
 }  // namespace longreach

@@ -69,6 +69,7 @@ class SlaveContact {
   };
   PenetrationSample sample(const ContactInput& input);
   void identify(const ContactInput& input);
+  [[nodiscard]] double proof_depth_m() const;
   [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
 
   SensingConfig sensing_;

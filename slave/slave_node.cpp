@@ -5,6 +5,7 @@
 
 #include "common/link/playout.hpp"
 #include "common/link/time_watch.hpp"
+#include "slave/command/held_back.hpp"
 #include "slave/command/servo_lag.hpp"
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
@@ -20,9 +21,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kDtMax = 0.02;     // a later tick moves no further than this
-constexpr double kReachedM = 1e-3;  // a goal counts as reached
-constexpr double kZeroMax = 0.5;    // of the guard, that a zero may take for the sensor's bias
+constexpr double kDtMax = 0.02;                           // a later tick moves no further than this
+constexpr double kReachedM = 1e-3, kReachedRad = 0.01;    // a goal counts as reached
+constexpr double kHeldBackM = 2e-3, kHeldBackRad = 0.02;  // from its goal: the tool does not follow
+constexpr double kZeroMax = 0.5;  // of the guard, that a zero may take for the sensor's bias
 
 }  // namespace
 
@@ -59,6 +61,7 @@ struct SlaveNode::State {
   [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
   [[nodiscard]] ContactForce pressed() const;
   void book_reached();
+  void book_held_back(const Clamps& clamps, double dt);
   void show(const Clamps& clamps, std::uint64_t rejected_values);
 
   SlaveReports reports;
@@ -94,6 +97,7 @@ struct SlaveNode::State {
   double played_sequence = 0.0;
   double played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
+  HeldBack held_back{kHeldBackM}, turn_held_back{kHeldBackRad};
   std::uint64_t rejected_values = 0;
 };
 
@@ -136,13 +140,17 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
   s.book_reached();
+  s.book_held_back(clamps, dt);
 
   SlaveOutput output;
   if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.grip;
   s.reports.report(input, s.view, s.reached_sequence,
                    {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
-                   s.contact, s.turn_contact, output);
+                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.direction()},
+                   {s.turn_contact, log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
+                    s.turn_held_back.direction()},
+                   output);
   s.reports.telemetry(input, s.view, s.robot_ok, s.contact.penetration_m(), output);
   s.view.touch_sequence = s.contact.touch_sequence();
   return output;
@@ -335,12 +343,29 @@ ContactForce SlaveNode::State::pressed() const {
 }
 
 void SlaveNode::State::book_reached() {
-  if (safety.state() != SafetyState::kEngaged || contact.in_contact() || turn_contact.in_contact() ||
-      played_sequence < 1.0) {
+  if (safety.state() != SafetyState::kEngaged || played_sequence < 1.0) return;
+  if ((view.X_WE.p - view.X_WE_goal.p).norm() > kReachedM ||
+      log_rotation(view.X_WE_goal.q * view.X_WE.q.conjugate()).norm() > kReachedRad)
+    return;
+  reached_sequence = std::max(reached_sequence, static_cast<std::uint64_t>(played_sequence));
+}
+
+void SlaveNode::State::book_held_back(const Clamps& clamps, double dt) {
+  if (safety.state() != SafetyState::kEngaged || !robot_ok) {
+    held_back.reset();
+    turn_held_back.reset();
     return;
   }
-  if ((view.X_WE.p - view.X_WE_goal.p).norm() > kReachedM) return;
-  reached_sequence = std::max(reached_sequence, static_cast<std::uint64_t>(played_sequence));
+  const bool arm = clamps.joint_position || clamps.singularity || clamps.unreachable;
+  // Several limits at once act in no direction of one of them.
+  Vector3 along = Vector3::Zero();
+  if (!arm && clamps.workspace && !clamps.force_guard)
+    along = (view.X_WE.p - motion.workspace_centre_m()).stableNormalized();
+  if (!arm && !clamps.workspace && contact.in_contact()) along = -contact.normal();
+  held_back.step(view.X_WE.p - X_WE_anchor.p, view.X_WE_goal.p - view.X_WE.p,
+                 arm || clamps.workspace || clamps.force_guard, along, dt);
+  turn_held_back.step(log_rotation(view.X_WE.q * X_WE_anchor.q.conjugate()),
+                      log_rotation(view.X_WE_goal.q * view.X_WE.q.conjugate()), arm, Vector3::Zero(), dt);
 }
 
 void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {

@@ -13,8 +13,30 @@ void merge(Clamps& all, const Clamps& one) {
   all.unreachable = all.unreachable || one.unreachable;
 }
 
-bool same_touch(const SlaveContact& contact, const ContactStiffness& told) {
-  return contact.touch() == told.touch && contact.in_contact() == told.in_contact;
+// A goal behind a remembered surface is proof that the surface has gone only together with the tool's place:
+// while the tool moves, it is reported more often than by the heartbeat.
+constexpr double kMoved_m = 5e-4, kMoved_rad = 5e-3, kMovedPeriod_s = 0.1;
+
+bool changed(const ContactAtPlace& now, const ContactStiffness& reported) {
+  return now.contact.touch() != reported.touch || now.contact.in_contact() != reported.in_contact ||
+         now.held_back.isZero(0.0) != reported.held_back.isZero(0.0);
+}
+
+/// The place takes bytes only where it proves something: where nothing is touched though something was, where
+/// a limit is.
+bool proves(const ContactAtPlace& at) {
+  return (at.contact.touch() > 0 && !at.contact.in_contact()) || !at.held_back.isZero(0.0);
+}
+
+bool moved(const ContactAtPlace& now, const ContactStiffness& reported, double far) {
+  return proves(now) && (now.place - reported.place).norm() > far;
+}
+
+ContactStiffness report_of(const ContactAtPlace& at) {
+  ContactStiffness report = at.contact.report();
+  report.held_back = at.held_back;
+  if (proves(at)) report.place = at.place;
+  return report;
 }
 
 }  // namespace
@@ -27,28 +49,31 @@ bool Pace::due(Time now, double rate_hz) {
 }
 
 void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
-                          const PlayedGoals& goals, SlaveContact& contact, SlaveContact& turn_contact,
-                          SlaveOutput& output) {
-  const bool changed = view.state != reported_.state || view.engagement != reported_.engagement ||
-                       view.cause != reported_.cause || !same_touch(contact, reported_.translation) ||
-                       contact.reported_n_per_m() != reported_n_per_m_ ||
-                       !same_touch(turn_contact, reported_.rotation) ||
-                       turn_contact.reported_n_per_m() != reported_nm_per_rad_;
-  const bool touching = contact.in_contact() || turn_contact.in_contact();
-  if (changed) reports_.hurry();
+                          const PlayedGoals& goals, const ContactAtPlace& translation,
+                          const ContactAtPlace& rotation, SlaveOutput& output) {
+  const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
+                    view.cause != reported_.cause || changed(translation, reported_.translation) ||
+                    translation.contact.reported_n_per_m() != reported_n_per_m_ ||
+                    changed(rotation, reported_.rotation) ||
+                    rotation.contact.reported_n_per_m() != reported_nm_per_rad_;
+  const bool elsewhere =
+      moved(translation, reported_.translation, kMoved_m) || moved(rotation, reported_.rotation, kMoved_rad);
+  const bool touching = translation.contact.in_contact() || rotation.contact.in_contact();
+  if (news || (elsewhere && input.now - reported_at_ >= from_seconds(kMovedPeriod_s))) reports_.hurry();
   if (!input.may_send ||
       !reports_.due(input.now, touching ? link_.heartbeat_contact_hz : link_.heartbeat_free_hz))
     return;
-  contact.locate_touch(goals.positions, goals.anchor_m, goals.sequence);
-  turn_contact.locate_touch(goals.turns, Vector3::Zero(), goals.turn_sequence);
+  translation.contact.locate_touch(goals.positions, goals.anchor_m, goals.sequence);
+  rotation.contact.locate_touch(goals.turns, Vector3::Zero(), goals.turn_sequence);
   reported_.engagement = view.engagement;
   reported_.state = view.state;
   reported_.cause = view.cause;
-  reported_.translation = contact.report();
-  reported_.rotation = turn_contact.report();
+  reported_.translation = report_of(translation);
+  reported_.rotation = report_of(rotation);
   reported_.reached_sequence = reached_sequence;
-  reported_n_per_m_ = contact.reported_n_per_m();
-  reported_nm_per_rad_ = turn_contact.reported_n_per_m();
+  reported_n_per_m_ = translation.contact.reported_n_per_m();
+  reported_nm_per_rad_ = rotation.contact.reported_n_per_m();
+  reported_at_ = input.now;
   output.report = reported_;
   output.report_sequence = ++report_sequence_;
 }

@@ -28,6 +28,13 @@ struct PlayedGoals {
   double sequence, turn_sequence;  // as played
 };
 
+/// A contact in translation or in rotation, with the tool's place from the anchor and the direction in which
+/// a limit holds it back.
+struct ContactAtPlace {
+  SlaveContact& contact;
+  Vector3 place, held_back;
+};
+
 class SlaveReports {
  public:
   explicit SlaveReports(const SlaveLinkConfig& link) : link_(link) {}
@@ -35,7 +42,7 @@ class SlaveReports {
 
   /// The one haptic message, if it is due. Of `view`: state, cause, engagement.
   void report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
-              const PlayedGoals& goals, SlaveContact& contact, SlaveContact& turn_contact,
+              const PlayedGoals& goals, const ContactAtPlace& translation, const ContactAtPlace& rotation,
               SlaveOutput& output);
   /// For the eyes and the log, if it is due.
   void telemetry(const SlaveInput& input, const SlaveView& view, bool robot_ok, double penetration_m,
@@ -46,6 +53,7 @@ class SlaveReports {
   Pace reports_;
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};
+  Time reported_at_{};
   double reported_n_per_m_ = 0.0, reported_nm_per_rad_ = 0.0;
   Pace telemetry_;
   std::uint64_t telemetry_sequence_ = 0;

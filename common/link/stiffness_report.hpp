@@ -45,6 +45,13 @@ struct ContactStiffness {
   double touch_sequence = 0.0;
   std::uint32_t touch = 0;  // counts touches from 1; a new number is a new contact
   bool in_contact = false;
+  // How deep behind its surface the contact presses with twice the touch threshold, by its law, m or rad; 0:
+  // not known.
+  double proof_depth = 0.0;
+  // The tool, from the engagement's anchor, in W: a displacement (m) or a rotation vector (rad).
+  Vector3 place = Vector3::Zero();
+  // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: nothing does.
+  Vector3 held_back = Vector3::Zero();
 };
 
 struct StiffnessReport {
@@ -53,7 +60,7 @@ struct StiffnessReport {
   HoldCause cause = HoldCause::kNone;
   ContactStiffness translation{};
   ContactStiffness rotation{};
-  // Newest command whose goal the tool has reached without contact: what lies up to there is free space.
+  // Newest command whose goal the tool has reached.
   std::uint64_t reached_sequence = 0;
 };
 

@@ -48,10 +48,22 @@ bool read_vector(const Field& values, double limit, Vector3& out) {
   return true;
 }
 
+/// A unit vector; none: zero.
+bool read_direction(const Doubles& values, Vector3& out) {
+  return read_vector(values, 1.0 + kUnitTolerance, out) &&
+         (values.empty() || std::abs(out.norm() - 1.0) < kUnitTolerance);
+}
+
 template <class Field, class Vector>
 void assign(const Vector& values, Field& out) {
   out.Clear();
   for (const double v : values) out.Add(static_cast<typename Field::value_type>(v));
+}
+
+/// Takes no bytes where it is zero.
+void assign_unless_zero(const Vector3& values, Doubles& out) {
+  out.Clear();
+  if (!values.isZero(0.0)) assign(values, out);
 }
 
 // Upper triangle of the symmetric part; a zero matrix takes no bytes.
@@ -210,6 +222,12 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_rotation_touch_sequence(report.rotation.touch_sequence);
   out.set_rotation_touch(report.rotation.touch);
   out.set_rotation_in_contact(report.rotation.in_contact);
+  out.set_translation_proof_depth_m(report.translation.proof_depth);
+  out.set_rotation_proof_depth_rad(report.rotation.proof_depth);
+  assign_unless_zero(report.translation.place, *out.mutable_translation_place_m());
+  assign_unless_zero(report.translation.held_back, *out.mutable_translation_held_back());
+  assign_unless_zero(report.rotation.place, *out.mutable_rotation_place_rad());
+  assign_unless_zero(report.rotation.held_back, *out.mutable_rotation_held_back());
 }
 
 bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
@@ -221,12 +239,20 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.rotation.touch_sequence = in.rotation_touch_sequence();
   out.rotation.touch = in.rotation_touch();
   out.rotation.in_contact = in.rotation_in_contact();
+  out.translation.proof_depth = in.translation_proof_depth_m();
+  out.rotation.proof_depth = in.rotation_proof_depth_rad();
   return read_enum(in.state(), SafetyState::kFault, out.state) &&
          read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
          read(in.translation_n_per_m(), out.translation.stiffness) &&
          read(in.rotation_nm_per_rad(), out.rotation.stiffness) &&
          within(out.translation.touch_sequence, 0.0, kSequenceMax) &&
-         within(out.rotation.touch_sequence, 0.0, kSequenceMax);
+         within(out.rotation.touch_sequence, 0.0, kSequenceMax) &&
+         within(out.translation.proof_depth, 0.0, kGoalMaxM) &&
+         within(out.rotation.proof_depth, 0.0, kGoalMaxRad) &&
+         read_vector(in.translation_place_m(), kGoalMaxM, out.translation.place) &&
+         read_vector(in.rotation_place_rad(), kGoalMaxRad, out.rotation.place) &&
+         read_direction(in.translation_held_back(), out.translation.held_back) &&
+         read_direction(in.rotation_held_back(), out.rotation.held_back);
 }
 
 void write(const Telemetry& telemetry, proto::Telemetry& out) {

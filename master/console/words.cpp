@@ -67,8 +67,9 @@ std::string following(const ConsoleSnapshot& s) {
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
   if (s.view.spring_force_n.norm() > 0.0) {
-    return formatted("the hand is in the wall as remembered, %.2f N/mm; no news of the robot's touch yet",
-                     s.view.stiffness_n_per_m * 1e-3);
+    return formatted("the wall is remembered here, %.2f N/mm; the robot is not touching it",
+                     s.view.stiffness_n_per_m * 1e-3) +
+           as_of(s);
   }
   const bool rate = s.view.mode == MotionMode::kRate;
   return (rate ? "moving freely: the hand's deflection sets the robot's speed"

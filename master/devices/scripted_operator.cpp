@@ -79,7 +79,8 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
       enter(in.surface_known ? ScriptPhase::kReturn : ScriptPhase::kApproach, in.now);
       return MotionMode::kPosition;
     case ScriptPhase::kCoarse:
-      if (left_m < 5e-4) enter(ScriptPhase::kSettle, in.now);
+      // A wall in the way ends it, too.
+      if (left_m < 5e-4 || in.felt_n > kFelt_n) enter(ScriptPhase::kSettle, in.now);
       break;
     case ScriptPhase::kSettle:
       if (elapsed_s < 0.4 || std::abs(direction_.dot(in.handle_m)) > mapping_.dead_zone_m) break;

@@ -1,9 +1,9 @@
 #pragma once
-// A simulated person who touches a surface: drives up in rate mode, approaches in scaled position mode,
-// touches, backs off, touches again, presses, probes about the pressing force, releases, rests, and begins
-// again from the second touch. Deterministic; knows only what a person would: the own hand, the felt contact
-// force, the picture of the own commands (goal) and of the surface once it is registered. Never evidence
-// about people.
+// A simulated person who touches a surface: drives up in rate mode, until there or until a wall is felt,
+// approaches in scaled position mode, touches, backs off, touches again, presses, probes about the pressing
+// force, releases, rests, and begins again from the second touch. Deterministic; knows only what a person
+// would: the own hand, the felt contact force, the picture of the own commands (goal) and of the surface once
+// it is registered. Never evidence about people.
 
 #include <cstdint>
 #include <optional>

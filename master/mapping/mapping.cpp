@@ -58,12 +58,12 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   scale_ = input.scale;
   frozen_ = input.frozen;
   if (changed || frozen_) take_references(input.handle);
-  if (frozen_) return goal_;
-  if (mode_ == MotionMode::kRate) {
-    step_rate(input.handle, dt_s);
-  } else {
-    step_position(input.handle, dt_s);
-  }
+  const Vector3 before_m = goal_.position_m;
+  const Quaternion before = goal_.rotation;
+  if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input.handle, dt_s);
+  if (!frozen_ && mode_ == MotionMode::kPosition) step_position(input.handle, dt_s);
+  if (!input.translation_bound.direction.isZero(0.0)) draw_back(input.translation_bound, before_m, dt_s);
+  if (!input.rotation_bound.direction.isZero(0.0)) turn_back(input.rotation_bound, before, dt_s);
   return goal_;
 }
 
@@ -103,6 +103,30 @@ void Mapping::advance(const Vector3& move_m, const Vector3& turn_rad) {
   if (turn_rad.isZero(0.0)) return;
   goal_.rotation = (exp_rotation(turn_rad) * goal_.rotation).normalized();
   goal_.rotation_rad = log_rotation(goal_.rotation);
+}
+
+void Mapping::draw_back(const GoalBound& bound, const Vector3& before_m, double dt_s) {
+  const Vector3& d = bound.direction;
+  const double most = std::max(kLead_m, d.dot(before_m - bound.place) - config_.speed_max_m_per_s * dt_s);
+  const double beyond = d.dot(goal_.position_m - bound.place) - most;
+  if (!(beyond > 0.0)) return;
+  goal_.position_m -= beyond * d;
+  if (mode_ == MotionMode::kPosition) g_ref_ -= beyond * d;
+  speed_m_per_s_ -= std::max(0.0, d.dot(speed_m_per_s_)) * d;
+}
+
+void Mapping::turn_back(const GoalBound& bound, const Quaternion& before, double dt_s) {
+  const Vector3& d = bound.direction;
+  const Quaternion place = exp_rotation(bound.place).conjugate();
+  const double most =
+      std::max(kLead_rad, d.dot(log_rotation(before * place)) - config_.speed_max_rad_per_s * dt_s);
+  const double beyond = d.dot(log_rotation(goal_.rotation * place)) - most;
+  if (!(beyond > 0.0)) return;
+  const Quaternion back = exp_rotation(-beyond * d);
+  goal_.rotation = (back * goal_.rotation).normalized();
+  goal_.rotation_rad = log_rotation(goal_.rotation);
+  if (mode_ == MotionMode::kPosition) q_gref_ = (back * q_gref_).normalized();
+  speed_rad_per_s_ -= std::max(0.0, d.dot(speed_rad_per_s_)) * d;
 }
 
 Pose Mapping::forecast(double ahead_s) const {

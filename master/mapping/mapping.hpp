@@ -11,7 +11,10 @@
 // never steps. The centre x_ref, R_ref of rate mode is where the handle was when the mode began; it goes home
 // with it, so that letting go commands nothing. The literal law, which jumps at the edge of the dead zone,
 // re-enters it a tenth further in: noise at the edge makes one jump and no chatter.
-// Not handled: turns of the handle by more than π from its reference.
+// The goal's lead is bounded: where a limit holds the robot back at `place`, in the direction d, the goal is
+// drawn back along d, at most at its largest speed, to `place` + kLead and goes no further that way
+// (lead_bound.hpp), frozen or not. In position mode the reference slips by as much. Not handled: turns of the
+// handle by more than π from its reference.
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
@@ -19,11 +22,19 @@
 
 namespace longreach {
 
+/// How far the goal may run ahead of the robot: no further than kLead from `place` along `direction`. Goals
+/// as displacements (m) or rotation vectors (rad) from the anchor, in W.
+struct GoalBound {
+  Vector3 place = Vector3::Zero();
+  Vector3 direction = Vector3::Zero();  // unit; zero: not bounded
+};
+
 struct MappingInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;   // k_scale, > 0
   bool frozen = false;  // clutch, hold or released: the handle moves without the robot
+  GoalBound translation_bound{}, rotation_bound{};
 };
 
 struct Goal {
@@ -34,6 +45,8 @@ struct Goal {
 
 class Mapping {
  public:
+  static constexpr double kLead_m = 3e-3, kLead_rad = 0.04;
+
   explicit Mapping(const MappingConfig& config) { configure(config); }
   /// A new base takes new references at the next step.
   void configure(const MappingConfig& config);
@@ -70,6 +83,8 @@ class Mapping {
   void step_rate(const HandleState& handle, double dt_s);
   void step_position(const HandleState& handle, double dt_s);
   void advance(const Vector3& move_m, const Vector3& turn_rad);
+  void draw_back(const GoalBound& bound, const Vector3& before_m, double dt_s);
+  void turn_back(const GoalBound& bound, const Quaternion& before, double dt_s);
 
   MappingConfig config_;
   Quaternion base_ = Quaternion::Identity();

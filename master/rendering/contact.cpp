@@ -11,6 +11,7 @@ constexpr double kSameSurfaceAxis = 0.2;  // sine: 11 degrees
 constexpr double kAcross = 0.5;           // cosine: 60 degrees
 constexpr double kLeastShare = 1e-3;      // of the largest stiffness: less is no surface but noise
 constexpr double kLeastSense = 0.02;      // cosine of the motion with an axis that tells its sense
+constexpr double kDeepest = 1.5;          // depth of a spring, over that of the hand behind the surface
 
 struct Principal {
   Vector3 values;  // ascending
@@ -42,14 +43,14 @@ void Contact::reset() {
   force_step_ = 0.0;
 }
 
-ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t reached_sequence,
-                                 const GoalHistory& history, const ContactHandle& handle,
-                                 const Mapping& mapping) {
-  if (!contact.stiffness.allFinite() || !std::isfinite(contact.touch_sequence))
+ContactChange Contact::on_report(const ContactStiffness& contact, const GoalHistory& history,
+                                 const ContactHandle& handle, const Mapping& mapping) {
+  if (!contact.stiffness.allFinite() || !std::isfinite(contact.touch_sequence) ||
+      !contact.place.allFinite() || !std::isfinite(contact.proof_depth))
     return ContactChange::kRejected;
   if (!contact.in_contact) {
     for (ContactAxis& a : axes_) a.released = true;
-    forget_what_is_free(reached_sequence, history, handle.x);
+    forget_what_is_free(contact.place, handle.x);
     return ContactChange::kNone;
   }
   const auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
@@ -63,12 +64,9 @@ ContactChange Contact::on_report(const ContactStiffness& contact, std::uint64_t 
   return ContactChange::kUpdated;
 }
 
-void Contact::forget_what_is_free(std::uint64_t reached_sequence, const GoalHistory& history,
-                                  const Vector3& x) {
-  const auto reached = history.at(static_cast<double>(reached_sequence));
-  if (!reached) return;
+void Contact::forget_what_is_free(const Vector3& place, const Vector3& x) {
   for (ContactAxis& a : axes_) {
-    if (!a.known || a.n_W.dot(*reached - a.goal) < config_.forget_depth) continue;
+    if (!a.known || a.n_W.dot(place - a.goal) < a.proof_depth + config_.place_error) continue;
     a.known = false;
     a.spring.set_stiffness(a.s(x), 0.0);
   }
@@ -77,7 +75,7 @@ void Contact::forget_what_is_free(std::uint64_t reached_sequence, const GoalHist
 bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<Vector3>& goal,
                           const Vector3& motion, const ContactHandle& handle, const Mapping& mapping) {
   Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
-  const double ke = config_.ke * (config_.ke_by_scale ? mapping.scale() : 1.0);
+  const double ke = this->ke(mapping);
   const double least = kLeastShare * left.cwiseAbs().maxCoeff();
   bool any = false;
   // News is old: an axis that is not in it may be pressed again by now, and stays until free space disproves
@@ -91,6 +89,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<V
       if (goal && (a.released || (a.touch == contact.touch && !config_.by_arrival))) a.goal = *goal;
       a.touch = a.released ? contact.touch : a.touch;
       a.released = false;
+      a.proof_depth = proof_depth(contact);
       a.reported = ke * k;
       left = across(left, a.n_W);
       any = true;
@@ -105,7 +104,7 @@ bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<V
     const Vector3 into = inward(n, motion);
     if (!n.allFinite() || into.isZero(0.0)) continue;
     forget_beside(n, handle.x);
-    add_axis(into, contact, *goal, handle, mapping, ke * rest.values[i]);
+    add_axis(into, contact, *goal, handle, mapping, rest.values[i]);
     any = true;
   }
   return any;
@@ -141,14 +140,23 @@ void Contact::add_axis(const Vector3& n_W, const ContactStiffness& contact, cons
                     .n_W = n_W,
                     .n_M = mapping.base().conjugate() * n_W,
                     .goal = goal,
-                    .reported = stiffness,
+                    .proof_depth = proof_depth(contact),
+                    .reported = ke(mapping) * stiffness,
                     .touch = contact.touch};
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
-    a.spring.set_stiffness(a.s(handle.x), stiffness);
+    a.spring.set_stiffness(a.s(handle.x), a.reported);
     return;
   }
+}
+
+double Contact::proof_depth(const ContactStiffness& contact) const {
+  return contact.proof_depth > 0.0 ? contact.proof_depth : config_.forget_depth;
+}
+
+double Contact::ke(const Mapping& mapping) const {
+  return config_.ke * (config_.ke_by_scale ? mapping.scale() : 1.0);
 }
 
 double Contact::along(const ContactAxis& a, const Mapping& mapping) const {
@@ -177,9 +185,14 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     }
     if (a.known) {
       a.surface = locate(a, handle, mapping);
-      a.spring.set_surface(handle.held ? a.surface : std::max(a.surface, s), handle.rate_mode);
+      const bool presses = handle.held && !handle.clutched;
+      a.spring.set_surface(presses ? a.surface : std::max(a.surface, s), handle.rate_mode);
+      // No contact, no force: what the anchor lags behind may exceed the depth by half of it and no more.
+      if (handle.held) a.spring.limit_depth(s, presses ? kDeepest * std::max(0.0, s - a.surface) : 0.0);
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
+    } else {
+      a.spring.set_surface(std::max(a.surface, s));  // what fades does not load the hand again
     }
     a.force = a.spring.step(s, dt_s, tank);
     if (a.force <= 0.0) continue;

@@ -8,9 +8,11 @@
 //
 // x is the handle's position (m) or rotation vector (rad) in M; goals are displacements or rotation vectors
 // from the engagement's anchor, in W. On a handle that is let go the springs fade, until a hand holds it
-// again. A surface is remembered after the contact ends, so that the next touch is felt without delay, and
-// forgotten when the slave reports a goal behind it that was reached in free space. An axis changes its
-// direction only without force; a spring whose axis is not in the tensor any more fades.
+// again. While the goal lies in front of a surface, or the clutch is pressed, its spring has no force. A
+// surface is remembered after the contact ends, so that the next touch is felt without delay, and removed by
+// evidence: when the slave reports a tool that touches nothing where the surface would press with twice
+// the touch threshold. An axis changes its direction only without force; a spring whose axis is not in the
+// tensor any more fades.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +31,8 @@ struct ContactConfig {
   double ke = 1.0;
   bool ke_by_scale = false;     // rendered is ke k_scale of what is estimated, else ke of it
   double damping = 0.0;         // B, N s/m
-  double forget_depth = 0.005;  // behind a surface, m
+  double forget_depth = 0.005;  // behind a surface whose law is not known, m
+  double place_error = 5e-5;    // of a surface and of the tool, at the most, m
   bool by_arrival = false;      // surfaces lie at the newest goal, for contrast
   double least_motion = 1e-4;   // from which the sense of an axis is believed, m
 };
@@ -43,6 +46,7 @@ struct ContactHandle {
   Vector3 goal = Vector3::Zero();  // commanded, in W
   bool rate_mode = false;          // no position to press against: the goal's own depth is felt
   bool held = true;                // nobody feels what presses on a handle that was let go
+  bool clutched = false;           // the hand moves without the robot
 };
 
 /// What a report meant.
@@ -57,9 +61,11 @@ struct ContactAxis {
   Vector3 n_W = Vector3::UnitX();  // inward, unit
   Vector3 n_M = Vector3::UnitX();  // the same in M
   Vector3 goal = Vector3::Zero();  // at the touch
-  double reported = 0.0;           // stiffness as reported times ke, N/m
-  double surface = 0.0;            // handle's coordinate along n_M, m
-  double force = 0.0;              // rendered, against n_M, N
+  // A tool that touches nothing so deep behind the surface proves that it has gone, m.
+  double proof_depth = 0.0;
+  double reported = 0.0;  // that times ke, N/m
+  double surface = 0.0;   // handle's coordinate along n_M, m
+  double force = 0.0;     // rendered, against n_M, N
   std::uint32_t touch = 0;
   bool released = false;  // since the surface was placed
   bool let_go = false;    // the spring has faded, since nobody holds the handle
@@ -77,8 +83,8 @@ class Contact {
   void reset();
 
   /// Takes a report of the present engagement.
-  ContactChange on_report(const ContactStiffness& contact, std::uint64_t reached_sequence,
-                          const GoalHistory& history, const ContactHandle& handle, const Mapping& mapping);
+  ContactChange on_report(const ContactStiffness& contact, const GoalHistory& history,
+                          const ContactHandle& handle, const Mapping& mapping);
 
   /// One tick; `stale`: nothing has been heard, everything fades and is forgotten. Force on the hand.
   Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergyTank& tank,
@@ -99,10 +105,12 @@ class Contact {
   /// `goal`: at the touch, none if that was too long ago; what is known goes on without it.
   bool take_tensor(const ContactStiffness& contact, const std::optional<Vector3>& goal, const Vector3& motion,
                    const ContactHandle& handle, const Mapping& mapping);
-  void forget_what_is_free(std::uint64_t reached_sequence, const GoalHistory& history, const Vector3& x);
+  void forget_what_is_free(const Vector3& place, const Vector3& x);
   void forget_beside(const Vector3& n_W, const Vector3& x);
   void add_axis(const Vector3& n_W, const ContactStiffness& contact, const Vector3& goal,
                 const ContactHandle& handle, const Mapping& mapping, double stiffness);
+  [[nodiscard]] double proof_depth(const ContactStiffness& contact) const;
+  [[nodiscard]] double ke(const Mapping& mapping) const;
   /// Handle's coordinate along the axis where it commands the goal at the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;

@@ -15,6 +15,8 @@
 // Pure; every input may be anything, non-finite ones are refused by set_*. Lengths and forces may as well be
 // angles and moments.
 
+#include <algorithm>
+
 #include "master/rendering/energy_tank.hpp"
 
 namespace longreach {
@@ -39,6 +41,9 @@ class ContactSpring {
   /// Registered surface, m; one that comes along with the hand cannot be left. Returns false, changing
   /// nothing, if not finite.
   bool set_surface(double surface_m, bool comes_along = false);
+
+  /// Eases the spring at once to this depth, m, if it is deeper.
+  void limit_depth(double s_m, double depth_m) { anchor_m_ = std::max(anchor_m_, s_m - depth_m); }
 
   /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
   /// tank. Returns the force >= 0, N, against the inward direction.

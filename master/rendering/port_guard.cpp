@@ -4,7 +4,7 @@ namespace longreach {
 
 void PortGuard::reset() {
   f_last_.setZero();
-  deficit_j_ = 0.0;
+  deficit_j_ = freed_s_ = 0.0;
 }
 
 double PortGuard::observe(const Vector3& moved) {
@@ -28,6 +28,10 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
     injecting_ = gain_ > 0.0 && deficit_j_ > 0.0 && v2 > 0.0;
     if (injecting_)
       out -= gain_ * std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
+    if (freed_s_ > 0.0) {
+      freed_s_ -= dt_s;
+      out -= std::min(config_.freed_damping, 0.4 * config_.handle_mass / dt_s) * in.rate;
+    }
     // Only the rise is limited: a force that falls gives no energy away.
     const Vector3 rise = out - f_last_;
     const double most = config_.slew_per_s * dt_s;

@@ -21,6 +21,8 @@ struct PortGuardConfig {
   double force_max = 15.0;
   double slew_per_s = 5000.0;  // largest rise of the force, N/s
   double ramp_s = 0.05;
+  double freed_damping =
+      0.0;  // of a hand whose contact has just ended by a stop, a change of mode or the clutch, N s/m
 };
 
 /// What the hand shall feel in this tick.
@@ -42,6 +44,9 @@ class PortGuard {
   /// new force.
   double observe(const Vector3& moved);
 
+  /// The contact force ends though the hand may still press: it is let down by damping.
+  void free_hand() { freed_s_ = kFreed_s; }
+
   /// Pays the deficit from `energy_j` >= 0 that was dissipated; returns what is left.
   double repay(double energy_j);
   /// Books `energy_j` >= 0 that leaked and that no tank could pay.
@@ -61,12 +66,15 @@ class PortGuard {
   [[nodiscard]] bool clamped() const { return clamped_; }
 
  private:
+  static constexpr double kFreed_s = 0.6;
+
   PortGuardConfig config_;
   Vector3 f_last_ = Vector3::Zero();
   double port_energy_j_ = 0.0;
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;
   double gain_ = 0.0;
+  double freed_s_ = 0.0;  // for so long the hand is let down
   bool injecting_ = false;
   bool clamped_ = false;
 };

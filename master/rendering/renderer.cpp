@@ -21,6 +21,7 @@ ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_n_s_per_m,
           .forget_depth = c.forget_depth_m,
+          .place_error = 5e-5,
           .by_arrival = c.registration == Registration::kArrival,
           .least_motion = 1e-4};
 }
@@ -34,13 +35,17 @@ ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_nm_s_per_rad,
           .forget_depth = c.forget_depth_rad,
+          .place_error = 5e-4,
           .by_arrival = c.registration == Registration::kArrival,
           .least_motion = 1e-3};
 }
 
 PortGuardConfig translation_guard(const RenderingConfig& c, const RenderedDevice& d) {
-  return {
-      .handle_mass = d.mass_kg, .force_max = c.force_max_n, .slew_per_s = c.slew_n_per_s, .ramp_s = c.ramp_s};
+  return {.handle_mass = d.mass_kg,
+          .force_max = c.force_max_n,
+          .slew_per_s = c.slew_n_per_s,
+          .ramp_s = c.ramp_s,
+          .freed_damping = 30.0};
 }
 
 PortGuardConfig rotation_guard(const RenderingConfig& c, const RenderedDevice& d) {
@@ -62,15 +67,23 @@ Matrix3 rotation_vector_rate(const Vector3& phi) {
 }
 
 ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping) {
-  return {in.handle.p_MH, in.handle.velocity_m_per_s, mapping.goal().position_m, in.mode == MotionMode::kRate,
-          in.handle.held};
+  return {in.handle.p_MH,
+          in.handle.velocity_m_per_s,
+          mapping.goal().position_m,
+          in.mode == MotionMode::kRate,
+          in.handle.held,
+          in.clutched};
 }
 
 /// `phi`: rotation vector of the handle; `rate`: D(phi).
 ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, const Vector3& phi,
                               const Matrix3& rate) {
-  return {phi, rate * in.handle.angular_rad_per_s, mapping.goal().rotation_rad, in.mode == MotionMode::kRate,
-          in.handle.held};
+  return {phi,
+          rate * in.handle.angular_rad_per_s,
+          mapping.goal().rotation_rad,
+          in.mode == MotionMode::kRate,
+          in.handle.held,
+          in.clutched};
 }
 
 }  // namespace
@@ -124,12 +137,11 @@ void Renderer::reset(const HandleState& handle) {
 
 bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& history,
                          const RendererInput& input, const Mapping& mapping) {
-  const ContactChange first =
-      translation_.contact.on_report(report.translation, report.reached_sequence, history.translation,
-                                     translation_handle(input, mapping), mapping);
+  const ContactChange first = translation_.contact.on_report(report.translation, history.translation,
+                                                             translation_handle(input, mapping), mapping);
   const Vector3 phi = log_rotation(input.handle.q_MH);
   const ContactChange second =
-      rotation_.contact.on_report(report.rotation, report.reached_sequence, history.rotation,
+      rotation_.contact.on_report(report.rotation, history.rotation,
                                   rotation_handle(input, mapping, phi, rotation_vector_rate(phi)), mapping);
   return first != ContactChange::kRejected && second != ContactChange::kRejected;
 }
@@ -169,7 +181,16 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
       {resistance + contact, in.rotation.force, in.handle.angular_rad_per_s, in.live}, device_.period_s);
 }
 
+void Renderer::let_down(const RendererInput& input) {
+  const bool freed = input.mode != mode_ || (input.clutched && !clutched_) || (!input.live && live_);
+  mode_ = input.mode;
+  clutched_ = input.clutched;
+  live_ = input.live;
+  if (freed && translation_.contact.foremost().force > 0.0) translation_.guard.free_hand();
+}
+
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
+  let_down(input);
   Wrench resistance;
   if (input.handle.held) {
     resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m(),

@@ -50,6 +50,7 @@ struct RendererInput {
   bool live = false;   // false: the wrench ramps to zero
   bool stale = false;  // nothing heard from the slave: stiffness only decays
   bool load = false;   // in the gripper
+  bool clutched = false;
 };
 
 /// Goals of the commands that were sent.
@@ -107,6 +108,7 @@ class Renderer {
   [[nodiscard]] double stored_energy_j() const;
 
  private:
+  void let_down(const RendererInput& input);
   Vector3 translate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
   Vector3 rotate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
   Vector3 contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale);
@@ -118,6 +120,8 @@ class Renderer {
   Vector3 x_last_ = Vector3::Zero();
   Quaternion q_last_ = Quaternion::Identity();
   double port_energy_min_j_ = 0.0;
+  MotionMode mode_ = MotionMode::kPosition;
+  bool clutched_ = false, live_ = false;  // in the last tick
 };
 
 }  // namespace longreach

@@ -68,6 +68,7 @@ class GoalLimiter {
   [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
     return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
   }
+  [[nodiscard]] const Vector3& centre_m() const { return centre_m_; }  // of the workspace
   [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
   [[nodiscard]] const Twist& velocity() const { return V_WE_; }
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }

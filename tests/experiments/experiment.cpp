@@ -30,6 +30,12 @@ const std::vector<Experiment> kExperiments = {
      run_spike, spike_plots, "",
      "{stiffness_left_after_time_constant} of the stiffness is left after one time constant; force rises by "
      "at most {force_rise_max_n} N; {engagements} engagements, pressed again: {pressed_again}"},
+    {"person",
+     "What people do: hold out, lean on limits, pass beside, clutch and stop in contact; five links, two "
+     "hands.",
+     run_person_experiment, person_plots, "",
+     "{rows} rows, {trials} trials over five links with light and firm hands: {failed} failed; without the "
+     "tool's place in the reports {controls_failed} of {controls}"},
     {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
      run_rate_contact, rate_contact_plots, "",
      "the hand feels {felt_over_tool_force} of the tool's force of {tool_force_n} N"},

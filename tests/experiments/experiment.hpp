@@ -78,6 +78,8 @@ std::vector<Metric> run_idle(const ExperimentRun& run);
 std::vector<Plot> idle_plots();
 std::vector<Metric> run_first_touch(const ExperimentRun& run);
 std::vector<Plot> first_touch_plots();
+std::vector<Metric> run_person_experiment(const ExperimentRun& run);
+std::vector<Plot> person_plots();
 std::vector<Metric> run_spike(const ExperimentRun& run);
 std::vector<Plot> spike_plots();
 std::vector<Metric> run_rate_contact(const ExperimentRun& run);

@@ -137,8 +137,11 @@ TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
 // A burst of losses in the midst of rate mode: the hold leaves rate mode's centre at the handle, far from
 // home.
 TEST(Touch, AHoldInTheMidstOfRateModeIsGotOver) {
-  Values touched = touch({"profile=moon-relay"}, 26);
-  EXPECT_GT(touched["false_holds"], 0.0) << "nothing was tried";
+  constexpr std::uint64_t kSeeds = 100;
+  Values touched;
+  for (std::uint64_t seed = 1; seed <= kSeeds && !(touched["false_holds"] > 0.0); ++seed)
+    touched = touch({"profile=moon-relay"}, seed);
+  ASSERT_GT(touched["false_holds"], 0.0) << "nothing was tried";
   EXPECT_GT(touched["probing_cycles_done"], 0.0);
   EXPECT_LT(touched["displayed_stiffness_error"], 0.05);
 }

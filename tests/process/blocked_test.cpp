@@ -1,8 +1,6 @@
 // Whoever does not read what the programs write, a terminal or a pipe, stops nothing: neither the hand nor
 // RPC nor the end of a program.
 #include <fcntl.h>
-#include <poll.h>
-#include <pty.h>
 #include <sys/ptrace.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -16,35 +14,12 @@
 
 #include "tests/process/load.hpp"
 #include "tests/process/station.hpp"
+#include "tests/process/terminal.hpp"
 
 namespace longreach {
 namespace {
 
 using std::chrono::seconds;
-
-/// What a person sees and types, and the program's side of it.
-struct Terminal {
-  int outer = -1, inner = -1;
-  Terminal() {
-    winsize size{24, 80, 0, 0};
-    EXPECT_EQ(::openpty(&outer, &inner, nullptr, nullptr, &size), 0);
-    ::setenv("TERM", "xterm", 1);
-  }
-  ~Terminal() {
-    ::close(outer);
-    ::close(inner);
-  }
-  Terminal(const Terminal&) = delete;
-  Terminal& operator=(const Terminal&) = delete;
-  void type(const std::string& keys) const {
-    EXPECT_EQ(::write(outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
-  }
-  /// A write of the program would wait.
-  [[nodiscard]] bool full() const {
-    pollfd room{inner, POLLOUT, 0};
-    return ::poll(&room, 1, 0) == 0;
-  }
-};
 
 /// A pipe that is full, whose reader never reads.
 struct FullPipe {

@@ -2,8 +2,8 @@
 
 namespace longreach {
 
-static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 88 &&
-              sizeof(StiffnessReport) == 192);
+static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 144 &&
+              sizeof(StiffnessReport) == 304);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
@@ -60,10 +60,19 @@ void write(const ContactStiffness& contact, recording::ContactStiffness& out) {
   out.set_touch_sequence(contact.touch_sequence);
   out.set_touch(contact.touch);
   out.set_in_contact(contact.in_contact);
+  out.set_proof_depth(contact.proof_depth);
+  longreach::write(contact.place, *out.mutable_place());
+  longreach::write(contact.held_back, *out.mutable_held_back());
 }
 
 ContactStiffness read(const recording::ContactStiffness& in) {
-  return {read(in.stiffness()), in.touch_sequence(), in.touch(), in.in_contact()};
+  return {.stiffness = read(in.stiffness()),
+          .touch_sequence = in.touch_sequence(),
+          .touch = in.touch(),
+          .in_contact = in.in_contact(),
+          .proof_depth = in.proof_depth(),
+          .place = longreach::read(in.place()),
+          .held_back = longreach::read(in.held_back())};
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 // of a stiffness that is old.
 
 #include <algorithm>
+#include <cmath>
 
+#include "master/devices/simulated_devices.hpp"
 #include "tests/experiments/faults/invariant.hpp"
 
 namespace longreach {
@@ -16,7 +18,9 @@ class HandForce : public Invariant {
       : Invariant("I22", "the hand is pushed within the limits of force and rise, and not when not engaged"),
         r_(s.master.rendering),
         edge_m_(s.master.device.behaviour.stop_share * s.master.device.delta.workspace_m),
-        edge_rad_(s.master.device.behaviour.stop_share * s.master.device.spherical.workspace_rad) {}
+        edge_rad_(s.master.device.behaviour.stop_share * s.master.device.spherical.workspace_rad),
+        count_m_per_s_(2.0 * device_figures(s.master.device, 1.0 / s.master.loop.rate_hz).cell.m /
+                       (1.0 / s.master.loop.rate_hz + s.master.device.velocity_filter_s)) {}
   void see(const Moment& m) override {
     if (!m.master_ran) return;
     at_most(m, m.F_H_M.force.norm(), r_.force_max_n * kSlack, "N on the hand");
@@ -39,14 +43,23 @@ class HandForce : public Invariant {
                            m.x_MH.norm() > edge_m_ - kNear_m ||
                            log_rotation(m.q_MH).norm() > edge_rad_ - kNear_rad;
     rests_s_ = live || by_itself ? 0.0 : rests_s_ + m.period_s;
+    // A hand that has just been freed is let down by damping, which the motion of the last moments bounds.
+    const double speed = (m.x_MH - x_m_).norm() / m.period_s;
+    x_m_ = m.x_MH;
+    fast_m_per_s_ = std::max(speed, fast_m_per_s_ * std::exp(-m.period_s / kMoments_s));
     if (rests_s_ < r_.ramp_s + kReacts_s) return;
-    at_most(m, m.F_H_M.force.norm(), 0.0, "N on a hand that is not engaged");
+    const double damped_n = rests_s_ < kFreed_s ? kFreed_n_s_per_m * (fast_m_per_s_ + count_m_per_s_) : 0.0;
+    at_most(m, m.F_H_M.force.norm(), damped_n, "N on a hand that is not engaged");
     at_most(m, m.F_H_M.moment.norm(), 0.0, "N m on a hand that is not engaged");
   }
 
   static constexpr double kNear_m = 1e-3, kNear_rad = 0.02;  // what the encoders and the structure leave open
+  static constexpr double kFreed_s = 0.65, kFreed_n_s_per_m = 30.0, kMoments_s = 0.05;
   RenderingConfig r_;
   double edge_m_, edge_rad_;
+  double count_m_per_s_;  // what the encoders show of a handle that keeps still
+  Vector3 x_m_ = Vector3::Zero();
+  double fast_m_per_s_ = 0.0;
   Wrench F_{};
   double rests_s_ = 0.0;
 };

@@ -56,6 +56,7 @@ void add_state_invariants(const Scenario& scenario, Invariants& all);
 void add_command_invariants(const Scenario& scenario, Invariants& all);
 void add_contact_invariants(const Scenario& scenario, Invariants& all);
 void add_hand_invariants(const Scenario& scenario, Invariants& all);
+void add_goal_invariants(const Scenario& scenario, Invariants& all);
 void add_display_invariants(const Scenario& scenario, Invariants& all);
 void add_liveness(const Scenario& scenario, Invariants& all);
 

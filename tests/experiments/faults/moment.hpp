@@ -41,8 +41,11 @@ struct Moment {
   // The master's side.
   Vector3 x_MH = Vector3::Zero();  // true
   Quaternion q_MH = Quaternion::Identity();
-  HandleState handle{};  // as told
-  Wrench F_H_M{};        // as written
+  HandleState handle{};                // as told
+  Wrench F_H_M{};                      // as written
+  Vector3 goal_m = Vector3::Zero();    // commanded, from the anchor
+  Vector3 anchor_m = Vector3::Zero();  // of the engagement, in W
+  double contact_n = 0.0;              // of the force on the hand, the contact's share
   bool engage_asked = false, hold_asked = false, stop_asked = false;
   bool report_came = false;       // one that is newest was given to the master
   double report_age_s = 0.0;      // of the last that did

@@ -43,6 +43,19 @@ void Saboteur::answer(SlaveOutput& out) {
   }
   if (what_ == Sabotage::kCauseWrong && out.report && out.report->state == SafetyState::kHolding)
     out.report->cause = HoldCause::kTaken;
+  if (what_ == Sabotage::kPlaceUntold && out.report) {
+    for (ContactStiffness* contact : {&out.report->translation, &out.report->rotation})
+      contact->held_back.setZero();
+  }
+  constexpr double kEarly = 100.0;  // commands
+  if (what_ != Sabotage::kTouchedEarly || !out.report) return;
+  ContactStiffness& contact = out.report->translation;
+  if (contact.in_contact && contact.touch_sequence > kEarly) {
+    contact.touch_sequence -= kEarly;
+    touched_ = contact;
+  } else if (touched_) {
+    contact = *touched_;
+  }
 }
 
 void Saboteur::answer(MasterOutput& out) const {

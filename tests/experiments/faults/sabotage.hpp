@@ -24,6 +24,8 @@ enum class Sabotage : std::uint8_t {
   kPictureFrozen,     // the picture is that of the first moment
   kHandPushed,        // by ten times what was rendered
   kCauseWrong,        // each hold is said to be another master's
+  kPlaceUntold,       // of a robot that is held back
+  kTouchedEarly,      // surfaces are reported nearer than they are, and as touched for ever
   kCount
 };
 
@@ -44,6 +46,8 @@ constexpr std::array<SabotageFacts, static_cast<std::size_t>(Sabotage::kCount)> 
     {"picture frozen", "I25"},
     {"hand pushed", "I22"},
     {"cause wrong", "I30", "half-open-up"},
+    {"place untold", "I31"},
+    {"touched early", "I32"},
 }};
 
 /// What is done to a side in a tick; remembers what it needs.
@@ -63,6 +67,7 @@ class Saboteur {
   std::vector<Received<MotionCommand>> commands_;
   std::uint64_t ticks_ = 0;
   std::optional<Pose> first_{};
+  std::optional<ContactStiffness> touched_{};
 };
 
 }  // namespace longreach

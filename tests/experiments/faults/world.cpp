@@ -263,7 +263,10 @@ void World::finish() {
   moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
   moment_.rendered_along = lab_.master().inward;
   moment_.rendered_from_m = lab_.master().surface_m;
-  moment_.felt = !lab_.master().spring_force_n.isZero(0.0);
+  moment_.contact_n = lab_.master().spring_force_n.norm();
+  moment_.felt = moment_.contact_n > 0.0;
+  moment_.goal_m = lab_.master().goal_m;
+  moment_.anchor_m = lab_.slave().X_WE_anchor.p;
   moment_.received = lab_.arrived() + up_.oversized() + down_.oversized();
   moment_.accounted = 0;
   for (const Port* port :

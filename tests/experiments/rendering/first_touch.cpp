@@ -125,7 +125,7 @@ FirstTouch touch(const MasterConfig& master, const SlaveConfig& slave, std::uint
       if (felt_n > 0.5) seen.felt_s = lab.now_s();
     }
     last_n = felt_n;
-    if (person.phase() == Phase::kPress) {
+    if (m.surface_known) {  // as it was last
       const double true_surface_m = m.p_MH.x() - (m.goal_m.x() - kWall_m);
       seen.registration_m = m.surface_m - true_surface_m;
     }

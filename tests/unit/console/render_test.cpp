@@ -215,8 +215,7 @@ TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   ConsoleSnapshot s = touching();
   s.view.in_contact = false;
-  EXPECT_EQ(happening(s),
-            "the hand is in the wall as remembered, 0.98 N/mm; no news of the robot's touch yet");
+  EXPECT_EQ(happening(s), "the wall is remembered here, 0.98 N/mm; the robot is not touching it (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {

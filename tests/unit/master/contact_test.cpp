@@ -32,8 +32,12 @@ struct Bench {
     mapping.step({{}, MotionMode::kPosition, 1.0, false}, 1e-3);
   }
 
-  ContactChange report(const ContactStiffness& c, std::uint64_t reached = 0) {
-    return felt.on_report(c, reached, history, at, mapping);
+  ContactChange report(const ContactStiffness& c) { return felt.on_report(c, history, at, mapping); }
+  /// The tool touches nothing at this place.
+  void free_at(const Vector3& place) {
+    ContactStiffness c;
+    c.place = place;
+    report(c);
   }
   Vector3 press(const Vector3& x) {
     at.x = x;
@@ -140,13 +144,45 @@ TEST(Contact, KeepsAPlaneThatHoldsWhenASecondOneIsMet) {
   EXPECT_NEAR(b.press(pressing + Vector3(0.0, 1e-3, 0.0)).y(), -1.0, 0.02);
 }
 
-TEST(Contact, IsRememberedAfterTheContactAndForgottenWhenProvenGone) {
+TEST(Contact, IsRemovedWhenTheToolTouchesNothingWhereItWouldPress) {
+  for (const double proof_m : {6e-4, 0.0}) {
+    Bench b(Vector3::UnitX());
+    ContactStiffness c = contact(along(Vector3::UnitX(), 1000.0), 101.0);  // at 10 mm
+    c.proof_depth = proof_m;
+    b.report(c);
+    const double needed_m = 0.01 + (proof_m > 0.0 ? proof_m : ContactConfig{}.forget_depth);
+    b.free_at({needed_m, 0.0, 0.0});  // less the error of the place
+    EXPECT_TRUE(b.felt.known());
+    b.free_at({needed_m + 1e-4, 0.0, 0.0});
+    EXPECT_FALSE(b.felt.known());
+  }
+}
+
+TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
+  Bench b(Vector3::UnitX());
+  b.at.rate_mode = true;
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  b.at.goal = {0.009, 0.0, 0.0};
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(b.press({1e-3 * i, 0.0, 0.0}).isZero(0.0)) << i;
+  b.tank.fill(0.02);
+  b.at.goal = {0.012, 0.0, 0.0};
+  for (int i = 0; i < 1000; ++i) b.press({0.1, 0.0, 0.0});
+  EXPECT_NEAR(b.press({0.1, 0.0, 0.0}).x(), -2.0, 0.05);
+  b.at.goal = {0.009, 0.0, 0.0};
+  EXPECT_TRUE(b.press({0.1, 0.0, 0.0}).isZero(0.0));
+}
+
+TEST(Contact, HasNoForceWhileClutchedAndGrowsAgain) {
   Bench b(Vector3::UnitX());
   b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
-  b.report({}, 120);  // 1.9 mm behind
-  EXPECT_TRUE(b.felt.known());
-  b.report({}, 160);  // 5.9 mm behind
-  EXPECT_FALSE(b.felt.known());
+  for (int i = 0; i <= 30; ++i) b.press({1e-4 * i + 0.01, 0.0, 0.0});
+  EXPECT_NEAR(b.press({0.013, 0.0, 0.0}).x(), -3.0, 1e-6);
+  b.at.clutched = true;
+  for (const double x : {0.013, 0.02, 0.011}) EXPECT_TRUE(b.press({x, 0.0, 0.0}).isZero(0.0)) << x;
+  b.at.clutched = false;
+  b.tank.fill(0.02);
+  for (int i = 0; i < 2000; ++i) b.press({0.013, 0.0, 0.0});
+  EXPECT_NEAR(b.press({0.013, 0.0, 0.0}).x(), -3.0, 0.05);
 }
 
 TEST(Contact, GoesOnInATouchThatIsOlderThanWhatIsRemembered) {
@@ -209,7 +245,7 @@ TEST(Contact, InRotationPushesAgainstTheRotationVector) {
   const Vector3 axis = Vector3(0.0, 1.0, 1.0).normalized();
   Bench b(100.0 * axis);  // 0.01 rad a command
   Contact turn(ContactMotion::kRotation, {.damping = 0.0, .least_motion = 1e-3});
-  turn.on_report(contact(along(axis, 0.2), 21.0), 0, b.history, b.at, b.mapping);
+  turn.on_report(contact(along(axis, 0.2), 21.0), b.history, b.at, b.mapping);
   ContactHandle at;
   turn.step(at, b.mapping, false, b.tank, 1e-3);
   at.x = 0.3 * axis;  // 0.1 rad behind

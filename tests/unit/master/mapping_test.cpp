@@ -221,5 +221,53 @@ TEST(Mapping, FollowsAgainAfterNonsenseInTheVeryTickOfAChange) {
   }
 }
 
+// What a limit at the robot does to the goal.
+class BoundedGoal : public testing::TestWithParam<MotionMode> {
+ protected:
+  static constexpr double kSpeed = 0.1;
+  Mapping mapping_{{.speed_max_m_per_s = kSpeed}};
+  MappingInput in_ = at(Vector3::Zero(), GetParam(), 1.0);
+  double step() { return mapping_.step(in_, kTick_s).position_m.x(); }
+};
+
+TEST_P(BoundedGoal, IsDrawnBackAtItsLargestSpeedAndRetreatsAtOnce) {
+  mapping_.reset({});
+  step();
+  in_.handle.p_MH = {0.05, 0.0, 0.0};
+  while (step() < 0.04) {
+  }
+  in_.translation_bound = {{0.01, 0.0, 0.0}, Vector3::UnitX()};
+  double last = mapping_.goal().position_m.x();
+  for (int i = 0; i < 1000; ++i) {
+    const double now = step();
+    EXPECT_GE(now, last - kSpeed * kTick_s - 1e-12);
+    last = now;
+  }
+  EXPECT_NEAR(last, 0.01 + Mapping::kLead_m, 1e-9);
+  // Across it, the goal is free.
+  in_.handle.p_MH.y() = 0.02;
+  for (int i = 0; i < 300; ++i) step();
+  EXPECT_GT(mapping_.goal().position_m.y(), 0.005);
+  EXPECT_NEAR(mapping_.goal().position_m.x(), 0.01 + Mapping::kLead_m, 1e-9);
+  // The reference has slipped: the first motion back counts.
+  in_.handle.p_MH.x() = GetParam() == MotionMode::kPosition ? 0.045 : -0.02;
+  for (int i = 0; i < 100; ++i) step();
+  EXPECT_LT(mapping_.goal().position_m.x(), 0.01 + Mapping::kLead_m - 1e-3);
+}
+INSTANTIATE_TEST_SUITE_P(Modes, BoundedGoal, testing::Values(MotionMode::kPosition, MotionMode::kRate));
+
+TEST(BoundedGoal, TurnsBack) {
+  Mapping mapping({.speed_max_rad_per_s = 1.0});
+  mapping.reset({});
+  MappingInput in = at(Vector3::Zero(), MotionMode::kPosition, 1.0);
+  mapping.step(in, kTick_s);
+  in.handle.q_MH = exp_rotation(Vector3(0.0, 0.0, 0.5));
+  for (int i = 0; i < 600; ++i) mapping.step(in, kTick_s);
+  EXPECT_NEAR(mapping.goal().rotation_rad.z(), 0.5, 1e-9);
+  in.rotation_bound = {{0.0, 0.0, 0.2}, Vector3::UnitZ()};
+  for (int i = 0; i < 600; ++i) mapping.step(in, kTick_s);
+  EXPECT_NEAR(mapping.goal().rotation_rad.z(), 0.2 + Mapping::kLead_rad, 1e-9);
+}
+
 }  // namespace
 }  // namespace longreach

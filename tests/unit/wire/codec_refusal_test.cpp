@@ -73,7 +73,7 @@ int refuses_in_every_field(Wire wire) {
 TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
-  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 14);
+  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 28);
   EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 40);
 }
 
@@ -169,6 +169,24 @@ TEST(Codec, RefusesStiffnessOfAnotherShapeOrSize) {
     EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue) << sequence;
     wire.set_rotation_touch_sequence(0.0);
   }
+}
+
+TEST(Codec, RefusesPlacesAndDirectionsThatAreNone) {
+  const auto refused = [](const auto& change) {
+    auto wire = wire_of<proto::StiffnessReport>(samples::report());
+    change(wire);
+    return rejection_of<StiffnessReport>(wire.SerializeAsString()) == Rejection::kValue;
+  };
+  using Wire = proto::StiffnessReport;
+  EXPECT_FALSE(refused([](Wire& w) { w.clear_translation_place_m(); }));
+  EXPECT_FALSE(refused([](Wire& w) { w.clear_translation_held_back(); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_translation_place_m(0.0); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_place_m(1, 1000.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_place_rad(1, -100.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_held_back(0.0); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_held_back(0, 0.5); })) << "longer than unit";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_held_back(2, 0.0); })) << "shorter than unit";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_proof_depth_m(-1e-3); }));
 }
 
 TEST(Codec, RefusesPosesThatAreNone) {

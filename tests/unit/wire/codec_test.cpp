@@ -64,6 +64,11 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
   EXPECT_EQ(out.rotation.touch_sequence, 1200.25);
   EXPECT_EQ(out.rotation.touch, 2u);
   EXPECT_FALSE(out.rotation.in_contact);
+  for (const ContactStiffness* contact : {&out.translation, &out.rotation}) {
+    EXPECT_EQ(contact->proof_depth, in.translation.proof_depth);
+    EXPECT_EQ(contact->place, in.translation.place);
+    EXPECT_EQ(contact->held_back, in.translation.held_back);
+  }
 }
 
 TEST(Codec, KeepsEveryFieldOfTelemetry) {

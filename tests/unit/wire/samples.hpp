@@ -53,6 +53,9 @@ inline ContactStiffness contact(double scale) {
   c.touch_sequence = 1234.75;
   c.touch = 7;
   c.in_contact = true;
+  c.proof_depth = 0.00125;
+  c.place = {0.25, -0.5, 0.125};
+  c.held_back = {0.0, -0.6, 0.8};
   return c;
 }
 

@@ -1,0 +1,49 @@
+#pragma once
+// When the goal is bounded, and until when: from the report that a limit holds the robot back until the robot
+// has reached a goal that was commanded within the bound. The flag's end alone would not do: with a delay the
+// goal would run ahead and be drawn back again and again.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/link/stiffness_report.hpp"
+#include "master/mapping/mapping.hpp"
+
+namespace longreach {
+
+class LeadBound {
+ public:
+  /// `lead`: Mapping::kLead_m or kLead_rad.
+  explicit LeadBound(double lead) : lead_(lead) {}
+
+  void reset() { *this = LeadBound(lead_); }
+
+  /// Of the present engagement; `reached`: newest command whose goal the robot has reached.
+  void on_report(const ContactStiffness& report, std::uint64_t reached) {
+    if (!report.held_back.isZero(0.0)) {
+      bound_ = {report.place, report.held_back};
+    } else if (within_ && reached >= *within_) {
+      reset();
+    }
+  }
+
+  /// The command with this number is sent, its goal `ahead` of the bound's place along its direction.
+  void on_command(std::uint64_t sequence, double ahead) {
+    constexpr double kRounding = 1e-9;
+    if (bound_.direction.isZero(0.0) || ahead > lead_ + kRounding) {
+      within_.reset();
+    } else if (!within_) {
+      within_ = sequence;
+    }
+  }
+
+  [[nodiscard]] const GoalBound& bound() const { return bound_; }
+
+ private:
+  double lead_;
+  GoalBound bound_{};
+  std::optional<std::uint64_t>
+      within_{};  // first of the commands since then whose goals were within the bound
+};
+
+}  // namespace longreach

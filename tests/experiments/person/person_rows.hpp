@@ -1,0 +1,30 @@
+#pragma once
+// The rows of the experiment `person`: what a person does, and what must then be true.
+
+#include <string>
+#include <vector>
+
+#include "tests/experiments/person/person_run.hpp"
+
+namespace longreach {
+
+struct PersonCheck {
+  std::string what;
+  double value = 0.0, most = 0.0;  // a check holds where value <= most
+};
+
+struct PersonRow {
+  const char* name;
+  const char* what;
+  void (*prepare)(PersonScenario& scenario);
+  std::vector<PersonCheck> (*judge)(const PersonScenario& scenario, const PersonSeen& seen);
+  bool by_place = false;  // lives by the tool's place in the reports: without it a check must fail
+};
+
+/// All of them.
+const std::vector<PersonRow>& person_rows();
+
+/// What was right before the experiment was, and is to stay so.
+void add_rows_that_stay(std::vector<PersonRow>& rows);
+
+}  // namespace longreach

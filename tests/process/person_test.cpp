@@ -1,0 +1,113 @@
+// What a person does at the keyboard of the real programs: holds the handle out against a wall, comes back to
+// one that is known, passes beside a box.
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include "tests/process/station.hpp"
+#include "tests/process/terminal.hpp"
+#include "tests/unit/io/temporary_folder.hpp"
+
+namespace longreach {
+namespace {
+
+class Person : public Station {
+ protected:
+  void start(const std::vector<std::string>& slave, const std::string& mode) {
+    start_slave(slave);
+    start_master({"--operator", "keyboard", "--mode", mode, "--engage"}, {terminal_.inner, -1, -1});
+    ASSERT_TRUE(both_engaged()) << outputs();
+    anchor_m_ = tool_x_m() - goal_x_m();
+  }
+  double tool_x_m() {
+    const auto now = slave_.status();
+    return now && now->tool_m_size() == 3 ? now->tool_m(0) : NAN;
+  }
+  double goal_x_m() {
+    const auto now = master_.status();
+    return now && now->goal_m_size() == 3 ? now->goal_m(0) : NAN;
+  }
+  double lead_m() { return goal_x_m() - (tool_x_m() - anchor_m_); }
+  bool feels(double least_n, double most_n) {
+    return eventually([=, this] {
+      const auto now = master_.status();
+      return now && now->force_n() >= least_n && now->force_n() <= most_n;
+    });
+  }
+  /// Presses to and fro by a key until the wall is known.
+  bool probes() {
+    return eventually([this] {
+      for (const char* key : {"s", "w"}) {
+        terminal_.type(key);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      }
+      const auto now = master_.status();
+      return now && now->stiffness_n_per_m() > 1000.0;
+    });
+  }
+  bool touches(bool touches) {
+    return eventually([=, this] {
+      const auto now = slave_.status();
+      return now && now->in_contact() == touches;
+    });
+  }
+
+  const Terminal terminal_;
+  double anchor_m_ = 0.0;
+};
+
+TEST_F(Person, HoldsOutAgainstAWallAndTheRetreatIsAnswered) {
+  start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "rate");
+  terminal_.type("WWW");
+  ASSERT_TRUE(eventually([this] {
+    const auto now = slave_.status();
+    return now && now->force_n() > 15.0;
+  })) << outputs();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_LT(lead_m(), 6e-3) << outputs();
+  const double pressed_m = tool_x_m();
+  terminal_.type("SSSSSS");
+  EXPECT_TRUE(eventually([&] { return tool_x_m() < pressed_m - 2e-3; }, std::chrono::seconds(5)))
+      << outputs();
+}
+
+TEST_F(Person, MovesFreelyInFrontOfAWallThatIsKnown) {
+  start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0", "--set",
+         "scene.material.wall.stiffness_n_per_m=5000"},
+        "position");
+  terminal_.type("WWWWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  ASSERT_TRUE(probes()) << outputs();
+  terminal_.type(" ");
+  ASSERT_TRUE(touches(false)) << outputs();
+  ASSERT_TRUE(eventually([this] { return std::abs(goal_x_m()) < 1e-3; })) << outputs();
+  terminal_.type("m");
+  ASSERT_TRUE(eventually([this] { return master_.status()->mode() == "rate"; })) << outputs();
+  const double from_m = tool_x_m();
+  terminal_.type("WWW");
+  EXPECT_TRUE(eventually([&] { return tool_x_m() > from_m + 5e-3; }, std::chrono::seconds(10))) << outputs();
+}
+
+TEST_F(Person, FeelsNothingBesideABoxThatWasTouched) {
+  const TemporaryFolder folder;
+  const std::string scene = (folder.path() / "box.txtpb").string();
+  std::ofstream(scene) << "name: 'box' needs { contact: true }\n"
+                          "material { name: 'm' stiffness_n_per_m: 5000 damping_s_per_m: 0.1 }\n"
+                          "surface { name: 'box' material: 'm'\n"
+                          "  box { centre_m: [0.05, 0, 0] size_m: [0.04, 0.02, 0.04] } }\n";
+  start({"--set", "scene_file=" + scene}, "position");
+  terminal_.type("WWWWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  ASSERT_TRUE(probes()) << outputs();
+  terminal_.type("SS");
+  ASSERT_TRUE(touches(false)) << outputs();
+  terminal_.type("AAAAAA");
+  ASSERT_TRUE(eventually([this] { return lead_m() < 1e-3; })) << outputs();
+  terminal_.type("WWWW");  // far behind the face, in free space
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(feels(0.0, 0.3)) << outputs();
+  EXPECT_FALSE(slave_.status()->in_contact());
+}
+
+}  // namespace
+}  // namespace longreach

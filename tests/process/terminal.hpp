@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace longreach {
+
+/// What a person sees and types, and the program's side of it.
+struct Terminal {
+  int outer = -1, inner = -1;
+  Terminal() {
+    winsize size{24, 80, 0, 0};
+    EXPECT_EQ(::openpty(&outer, &inner, nullptr, nullptr, &size), 0);
+    ::setenv("TERM", "xterm", 1);
+  }
+  ~Terminal() {
+    ::close(outer);
+    ::close(inner);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  void type(const std::string& keys) const {
+    EXPECT_EQ(::write(outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  /// A write of the program would wait.
+  [[nodiscard]] bool full() const {
+    pollfd room{inner, POLLOUT, 0};
+    return ::poll(&room, 1, 0) == 0;
+  }
+};
+
+}  // namespace longreach

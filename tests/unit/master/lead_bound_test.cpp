@@ -1,0 +1,44 @@
+#include "master/mapping/lead_bound.hpp"
+
+#include <gtest/gtest.h>
+
+namespace longreach {
+namespace {
+
+ContactStiffness held(double place_m) {
+  ContactStiffness c;
+  c.place = {place_m, 0.0, 0.0};
+  c.held_back = Vector3::UnitX();
+  return c;
+}
+
+TEST(LeadBound, LastsUntilAGoalWithinItHasBeenReached) {
+  LeadBound lead(0.005);
+  EXPECT_TRUE(lead.bound().direction.isZero(0.0));
+  lead.on_report(held(0.1), 40);
+  EXPECT_EQ(lead.bound().direction, Vector3(Vector3::UnitX()));
+  lead.on_command(100, 0.2);    // still ahead
+  lead.on_command(101, 0.005);  // drawn back
+  lead.on_command(102, -0.01);
+  // The flag's end alone is not enough.
+  lead.on_report({}, 100);
+  EXPECT_FALSE(lead.bound().direction.isZero(0.0));
+  lead.on_report({}, 101);
+  EXPECT_TRUE(lead.bound().direction.isZero(0.0));
+}
+
+TEST(LeadBound, WaitsAnewWhenTheRobotHasGivenWay) {
+  LeadBound lead(0.005);
+  lead.on_report(held(0.1), 40);
+  lead.on_command(100, 0.005);
+  lead.on_report(held(0.09), 40);
+  lead.on_command(101, 0.015);
+  lead.on_report({}, 101);
+  EXPECT_FALSE(lead.bound().direction.isZero(0.0));
+  lead.on_command(102, 0.005);
+  lead.on_report({}, 102);
+  EXPECT_TRUE(lead.bound().direction.isZero(0.0));
+}
+
+}  // namespace
+}  // namespace longreach
