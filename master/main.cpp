@@ -63,6 +63,13 @@ ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, doub
   return out;
 }
 
+SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_n_per_m) {
+  return {.ke = config.rendering.ke,
+          .contact_expected = scripted(config),
+          .wall_n_per_m = wall_n_per_m,
+          .store_j = config.rendering.store_j};
+}
+
 /// The verdict counts for a run that was given its length; one that ends by a signal has just ended.
 int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
           const MasterConfig& config) {
@@ -119,8 +126,7 @@ int operate(const MasterOptions& options) {
   // The live view owns the terminal; it shows what the log would say.
   if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();
 
-  RunSummary summary(
-      {.ke = plain.rendering.ke, .contact_expected = scripted(plain), .wall_n_per_m = options.wall_n_per_m});
+  RunSummary summary(summary_of(plain, options.wall_n_per_m));
   std::atomic<bool> end{false};
   std::exception_ptr failure;
   std::thread loop_thread([&] {

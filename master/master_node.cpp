@@ -194,6 +194,7 @@ MotionCommand MasterNode::State::command() {
   c.mode = view.mode;
   c.scale = view.scale;
   c.grip = view.load;
+  c.let_go = !handle.held;
   c.position_m = goal.position_m;
   c.rotation_rad = goal.rotation_rad;
   c.goal_kind = turns.next(goal, view.scale);
@@ -248,6 +249,8 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   const bool frozen = !engaged || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
+  moved.surfaces = s.renderer.translation().contact.pressed(Renderer::kRise_n_per_s);
+  moved.stops = s.renderer.rotation().contact.pressed(Renderer::kRise_nm_per_s);
   s.mapping.step(moved, s.period_s);
 
   const RendererInput at = s.renderer_input();

@@ -76,8 +76,8 @@ struct MasterView {
   Vector3 spring_moment_nm = Vector3::Zero();    // of a contact in rotation
   double rotational_stiffness_nm_per_rad = 0.0;  // rendered now, about the foremost axis
   double force_step_n = 0.0;                     // of the spring force, by the last report that was applied
-  double port_energy_j = 0.0;  // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
-  double port_energy_min_j = 0.0;
+  double port_energy_j = 0.0;      // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
+  double port_energy_min_j = 0.0;  // least of it since an engagement began, of all of them
   double stored_energy_j = 0.0;
   double energy_drawdown_j = 0.0;  // largest fall of E_port - E_stored so far, J
   double tank_j = 0.0;

@@ -23,6 +23,7 @@ void add_view(proto::Status& out, const MasterView& view) {
   out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.stiffness_n_per_m);
   out.set_force_n(view.F_H_M.force.norm());
+  out.set_contact_n(view.spring_force_n.norm());
   out.set_energy_j(view.port_energy_j);
   out.set_energy_min_j(view.port_energy_min_j);
   if (view.force_clamped) out.add_clamped("force at the hand");

@@ -56,6 +56,8 @@ class SlaveContact {
   /// Where that is, in W.
   [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
+  /// No goal of the engagement met it.
+  [[nodiscard]] bool older() const { return reading_.in_contact && played_at_touch_ <= 0.0; }
   /// Of the surface, beneath the tool, in W.
   [[nodiscard]] Vector3 surface_point() const { return tool_m_ + (inward_m_ - surface_m_) * reading_.normal; }
   [[nodiscard]] const ContactForce& force() const { return force_; }  // for the force guard

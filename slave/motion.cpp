@@ -50,7 +50,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   if (!waits) patience_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
   const LimiterOutput wanted =
-      limiter_.step({stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt});
+      limiter_.step({stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go});
   clamps.tool_speed = wanted.tool_speed;
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;

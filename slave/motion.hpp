@@ -23,7 +23,8 @@ namespace longreach {
 struct MotionInput {
   std::optional<Pose> X_WE_goal{};  // none: brake and stay
   ContactForce contact{};
-  double dt = 0.0;  // > 0, s, the same in every step
+  double dt = 0.0;      // > 0, s, the same in every step
+  bool let_go = false;  // nobody holds the handle: what presses comes down to the hold limit
 };
 
 class SlaveMotion {

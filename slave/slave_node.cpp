@@ -92,8 +92,9 @@ struct SlaveNode::State {
   Twist V_WE{};
   bool sensor_ok = true;
   Pose X_WE_anchor{};
-  double scale = 1.0;  // k_scale as last sent
-  bool grip = false;   // likewise: a hold or a silence drops nothing
+  double scale = 1.0;   // k_scale as last sent
+  bool let_go = false;  // likewise
+  bool grip = false;    // likewise: a hold or a silence drops nothing
   double played_sequence = 0.0;
   double played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
@@ -147,9 +148,9 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   output.grip = s.grip;
   s.reports.report(input, s.view, s.reached_sequence,
                    {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
-                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.direction()},
+                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.direction(), s.X_WE_anchor.p},
                    {s.turn_contact, log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
-                    s.turn_held_back.direction()},
+                    s.turn_held_back.direction(), Vector3::Zero()},
                    output);
   s.reports.telemetry(input, s.view, s.robot_ok, s.contact.penetration_m(), output);
   s.view.touch_sequence = s.contact.touch_sequence();
@@ -226,7 +227,7 @@ void SlaveNode::State::follow(const RobotState& robot) {
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
   const bool brakes = safety.brakes() || doubt.rests();
-  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt});
+  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt, let_go});
   lead_m = servo.step(motion.X_WE().p, dt);
   return clamps;
 }
@@ -257,6 +258,7 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
     if (received.newest) {
       scale = command.scale;
       grip = command.grip;
+      let_go = command.let_go;
     }
     const bool turns = command.goal_kind == GoalKind::kOrientation;
     Vector6 goal = Vector6::Zero();

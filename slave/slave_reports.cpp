@@ -23,9 +23,10 @@ bool changed(const ContactAtPlace& now, const ContactStiffness& reported) {
 }
 
 /// The place takes bytes only where it proves something: where nothing is touched though something was, where
-/// a limit is.
+/// a limit is, where no goal has told of the surface.
 bool proves(const ContactAtPlace& at) {
-  return (at.contact.touch() > 0 && !at.contact.in_contact()) || !at.held_back.isZero(0.0);
+  return (at.contact.touch() > 0 && !at.contact.in_contact()) || !at.held_back.isZero(0.0) ||
+         at.contact.older();
 }
 
 bool moved(const ContactAtPlace& now, const ContactStiffness& reported, double far) {
@@ -35,6 +36,7 @@ bool moved(const ContactAtPlace& now, const ContactStiffness& reported, double f
 ContactStiffness report_of(const ContactAtPlace& at) {
   ContactStiffness report = at.contact.report();
   report.held_back = at.held_back;
+  if (at.contact.older()) report.surface = at.contact.surface_point() - at.anchor;
   if (proves(at)) report.place = at.place;
   return report;
 }

@@ -33,6 +33,7 @@ struct PlayedGoals {
 struct ContactAtPlace {
   SlaveContact& contact;
   Vector3 place, held_back;
+  Vector3 anchor;  // from which places count
 };
 
 class SlaveReports {

@@ -177,6 +177,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("stiffness_max_n_per_m", s.stiffness_max_n_per_m);
   visit("fade_s", s.fade_s);
   visit("tank_max_j", s.tank_max_j);
+  visit("store_j", s.store_j);
   visit("rate_stiffness_n_per_m", s.rate_stiffness_n_per_m);
   visit("rate_damping_n_s_per_m", s.rate_damping_n_s_per_m);
   visit("friction_n", s.friction_n);

@@ -25,6 +25,7 @@ struct MotionCommand {
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;                        // k_scale, 0.05 to 1
   bool grip = false;                         // gripper closed: a level
+  bool let_go = false;                       // nobody holds the handle: a level
   GoalKind goal_kind = GoalKind::kPosition;  // which of the two below this datagram carries
   Vector3 position_m = Vector3::Zero();      // goal minus anchor, in W
   Vector3 rotation_rad =

@@ -50,6 +50,9 @@ struct ContactStiffness {
   double proof_depth = 0.0;
   // The tool, from the engagement's anchor, in W: a displacement (m) or a rotation vector (rad).
   Vector3 place = Vector3::Zero();
+  // Likewise the surface beneath the tool, where the touch is older than the engagement; zero: the goal at
+  // touch_sequence is its place.
+  Vector3 surface = Vector3::Zero();
   // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: nothing does.
   Vector3 held_back = Vector3::Zero();
 };

@@ -21,7 +21,8 @@ void make_room(proto::MotionCommand& m) { reserve(3, m.mutable_position_m(), m.m
 void make_room(proto::StiffnessReport& m) {
   reserve(6, m.mutable_translation_n_per_m(), m.mutable_rotation_nm_per_rad());
   reserve(3, m.mutable_translation_place_m(), m.mutable_translation_held_back(),
-          m.mutable_rotation_place_rad(), m.mutable_rotation_held_back());
+          m.mutable_rotation_place_rad(), m.mutable_rotation_held_back(), m.mutable_translation_surface_m(),
+          m.mutable_rotation_surface_rad());
 }
 
 void make_room(proto::Telemetry& m) {

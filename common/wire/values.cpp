@@ -187,6 +187,7 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
   out.set_mode(static_cast<std::uint32_t>(command.mode));
   out.set_scale(command.scale);
   out.set_grip(command.grip);
+  out.set_let_go(command.let_go);
   out.mutable_position_m()->Clear();
   out.mutable_rotation_rad()->Clear();
   if (command.goal_kind == GoalKind::kPosition) {
@@ -203,6 +204,7 @@ bool read(const proto::MotionCommand& in, MotionCommand& out) {
   out.engagement = in.engagement();
   out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
   out.grip = in.grip();
+  out.let_go = in.let_go();
   out.goal_kind = in.rotation_rad().empty() ? GoalKind::kPosition : GoalKind::kOrientation;
   if (in.position_m().empty() == in.rotation_rad().empty()) return false;  // neither or both
   return read_vector(in.position_m(), kGoalMaxM, out.position_m) &&
@@ -227,6 +229,8 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   assign_unless_zero(report.translation.place, *out.mutable_translation_place_m());
   assign_unless_zero(report.translation.held_back, *out.mutable_translation_held_back());
   assign_unless_zero(report.rotation.place, *out.mutable_rotation_place_rad());
+  assign_unless_zero(report.translation.surface, *out.mutable_translation_surface_m());
+  assign_unless_zero(report.rotation.surface, *out.mutable_rotation_surface_rad());
   assign_unless_zero(report.rotation.held_back, *out.mutable_rotation_held_back());
 }
 
@@ -251,6 +255,8 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
          within(out.rotation.proof_depth, 0.0, kGoalMaxRad) &&
          read_vector(in.translation_place_m(), kGoalMaxM, out.translation.place) &&
          read_vector(in.rotation_place_rad(), kGoalMaxRad, out.rotation.place) &&
+         read_vector(in.translation_surface_m(), kGoalMaxM, out.translation.surface) &&
+         read_vector(in.rotation_surface_rad(), kGoalMaxRad, out.rotation.surface) &&
          read_direction(in.translation_held_back(), out.translation.held_back) &&
          read_direction(in.rotation_held_back(), out.rotation.held_back);
 }

@@ -135,10 +135,10 @@ void RunSummary::add_checks(Summary& s) const {
     checks.push_back(
         {s.touched ? "displayed stiffness: touched too shortly to measure it" : "no contact", false});
   }
-  checks.push_back(
-      {formatted("port energy at least %.3f mJ, %.3f mJ came out of the rendering",
-                 in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
-       s.port_energy_min_j >= -config_.energy_out_max_j && s.energy_drawdown_j <= config_.energy_out_max_j});
+  checks.push_back({formatted("port energy at least %.3f mJ, %.3f mJ came out of the rendering",
+                              in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
+                    s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
+                        s.energy_drawdown_j <= config_.energy_out_max_j});
   checks.push_back(
       {formatted("largest force step by a report %.3f N", s.force_step_max_n), s.force_step_excess_n <= 0.0});
   const RunCounters& n = s.counters;

@@ -22,6 +22,7 @@ struct SummaryConfig {
   bool contact_expected = false;         // the script touches; a person need not
   double stiffness_error_max = 0.05;     // fraction; differences under 8 to 20 % are not felt
   std::optional<double> wall_n_per_m{};  // true stiffness of what is touched, where it is known
+  double store_j = 0.0;                  // that the engagement began with
   double energy_out_max_j = 1e-3;        // encoder steps let the port read this much without a leak
   double force_step_n = 0.1;             // a report may step the spring's force by this, or
   double force_step_share = 0.05;        // by this share of it: differences under 7 to 10 % are not felt

@@ -18,6 +18,15 @@ Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, 
   return rate;
 }
 
+/// Slower where it goes into a surface.
+Vector3 press(Vector3 speed, const Vector3& goal, const PressedSurfaces& surfaces) {
+  for (const PressedSurface& s : surfaces) {
+    const double into = s.inward.dot(speed) - s.speed_max;
+    if (into > 0.0 && s.inward.dot(goal - s.place) > 0.0) speed -= into * s.inward;
+  }
+  return speed;
+}
+
 }  // namespace
 
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law) {
@@ -60,14 +69,15 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   if (changed || frozen_) take_references(input.handle);
   const Vector3 before_m = goal_.position_m;
   const Quaternion before = goal_.rotation;
-  if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input.handle, dt_s);
+  if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input, dt_s);
   if (!frozen_ && mode_ == MotionMode::kPosition) step_position(input.handle, dt_s);
   if (!input.translation_bound.direction.isZero(0.0)) draw_back(input.translation_bound, before_m, dt_s);
   if (!input.rotation_bound.direction.isZero(0.0)) turn_back(input.rotation_bound, before, dt_s);
   return goal_;
 }
 
-void Mapping::step_rate(const HandleState& handle, double dt_s) {
+void Mapping::step_rate(const MappingInput& input, double dt_s) {
+  const HandleState& handle = input.handle;
   // The centre goes home with the hand, so that letting go commands nothing.
   x_ref_ = clamp_norm(x_ref_, norm(handle.p_MH));
   if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
@@ -76,8 +86,11 @@ void Mapping::step_rate(const HandleState& handle, double dt_s) {
       rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, outside_m_);
   const Vector3 rate_rad = rate_of(log_rotation(handle.q_MH * q_ref_.conjugate()), config_.dead_zone_rad,
                                    config_.radius_max_rad, config_.rate_law, outside_rad_);
-  speed_m_per_s_ = base_ * clamp_norm(config_.kv_per_s * rate_m, config_.speed_max_m_per_s);
-  speed_rad_per_s_ = base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
+  const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, config_.speed_max_m_per_s);
+  const Vector3 speed_rad =
+      base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
+  speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces);
+  speed_rad_per_s_ = press(speed_rad, goal_.rotation_rad, input.stops);
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 

@@ -16,6 +16,8 @@
 // (lead_bound.hpp), frozen or not. In position mode the reference slips by as much. Not handled: turns of the
 // handle by more than π from its reference.
 
+#include <array>
+
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
 #include "master/mapping/mapping_config.hpp"
@@ -29,12 +31,22 @@ struct GoalBound {
   Vector3 direction = Vector3::Zero();  // unit; zero: not bounded
 };
 
+/// A surface into which the goal goes no faster than this, in rate mode: hand, goal and force are an
+/// integrator. Its place a displacement (m) or a rotation vector (rad) from the anchor, in W.
+struct PressedSurface {
+  Vector3 place = Vector3::Zero();
+  Vector3 inward = Vector3::Zero();  // unit; zero: none
+  double speed_max = 0.0;            // m/s or rad/s
+};
+using PressedSurfaces = std::array<PressedSurface, 3>;
+
 struct MappingInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;   // k_scale, > 0
   bool frozen = false;  // clutch, hold or released: the handle moves without the robot
   GoalBound translation_bound{}, rotation_bound{};
+  PressedSurfaces surfaces{}, stops{};  // in translation, in rotation
 };
 
 struct Goal {
@@ -80,7 +92,7 @@ class Mapping {
 
  private:
   void take_references(const HandleState& handle);
-  void step_rate(const HandleState& handle, double dt_s);
+  void step_rate(const MappingInput& input, double dt_s);
   void step_position(const HandleState& handle, double dt_s);
   void advance(const Vector3& move_m, const Vector3& turn_rad);
   void draw_back(const GoalBound& bound, const Vector3& before_m, double dt_s);

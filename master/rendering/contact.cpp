@@ -46,17 +46,20 @@ void Contact::reset() {
 ContactChange Contact::on_report(const ContactStiffness& contact, const GoalHistory& history,
                                  const ContactHandle& handle, const Mapping& mapping) {
   if (!contact.stiffness.allFinite() || !std::isfinite(contact.touch_sequence) ||
-      !contact.place.allFinite() || !std::isfinite(contact.proof_depth))
+      !contact.place.allFinite() || !contact.surface.allFinite() || !std::isfinite(contact.proof_depth))
     return ContactChange::kRejected;
   if (!contact.in_contact) {
     for (ContactAxis& a : axes_) a.released = true;
     forget_what_is_free(contact.place, handle.x);
     return ContactChange::kNone;
   }
-  const auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
+  const bool older = !contact.surface.isZero(0.0);  // than the engagement: no goal was there
+  auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
+  if (older && !config_.by_arrival) goal = contact.surface;
   if (!(contact.stiffness.cwiseAbs().maxCoeff() > 0.0)) return ContactChange::kNone;  // not identified yet
   if (!goal && !history.forgotten(contact.touch_sequence)) return ContactChange::kRejected;
-  const Vector3 motion = history.motion_before(contact.touch_sequence, config_.least_motion);
+  const Vector3 motion = older ? Vector3(contact.place - contact.surface)
+                               : history.motion_before(contact.touch_sequence, config_.least_motion);
   const Vector3 before = spring_force(handle.x);
   if (!take_tensor(contact, goal, motion, handle, mapping))
     return goal ? ContactChange::kNone : ContactChange::kRejected;
@@ -167,14 +170,15 @@ double Contact::along(const ContactAxis& a, const Mapping& mapping) const {
 double Contact::locate(const ContactAxis& a, const ContactHandle& handle, const Mapping& mapping) const {
   if (!handle.rate_mode) return along(a, mapping);
   // Rate mode has no position to press against: the surface lies as deep in the hand as the goal is commanded
-  // behind it, up to the force limit.
+  // behind it, up to the force limit, and never beyond the centre: a hand is not driven to the other side.
   const double commanded = a.n_W.dot(handle.goal - a.goal);
   const double k = a.spring.stiffness_n_per_m();
   const double most = k > 0.0 ? config_.spring.force_max_n / k : 0.0;
-  return a.s(handle.x) - std::clamp(commanded, 0.0, most);
+  const double deflection = std::max(0.0, a.n_M.dot(handle.deflection));
+  return a.s(handle.x) - std::clamp(commanded, 0.0, std::min(most, deflection));
 }
 
-Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergyTank& tank,
+Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, Purse purse,
                       double dt_s) {
   Vector3 force = Vector3::Zero();
   for (ContactAxis& a : axes_) {
@@ -186,7 +190,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     if (a.known) {
       a.surface = locate(a, handle, mapping);
       const bool presses = handle.held && !handle.clutched;
-      a.spring.set_surface(presses ? a.surface : std::max(a.surface, s), handle.rate_mode);
+      a.spring.set_surface(presses ? a.surface : std::max(a.surface, s));
       // No contact, no force: what the anchor lags behind may exceed the depth by half of it and no more.
       if (handle.held) a.spring.limit_depth(s, presses ? kDeepest * std::max(0.0, s - a.surface) : 0.0);
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
@@ -194,7 +198,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     } else {
       a.spring.set_surface(std::max(a.surface, s));  // what fades does not load the hand again
     }
-    a.force = a.spring.step(s, dt_s, tank);
+    a.force = a.spring.step(s, dt_s, purse);
     if (a.force <= 0.0) continue;
     const double damped = std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate));
     force -= damped * a.n_M;
@@ -230,6 +234,15 @@ double Contact::paid_j() const {
   double sum = 0.0;
   for (const ContactAxis& a : axes_) sum += a.spring.paid_j();
   return sum;
+}
+
+PressedSurfaces Contact::pressed(double rise_per_s) const {
+  PressedSurfaces all;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double k = axes_[i].spring.stiffness_n_per_m();
+    if (axes_[i].known && k > 0.0) all[i] = {axes_[i].goal, axes_[i].n_W, rise_per_s / k};
+  }
+  return all;
 }
 
 const ContactAxis& Contact::foremost() const {

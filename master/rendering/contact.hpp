@@ -41,12 +41,13 @@ enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
 
 /// The handle now.
 struct ContactHandle {
-  Vector3 x = Vector3::Zero();     // in M
-  Vector3 rate = Vector3::Zero();  // x'
-  Vector3 goal = Vector3::Zero();  // commanded, in W
-  bool rate_mode = false;          // no position to press against: the goal's own depth is felt
-  bool held = true;                // nobody feels what presses on a handle that was let go
-  bool clutched = false;           // the hand moves without the robot
+  Vector3 x = Vector3::Zero();           // in M
+  Vector3 rate = Vector3::Zero();        // x'
+  Vector3 goal = Vector3::Zero();        // commanded, in W
+  bool rate_mode = false;                // no position to press against: the goal's own depth is felt
+  bool held = true;                      // nobody feels what presses on a handle that was let go
+  bool clutched = false;                 // the hand moves without the robot
+  Vector3 deflection = Vector3::Zero();  // from the centre of rate mode, in M
 };
 
 /// What a report meant.
@@ -87,13 +88,14 @@ class Contact {
                           const ContactHandle& handle, const Mapping& mapping);
 
   /// One tick; `stale`: nothing has been heard, everything fades and is forgotten. Force on the hand.
-  Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergyTank& tank,
-               double dt_s);
+  Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, Purse purse, double dt_s);
   /// The same without any rule, for contrast.
   Vector3 step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale);
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // stored in the springs
-  [[nodiscard]] double paid_j() const;                    // from tank to springs, in the last step
+  [[nodiscard]] double paid_j() const;                    // from purse to springs, in the last step
+  /// What the goal is commanded into, for Mapping: its force shall grow by `rise_per_s` at the most.
+  [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
   /// The axis that is felt most, else the stiffest that is known, else the first.
   [[nodiscard]] const ContactAxis& foremost() const;
   [[nodiscard]] bool known() const;

@@ -6,13 +6,13 @@
 namespace longreach {
 namespace {
 
-constexpr double kFullForce_s = 0.4;
+constexpr double kLoad_s = 0.15, kFullForce_s = 0.4, kAtRest_s = 2.2;
 
 }  // namespace
 
 void ContactSpring::begin(double s_m, double surface_m) {
-  target_ = fading_ = 0.0;
-  clamped_ = yielding_ = leaving_ = false;
+  target_ = fading_ = last_n_ = 0.0;
+  clamped_ = yielding_ = home_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
   s_slow_m_ = s_m;
@@ -35,54 +35,59 @@ bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
   return true;
 }
 
-bool ContactSpring::set_surface(double surface_m, bool comes_along) {
+bool ContactSpring::set_surface(double surface_m) {
   if (!std::isfinite(surface_m)) return false;
-  comes_along_ = comes_along;
   surface_m_ = surface_m;
   return true;
 }
 
-double ContactSpring::step(double s_m, double dt_s, EnergyTank& tank) {
+double ContactSpring::step(double s_m, double dt_s, Purse purse) {
   if (fading_ > 0.0) fading_ *= std::exp(-dt_s / config_.fade_s);
   if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
-  return_anchor(s_m, dt_s, tank);
+  return_anchor(s_m, dt_s, purse);
   s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
-  return force_n(s_m);
+  return last_n_ = force_n(s_m);
 }
 
-void ContactSpring::return_anchor(double s_m, double dt_s, EnergyTank& tank) {
+bool ContactSpring::settled(double s_m) const {
+  const double moved_m = std::max(std::abs(s_m - home_s_m_), std::abs(surface_m_ - home_surface_m_));
+  return home_ && moved_m < 2.0 * config_.count_m;
+}
+
+void ContactSpring::return_anchor(double s_m, double dt_s, Purse& purse) {
   paid_j_ = 0.0;
   const double k = stiffness_n_per_m();
   const double depth = s_m - anchor_m_;
-  if (depth <= 0.0 || k <= 0.0) {
+  if (depth < 0.0 || k <= 0.0) {
     anchor_m_ = std::max(s_m, surface_m_);
     return;
   }
-  const double share = -std::expm1(-dt_s / config_.fade_s);
-  const double move = share * (surface_m_ - anchor_m_);
-  if (move >= 0.0) {
-    anchor_m_ += std::min(move, depth);
+  const double inwards = surface_m_ - anchor_m_;
+  if (inwards >= 0.0) {
+    anchor_m_ += std::min(-std::expm1(-dt_s / config_.fade_s) * inwards, depth);
     return;
   }
-  if (yielding_) return;
-  // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the tank is short, without cancellation.
+  if (yielding_ || settled(s_m)) return;
+  home_ = -inwards <= config_.count_m;
+  if (home_) {
+    home_s_m_ = s_m;
+    home_surface_m_ = surface_m_;
+    return;
+  }
+  // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the purse is short, without cancellation.
   const double most = config_.force_max_n / k;
-  // A wall that was learnt late, far behind: it grows; a hand that leaves it goes free.
-  const double fastest = most * dt_s / kFullForce_s;
-  // Where it comes along, easing would let the hand back in, to be pushed out again.
-  leaving_ = !comes_along_ && s_m < s_slow_m_ && (leaving_ || -move > fastest);
-  if (leaving_) {
-    anchor_m_ += share * depth;
-    return;
-  }
-  double out = std::min({-move, std::max(0.0, most - depth), fastest});
+  const double full_s = s_m - s_slow_m_ > 2.0 * config_.count_m ? kFullForce_s : kAtRest_s;
+  const double grown = (last_n_ + config_.force_max_n * dt_s / full_s) / k;  // depth of the force that may be
+  double out = std::min(-std::expm1(-dt_s / kLoad_s) * -inwards, std::min(most, grown) - depth);
+  if (out <= 0.0) return;
   const double cost = 0.5 * k * out * (2.0 * depth + out);
-  const double there = tank.level_j();
+  const double there = purse.level_j();
+  if (there <= 0.0) return;
   if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));
-  paid_j_ = tank.spend(0.5 * k * out * (2.0 * depth + out));
+  paid_j_ = purse.spend(0.5 * k * out * (2.0 * depth + out));
   anchor_m_ -= out;
 }
 

@@ -7,10 +7,12 @@
 //   a higher k enters at once, with the anchor moved so that the force is continuous: a' = s - k (s - a)/k';
 //   a lower k enters with the time constant `fade_s`, anchor fixed: force eases, energy falls;
 //   without force the anchor returns to the surface for free: a = max(s, w);
-//   in contact the anchor eases inwards for free, and outwards only as far as the tank pays for the energy;
-//   a wall that was learnt late grows, from no force to the limit in kFullForce_s at the fastest: it does not
-//   step; while it is still far behind, a hand that retreats goes free: the force eases, and does not come
-//   again on the way; above `force_max_n` the spring yields: the anchor gives way.
+//   in contact the anchor eases inwards for free, and outwards only as far as the purse pays for the energy:
+//   a wall that was learnt late grows with kLoad_s, its force from nothing to the limit in kFullForce_s at
+//   the fastest under a hand that presses on, and in kAtRest_s under one that rests or gives way, since what
+//   it gives way by quickly is lost; a count of the encoders short of the surface this ends, and begins again
+//   when hand or surface have moved by two, so that nothing ratchets;
+//   above `force_max_n` the spring yields: the anchor gives way.
 //
 // Pure; every input may be anything, non-finite ones are refused by set_*. Lengths and forces may as well be
 // angles and moments.
@@ -25,6 +27,7 @@ struct ContactSpringConfig {
   double fade_s = 0.2;
   double stiffness_max_n_per_m = 7000.0;
   double force_max_n = 15.0;
+  double count_m = 0.0;  // of the encoders
 };
 
 class ContactSpring {
@@ -38,20 +41,19 @@ class ContactSpring {
   /// Stiffness to reach, N/m; clamped to 0..stiffness_max. Returns false, changing nothing, if not finite.
   bool set_stiffness(double s_m, double stiffness_n_per_m);
 
-  /// Registered surface, m; one that comes along with the hand cannot be left. Returns false, changing
-  /// nothing, if not finite.
-  bool set_surface(double surface_m, bool comes_along = false);
+  /// Registered surface, m. Returns false, changing nothing, if not finite.
+  bool set_surface(double surface_m);
 
   /// Eases the spring at once to this depth, m, if it is deeper.
   void limit_depth(double s_m, double depth_m) { anchor_m_ = std::max(anchor_m_, s_m - depth_m); }
 
   /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
-  /// tank. Returns the force >= 0, N, against the inward direction.
-  double step(double s_m, double dt_s, EnergyTank& tank);
+  /// purse. Returns the force >= 0, N, against the inward direction.
+  double step(double s_m, double dt_s, Purse purse);
 
   [[nodiscard]] double force_n(double s_m) const;
   [[nodiscard]] double energy_j(double s_m) const;         // stored in the spring
-  [[nodiscard]] double paid_j() const { return paid_j_; }  // from tank to spring, in the last step
+  [[nodiscard]] double paid_j() const { return paid_j_; }  // from purse to spring, in the last step
   [[nodiscard]] double stiffness_n_per_m() const { return target_ + fading_; }
   [[nodiscard]] double anchor_m() const { return anchor_m_; }
   [[nodiscard]] double surface_m() const { return surface_m_; }
@@ -59,19 +61,22 @@ class ContactSpring {
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
 
  private:
-  void return_anchor(double s_m, double dt_s, EnergyTank& tank);
+  void return_anchor(double s_m, double dt_s, Purse& purse);
+  [[nodiscard]] bool settled(double s_m) const;
 
   ContactSpringConfig config_;
   double target_ = 0.0;  // stiffness that stays, N/m
   double fading_ = 0.0;  // stiffness that is on its way out, N/m
   double anchor_m_ = 0.0;
   double surface_m_ = 0.0;
-  double s_slow_m_ = 0.0;  // follows the handle with fade_s: which way it goes, apart from tremor
   double paid_j_ = 0.0;
+  double last_n_ = 0.0;    // force of the last step
+  double s_slow_m_ = 0.0;  // follows the handle with fade_s: which way it goes, apart from tremor
   bool clamped_ = false;
   bool yielding_ = false;
-  bool comes_along_ = false;
-  bool leaving_ = false;  // the hand retreats from a wall that was far behind it
+  // Where hand and surface were when the anchor had come home.
+  bool home_ = false;
+  double home_s_m_ = 0.0, home_surface_m_ = 0.0;
 };
 
 }  // namespace longreach

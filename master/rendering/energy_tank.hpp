@@ -1,6 +1,7 @@
 #pragma once
 // Energy that dissipation at the port has earned and that a spring's anchor may spend to come home, J. Never
-// below zero, never above its size (Franken et al., T-RO 2011, reduced to what is needed here).
+// below zero, never above its size (Franken et al., T-RO 2011, reduced to what is needed here). The store of
+// an engagement is one that begins full: passivity allows the port what it began with.
 
 #include <algorithm>
 
@@ -32,6 +33,22 @@ class EnergyTank {
  private:
   double size_j_;
   double level_j_ = 0.0;
+};
+
+/// What a spring may be loaded from: the tank of its port, then the store of the engagement.
+class Purse {
+ public:
+  Purse(EnergyTank& tank, EnergyTank* store = nullptr) : tank_(tank), store_(store) {}
+  [[nodiscard]] double level_j() const { return tank_.level_j() + (store_ ? store_->level_j() : 0.0); }
+  /// Spends at most what is there.
+  double spend(double energy_j) {
+    const double from_tank = tank_.spend(energy_j);
+    return from_tank + (store_ ? store_->spend(energy_j - from_tank) : 0.0);
+  }
+
+ private:
+  EnergyTank& tank_;
+  EnergyTank* store_;
 };
 
 }  // namespace longreach

@@ -16,7 +16,8 @@ ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice
   return {.spring = {.fade_s = c.fade_s,
                      .stiffness_max_n_per_m =
                          std::min(c.stiffness_max_n_per_m, device_limit(d, d.damping_n_s_per_m)),
-                     .force_max_n = c.force_max_n},
+                     .force_max_n = c.force_max_n,
+                     .count_m = d.cell.m},
           .ke = c.ke,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_n_s_per_m,
@@ -30,7 +31,8 @@ ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d
   return {.spring = {.fade_s = c.fade_s,
                      .stiffness_max_n_per_m =
                          std::min(c.stiffness_max_nm_per_rad, device_limit(d, d.damping_nm_s_per_rad)),
-                     .force_max_n = c.moment_max_nm},
+                     .force_max_n = c.moment_max_nm,
+                     .count_m = d.cell.rad},
           .ke = c.ke_rotation,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_nm_s_per_rad,
@@ -72,7 +74,8 @@ ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping
           mapping.goal().position_m,
           in.mode == MotionMode::kRate,
           in.handle.held,
-          in.clutched};
+          in.clutched,
+          in.handle.p_MH - mapping.centre_m()};
 }
 
 /// `phi`: rotation vector of the handle; `rate`: D(phi).
@@ -83,23 +86,23 @@ ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, c
           mapping.goal().rotation_rad,
           in.mode == MotionMode::kRate,
           in.handle.held,
-          in.clutched};
+          in.clutched,
+          log_rotation(in.handle.q_MH * mapping.centre_rotation().conjugate())};
 }
 
 }  // namespace
 
-void HandPort::account(double entered_j, double now_j, double supplied_j, const Vector3& now) {
+double HandPort::account(double entered_j, double now_j, double supplied_j, const Vector3& now) {
   double rest_j = entered_j - (now_j - stored_j) + contact.paid_j() + supplied_j;
   const double unsure_j = cell * norm(Vector3(now - force));
   rest_j = std::copysign(std::max(0.0, std::abs(rest_j) - unsure_j), rest_j);
   stored_j = now_j;
   force = now;
   if (rest_j > 0.0) {
-    rest_j = guard.repay(rest_j);
-    tank.fill(rest_j);
-  } else {
-    guard.owe(-tank.fill(rest_j));
+    return tank.fill(guard.repay(rest_j));
   }
+  guard.owe(-tank.fill(rest_j));
+  return 0.0;
 }
 
 Renderer::Renderer(const RenderingConfig& config, const RenderedDevice& device)
@@ -109,7 +112,8 @@ Renderer::Renderer(const RenderingConfig& config, const RenderedDevice& device)
       translation_(ContactMotion::kTranslation, translation_contact(config, device),
                    translation_guard(config, device), config.tank_max_j, device.cell.m),
       rotation_(ContactMotion::kRotation, rotation_contact(config, device), rotation_guard(config, device),
-                config.tank_max_j, device.cell.rad) {}
+                config.tank_max_j, device.cell.rad),
+      store_(config.store_j) {}
 
 void Renderer::configure(const RenderingConfig& config) {
   config_ = config;
@@ -120,12 +124,15 @@ void Renderer::configure(const RenderingConfig& config) {
   rotation_.guard.configure(rotation_guard(config, device_));
   translation_.tank.resize(config.tank_max_j);
   rotation_.tank.resize(config.tank_max_j);
+  store_.resize(config.store_j);
 }
 
 void Renderer::reset(const HandleState& handle) {
   resistance_.reset(handle);
   x_last_ = handle.p_MH;
   q_last_ = handle.q_MH;
+  store_.fill(config_.store_j);
+  began_j_ = port_energy_j();
   for (HandPort* port : {&translation_, &rotation_}) {
     port->contact.reset();
     port->guard.reset();
@@ -148,7 +155,7 @@ bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& his
 
 Vector3 Renderer::contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale) {
   if (config_.law == RenderingLaw::kNaive) return port.contact.step_naive(at, mapping, stale);
-  return port.contact.step(at, mapping, stale, port.tank, device_.period_s);
+  return port.contact.step(at, mapping, stale, Purse(port.tank, stale ? nullptr : &store_), device_.period_s);
 }
 
 Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {
@@ -158,8 +165,10 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
   if (config_.law == RenderingLaw::kStiffness) {
     // A spring that is ramped away stores as much less: the hand does not load what it does not feel.
     const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
-    translation_.account(entered_j, translation_.guard.gain() * felt_j + in.translation.stored_j,
-                         in.translation.supplied_j, resistance + contact + in.translation.force);
+    const double left_j =
+        translation_.account(entered_j, translation_.guard.gain() * felt_j + in.translation.stored_j,
+                             in.translation.supplied_j, resistance + contact + in.translation.force);
+    store_.fill(left_j);
   }
   return translation_.guard.apply(
       {resistance + contact, in.translation.force, in.handle.velocity_m_per_s, in.live}, device_.period_s);
@@ -174,8 +183,9 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
       rate.transpose() * contact_force(rotation_, rotation_handle(in, mapping, phi, rate), mapping, in.stale);
   if (config_.law == RenderingLaw::kStiffness) {
     const double felt_j = rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j();
-    rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,
-                      in.rotation.supplied_j, resistance + contact + in.rotation.force);
+    const double left_j = rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,
+                                            in.rotation.supplied_j, resistance + contact + in.rotation.force);
+    store_.fill(left_j);
   }
   return rotation_.guard.apply(
       {resistance + contact, in.rotation.force, in.handle.angular_rad_per_s, in.live}, device_.period_s);
@@ -189,6 +199,14 @@ void Renderer::let_down(const RendererInput& input) {
   if (freed && translation_.contact.foremost().force > 0.0) translation_.guard.free_hand();
 }
 
+/// Motion fills the store again (tank level control).
+Vector3 Renderer::refill_drag(const RendererInput& input) const {
+  constexpr double kDamping_n_s_per_m = 2.0, kMost_n = 0.15;
+  if (config_.law != RenderingLaw::kStiffness || !input.live || store_.level_j() >= config_.store_j)
+    return Vector3::Zero();
+  return -clamp_norm(Vector3(kDamping_n_s_per_m * input.handle.velocity_m_per_s), kMost_n);
+}
+
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   let_down(input);
   Wrench resistance;
@@ -196,13 +214,14 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
     resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m(),
                                    mapping.centre_rotation(), mapping.frozen(), input.load},
                                   device_.period_s);
+    resistance.force += refill_drag(input);
   } else {
     resistance_.reset(input.handle);
   }
   Wrench F;
   F.force = translate(input, mapping, resistance.force);
   F.moment = rotate(input, mapping, resistance.moment);
-  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j());
+  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j() - began_j_);
   return F;
 }
 

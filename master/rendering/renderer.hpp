@@ -74,7 +74,8 @@ struct HandPort {
   /// or leaked if negative: what of it is certain. `force`: that the hand shall feel now. Energy is summed
   /// over measured places, each off by up to half a cell e: Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] -
   /// f[k-1]) but for the ends, so a tick is certain but for `cell` |f[k] - f[k-1]|.
-  void account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
+  /// Returns what was dissipated and found no room in the tank, J.
+  double account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
 
   Contact contact;
   PortGuard guard;
@@ -106,9 +107,14 @@ class Renderer {
   [[nodiscard]] double port_energy_j() const;
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
   [[nodiscard]] double stored_energy_j() const;
+  [[nodiscard]] double store_j() const { return store_.level_j(); }
+
+  // Into a pressed surface rate mode lets the force rise so fast.
+  static constexpr double kRise_n_per_s = 10.0, kRise_nm_per_s = 0.2;
 
  private:
   void let_down(const RendererInput& input);
+  [[nodiscard]] Vector3 refill_drag(const RendererInput& input) const;
   Vector3 translate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
   Vector3 rotate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
   Vector3 contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale);
@@ -117,9 +123,10 @@ class Renderer {
   RenderedDevice device_;
   Resistance resistance_;
   HandPort translation_, rotation_;
+  EnergyTank store_;  // of the engagement, for both ports
   Vector3 x_last_ = Vector3::Zero();
   Quaternion q_last_ = Quaternion::Identity();
-  double port_energy_min_j_ = 0.0;
+  double began_j_ = 0.0, port_energy_min_j_ = 0.0;  // at the engagement; since one began
   MotionMode mode_ = MotionMode::kPosition;
   bool clutched_ = false, live_ = false;  // in the last tick
 };

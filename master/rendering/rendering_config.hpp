@@ -24,6 +24,7 @@ struct RenderingConfig {
   double stiffness_max_n_per_m = 7000.0;
   double fade_s = 0.2;
   double tank_max_j = 0.02;
+  double store_j = 0.02;
   double rate_stiffness_n_per_m = 60.0;
   double rate_damping_n_s_per_m = 4.0;
   double friction_n = 0.1;
@@ -47,5 +48,12 @@ struct RenderingConfig {
   bool home_spring = false;
   bool ke_by_scale = false;
 };
+
+/// What the port may give back beyond what it was given, since an engagement began: its store, and what
+/// encoder steps let it read without a leak, J.
+inline double returned_most_j(const RenderingConfig& c = {}) {
+  constexpr double kSteps_j = 1e-3;
+  return c.store_j + kSteps_j;
+}
 
 }  // namespace longreach

@@ -44,6 +44,7 @@ void GoalLimiter::correct(const Pose& X_WE, double dt) {
 LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   LimiterOutput out;
   X_WE_before_ = X_WE_;
+  guard_n_ = input.let_go ? hold_limit_n(config_) : config_.force_guard_n;
   if (!input.X_WE_goal || !is_finite(*input.X_WE_goal)) {
     out.no_relief = brake(input.contact, input.dt);
     out.X_WE = X_WE_;
@@ -66,7 +67,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   out.force_guard = along.capped[0] || along.capped[2];
   out.workspace = out.workspace || along.capped[1];
   V_WE_ = {about.velocity, along.velocity};
-  const bool pressed = input.contact.in_contact && input.contact.force_n > config_.force_guard_n;
+  const bool pressed = input.contact.in_contact && input.contact.force_n > guard_n_;
   if (pressed && along.capped[0]) give_way(input.contact, input.dt);
   out.no_relief = pressed && !relief_.may_go_on();
   X_WE_.p += along.velocity * input.dt;
@@ -102,7 +103,7 @@ void GoalLimiter::give_way(const ContactForce& contact, double dt) {
 }
 
 void GoalLimiter::forget_relief(const ContactForce& contact, double dt) {
-  const bool calm = !contact.in_contact || contact.force_n <= config_.force_guard_n;
+  const bool calm = !contact.in_contact || contact.force_n <= guard_n_;
   calm_s_ = calm ? calm_s_ + dt : 0.0;
   if (calm_s_ > kCalm_s) relief_.reset();
 }
@@ -157,9 +158,9 @@ VelocityCap GoalLimiter::guard(const ContactForce& contact) const {
   cap.direction = -contact.reaction;
   // In braking distances of the stiffest surface: what is left, or what is too much of what is still coming.
   const double k = config_.guard_stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
-  const double left_m = (config_.force_guard_n - contact.force_n) / k - coming_m;
+  const double left_m = (guard_n_ - contact.force_n) / k - coming_m;
   const double braking = approach(left_m, coming_m);
-  cap.speed = (left_m > 0.0 ? braking : -braking) - bleed_off(contact, config_.force_guard_n);
+  cap.speed = (left_m > 0.0 ? braking : -braking) - bleed_off(contact, guard_n_);
   cap.speed = std::max(cap.speed, -give_way_max(contact));
   return cap;
 }
@@ -175,8 +176,8 @@ VelocityCap GoalLimiter::growth(const ContactForce& contact) const {
   if (!contact.in_contact || contact.grows.isZero(0.0)) return cap;
   cap.active = true;
   cap.direction = contact.grows;
-  const double left_m = (config_.force_guard_n - contact.force_n) / config_.guard_stiffness_n_per_m -
-                        std::max(contact.grows_lead_m, 0.0);
+  const double left_m =
+      (guard_n_ - contact.force_n) / config_.guard_stiffness_n_per_m - std::max(contact.grows_lead_m, 0.0);
   cap.speed = left_m > 0.0 ? approach(left_m, 0.0) : 0.0;
   return cap;
 }

@@ -7,7 +7,8 @@
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
 //   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
 //   the contact is not lost. Without a goal, so in a hold, it does so down to the hold limit, within 1 s as
-//   far as speed and acceleration allow; k is then what is seen on that way. Giving way ends where the force
+//   far as speed and acceleration allow; k is then what is seen on that way. While nobody holds the handle G
+//   is the hold limit. Giving way ends where the force
 //   does not answer to it (relief.hpp). Where the force was seen to grow in another direction than into the
 //   contact, the speed in that direction is bounded likewise, and the tool does not give way along it.
 // A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
@@ -37,7 +38,8 @@ struct ContactForce {
 struct LimiterInput {
   std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay, but for the bleed-off
   ContactForce contact{};
-  double dt = 0.0;  // s, > 0
+  double dt = 0.0;      // s, > 0
+  bool let_go = false;  // nobody holds the handle: the guard is the hold limit
 };
 
 struct LimiterOutput {
@@ -88,6 +90,7 @@ class GoalLimiter {
   VelocityCap workspace(double dt) const;
 
   CommandConfig config_;
+  double guard_n_ = 0.0;  // in this step
   Vector3 centre_m_;
   Pose X_WE_{};
   Pose X_WE_before_{};               // one step ago

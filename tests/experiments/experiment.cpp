@@ -51,7 +51,7 @@ const std::vector<Experiment> kExperiments = {
     {"idle", "A hand that nobody moves: energy, ripple and limit cycles, free, pressed and let go.", run_idle,
      idle_plots, "",
      "{draws} draws of devices, places, grips and walls: {bad} bad; at most {energy_out_max_j*1e3} mJ comes "
-     "out, the "
+     "out beyond the store, the "
      "force ripples by at most {ripple_beyond_a_count_max_n*1e3} mN beyond one count; with damping on the "
      "encoders' velocity {control_bad} of {control_draws} bad"},
     {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.",

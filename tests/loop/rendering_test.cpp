@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "master/rendering/rendering_config.hpp"
 #include "tests/experiments/experiment.hpp"
 
 namespace longreach {
@@ -23,7 +24,7 @@ TEST(HostileUpdates, GiveNoEnergyAndNoStepAndTheNaiveLawFailsUnderTheSame) {
   auto m = metrics("hostile-updates");
   EXPECT_EQ(m.at("updates"), 1e6);
   EXPECT_GT(m.at("reports_applied"), 1e5);
-  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
   EXPECT_LE(m.at("energy_drawdown_j"), 1e-3);
   EXPECT_LE(m.at("force_step_excess_n"), 0.0);
   EXPECT_EQ(m.at("unsafe_wrenches"), 0.0);
@@ -43,7 +44,7 @@ TEST(Idle, AHandThatNobodyMovesIsQuietAndGetsNoEnergyAndDampingOnEncoderStepsIsN
   EXPECT_GE(m.at("quiet_share"), 0.8);
   EXPECT_EQ(m.at("limit_cycles"), 0.0);
   EXPECT_EQ(m.at("bad"), 0.0);
-  EXPECT_GE(m.at("control_bad"), 0.5 * m.at("control_draws"));
+  EXPECT_GE(m.at("control_bad"), 0.4 * m.at("control_draws"));
   EXPECT_GT(m.at("control_energy_out_max_j"), 1e-4);
 }
 
@@ -54,7 +55,7 @@ TEST(FirstTouch, GrowsWithoutAStepAndRegistersTheWallByTheTouchSequence) {
   EXPECT_LE(m.at("force_step_max_n"), 0.1);
   EXPECT_LE(m.at("registration_error_m"), 1e-3);
   EXPECT_GT(m.at("registration_error_without_touch_sequence_m"), 10.0 * 1e-3);
-  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
 }
 
 TEST(FirstTouch, IsHeldByTheForceGuardAndByNothingElse) {
@@ -72,7 +73,7 @@ TEST(Spike, EasesTheForceAndLetsTheWorkGoOnAfterANewEngagement) {
   EXPECT_LT(m.at("force_two_seconds_later_n"), 0.01);
   EXPECT_EQ(m.at("engagements"), 2.0);
   EXPECT_EQ(m.at("pressed_again"), 1.0);
-  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
   EXPECT_LE(m.at("energy_drawdown_j"), 1e-3);
 }
 
@@ -81,7 +82,7 @@ TEST(RateContact, IsProportionalToTheForceOfTheSlaveWhileTheHandIsStill) {
   EXPECT_NEAR(m.at("felt_over_tool_force"), 1.0, 0.1);
   EXPECT_LE(m.at("force_rise_max_n"), 0.1);
   EXPECT_EQ(m.at("left"), 1.0);
-  EXPECT_GE(m.at("port_energy_min_j"), -1e-3);
+  EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
 }
 
 TEST(SixDofContact, DisplaysAnObliquePlaneACornerAndATorque) {
@@ -93,7 +94,7 @@ TEST(SixDofContact, DisplaysAnObliquePlaneACornerAndATorque) {
   EXPECT_LE(m.at("corner_displayed_error_y"), 0.05);
   EXPECT_LE(m.at("torque_displayed_error"), 0.05);
   for (const char* scene : {"oblique", "corner", "torque"})
-    EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -1e-3) << scene;
+    EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -returned_most_j()) << scene;
 }
 
 TEST(HapticReturn, IsAtMostTenDatagramsAndFourKilobitsASecondInSteadyContact) {

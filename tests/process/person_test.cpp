@@ -13,9 +13,11 @@ namespace {
 
 class Person : public Station {
  protected:
-  void start(const std::vector<std::string>& slave, const std::string& mode) {
+  void start(const std::vector<std::string>& slave, const std::string& mode,
+             std::vector<std::string> master = {}) {
     start_slave(slave);
-    start_master({"--operator", "keyboard", "--mode", mode, "--engage"}, {terminal_.inner, -1, -1});
+    master.insert(master.end(), {"--operator", "keyboard", "--mode", mode, "--engage"});
+    start_master(master, {terminal_.inner, -1, -1});
     ASSERT_TRUE(both_engaged()) << outputs();
     anchor_m_ = tool_x_m() - goal_x_m();
   }
@@ -32,6 +34,16 @@ class Person : public Station {
     return eventually([=, this] {
       const auto now = master_.status();
       return now && now->force_n() >= least_n && now->force_n() <= most_n;
+    });
+  }
+  /// More than 1 N, for a second.
+  bool feels_contact() {
+    int times = 0;
+    return eventually([&, this] {
+      const auto now = master_.status();
+      times = now && now->contact_n() > 1.0 ? times + 1 : 0;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      return times >= 10;
     });
   }
   /// Presses to and fro by a key until the wall is known.
@@ -58,15 +70,15 @@ class Person : public Station {
 
 TEST_F(Person, HoldsOutAgainstAWallAndTheRetreatIsAnswered) {
   start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "rate");
-  terminal_.type("WWW");
+  terminal_.type("WWWWWWWW");
   ASSERT_TRUE(eventually([this] {
     const auto now = slave_.status();
-    return now && now->force_n() > 15.0;
+    return now && now->force_n() > 1.0;
   })) << outputs();
   std::this_thread::sleep_for(std::chrono::seconds(3));
   EXPECT_LT(lead_m(), 6e-3) << outputs();
   const double pressed_m = tool_x_m();
-  terminal_.type("SSSSSS");
+  terminal_.type("SSSSSSSSSSSS");
   EXPECT_TRUE(eventually([&] { return tool_x_m() < pressed_m - 2e-3; }, std::chrono::seconds(5)))
       << outputs();
 }
@@ -107,6 +119,21 @@ TEST_F(Person, FeelsNothingBesideABoxThatWasTouched) {
   std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_TRUE(feels(0.0, 0.3)) << outputs();
   EXPECT_FALSE(slave_.status()->in_contact());
+}
+
+TEST_F(Person, MovesAndWaitsAtTheMoonAndFeelsTheWall) {
+  start({"--profile", "moon", "--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "position",
+        {"--profile", "moon"});
+  terminal_.type("WWWWWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  EXPECT_TRUE(feels_contact()) << outputs();
+}
+
+TEST_F(Person, FeelsAWallInRateMode) {
+  start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "rate");
+  terminal_.type("WWWWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  EXPECT_TRUE(feels_contact()) << outputs();
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 namespace longreach {
 
-static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 144 &&
-              sizeof(StiffnessReport) == 304);
+static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 168 &&
+              sizeof(StiffnessReport) == 352);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
@@ -62,6 +62,7 @@ void write(const ContactStiffness& contact, recording::ContactStiffness& out) {
   out.set_in_contact(contact.in_contact);
   out.set_proof_depth(contact.proof_depth);
   longreach::write(contact.place, *out.mutable_place());
+  longreach::write(contact.surface, *out.mutable_surface());
   longreach::write(contact.held_back, *out.mutable_held_back());
 }
 
@@ -72,6 +73,7 @@ ContactStiffness read(const recording::ContactStiffness& in) {
           .in_contact = in.in_contact(),
           .proof_depth = in.proof_depth(),
           .place = longreach::read(in.place()),
+          .surface = longreach::read(in.surface()),
           .held_back = longreach::read(in.held_back())};
 }
 
@@ -83,6 +85,7 @@ void write(const MotionCommand& command, recording::MotionCommand& out) {
   out.set_mode(to_recorded<recording::Mode>(command.mode));
   out.set_scale(command.scale);
   out.set_grip(command.grip);
+  out.set_let_go(command.let_go);
   out.set_goal_kind(to_recorded<recording::GoalKind>(command.goal_kind));
   write(command.position_m, *out.mutable_position_m());
   write(command.rotation_rad, *out.mutable_rotation_rad());
@@ -94,6 +97,7 @@ MotionCommand read(const recording::MotionCommand& in) {
           read_enum(in.mode(), MotionMode::kPosition),
           in.scale(),
           in.grip(),
+          in.let_go(),
           read_enum(in.goal_kind(), GoalKind::kOrientation),
           read(in.position_m()),
           read(in.rotation_rad())};

@@ -81,8 +81,14 @@ class Run {
     for (double t = 0.0; t < seconds; t += lab_.period_s()) tick();
   }
 
+  /// The person keeps to the way: leans against what is felt.
   void tick() {
-    lab_.drive(hand_);
+    constexpr double kLeans_s = 0.2;
+    const Vector3 against_m = -lab_.master().spring_force_n / hand_model(hand_.grip).stiffness_n_per_m;
+    lean_m_ += lab_.period_s() / kLeans_s * (against_m - lean_m_);
+    HandTarget target = hand_;
+    target.position_m += lean_m_;
+    lab_.drive(target);
     lab_.step();
     watch_stiffness();
     watch_force();
@@ -132,6 +138,7 @@ class Run {
   Laboratory lab_;
   HandTarget hand_{.grip = Grip::kFirm};
   Vector3 start_m_ = lab_.arm().true_pose().p;
+  Vector3 lean_m_ = Vector3::Zero();
   Outcome outcome_;
   double here_n_per_m_ = 0.0, steady_s_ = 0.0;
   std::uint64_t reports_ = 0;

@@ -84,7 +84,7 @@ ExtremeResult feel(const Feeling& what) {
     if (!node.view().goal_m.allFinite()) return bad("a goal that is not finite");
   }
   const MasterView& view = node.view();
-  if (!(view.port_energy_min_j >= -kEnergy_j))
+  if (!(view.port_energy_min_j >= -(RenderingConfig{}.store_j + kEnergy_j)))
     return bad(format_number(view.port_energy_min_j) + " J out of the device");
   if (view.state == SafetyState::kFault) return refused("the device is at fault, the hand is free");
   if (view.state != SafetyState::kEngaged) return bad("the engagement ended");

@@ -35,7 +35,7 @@ ExtremeResult touch(const Settings& settings, std::uint64_t seed, std::map<std::
     if (!std::isfinite(m.value)) return bad(m.name + " is not finite");
     figures[m.name] = m.value;
   }
-  if (figures["port_energy_min_j"] < -kEnergy_j)
+  if (figures["port_energy_min_j"] < -(RenderingConfig{}.store_j + kEnergy_j))
     return bad(format_number(figures["port_energy_min_j"]) + " J out of the device");
   if (figures["energy_drawdown_j"] > kDrawdown_j)
     return bad(format_number(figures["energy_drawdown_j"]) + " J out of the rendering");
@@ -99,7 +99,8 @@ ExtremeCell far(const std::string& name, const Settings& settings) {
               spring_n = std::max(spring_n, lab.master().spring_force_n.norm());
             }
             const MasterView& master = lab.master();
-            if (master.port_energy_min_j < -kEnergy_j) return bad("energy out of the device");
+            if (master.port_energy_min_j < -(RenderingConfig{}.store_j + kEnergy_j))
+              return bad("energy out of the device");
             if (master.state != SafetyState::kEngaged)
               return refused("never engaged: all news of the master is older than safety.age_max_s");
             if (spring_n == 0.0 && master.rejected_values > 0)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "master/devices/simulated_devices.hpp"
+#include "master/rendering/rendering_config.hpp"
 #include "tests/experiments/faults/invariant.hpp"
 
 namespace longreach {
@@ -106,8 +107,9 @@ class StaleStiffness : public Invariant {
 class PortEnergy : public Invariant {
  public:
   explicit PortEnergy(const Scenario& s)
-      : Invariant("I23", "no energy comes out of the handle"),
-        tanks_j_(2.0 * s.master.rendering.tank_max_j) {}
+      : Invariant("I23", "no more energy comes out of the handle than went in and the store"),
+        tanks_j_(2.0 * s.master.rendering.tank_max_j),
+        most_j_(returned_most_j(s.master.rendering)) {}
   void see(const Moment& m) override {
     const Vector3 moved_m = m.x_MH - x_m_;
     const Vector3 turned_rad = log_rotation(m.q_MH * q_.conjugate());
@@ -120,7 +122,11 @@ class PortEnergy : public Invariant {
     if (begins) energy_j_ = tanks_j_;
     if (books_) energy_j_ -= F_.force.dot(moved_m) + F_.moment.dot(turned_rad);
     if (books_ && rests) energy_j_ = std::min(energy_j_, tanks_j_);
-    if (books_) at_most(m, -energy_j_, 1e-3, "J out of the handle");
+    // Each engagement begins with a full store.
+    const bool engaged = m.shown == SafetyState::kEngaged;
+    if (engaged && m.engaged_in != engaged_in_) energy_j_ = std::max(energy_j_, 0.0);
+    if (engaged) engaged_in_ = m.engaged_in;
+    if (books_) at_most(m, -energy_j_, most_j_, "J out of the handle");
     x_m_ = m.x_MH;
     q_ = m.q_MH;
     F_ = m.F_H_M;
@@ -131,7 +137,8 @@ class PortEnergy : public Invariant {
   static constexpr double kRest_n = 0.1, kRest_nm = 5e-3;
   static constexpr double kRest_m_per_s = 5e-3, kRest_rad_per_s = 0.05;
 
-  double tanks_j_;
+  double tanks_j_, most_j_;
+  std::uint32_t engaged_in_ = 0;
   Vector3 x_m_ = Vector3::Zero();
   Quaternion q_ = Quaternion::Identity();
   Wrench F_{};

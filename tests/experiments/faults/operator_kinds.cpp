@@ -93,22 +93,13 @@ void loosen_slave(World& world, Active& fault) {
   if (often(world, fault)) world.set_slave(any(fault.random, kPaths), wild_value(fault.random));
 }
 void loosen_hand(World& world, Active& fault) {
-  constexpr std::array kPaths = {"rendering.law",
-                                 "rendering.force_max_n",
-                                 "rendering.moment_max_nm",
-                                 "rendering.slew_n_per_s",
-                                 "rendering.slew_nm_per_s",
-                                 "rendering.stiffness_max_n_per_m",
-                                 "rendering.ke",
-                                 "rendering.tank_max_j",
-                                 "rendering.ramp_s",
-                                 "rendering.fade_s",
-                                 "rendering.contact_damping_n_s_per_m",
-                                 "safety.silence_s",
-                                 "safety.resume_s",
-                                 "safety.presence_s",
-                                 "mapping.kv_per_s",
-                                 "mapping.radius_max_m"};
+  constexpr std::array kPaths = {
+      "rendering.law",          "rendering.force_max_n",   "rendering.moment_max_nm",
+      "rendering.slew_n_per_s", "rendering.slew_nm_per_s", "rendering.stiffness_max_n_per_m",
+      "rendering.ke",           "rendering.tank_max_j",    "rendering.store_j",
+      "rendering.ramp_s",       "rendering.fade_s",        "rendering.contact_damping_n_s_per_m",
+      "safety.silence_s",       "safety.resume_s",         "safety.presence_s",
+      "mapping.kv_per_s",       "mapping.radius_max_m"};
   if (often(world, fault)) world.set_master(any(fault.random, kPaths), wild_value(fault.random));
 }
 /// Tighter, while it moves.

@@ -43,10 +43,8 @@ void Saboteur::answer(SlaveOutput& out) {
   }
   if (what_ == Sabotage::kCauseWrong && out.report && out.report->state == SafetyState::kHolding)
     out.report->cause = HoldCause::kTaken;
-  if (what_ == Sabotage::kPlaceUntold && out.report) {
-    for (ContactStiffness* contact : {&out.report->translation, &out.report->rotation})
-      contact->held_back.setZero();
-  }
+  if (what_ == Sabotage::kContactUnreported && out.report)
+    out.report->translation = out.report->rotation = {};
   constexpr double kEarly = 100.0;  // commands
   if (what_ != Sabotage::kTouchedEarly || !out.report) return;
   ContactStiffness& contact = out.report->translation;

@@ -14,18 +14,18 @@ namespace longreach {
 
 enum class Sabotage : std::uint8_t {
   kNone,
-  kSilenceUnnoticed,  // the slave thinks that it has just heard the master
-  kRequestsUnheard,   // holds and stops become requests to go on
-  kStopUnheard,       // a stop at the slave does not reach its node
-  kForceUnfelt,       // the force sensor tells nothing
-  kForgeriesTaken,    // a command that nobody sent is among those taken
-  kLimitsFree,        // clients may loosen everything
-  kSetpointsShake,    // beyond the joints' limits
-  kPictureFrozen,     // the picture is that of the first moment
-  kHandPushed,        // by ten times what was rendered
-  kCauseWrong,        // each hold is said to be another master's
-  kPlaceUntold,       // of a robot that is held back
-  kTouchedEarly,      // surfaces are reported nearer than they are, and as touched for ever
+  kSilenceUnnoticed,   // the slave thinks that it has just heard the master
+  kRequestsUnheard,    // holds and stops become requests to go on
+  kStopUnheard,        // a stop at the slave does not reach its node
+  kForceUnfelt,        // the force sensor tells nothing
+  kForgeriesTaken,     // a command that nobody sent is among those taken
+  kLimitsFree,         // clients may loosen everything
+  kSetpointsShake,     // beyond the joints' limits
+  kPictureFrozen,      // the picture is that of the first moment
+  kHandPushed,         // by ten times what was rendered
+  kCauseWrong,         // each hold is said to be another master's
+  kContactUnreported,  // nor what holds the robot back
+  kTouchedEarly,       // surfaces are reported nearer than they are, and as touched for ever
   kCount
 };
 
@@ -46,7 +46,7 @@ constexpr std::array<SabotageFacts, static_cast<std::size_t>(Sabotage::kCount)> 
     {"picture frozen", "I25"},
     {"hand pushed", "I22"},
     {"cause wrong", "I30", "half-open-up"},
-    {"place untold", "I31"},
+    {"contact unreported", "I31"},
     {"touched early", "I32"},
 }};
 

@@ -260,6 +260,7 @@ void World::finish() {
   moment_.x_MH = lab_.devices().delta().position_m();
   moment_.q_MH = lab_.devices().spherical().orientation();
   moment_.shown = lab_.master().state;
+  moment_.engaged_in = lab_.master().engagement;
   moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
   moment_.rendered_along = lab_.master().inward;
   moment_.rendered_from_m = lab_.master().surface_m;

@@ -165,6 +165,7 @@ const std::vector<PersonRow>& person_rows() {
          judge_clutch_in_contact},
         {"stop", "a stop while the hand presses", freed_by_stop, judge_freed},
     };
+    add_resting_hands(all);
     add_rows_that_stay(all);
     return all;
   }();

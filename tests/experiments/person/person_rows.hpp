@@ -24,6 +24,9 @@ struct PersonRow {
 /// All of them.
 const std::vector<PersonRow>& person_rows();
 
+/// Hands that rest: what they feel, and that it is calm.
+void add_resting_hands(std::vector<PersonRow>& rows);
+
 /// What was right before the experiment was, and is to stay so.
 void add_rows_that_stay(std::vector<PersonRow>& rows);
 

@@ -53,7 +53,7 @@ void let_go_in_rate_mode(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
   in_mode(s, MotionMode::kRate);
   s.moves = {{.to_m = {0.016, 0, 0}, .wait_s = 12.0, .wait_rtt = 3.0},
-             {.to_m = {0.016, 0, 0}, .wait_s = 0.5, .wait_rtt = 0.5, .let_go = true},
+             {.to_m = {0.016, 0, 0}, .wait_s = 2.0, .wait_rtt = 0.5, .let_go = true},
              {.to_m = {0.016, 0, 0}, .wait_s = 4.0, .let_go = true}};
 }
 
@@ -111,7 +111,8 @@ void stop_and_engage(PersonScenario& s) {
 }
 PersonChecks judge_stop_and_engage(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
-  return {{"the tool moves at the engagement, m", m.tool_span_m(), 1e-3},
+  return {calm(seen),
+          {"more force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
           {"not engaged again", m.engaged ? 0.0 : 1.0, 0.0}};
 }
 
@@ -244,7 +245,7 @@ void blackout_at_a_touch(PersonScenario& s) {
 PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
           calm(seen),
-          {"the tool moves at the engagement, m", seen.move[2].tool_span_m(), 1e-3},
+          {"more force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
           {"not engaged again", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }
 

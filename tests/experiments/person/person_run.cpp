@@ -34,10 +34,10 @@ class Walker {
     target.buttons.clutch = m.clutch;
     return target;
   }
+  [[nodiscard]] bool rests() const { return there_ && waited_s_ > 0.5 * wait_s(); }
   /// True: the next move begins.
   bool next() {
-    const PersonMove& m = s_.moves[at_];
-    if (!there_ || waited_s_ < m.wait_s + m.wait_rtt * s_.rtt_s) return false;
+    if (!there_ || waited_s_ < wait_s()) return false;
     ++at_;
     there_ = false;
     waited_s_ = 0.0;
@@ -45,6 +45,7 @@ class Walker {
   }
 
  private:
+  [[nodiscard]] double wait_s() const { return s_.moves[at_].wait_s + s_.moves[at_].wait_rtt * s_.rtt_s; }
   const PersonScenario& s_;
   std::size_t at_ = 0;
   Vector3 hand_m_ = Vector3::Zero();
@@ -58,12 +59,18 @@ class Observer {
   Observer(const Vector3& goal_m, const Vector3& tool_m) : goal_m_(goal_m), tool_m_(tool_m), last_m_(goal_m) {
     seen_.tool_least_m = seen_.tool_most_m = tool_m;
   }
-  void look(const Laboratory& lab, const Vector3& tool_m) {
+  /// `rests`: the hand has, for half of its wait.
+  void look(const Laboratory& lab, const Vector3& tool_m, bool rests) {
     const MasterView& m = lab.master();
     const double felt = m.spring_force_n.norm();
     seen_.goal_step_m = std::max(seen_.goal_step_m, (m.goal_m - last_m_).norm());
     if (felt_n_) seen_.felt_step_n = std::max(seen_.felt_step_n, felt - *felt_n_);
     felt_n_ = felt;
+    if (rests) {
+      least_n_ = std::min(least_n_, felt);
+      most_n_ = std::max(most_n_, felt);
+      seen_.felt_swing_n = most_n_ - least_n_;
+    }
     seen_.felt = m.spring_force_n;
     seen_.hand_m = lab.devices().delta().position_m();
     seen_.hand_n = m.F_H_M.force.norm();
@@ -95,6 +102,7 @@ class Observer {
   Vector3 goal_m_, tool_m_, last_m_;
   std::optional<double> felt_n_{}, moved_s_{};
   std::optional<Vector3> v_{};
+  double least_n_ = 1e9, most_n_ = 0.0;
 };
 
 /// Nothing arrives at either side for a while.
@@ -166,6 +174,7 @@ PersonSeen run_person(const PersonScenario& s) {
       lab.requests().mode = move.mode;
       lab.requests().scale = move.scale;
       lab.requests().stop = move.stop;
+      lab.requests().hold = move.hold;
       lab.requests().engage = move.engage;
       lab.requests().load = move.load;
       lab.let_go(move.let_go);
@@ -179,7 +188,7 @@ PersonSeen run_person(const PersonScenario& s) {
     blackout.step(lab);
     lab.step();
     const MasterView& m = lab.master();
-    observer.look(lab, tool());
+    observer.look(lab, tool(), walker.rests());
     all.goal_m_per_s = std::max(all.goal_m_per_s, (m.goal_m - goal_before).norm() / lab.period_s());
     goal_before = m.goal_m;
     const double felt_n = m.spring_force_n.norm(), depth_m = s.depth_m(m.goal_m);

@@ -21,7 +21,7 @@ struct PersonMove {
   double wait_rtt = 1.0;  // round trips more
   bool clutch = false;
   std::optional<MotionMode> mode{};
-  bool stop = false, engage = false, let_go = false;
+  bool stop = false, hold = false, engage = false, let_go = false;
   std::optional<double> scale{};
   std::optional<bool> load{};
   double blackout_s = 0.0;  // from its beginning on nothing arrives at either side
@@ -51,7 +51,8 @@ struct MoveSeen {
   Vector3 felt = Vector3::Zero();    // contact force at the hand, at its end, M, N
   double felt_n = 0.0;               // likewise
   double felt_max_n = 0.0;
-  double tool_n = 0.0;  // true force at the tool, at its end
+  double felt_swing_n = 0.0;  // between its least and its largest in the second half of the wait
+  double tool_n = 0.0;        // true force at the tool, at its end
   double tool_max_n = 0.0;
   double lead_m = 0.0;  // |goal - tool| at its end
   double lead_max_m = 0.0;

@@ -95,6 +95,7 @@ IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed,
     draw.wall_nm_per_rad = wall(random, draw.press_nm, kDepth_rad, least.damping_nm_s_per_rad / lag_s);
     farthest_rad = 0.93 * m.device.spherical.workspace_rad - 0.02 / m.mapping.scale - kDepth_rad - 0.1;
   }
+  if (number % 2 == 1) m.rendering.store_j = 0.0;
   draw.place.p = far * farthest_m * to;
   draw.place.q = exp_rotation(far_turned * farthest_rad * about);
   return draw;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kTowards_m = 0.04;   // deflection of the hand: 70 mm/s with the defaults
 constexpr double kNear_m = 0.012;     // 14 mm/s
 constexpr double kGentle_m = 0.0055;  // 1 mm/s
+constexpr double kHeld_m = 0.003;     // within the dead zone
 constexpr double kWall_m = 0.15;
 
 enum class Phase { kTowards, kWait, kPress, kHold, kLeave, kDone };
@@ -41,7 +42,8 @@ class Person {
         deflection = kGentle_m;
         go(m.spring_force_n.norm() > 4.0 || since > 20.0, Phase::kHold, t);
         break;
-      case Phase::kHold:
+      case Phase::kHold:  // on the side of the wall: beyond the centre nothing is felt
+        deflection = kHeld_m;
         go(since > 8.0, Phase::kLeave, t);
         break;
       case Phase::kLeave:
@@ -53,6 +55,8 @@ class Person {
     }
     HandTarget target;
     target.position_m = {deflection * gain_, 0.0, 0.0};
+    if (phase_ == Phase::kHold)
+      target.position_m.x() += m.spring_force_n.norm() / hand_model(Grip::kFirm).stiffness_n_per_m;
     target.grip = Grip::kFirm;
     return target;
   }

@@ -113,6 +113,7 @@ const std::vector<Limit>& master_limits() {
       {"rendering.stiffness_max_nm_per_rad", "10", "1", "1000"},
       {"rendering.fade_s", "0.2", "0.1", "5"},
       {"rendering.tank_max_j", "0.02", "0", "1"},
+      {"rendering.store_j", "0.02", "0", "0.1"},
       {"rendering.ramp_s", "0.05", "0.02", "1"},
       {"rendering.rate_stiffness_n_per_m", "60", "10", "1000"},
       {"rendering.rotational_stiffness_nm_per_rad", "0.4", "0.1", "10"},

@@ -107,6 +107,7 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.stiffness_max_n_per_m, m.stiffness_max_n_per_m());
   EXPECT_EQ(s.fade_s, m.fade_s());
   EXPECT_EQ(s.tank_max_j, m.tank_max_j());
+  EXPECT_EQ(s.store_j, m.store_j());
   EXPECT_EQ(s.rate_stiffness_n_per_m, m.rate_stiffness_n_per_m());
   EXPECT_EQ(s.rate_damping_n_s_per_m, m.rate_damping_n_s_per_m());
   EXPECT_EQ(s.friction_n, m.friction_n());

@@ -161,6 +161,7 @@ TEST(Contact, IsRemovedWhenTheToolTouchesNothingWhereItWouldPress) {
 TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
   Bench b(Vector3::UnitX());
   b.at.rate_mode = true;
+  b.at.deflection = {0.1, 0.0, 0.0};
   b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
   b.at.goal = {0.009, 0.0, 0.0};
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(b.press({1e-3 * i, 0.0, 0.0}).isZero(0.0)) << i;
@@ -170,6 +171,19 @@ TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
   EXPECT_NEAR(b.press({0.1, 0.0, 0.0}).x(), -2.0, 0.05);
   b.at.goal = {0.009, 0.0, 0.0};
   EXPECT_TRUE(b.press({0.1, 0.0, 0.0}).isZero(0.0));
+}
+
+TEST(Contact, NeverDrivesTheHandleBeyondTheCentreOfRateMode) {
+  Bench b(Vector3::UnitX());
+  b.at.rate_mode = true;
+  b.report(contact(along(Vector3::UnitX(), 1000.0), 101.0));
+  b.at.goal = {0.02, 0.0, 0.0};  // 10 mm in
+  for (const double deflection_m : {0.004, 0.001, 0.0, -0.002}) {
+    b.tank.fill(0.02);
+    b.at.deflection = {deflection_m, 0.0, 0.0};
+    for (int i = 0; i < 2000; ++i) b.press({0.1, 0.0, 0.0});
+    EXPECT_NEAR(b.press({0.1, 0.0, 0.0}).x(), -1000.0 * std::max(0.0, deflection_m), 0.05) << deflection_m;
+  }
 }
 
 TEST(Contact, HasNoForceWhileClutchedAndGrowsAgain) {

@@ -222,6 +222,25 @@ TEST(Mapping, FollowsAgainAfterNonsenseInTheVeryTickOfAChange) {
 }
 
 // What a limit at the robot does to the goal.
+TEST(Mapping, GoesIntoAPressedSurfaceNoFasterThanItMayInRateMode) {
+  Mapping mapping({.kv_per_s = 2.0, .dead_zone_m = 0.0, .radius_max_m = 0.05});
+  mapping.reset({});
+  MappingInput in = at(Vector3::Zero(), MotionMode::kRate, 1.0);
+  mapping.step(in, kTick_s);
+  in.handle.p_MH = {0.02, 0.01, 0.0};  // 40 and 20 mm/s
+  in.surfaces[1] = {{0.01, 0.0, 0.0}, Vector3::UnitX(), 0.005};
+  const auto speed = [&] {
+    const Vector3 before = mapping.goal().position_m;
+    return Vector3((mapping.step(in, kTick_s).position_m - before) / kTick_s);
+  };
+  EXPECT_NEAR(speed().x(), 0.04, 1e-9) << "in front of it";
+  for (int i = 0; i < 300; ++i) mapping.step(in, kTick_s);
+  EXPECT_NEAR(speed().x(), 0.005, 1e-9) << "behind it";
+  EXPECT_NEAR(speed().y(), 0.02, 1e-9) << "along it";
+  in.handle.p_MH = {-0.02, 0.0, 0.0};
+  EXPECT_NEAR(speed().x(), -0.04, 1e-9) << "out of it";
+}
+
 class BoundedGoal : public testing::TestWithParam<MotionMode> {
  protected:
   static constexpr double kSpeed = 0.1;

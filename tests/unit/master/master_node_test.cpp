@@ -7,6 +7,7 @@
 
 #include "common/core/random.hpp"
 #include "master/devices/simulated_devices.hpp"
+#include "master/rendering/rendering_config.hpp"
 #include "tests/unit/allocations.hpp"
 
 namespace longreach {
@@ -96,7 +97,7 @@ TEST(MasterNode, FeelsTheReportedStiffnessWhereTheTouchWas) {
   }
   const StiffnessReport report = b.contact(1000.0, static_cast<double>(touch));
   b.tick(&report);
-  EXPECT_EQ(b.node.view().spring_force_n.norm(), 0.0) << "learnt late: begins at zero force";
+  EXPECT_LT(b.node.view().spring_force_n.norm(), 0.04) << "learnt late: grows by a ramp";
   EXPECT_TRUE(b.node.view().surface_known);
   for (int i = 1000; i > 0; --i) {  // back out, the anchor follows
     b.in.handle.p_MH.x() = 1e-5 * i;
@@ -240,7 +241,7 @@ TEST(MasterNode, StaysPassiveAndLimitedUnderHostileReports) {
           << "seed " << seed << " tick " << i;
       ASSERT_LE(out.F_H_M.force.norm(), b.config.rendering.force_max_n + 1e-9);
     }
-    EXPECT_GE(b.node.view().port_energy_min_j, -1e-3) << "seed " << seed;
+    EXPECT_GE(b.node.view().port_energy_min_j, -returned_most_j()) << "seed " << seed;
     EXPECT_LE(b.node.view().energy_drawdown_j, 1e-3) << "seed " << seed;
   }
 }

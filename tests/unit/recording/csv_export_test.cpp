@@ -63,8 +63,9 @@ TEST(CsvExport, HasARowAMessageAndAColumnANumber) {
   EXPECT_EQ(read_all(tables[1].file), "t_s,log_time_ns,text\n1,2000000000,\"a \"\"word\"\", and\nmore\"\n");
   const std::string commands = read_all(tables[2].file);
   EXPECT_NE(commands.find("command.position_m.y"), std::string::npos) << commands;
-  EXPECT_NE(commands.find("\n2.5,3500000000,0,-5,0,,0,,0,HOLD,POSITION,0,1,GOAL_POSITION,0,-2.5e-07,0,,,\n"),
-            std::string::npos)
+  EXPECT_NE(
+      commands.find("\n2.5,3500000000,0,-5,0,,0,,0,HOLD,POSITION,0,1,GOAL_POSITION,0,-2.5e-07,0,,,,0\n"),
+      std::string::npos)
       << commands;
 }
 

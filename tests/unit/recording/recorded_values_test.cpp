@@ -64,7 +64,7 @@ void expect_kept(const Value& value) {
 }
 
 MotionCommand sample_command(Numbers& n) {
-  MotionCommand c{7, Request::kLetGo, MotionMode::kRate, n.next(), true, GoalKind::kOrientation};
+  MotionCommand c{7, Request::kLetGo, MotionMode::kRate, n.next(), true, true, GoalKind::kOrientation};
   c.position_m = n.vector();
   c.rotation_rad = n.vector();
   return c;
@@ -77,6 +77,10 @@ ContactStiffness sample_stiffness(Numbers& n) {
   c.touch_sequence = n.next();
   c.touch = 4'000'000'000;
   c.in_contact = true;
+  c.proof_depth = n.next();
+  c.place = n.vector();
+  c.surface = n.vector();
+  c.held_back = n.vector();
   return c;
 }
 

@@ -27,8 +27,11 @@ struct Touching {
     contact.force_n = force_n;
     limiter.reset({});
   }
+  bool let_go = false;
+
   Vector3 go_to(const Vector3& goal_m, int ticks = 300) {
-    for (int i = 0; i < ticks; ++i) out = limiter.step({Pose{goal_m, Quaternion::Identity()}, contact, kDt});
+    for (int i = 0; i < ticks; ++i)
+      out = limiter.step({Pose{goal_m, Quaternion::Identity()}, contact, kDt, let_go});
     return limiter.velocity().linear;
   }
   Vector3 hold(int ticks = 300) {
@@ -58,6 +61,15 @@ TEST(GoalLimiterGuard, WhereTheForceGrowsMattersInContactOnly) {
   t.contact.grows = Vector3::UnitY();
   t.contact.in_contact = false;
   EXPECT_NEAR(t.go_to(Vector3(0, 2, 0)).y(), kSpeed, 1e-12);
+}
+
+TEST(GoalLimiterGuard, WhileNobodyHoldsTheHandleTheGuardIsTheHoldLimit) {
+  Touching t(kHold_n + 2.0);
+  EXPECT_GE(t.go_to(Vector3(0.1, 0, 0)).x(), 0.0);
+  t.let_go = true;
+  EXPECT_NEAR(t.go_to(Vector3(0.1, 0, 0)).x(), -2.0 / (kStiffest_n_per_m * kBleed_s), 1e-12);
+  t.contact.force_n = kHold_n - 2.0;
+  EXPECT_GE(t.go_to(Vector3(0.1, 0, 0)).x(), 0.0);
 }
 
 TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {

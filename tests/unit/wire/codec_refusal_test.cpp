@@ -73,7 +73,7 @@ int refuses_in_every_field(Wire wire) {
 TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
-  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 28);
+  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 34);
   EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 40);
 }
 
@@ -183,6 +183,8 @@ TEST(Codec, RefusesPlacesAndDirectionsThatAreNone) {
   EXPECT_TRUE(refused([](Wire& w) { w.add_translation_place_m(0.0); }));
   EXPECT_TRUE(refused([](Wire& w) { w.set_translation_place_m(1, 1000.1); }));
   EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_place_rad(1, -100.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_surface_m(1, 1000.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_surface_rad(0.0); }));
   EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_held_back(0.0); }));
   EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_held_back(0, 0.5); })) << "longer than unit";
   EXPECT_TRUE(refused([](Wire& w) { w.set_translation_held_back(2, 0.0); })) << "shorter than unit";

@@ -27,6 +27,7 @@ TEST(Codec, KeepsEveryFieldOfAMotionCommand) {
   EXPECT_EQ(out.mode, MotionMode::kRate);
   EXPECT_EQ(out.scale, 0.35);
   EXPECT_TRUE(out.grip);
+  EXPECT_TRUE(out.let_go);
   EXPECT_EQ(out.goal_kind, GoalKind::kPosition);
   EXPECT_EQ(out.position_m, in.position_m);
   EXPECT_EQ(out.rotation_rad, Vector3(Vector3::Zero()));
@@ -68,6 +69,7 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
     EXPECT_EQ(contact->proof_depth, in.translation.proof_depth);
     EXPECT_EQ(contact->place, in.translation.place);
     EXPECT_EQ(contact->held_back, in.translation.held_back);
+    EXPECT_EQ(contact->surface, in.translation.surface);
   }
 }
 

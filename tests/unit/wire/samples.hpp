@@ -33,7 +33,7 @@ inline MotionCommand command() {
   c.request = Request::kEngage;
   c.mode = MotionMode::kRate;
   c.scale = 0.35;
-  c.grip = true;
+  c.grip = c.let_go = true;
   c.position_m = {0.1, -0.2, 0.3};
   return c;
 }
@@ -55,6 +55,7 @@ inline ContactStiffness contact(double scale) {
   c.in_contact = true;
   c.proof_depth = 0.00125;
   c.place = {0.25, -0.5, 0.125};
+  c.surface = {0.25, -0.5, 0.0625};
   c.held_back = {0.0, -0.6, 0.8};
   return c;
 }
