@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -68,10 +69,13 @@ Housekeeping::Housekeeping(const RunOptions& options, const MasterConfig& config
       hand_(std::in_place, config, shell, service) {}
 
 void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeker) {
-  while (!stop && !quit_ && seconds() < options_.seconds.value_or(1e300)) {
+  while (!stop && !quit_ && seconds() < length_s()) {
     std::this_thread::sleep_for(kStatusPeriod);
     const MasterSnapshot s = service_.snapshot();
     watch_.look(s.side.loop.ticks);
+    holds_.add(seconds(), s.view);
+    if (scripted(config_) && config_.safety.engage_at_start && resumption_.step(seconds(), s.view))
+      (void)service_.request({.engage = true});
     std::string trouble = seeker.trouble();
     if (trouble.empty()) trouble = hand_trouble(s);
     service_.put_trouble(trouble, seeker.taken_by());
@@ -79,7 +83,7 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
     ConsoleSnapshot shown = picture(s, config_);
     shown.trouble = trouble;
     shown.seconds = seconds();
-    if (options_.seconds) shown.seconds_left = *options_.seconds - shown.seconds;
+    if (options_.seconds) shown.seconds_left = length_s() - shown.seconds;
     const HandPoll::Seen hand = hand_->seen();
     shown.show_keys = hand.show_keys;
     shown.pad_keys = hand.pad_keys;
@@ -88,6 +92,26 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
   }
   view_.close();
   hand_.reset();
+}
+
+double Housekeeping::length_s() const {
+  if (!options_.seconds) return 1e300;
+  return *options_.seconds + std::min(*options_.seconds, holds_.machine_s());
+}
+
+bool Resumption::step(double seconds, const MasterView& view) {
+  constexpr double kReaction_s = 1.0, kPatience_s = 4.0;
+  const bool engaged = view.state == SafetyState::kEngaged;
+  const bool wanted = view.state != SafetyState::kStopped && view.cause != HoldCause::kOperator &&
+                      view.cause != HoldCause::kTaken;
+  if (engaged || !wanted || view.engaging || view.resumes) {
+    engaged_ = engaged_ || engaged;
+    ask_s_ = seconds + kReaction_s;
+    return false;
+  }
+  if (!engaged_ || seconds < ask_s_) return false;
+  ask_s_ = seconds + kPatience_s + view.rtt_s.value_or(0.0);
+  return true;
 }
 
 /// Why there is nothing in the hand, and what to do.

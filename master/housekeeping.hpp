@@ -8,6 +8,7 @@
 #include "common/io/real_time_loop.hpp"
 #include "common/io/service_watch.hpp"
 #include "common/io/session_seeker.hpp"
+#include "master/console/hold_log.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/hand_poll.hpp"
 #include "master/master_service.hpp"
@@ -30,6 +31,18 @@ class Chronicle {
   std::string trouble_, hand_trouble_;
 };
 
+/// The simulated operator engages again after a hold, as a person would: after a second, and every few
+/// seconds while that is not answered. Not after a stop, nor when another master has the robot.
+class Resumption {
+ public:
+  /// True: ask for an engagement now.
+  bool step(double seconds, const MasterView& view);
+
+ private:
+  bool engaged_ = false;  // once
+  double ask_s_ = 0.0;
+};
+
 struct RunOptions {
   ViewKind view = ViewKind::kAuto;
   std::optional<double> seconds{};  // length of the run; none: until it is ended
@@ -48,6 +61,8 @@ class Housekeeping {
 
  private:
   [[nodiscard]] double seconds() const { return to_seconds(monotonic_now() - began_); }
+  /// Holds that this machine caused extend it, to twice its length at most.
+  [[nodiscard]] double length_s() const;
   [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const;
 
   RunOptions options_;
@@ -57,6 +72,8 @@ class Housekeeping {
   std::optional<HandPoll> hand_;
   Chronicle chronicle_;
   ServiceWatch watch_;
+  HoldLog holds_{};
+  Resumption resumption_{};
   Time began_ = monotonic_now();
   bool quit_ = false;
 };

@@ -67,7 +67,8 @@ SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_
   return {.ke = config.rendering.ke,
           .contact_expected = scripted(config),
           .wall_n_per_m = wall_n_per_m,
-          .store_j = config.rendering.store_j};
+          .store_j = config.rendering.store_j,
+          .outages = config.link.impairment.blackout_duration_s > 0.0};
 }
 
 /// The verdict counts for a run that was given its length; one that ends by a signal has just ended.

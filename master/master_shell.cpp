@@ -154,6 +154,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
                                             .goal_m = view.goal_m,
                                             .scale = view.scale,
                                             .engaged = view.state == SafetyState::kEngaged,
+                                            .engagement = view.engagement,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
   if (script.mode && !requests.mode) requests.mode = script.mode;

@@ -73,13 +73,16 @@ proto::LinkProfile load_link_profile(const fs::path& deploy_folder, const std::s
   const fs::path folder = deploy_folder / "links";
   const bool plain = !name.empty() && name.front() != '.' && name.find_first_of("/\\") == std::string::npos &&
                      name.find('\0') == std::string::npos;
-  if (!plain) {
+  const bool path =
+      name.starts_with('/') && name.ends_with(kExtension) && name.find('\0') == std::string::npos;
+  if (!plain && !path) {
     throw ConfigError("\"" + name + "\" is not the name of a link profile; give a plain name, one of: " +
-                      list_names(known_profiles(folder)));
+                      list_names(known_profiles(folder)) + ", or the absolute path of a " + kExtension +
+                      " file");
   }
-  const fs::path file = folder / (name + kExtension);
+  const fs::path file = path ? fs::path(name) : folder / (name + kExtension);
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  if (!path && !fs::exists(file, ignored)) {
     const Names known = known_profiles(folder);
     throw ConfigError("there is no link profile \"" + name + "\" in " + folder.string() +
                       instead_of(name, known, "known"));

@@ -134,6 +134,14 @@ Finding examine_loop(double seconds) {
     out.verdict = FindingVerdict::kWarning;
     out.advice = "end other programs, give the loop its priority, isolate a core, or lower loop.rate_hz";
   }
+  // The programs hold when a tick comes later than their gap timer after the one before.
+  constexpr double kGap_s = 0.1, kNear = 0.5;
+  if (to_seconds(figures.lateness_max) > kNear * kGap_s) {
+    out.verdict = FindingVerdict::kWarning;
+    out.advice =
+        "a loop on this machine stands still for nearly the gap timer (safety.gap_s, 0.1 s) or longer: end "
+        "other programs, or give the loop its priority";
+  }
   return out;
 }
 

@@ -13,6 +13,8 @@
 namespace longreach {
 namespace {
 
+constexpr std::size_t kPlainColumns = 120;
+
 constexpr int kWidthMin = 60;
 constexpr int kWidthMax = 110;
 constexpr int kLabel = 10;  // columns of the first column
@@ -235,10 +237,21 @@ std::string render_line(const ConsoleSnapshot& s) {
   line += text("  loss %.1f %%  %s", s.link.loss * 100.0, std::string(mode_in_words(s.view.mode)).c_str());
   line += text("  hand %+.1f %+.1f %+.1f mm", s.view.p_MH.x() * 1e3, s.view.p_MH.y() * 1e3,
                s.view.p_MH.z() * 1e3);
-  line +=
-      text("  force %.2f N  stiffness %.2f N/mm", s.view.F_H_M.force.norm(), s.view.stiffness_n_per_m * 1e-3);
-  line += text("  energy %+.1f mJ  ", s.view.port_energy_j * 1e3);
-  return line + happening(s);
+  line += text("  %.2f N  %.2f N/mm", s.view.F_H_M.force.norm(), s.view.stiffness_n_per_m * 1e-3);
+  return line.substr(0, kPlainColumns);
+}
+
+std::string render_event(const ConsoleSnapshot& s) {
+  const std::string begin = text("%6.1f s  ", s.seconds);
+  std::string lines, rest = std::string(state_in_words(s.view.state)) + ": " + happening(s);
+  const std::size_t room = kPlainColumns - std::min(begin.size(), kPlainColumns / 2);
+  while (rest.size() > room) {
+    const std::size_t space = rest.rfind(' ', room);
+    const std::size_t end = space == std::string::npos || space == 0 ? room : space;
+    lines += rest.substr(0, end) + "\n          ";
+    rest.erase(0, end == space ? end + 1 : end);
+  }
+  return begin + lines + rest;
 }
 
 }  // namespace longreach

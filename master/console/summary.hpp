@@ -13,6 +13,7 @@
 
 #include "common/core/regression.hpp"
 #include "common/core/ring.hpp"
+#include "master/console/hold_log.hpp"
 #include "master/console/snapshot.hpp"
 
 namespace longreach {
@@ -26,6 +27,7 @@ struct SummaryConfig {
   double energy_out_max_j = 1e-3;        // encoder steps let the port read this much without a leak
   double force_step_n = 0.1;             // a report may step the spring's force by this, or
   double force_step_share = 0.05;        // by this share of it: differences under 7 to 10 % are not felt
+  bool outages = false;                  // the link's profile has some
 };
 
 /// Counters at the end of the run.
@@ -41,6 +43,7 @@ struct RunCounters {
 struct SummaryCheck {
   std::string text;
   bool ok = false;
+  bool warns = false;  // worth knowing, but not a fault of the system
 };
 
 struct Summary {
@@ -75,6 +78,7 @@ class RunSummary {
   void add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s);
   void add_force_step(const MasterView& view);
   void add_checks(Summary& summary) const;
+  void add_holds(Summary& summary) const;
 
   SummaryConfig config_;
   Ring<double> rtt_s_;  // ten a second, the last hour
@@ -90,6 +94,7 @@ class RunSummary {
   std::uint64_t reports_ = 0;
   double force_step_max_n_ = 0.0;
   double force_step_excess_n_ = 0.0;
+  HoldLog holds_;
 };
 
 }  // namespace longreach

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -15,7 +16,7 @@ namespace longreach {
 namespace {
 
 constexpr double kLivePeriodS = 0.1;
-constexpr double kPlainPeriodS = 1.0;
+constexpr double kPlainPeriodS = 0.1, kFiguresPeriodS = 5.0;
 constexpr std::size_t kPlainMaxBytes = 64 << 10;
 constexpr std::chrono::milliseconds kScreenPatience{200};
 constexpr std::string_view kEnter =
@@ -48,6 +49,13 @@ std::string in_place(std::string_view page, int rows) {
     page.remove_prefix(std::min(end + 1, page.size()));
   }
   return text + "\x1b[J";
+}
+
+/// Figures change all the time.
+std::string without_figures(std::string text) {
+  std::erase_if(text,
+                [](unsigned char c) { return std::isdigit(c) != 0 || c == '.' || c == ' ' || c == '-'; });
+  return text;
 }
 
 }  // namespace
@@ -84,7 +92,15 @@ void TerminalView::show(const ConsoleSnapshot& snapshot) {
   const double period_s = live_ ? kLivePeriodS : kPlainPeriodS;
   next_s_ = (std::floor(snapshot.seconds / period_s + 1e-6) + 1.0) * period_s - 1e-6;
   if (plain_) {
-    outlet_->offer(render_line(snapshot) + "\n");
+    std::string text, event = without_figures(render_event(snapshot));
+    if (event != event_) text = render_event(snapshot) + "\n";
+    if (snapshot.seconds >= next_figures_s_) {
+      text += render_line(snapshot) + "\n";
+      next_figures_s_ =
+          (std::floor(snapshot.seconds / kFiguresPeriodS + 1e-6) + 1.0) * kFiguresPeriodS - 1e-6;
+    }
+    event_ = std::move(event);
+    if (!text.empty()) outlet_->offer(std::move(text));
     return;
   }
   const ScreenSize size = size_of(fd_);

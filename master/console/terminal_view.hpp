@@ -1,7 +1,8 @@
 #pragma once
 // A calm live view of the master in the terminal. render() is the picture as text, a pure function;
 // TerminalView puts it on the screen: redrawn in place, at most ten times a second, in one write so that it
-// does not flicker; or, where that is not possible, one plain line a second. A terminal or a pipe that takes
+// does not flicker; or, where that is not possible, plain lines: what is happening when it changes, figures
+// every five seconds. A terminal or a pipe that takes
 // nothing makes nobody wait: pictures that it has no room for are left out, whole ones.
 
 #include <optional>
@@ -16,8 +17,10 @@ namespace longreach {
 /// asked for.
 std::string render(const ConsoleSnapshot& snapshot, int width, bool color);
 
-/// The same in one line without its end, for logs and pipes.
+/// The figures in one line of at most 120 columns without its end, for logs and pipes.
 std::string render_line(const ConsoleSnapshot& snapshot);
+/// What is happening, likewise; longer sentences go on in the lines below.
+std::string render_event(const ConsoleSnapshot& snapshot);
 
 enum class ViewKind { kAuto, kPlain, kNone };  // kAuto: live on a terminal, else plain
 
@@ -43,7 +46,8 @@ class TerminalView {
   bool live_ = false;
   bool plain_ = false;
   bool color_ = false;
-  double next_s_ = 0.0;
+  double next_s_ = 0.0, next_figures_s_ = 0.0;
+  std::string event_{};  // the last one, without its figures
   std::optional<Outlet> outlet_;
 };
 

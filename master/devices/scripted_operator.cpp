@@ -47,6 +47,9 @@ ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
   if (!started_) entered_ = input.now;
   started_ = true;
   now_ = input.now;
+  if (input.engagement != engagement_) covered_m_ += goal_m_;
+  engagement_ = input.engagement;
+  goal_m_ = goal_direction_.dot(input.goal_m);
   ScriptOutput out;
   if (!input.engaged && phase_ != ScriptPhase::kWaiting) enter(ScriptPhase::kWaiting, input.now);
   out.mode = decide(input);
@@ -62,7 +65,7 @@ ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
 /// Changes of phase; returns the mode that the person switches to.
 std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
   const double elapsed_s = to_seconds(in.now - entered_);
-  const double left_m = config_.rate_distance_m - goal_direction_.dot(in.goal_m);
+  const double left_m = this->left_m(in);
   switch (phase_) {
     case ScriptPhase::kWaiting:
       if (!in.engaged) break;
@@ -121,6 +124,10 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
   return std::nullopt;
 }
 
+double ScriptedOperator::left_m(const ScriptInput& in) const {
+  return config_.rate_distance_m - covered_m_ - goal_direction_.dot(in.goal_m);
+}
+
 double ScriptedOperator::coarse_deflection(double left_m) const {
   const double speed = std::min(kCoarse_m_per_s, 2.0 * left_m);
   return mapping_.dead_zone_m + speed / mapping_.kv_per_s;
@@ -133,7 +140,7 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   double speed = 0.0;
   switch (phase_) {
     case ScriptPhase::kCoarse: {
-      const double left_m = config_.rate_distance_m - goal_direction_.dot(in.goal_m);
+      const double left_m = this->left_m(in);
       speed = 8.0 * (centre_m_ + coarse_deflection(left_m) - handle_m);
       break;
     }

@@ -39,6 +39,7 @@ struct ScriptInput {
   Vector3 goal_m = Vector3::Zero();  // own commands, from the anchor, W
   double scale = 1.0;
   bool engaged = false;
+  std::uint32_t engagement = 0;  // goals begin anew with each
   bool surface_known = false;
   double depth_m = 0.0;  // of the handle behind the registered surface
 };
@@ -61,6 +62,7 @@ class ScriptedOperator {
   void enter(ScriptPhase phase, Time now);
   std::optional<MotionMode> decide(const ScriptInput& input);
   void move(const ScriptInput& input, double dt_s);
+  [[nodiscard]] double left_m(const ScriptInput& input) const;
   [[nodiscard]] double coarse_deflection(double left_m) const;
 
   OperatorConfig config_;
@@ -77,6 +79,9 @@ class ScriptedOperator {
   double speed_m_per_s_ = 0.0;  // its speed
   double centre_m_ = 0.0;       // of rate mode
   double probe_centre_m_ = 0.0;
+  // Covered in the engagements before, and so far in this one.
+  std::uint32_t engagement_ = 0;
+  double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
 };
 

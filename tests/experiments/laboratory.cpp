@@ -124,6 +124,7 @@ void Laboratory::step_master() {
                                             .goal_m = view.goal_m,
                                             .scale = view.scale,
                                             .engaged = view.state == SafetyState::kEngaged,
+                                            .engagement = view.engagement,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
   HandTarget target = driven_.value_or(script.target);

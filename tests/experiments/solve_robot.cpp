@@ -48,7 +48,7 @@ RobotConfig rows(const Json& request) {
 
 RobotConfig named(const std::string& name) {
   proto::SlaveConfig config;
-  config.set_robot_file("robots/" + name + ".txtpb");
+  config.set_robot_file(name.starts_with('/') ? name : "robots/" + name + ".txtpb");
   config.mutable_scene();
   resolve_files(config, find_deploy_folder());
   return to_struct(config).robot;

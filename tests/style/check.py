@@ -16,7 +16,7 @@ import floors  # noqa: E402
 import source  # noqa: E402
 
 TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
-TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'LICENSE', 'NOTICE',
+TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CONTRIBUTING.md', 'LICENSE', 'NOTICE',
              '.clang-format', '.clang-tidy', '.gitignore', '.gitattributes'}
 IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # what builds, runs and fuzzers leave behind
 GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build

@@ -113,7 +113,7 @@ std::vector<Plot> idle_plots() {
 }
 
 std::vector<Metric> run_idle(const ExperimentRun& run) {
-  const auto draws = static_cast<std::size_t>(campaign(10000, 90));
+  const auto draws = static_cast<std::size_t>(campaign(10000, 200));
   const std::vector<Judged> all = run_all(run, draws, 1, 0.0);
   write_draws(run, all);
   ExperimentRun quiet = run;

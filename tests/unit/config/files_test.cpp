@@ -273,9 +273,18 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
             "there is no link profile \"mon\" in " + links + "; did you mean \"moon\"? Known: lab, moon");
   EXPECT_EQ(error("mars"), "there is no link profile \"mars\" in " + links + "; known: lab, moon");
   for (const std::string name : {"../links/moon", "/etc/passwd", "", ".", "..", "a\\b", ".hidden"}) {
-    EXPECT_EQ(error(name),
-              "\"" + name + "\" is not the name of a link profile; give a plain name, one of: lab, moon");
+    EXPECT_EQ(
+        error(name),
+        "\"" + name +
+            "\" is not the name of a link profile; give a plain name, one of: lab, moon, or the absolute "
+            "path of a .txtpb file");
   }
+  folder.write("mine.txtpb", "up { delay_s: 0.7 }");
+  const std::string mine = (folder.path() / "mine.txtpb").string();
+  EXPECT_EQ(load_link_profile(folder.path(), mine).up().delay_s(), 0.7);
+  EXPECT_NE(error("/nowhere/mine.txtpb").find("/nowhere/mine.txtpb: there is no such file"),
+            std::string::npos)
+      << error("/nowhere/mine.txtpb");
   folder.write("links/moon.txtpb", "up { delay_s: -1 }");
   EXPECT_EQ(error("moon"), links + "/moon.txtpb:1:6: up.delay_s = -1 is outside 0 to 100");
   EXPECT_EQ(error_of([&] { load_link_profile(folder.path() / "x", "moon"); }),

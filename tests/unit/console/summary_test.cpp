@@ -123,8 +123,6 @@ TEST(Summary, JudgesAForceStepAgainstTheForceOfItsMoment) {
 TEST(Summary, FailsForEachCounter) {
   const RunSummary run = probing(script());
   const std::vector<std::function<void(ConsoleSnapshot&)>> breaks = {
-      [](ConsoleSnapshot& s) { s.late_ticks = 1; },
-      [](ConsoleSnapshot& s) { s.view.far.late_ticks = 1; },
       [](ConsoleSnapshot& s) { s.view.false_holds = 1; },
       [](ConsoleSnapshot& s) { s.view.rejected_values = 1; },
       [](ConsoleSnapshot& s) { s.rejected[static_cast<std::size_t>(Rejection::kValue)] = 1; },
@@ -139,6 +137,46 @@ TEST(Summary, FailsForEachCounter) {
     EXPECT_FALSE(summary.passed()) << "break " << i;
     EXPECT_NE(summary.text().find("FAIL"), std::string::npos);
   }
+}
+
+TEST(Summary, WarnsOfLateTicksAndDoesNotFail) {
+  ConsoleSnapshot last;
+  last.late_ticks = 1;
+  const Summary summary = probing(script()).finish(last);
+  EXPECT_TRUE(summary.passed());
+  EXPECT_NE(summary.text().find("warn  1 ticks late by over 100 ms: this machine is busy"),
+            std::string::npos);
+}
+
+TEST(Summary, AttributesAHoldThatABusyMachineCaused) {
+  const auto hold = [](HoldCause cause, HoldCause far) {
+    return probing(script(),
+                   [=](double t, MasterView& view) {
+                     if (t < 2.0 || t > 3.5) return;
+                     view.state = SafetyState::kHolding;
+                     view.cause = cause;
+                     view.far.cause = far;
+                   })
+        .finish({});
+  };
+  const Summary stalled = hold(HoldCause::kPeerHolds, HoldCause::kStalled);
+  EXPECT_TRUE(stalled.passed()) << stalled.text();
+  EXPECT_NE(stalled.text().find("the slave's control loop stalled: this machine is busy"), std::string::npos)
+      << stalled.text();
+  EXPECT_TRUE(hold(HoldCause::kOverrun, HoldCause::kNone).passed());
+  EXPECT_TRUE(hold(HoldCause::kOperator, HoldCause::kOperator).passed());
+  EXPECT_FALSE(hold(HoldCause::kLinkSilent, HoldCause::kNone).passed());
+  EXPECT_FALSE(hold(HoldCause::kPeerHolds, HoldCause::kRobotFault).passed());
+}
+
+TEST(Summary, ForgivesAnOutageThatTheProfileHas) {
+  SummaryConfig config = script();
+  const auto silent = [](double t, MasterView& view) {
+    if (t > 2.0 && t < 3.5) view.state = SafetyState::kHolding, view.cause = HoldCause::kLinkSilent;
+  };
+  EXPECT_FALSE(probing(config, silent).finish({}).passed());
+  config.outages = true;
+  EXPECT_TRUE(probing(config, silent).finish({}).passed());
 }
 
 TEST(Summary, AsksAPersonForNoContact) {

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -191,14 +192,15 @@ TEST(TerminalGuard, ASignalEndsAProgramWhoseTerminalNobodyReads) {
   EXPECT_TRUE(same(pty.mode(), before));
 }
 
-TEST(TerminalView, WritesOnePlainLineASecondIntoAPipe) {
+TEST(TerminalView, WritesEventsOnceAndFiguresEveryFiveSecondsIntoAPipe) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   TerminalView view(ViewKind::kAuto, ends[1]);
   EXPECT_FALSE(view.live());
   ConsoleSnapshot snapshot;
-  for (int tick = 0; tick < 3000; ++tick) {
+  for (int tick = 0; tick < 12000; ++tick) {
     snapshot.seconds = 1e-3 * tick;
+    snapshot.view.state = tick < 7000 ? SafetyState::kIdle : SafetyState::kEngaged;
     view.show(snapshot);
   }
   view.close();
@@ -206,7 +208,15 @@ TEST(TerminalView, WritesOnePlainLineASecondIntoAPipe) {
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(ends[0], bytes.data(), bytes.size());
   const std::string text(bytes.data(), static_cast<std::size_t>(n));
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  std::istringstream lines(text);
+  int events = 0, figures = 0;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 120U) << line;
+    figures += line.find("  rtt ") != std::string::npos;
+    events += line.find("s  Idle: ") != std::string::npos || line.find("s  Engaged: ") != std::string::npos;
+  }
+  EXPECT_EQ(figures, 3) << text;
+  EXPECT_EQ(events, 2) << text;
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   ::close(ends[0]);
 }

@@ -1,0 +1,93 @@
+#include "master/console/hold_log.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "master/console/formatted.hpp"
+#include "master/console/words.hpp"
+
+namespace longreach {
+namespace {
+
+bool is_machine(HoldCause cause) { return cause == HoldCause::kStalled || cause == HoldCause::kOverrun; }
+bool is_operator(HoldCause cause) {
+  return cause == HoldCause::kOperator || cause == HoldCause::kHandleLetGo || cause == HoldCause::kTaken;
+}
+bool is_silence(HoldCause cause) { return cause == HoldCause::kLinkSilent || cause == HoldCause::kLinkStale; }
+
+std::string machine_words(const HoldRecord& hold) {
+  const bool here = is_machine(hold.cause);
+  const bool stalled = (here ? hold.cause : hold.far_cause) == HoldCause::kStalled;
+  std::string text = here ? "the master's control loop " : "the slave's control loop ";
+  if (!stalled) return text + "ran late: this machine is too slow or busy";
+  return text + "stalled: this machine is busy";
+}
+
+std::string words_of(const HoldRecord& hold) {
+  const std::string when = formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
+  if (hold.blame == HoldBlame::kMachine) return when + machine_words(hold);
+  if (hold.blame == HoldBlame::kOperator) return when + "the operator stopped or let go";
+  std::string text = when + std::string(cause_in_words(hold.cause));
+  if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause)
+    text += ", at the slave " + std::string(cause_in_words(hold.far_cause));
+  return text + (hold.blame == HoldBlame::kOutage ? ", as the link's profile has it" : "");
+}
+
+}  // namespace
+
+HoldBlame HoldLog::blame(const HoldRecord& hold) const {
+  if (is_machine(hold.cause) || is_machine(hold.far_cause)) return HoldBlame::kMachine;
+  if (is_operator(hold.cause) || is_operator(hold.far_cause)) return HoldBlame::kOperator;
+  if (outages_ && (is_silence(hold.cause) || is_silence(hold.far_cause))) return HoldBlame::kOutage;
+  return HoldBlame::kSystem;
+}
+
+HoldRecord HoldLog::present() const {
+  HoldRecord hold = hold_;
+  hold.lasted_s = now_s_ - hold.began_s;
+  hold.blame = blame(hold);
+  return hold;
+}
+
+void HoldLog::add(double seconds, const MasterView& view) {
+  now_s_ = std::max(now_s_, seconds);
+  const bool engaged = view.state == SafetyState::kEngaged;
+  if (engaged_ && !engaged) {
+    hold_ = {.began_s = now_s_};
+    holds_ = true;
+  }
+  if (holds_ && !engaged) {
+    if (view.cause != HoldCause::kNone && (hold_.cause == HoldCause::kNone || is_machine(view.cause)))
+      hold_.cause = view.cause;
+    const HoldCause far = view.far_known ? view.far.cause : HoldCause::kNone;
+    if (far != HoldCause::kNone && (hold_.far_cause == HoldCause::kNone || is_machine(far)))
+      hold_.far_cause = far;
+  }
+  if (holds_ && engaged) {
+    const HoldRecord hold = present();
+    const std::uint64_t number = count();
+    if (number < kKept) kept_[number] = hold;
+    ++counts_[static_cast<std::size_t>(hold.blame)];
+    if (hold.blame == HoldBlame::kMachine) machine_s_ += hold.lasted_s;
+    holds_ = false;
+  }
+  engaged_ = engaged;
+}
+
+std::uint64_t HoldLog::count() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+}
+
+double HoldLog::machine_s() const {
+  const bool now = holds_ && present().blame == HoldBlame::kMachine;
+  return machine_s_ + (now ? present().lasted_s : 0.0);
+}
+
+std::vector<std::string> HoldLog::words() const {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < std::min<std::size_t>(count(), kKept); ++i) all.push_back(words_of(kept_[i]));
+  if (holds_) all.push_back(words_of(present()));
+  return all;
+}
+
+}  // namespace longreach

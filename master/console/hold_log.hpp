@@ -1,0 +1,54 @@
+#pragma once
+// The holds of a run: when, for how long, and what caused them. A hold that a busy machine caused (a control
+// loop that stalled or ran late) is not a fault of the system; neither is one by the operator, nor one by an
+// outage that the link's profile has. add() allocates nothing.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "master/master_node.hpp"
+
+namespace longreach {
+
+enum class HoldBlame : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
+
+struct HoldRecord {
+  double began_s = 0.0, lasted_s = 0.0;
+  HoldCause cause = HoldCause::kNone;      // at the master
+  HoldCause far_cause = HoldCause::kNone;  // at the slave, as far as it was reported meanwhile
+  HoldBlame blame = HoldBlame::kSystem;
+};
+
+class HoldLog {
+ public:
+  /// `outages`: the link's profile has some.
+  explicit HoldLog(bool outages = false) : outages_(outages) {}
+
+  /// `seconds` since the start must not fall.
+  void add(double seconds, const MasterView& view);
+
+  [[nodiscard]] std::uint64_t count(HoldBlame blame) const {
+    return counts_[static_cast<std::size_t>(blame)];
+  }
+  [[nodiscard]] std::uint64_t count() const;
+  /// Time of the holds that the machine caused, the present one included.
+  [[nodiscard]] double machine_s() const;
+  /// A sentence for each of the first holds; one that has not ended is among them.
+  [[nodiscard]] std::vector<std::string> words() const;
+
+ private:
+  static constexpr std::size_t kKept = 16;
+  [[nodiscard]] HoldBlame blame(const HoldRecord& hold) const;
+  [[nodiscard]] HoldRecord present() const;
+
+  bool outages_;
+  bool engaged_ = false, holds_ = false;
+  double now_s_ = 0.0, machine_s_ = 0.0;
+  HoldRecord hold_{};
+  std::array<HoldRecord, kKept> kept_{};
+  std::array<std::uint64_t, 4> counts_{};
+};
+
+}  // namespace longreach
