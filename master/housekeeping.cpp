@@ -66,7 +66,8 @@ Housekeeping::Housekeeping(const RunOptions& options, const MasterConfig& config
       config_(config),
       service_(service),
       view_(options.view),
-      hand_(std::in_place, config, shell, service) {}
+      hand_(std::in_place, config, shell, service),
+      holds_(config.link.impairment.blackout_duration_s > 0.0) {}
 
 void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeker) {
   while (!stop && !quit_ && seconds() < length_s()) {
@@ -74,7 +75,7 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
     const MasterSnapshot s = service_.snapshot();
     watch_.look(s.side.loop.ticks);
     holds_.add(seconds(), s.view);
-    if (scripted(config_) && config_.safety.engage_at_start && resumption_.step(seconds(), s.view))
+    if (scripted(config_) && config_.safety.engage_at_start && resumption_.step(seconds(), s.view, holds_))
       (void)service_.request({.engage = true});
     std::string trouble = seeker.trouble();
     if (trouble.empty()) trouble = hand_trouble(s);
@@ -99,17 +100,15 @@ double Housekeeping::length_s() const {
   return *options_.seconds + std::min(*options_.seconds, holds_.machine_s());
 }
 
-bool Resumption::step(double seconds, const MasterView& view) {
+bool Resumption::step(double seconds, const MasterView& view, const HoldLog& holds) {
   constexpr double kReaction_s = 1.0, kPatience_s = 4.0;
-  const bool engaged = view.state == SafetyState::kEngaged;
-  const bool wanted = view.state != SafetyState::kStopped && view.cause != HoldCause::kOperator &&
-                      view.cause != HoldCause::kTaken;
-  if (engaged || !wanted || view.engaging || view.resumes) {
-    engaged_ = engaged_ || engaged;
+  const auto blame = holds.now();
+  const bool wanted = blame == HoldBlame::kMachine || blame == HoldBlame::kOutage;
+  if (!wanted || view.engaging || view.resumes) {
     ask_s_ = seconds + kReaction_s;
     return false;
   }
-  if (!engaged_ || seconds < ask_s_) return false;
+  if (seconds < ask_s_) return false;
   ask_s_ = seconds + kPatience_s + view.rtt_s.value_or(0.0);
   return true;
 }

@@ -31,15 +31,14 @@ class Chronicle {
   std::string trouble_, hand_trouble_;
 };
 
-/// The simulated operator engages again after a hold, as a person would: after a second, and every few
-/// seconds while that is not answered. Not after a stop, nor when another master has the robot.
+/// The simulated operator engages again after a hold that the machine or an outage of the link's profile
+/// caused, as a person would: after a second, and every few seconds while that is not answered.
 class Resumption {
  public:
   /// True: ask for an engagement now.
-  bool step(double seconds, const MasterView& view);
+  bool step(double seconds, const MasterView& view, const HoldLog& holds);
 
  private:
-  bool engaged_ = false;  // once
   double ask_s_ = 0.0;
 };
 
@@ -72,7 +71,7 @@ class Housekeeping {
   std::optional<HandPoll> hand_;
   Chronicle chronicle_;
   ServiceWatch watch_;
-  HoldLog holds_{};
+  HoldLog holds_;
   Resumption resumption_{};
   Time began_ = monotonic_now();
   bool quit_ = false;

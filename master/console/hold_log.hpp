@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ class HoldLog {
     return counts_[static_cast<std::size_t>(blame)];
   }
   [[nodiscard]] std::uint64_t count() const;
+  /// Of the present hold; none: there is none.
+  [[nodiscard]] std::optional<HoldBlame> now() const {
+    return holds_ ? std::optional(blame(hold_)) : std::nullopt;
+  }
   /// Time of the holds that the machine caused, the present one included.
   [[nodiscard]] double machine_s() const;
   /// A sentence for each of the first holds; one that has not ended is among them.
