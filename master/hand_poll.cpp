@@ -70,7 +70,10 @@ void HandPoll::poll() {
   if (pad_) {
     requests = poll_pad(view, requests);
   } else {
-    shell_.hand().write({.target_m = state.target_m, .clutch = requests.clutch, .said = monotonic_now()});
+    shell_.hand().write({.target_m = state.target_m,
+                         .clutch = requests.clutch,
+                         .present = keyboard_->trouble().empty(),
+                         .said = monotonic_now()});
   }
   if (asks(requests)) {
     if (const auto refusal = service_.request(requests)) spdlog::warn("key refused=\"{}\"", refusal->message);
@@ -78,9 +81,8 @@ void HandPoll::poll() {
   const std::lock_guard lock(seeing_);
   seen_.show_keys = state.show_keys;
   seen_.quit = seen_.quit || state.quit;
-  if (!pad_) return;
-  seen_.pad_keys = pad_->key_line();
-  seen_.pad_trouble = pad_->trouble();
+  seen_.trouble = pad_ ? pad_->trouble() : keyboard_->trouble();
+  if (pad_) seen_.pad_keys = pad_->key_line();
 }
 
 OperatorRequests HandPoll::poll_pad(const MasterView& view, OperatorRequests keys) {

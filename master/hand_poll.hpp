@@ -20,7 +20,8 @@ class HandPoll {
   struct Seen {
     bool show_keys = false;
     bool quit = false;  // latched
-    std::string pad_keys, pad_trouble;
+    std::string pad_keys;
+    std::string trouble;  // why there is nothing in the hand, and what to do
   };
 
   /// All must outlive it. Nobody to ask for other kinds of operator. Throws std::runtime_error where the
@@ -31,7 +32,8 @@ class HandPoll {
   HandPoll(const HandPoll&) = delete;
   HandPoll& operator=(const HandPoll&) = delete;
 
-  [[nodiscard]] bool has_pad() const { return pad_.has_value(); }
+  /// Keyboard or pad is the hand.
+  [[nodiscard]] bool is_hand() const { return keyboard_.has_value(); }
   [[nodiscard]] Seen seen() const;
 
  private:

@@ -116,9 +116,10 @@ bool Resumption::step(double seconds, const MasterView& view, const HoldLog& hol
 /// Why there is nothing in the hand, and what to do.
 std::string Housekeeping::hand_trouble(const MasterSnapshot& s) const {
   const std::string adapter = adapter_trouble(s.adapter, "haptic device", config_.device_adapter.address);
-  if (!adapter.empty() || !hand_->has_pad() || s.hand_outside) return adapter;
-  const std::string pad = hand_->seen().pad_trouble;
-  return pad.empty() && s.hand_lost ? "the hand takes up the handle; engage in a moment" : pad;
+  const bool real_device = !config_.device_adapter.address.empty();
+  if (real_device || !hand_->is_hand() || s.hand_outside) return adapter;
+  const std::string hand = hand_->seen().trouble;
+  return hand.empty() && s.hand_lost ? "the hand takes up the handle; engage in a moment" : hand;
 }
 
 }  // namespace longreach

@@ -28,7 +28,7 @@ struct MasterSnapshot {
   ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, when it is the operator
   bool hand_outside = false;                  // a hand from outside holds the handle
   AdapterFigures adapter{};
-  bool hand_lost = false;  // gamepad or SpaceMouse, or the handle is not yet where they want it
+  bool hand_lost = false;  // keyboard or pad is not there, or the handle is not yet where it wants it
 };
 
 struct MasterChange {

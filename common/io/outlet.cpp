@@ -160,6 +160,12 @@ void bound_standard_error() {
   stderr = bounded;
 }
 
+void fill_standard_streams() {
+  int fd = ::open("/dev/null", O_RDWR);
+  while (fd >= 0 && fd <= STDERR_FILENO) fd = ::open("/dev/null", O_RDWR);
+  if (fd >= 0) ::close(fd);
+}
+
 bool put(int fd, std::string_view text) {
   Outlet outlet(fd, text.size());
   outlet.offer(std::string(text));

@@ -48,4 +48,8 @@ bool put(int fd, std::string_view text);
 /// program which must end does.
 void bound_standard_error();
 
+/// A program may be started without input and outputs (`<&-`): opens /dev/null in their places, lest a socket
+/// or a file takes one and is read as keys or written as text.
+void fill_standard_streams();
+
 }  // namespace longreach

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 
 #include "master/console/terminal_guard.hpp"
 
@@ -14,16 +15,26 @@ namespace {
 
 constexpr int kReadsMax = 16;  // a poll, so that a flood of input cannot keep it
 
+/// Input, its end or an error: read() tells which.
 bool readable(int fd) {
   pollfd waiting{fd, POLLIN, 0};
-  return ::poll(&waiting, 1, 0) > 0 && (waiting.revents & (POLLIN | POLLHUP)) != 0;
+  return ::poll(&waiting, 1, 0) > 0;
 }
 
 }  // namespace
 
 Keyboard::Keyboard(const KeyboardConfig& config, int fd) : config_(config), fd_(fd) {
+  if (!in_background(fd_)) set_raw();
+}
+
+Keyboard::~Keyboard() {
+  if (raw_) give_back_terminal_mode();
+}
+
+// Again after each time in the background, since a shell sets the mode that it likes.
+void Keyboard::set_raw() {
   termios mode{};
-  if (::isatty(fd_) != 1 || ::tcgetattr(fd_, &mode) != 0) return;
+  if (::tcgetattr(fd_, &mode) != 0 || (raw_ && (mode.c_lflag & ICANON) == 0)) return;
   keep_terminal_mode(fd_, mode);
   mode.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
   mode.c_iflag &= ~static_cast<tcflag_t>(IXON);  // ctrl-S must not stop the view
@@ -33,27 +44,42 @@ Keyboard::Keyboard(const KeyboardConfig& config, int fd) : config_(config), fd_(
   raw_ = ::tcsetattr(fd_, TCSANOW, &mode) == 0;
 }
 
-Keyboard::~Keyboard() {
-  if (raw_) give_back_terminal_mode();
-}
-
 KeyboardState Keyboard::poll(MotionMode mode) {
   const bool clutch = state_.requests.clutch;
   state_.requests = {};
   state_.requests.clutch = clutch;
+  if (ended_) return state_;
+  trouble_.clear();
+  if (in_background(fd_)) {
+    trouble_ = "longreach-master is in the background; bring it to the foreground (fg), then engage";
+  } else {
+    set_raw();
+    read_all(mode);
+  }
+  if (trouble_.empty()) return state_;
+  state_.target_m.setZero();
+  state_.requests.clutch = false;
+  return state_;
+}
+
+void Keyboard::read_all(MotionMode mode) {
   std::array<char, 256> bytes{};
-  for (int i = 0; i < kReadsMax && !ended_ && readable(fd_); ++i) {
+  for (int i = 0; i < kReadsMax && readable(fd_); ++i) {
     const ssize_t n = ::read(fd_, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      ended_ = true;
-      break;
-    }
+    if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (n == 0) return end(raw_ ? "its terminal was closed" : "end of input");
+    if (n < 0) return end(std::strerror(errno));
+    used_ = true;
     for (const Key& key : parser_.feed({bytes.data(), static_cast<std::size_t>(n)})) {
       apply(key, config_, mode, state_);
     }
   }
-  return state_;
+}
+
+void Keyboard::end(const std::string& why) {
+  ended_ = true;
+  trouble_ = (used_ ? "the keyboard has ended" : "no keyboard is there") + (" (" + why) +
+             "); start longreach-master in a terminal, or use another operator";
 }
 
 }  // namespace longreach

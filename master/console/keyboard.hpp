@@ -1,6 +1,12 @@
 #pragma once
 // The keyboard of a terminal without waiting: raw mode while it lives, given back on destruction, at exit and
 // by every signal that ends the program. Also reads a pipe, without raw mode. Poll it outside the loop.
+//
+// A keyboard that has ended (end of file, closed terminal, read error) or whose terminal belongs to another
+// program (the master is in the background) is a hand that has let go: the target is home, nothing is
+// requested any more, and trouble() says why. One in the background is read again when it is brought back.
+
+#include <string>
 
 #include "master/console/keys.hpp"
 
@@ -17,11 +23,20 @@ class Keyboard {
   /// Reads what has been typed, never waits. The requests are those since the last poll.
   KeyboardState poll(MotionMode mode);
 
+  /// Why there is no keyboard now, and what to do; empty: it is read.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
  private:
+  void set_raw();
+  void read_all(MotionMode mode);
+  void end(const std::string& why);
+
   KeyboardConfig config_;
   int fd_;
   bool raw_ = false;
-  bool ended_ = false;  // end of input
+  bool ended_ = false;
+  bool used_ = false;  // something has been read
+  std::string trouble_;
   KeyParser parser_;
   KeyboardState state_{};
 };

@@ -53,7 +53,13 @@ void watch() {
 
 }  // namespace
 
+bool in_background(int fd) {
+  const pid_t owner = ::tcgetpgrp(fd);
+  return owner >= 0 && owner != ::getpgrp();
+}
+
 void keep_terminal_mode(int fd, const termios& mode) {
+  mode_fd = -1;
   kept_mode = mode;
   mode_fd = fd;
   watch();
@@ -61,7 +67,8 @@ void keep_terminal_mode(int fd, const termios& mode) {
 
 void give_back_terminal_mode() {
   const int fd = mode_fd.exchange(-1);
-  if (fd >= 0) ::tcsetattr(fd, TCSANOW, &kept_mode);
+  // To change a terminal that belongs to another program would stop this one (SIGTTOU).
+  if (fd >= 0 && !in_background(fd)) ::tcsetattr(fd, TCSANOW, &kept_mode);
 }
 
 int open_anew(int fd) {

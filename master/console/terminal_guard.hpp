@@ -13,6 +13,10 @@ namespace longreach {
 /// caller's to close.
 int open_anew(int fd);
 
+/// The terminal `fd` belongs to another program now: to read or to change it would stop this one (SIGTTIN,
+/// SIGTTOU).
+bool in_background(int fd);
+
 /// Remembers `mode`, the present one of `fd`, before it is changed.
 void keep_terminal_mode(int fd, const termios& mode);
 void give_back_terminal_mode();

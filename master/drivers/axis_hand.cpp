@@ -27,7 +27,8 @@ AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig
           .speed_m_per_s = config.speed_m_per_s,
           .speed_rad_per_s = config.speed_rad_per_s,
           .workspace_m = device.delta.workspace_m,
-          .workspace_rad = device.spherical.workspace_rad};
+          .workspace_rad = device.spherical.workspace_rad,
+          .silence_at_stop_s = config.kind == OperatorKind::kSpaceMouse ? 0.3 : 1.0};
 }
 
 const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, double dt_s) {
@@ -38,7 +39,7 @@ const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, d
     state_.level.target_m.setZero();
     state_.level.target_rad.setZero();
     state_.level.clutch = false;
-    state_.armed = false;
+    state_.armed = state_.silent = false;
     return state_;
   }
   if (came) buttons_ = sample.buttons;
@@ -47,10 +48,23 @@ const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, d
   return state_;
 }
 
+bool AxisHand::silent(const AxisSample& sample, double dt_s) {
+  quiet_s_ = sample.reports != reports_ ? 0.0 : quiet_s_ + std::max(dt_s, 0.0);
+  reports_ = sample.reports;
+  const bool at_stop = std::max(sample.push.cwiseAbs().maxCoeff(), sample.twist.cwiseAbs().maxCoeff()) >= 1.0;
+  return quiet_s_ > (at_stop ? config_.silence_at_stop_s : config_.silence_s);
+}
+
 void AxisHand::move(const AxisSample& sample, MotionMode mode, double dt_s) {
-  const Vector3 push = shaped(sample.push, config_.dead_zone);
-  const Vector3 twist = shaped(sample.twist, config_.dead_zone);
-  state_.armed = state_.armed || (push.isZero(0.0) && twist.isZero(0.0));
+  Vector3 push = shaped(sample.push, config_.dead_zone);
+  Vector3 twist = shaped(sample.twist, config_.dead_zone);
+  const bool released = push.isZero(0.0) && twist.isZero(0.0);
+  state_.armed = state_.armed || released;
+  state_.silent = silent(sample, dt_s) && !released;
+  if (state_.silent) {
+    push.setZero();
+    twist.setZero();
+  }
   if (!state_.armed) return;
   HandLevel& level = state_.level;
   if (mode == MotionMode::kRate) {

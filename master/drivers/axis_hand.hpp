@@ -5,6 +5,7 @@
 //   rate mode       the hand is at reach s: let go, the handle is home and the robot rests
 //   position mode   the hand moves with speed s: let go, it stays where it is
 // One that was away does nothing until every axis has been let go of once; its buttons act when they go down.
+// A deflection without a new report for silence_s counts as let go of: a receiver stays when its pad is gone.
 
 #include <cstdint>
 
@@ -22,6 +23,7 @@ struct AxisSample {
   Vector3 push = Vector3::Zero();  // -1 to 1 along x, y, z of M
   Vector3 twist = Vector3::Zero();
   std::uint32_t buttons = 0;  // while they are down
+  std::uint32_t reports = 0;  // of the device so far: motion of the axes
 
   void press(PadButton button, bool down) {
     if (down) buttons |= 1U << static_cast<unsigned>(button);
@@ -33,6 +35,9 @@ struct AxisHandConfig {
   double reach_m = 0.04, reach_rad = 0.4;
   double speed_m_per_s = 0.03, speed_rad_per_s = 0.4;
   double workspace_m = 0.075, workspace_rad = 0.8;  // that the hand stays within
+  // A hand never keeps still, so that a device which is held reports all the time; but a stick at its end
+  // stop reads the same, however it is held there.
+  double silence_s = 0.3, silence_at_stop_s = 1.0;
 };
 AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig& device);
 
@@ -40,6 +45,7 @@ struct AxisHandState {
   HandLevel level{.present = false};
   OperatorRequests requests{};  // since the last step; the clutch is in `level`
   bool armed = false;           // every axis was let go of since it was plugged in
+  bool silent = false;          // deflected without a new report for silence_s
 };
 
 class AxisHand {
@@ -51,11 +57,14 @@ class AxisHand {
 
  private:
   void move(const AxisSample& sample, MotionMode mode, double dt_s);
+  [[nodiscard]] bool silent(const AxisSample& sample, double dt_s);
   void take_buttons(std::uint32_t buttons, MotionMode mode);
 
   AxisHandConfig config_;
   AxisHandState state_{};
   std::uint32_t buttons_ = 0;  // in the last step
+  std::uint32_t reports_ = 0;  // likewise
+  double quiet_s_ = 0.0;       // since the last report
   bool loaded_ = false;
 };
 

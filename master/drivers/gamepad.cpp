@@ -112,6 +112,7 @@ struct Gamepad::State {
   std::string wanted, name;
   SDL_GameController* pad = nullptr;  // of the joystick, where SDL knows its layout
   SDL_Joystick* stick = nullptr;
+  AxisSample last{};
 };
 
 void Gamepad::State::find() {
@@ -184,7 +185,9 @@ AxisSample Gamepad::poll() {
   if (s.stick != nullptr && s.sdl.attached(s.stick) == SDL_FALSE) s.leave();
   if (s.stick == nullptr) s.find();
   if (s.stick == nullptr) return {};
-  return s.pad != nullptr ? s.read_pad() : s.read_stick();
+  AxisSample now = s.pad != nullptr ? s.read_pad() : s.read_stick();
+  now.reports = s.last.reports + (now.push != s.last.push || now.twist != s.last.twist ? 1U : 0U);
+  return s.last = now;
 }
 
 bool Gamepad::rumble(double strength) {

@@ -10,7 +10,7 @@ struct HandLevel {
   Vector3 target_m = Vector3::Zero();    // where the hand wants to be, from handle home, M
   Vector3 target_rad = Vector3::Zero();  // likewise, rotation vector
   bool clutch = false;
-  bool present = true;  // false: the thing in the hand is unplugged
+  bool present = true;  // false: keyboard or pad is not there any more
   Time said{};          // when the hand was asked for it
 };
 

@@ -19,6 +19,9 @@ const AxisHandState& PadOperator::poll(MotionMode mode, double felt, double dt_s
 }
 
 std::string PadOperator::trouble() const {
+  if (last_.silent)
+    return gamepad_ ? "the gamepad reports nothing new: it counts as let go; move or release the sticks"
+                    : "the SpaceMouse reports nothing new: it counts as let go; move or release the puck";
   if (last_.armed) return "";
   if (last_.level.present) {
     return gamepad_ ? "the sticks are not at rest; let go of them once"

@@ -11,9 +11,8 @@ namespace longreach {
 namespace {
 
 constexpr const char* kSpnavLibrary = "libspnav.so.0";
-constexpr double kFull = 350.0;   // of an axis, as the daemon tells it
-constexpr double kRetry_s = 1.0;  // between looks for the daemon
-constexpr double kStuck_s = 1.0;  // a puck in a hand never keeps still: this long without news it is let go
+constexpr double kFull = 350.0;      // of an axis, as the daemon tells it
+constexpr double kRetry_s = 1.0;     // between looks for the daemon
 constexpr int kEventsPerPoll = 256;  // so that a flood cannot keep it
 
 struct Spnav {
@@ -58,7 +57,6 @@ struct SpaceMouse::State {
   Spnav spnav;
   bool open = false;
   double retry_s = 0.0;
-  double still_s = 0.0;  // since the last motion
   AxisSample sample{};
 };
 
@@ -90,7 +88,7 @@ void SpaceMouse::State::take(const spnav_event& event) {
     // The daemon's x is right, y up, z towards the person.
     sample.push = Vector3(-m.z, -m.x, m.y) / kFull;
     sample.twist = Vector3(-m.rz, -m.rx, m.ry) / kFull;
-    still_s = 0.0;
+    ++sample.reports;
   } else if (event.type == SPNAV_EVENT_BUTTON) {
     const auto k = static_cast<std::size_t>(event.button.bnum);
     if (k >= kButtons.size()) return;
@@ -108,14 +106,9 @@ AxisSample SpaceMouse::poll(double dt_s) {
   State& s = *state_;
   if (!s.open) s.look_for_daemon(dt_s);
   if (!s.open) return {};
-  s.still_s += dt_s;
   spnav_event event{};
   for (int i = 0; i < kEventsPerPoll && s.spnav.poll(&event) != 0; ++i) s.take(event);
   if (s.hung_up()) s.leave();
-  if (s.still_s > kStuck_s) {
-    s.sample.push.setZero();
-    s.sample.twist.setZero();
-  }
   return s.sample;
 }
 

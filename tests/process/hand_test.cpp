@@ -1,7 +1,14 @@
-// A hand at the master that may be unplugged: a SpaceMouse, whose daemon the test plays.
+// A hand at the master that may be gone: a SpaceMouse, whose daemon the test plays; a keyboard whose input
+// ends.
 
+#include <fcntl.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
 
 #include "tests/process/station.hpp"
 #include "tests/unit/drivers/fake_daemon.hpp"
@@ -56,6 +63,59 @@ TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   daemon.motion({0, 0, 0, 0, 0, 0});
   ASSERT_TRUE(engaged()) << outputs();
   EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+}
+
+/// Moves the robot by the keyboard in rate mode; how the input ends is the test's.
+class Keys : public Hands {
+ protected:
+  void move(int in, int typist, const std::vector<std::string>& more = {}) {
+    start_slave({"--set", "scene_file=scenes/free.txtpb"});
+    std::vector<std::string> options{"--operator", "keyboard", "--mode", "rate"};
+    options.insert(options.end(), more.begin(), more.end());
+    start_master(options, {.in = in});
+    ASSERT_TRUE(engaged()) << outputs();
+    const double began_m = tool_x();
+    ASSERT_EQ(::write(typist, "WWWWW", 5), 5);
+    ASSERT_TRUE(eventually([&] { return tool_x() > began_m + 0.01; })) << outputs();
+  }
+  void expect_rest(const std::string& why) {
+    ASSERT_TRUE(says(*master_program_, why)) << outputs();
+    ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; })) << outputs();
+    EXPECT_NE(master_.engage().find(why), std::string::npos);
+    double last_m = tool_x();
+    EXPECT_TRUE(eventually([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      const double now_m = tool_x();
+      return std::abs(now_m - std::exchange(last_m, now_m)) < 1e-6;
+    })) << outputs();
+  }
+};
+
+TEST_F(Keys, APipeThatEndsIsAHandThatLetsGo) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+  move(ends[0], ends[1]);
+  ::close(ends[1]);
+  expect_rest("the keyboard has ended (end of input)");
+  ::close(ends[0]);
+}
+
+TEST_F(Keys, AClosedTerminalIsAHandThatLetsGo) {
+  int outer = -1, inner = -1;
+  ASSERT_EQ(::openpty(&outer, &inner, nullptr, nullptr, nullptr), 0);
+  ::fcntl(outer, F_SETFD, FD_CLOEXEC);
+  move(inner, outer, {"--set", "safety.presence=HOLD"});
+  ::close(outer);
+  expect_rest("the keyboard has ended (its terminal was closed)");
+  ::close(inner);
+}
+
+TEST_F(Keys, WithoutInputAtTheStartAreSaidToBeMissing) {
+  start_slave();
+  start_master({"--operator", "keyboard", "--engage"});  // its input is /dev/null
+  ASSERT_TRUE(says(*master_program_, "no keyboard is there (end of input)")) << outputs();
+  EXPECT_TRUE(
+      eventually([this] { return master_.engage().find("no keyboard is there") != std::string::npos; }));
 }
 
 }  // namespace

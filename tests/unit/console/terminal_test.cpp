@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "master/console/keyboard.hpp"
 #include "master/console/terminal_view.hpp"
@@ -111,7 +113,90 @@ TEST(Keyboard, ReadsAPipeToItsEnd) {
   ::close(ends[1]);
   EXPECT_TRUE(keyboard.poll(MotionMode::kRate).requests.engage);
   EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.engage);
+  EXPECT_NE(keyboard.trouble().find("the keyboard has ended (end of input)"), std::string::npos);
   ::close(ends[0]);
+}
+
+/// Polls until it has ended; what it says of that.
+std::string end_of(Keyboard& keyboard, KeyboardState& state) {
+  for (int i = 0; i < 500 && keyboard.trouble().empty(); ++i) {
+    state = keyboard.poll(MotionMode::kRate);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return keyboard.trouble();
+}
+
+TEST(Keyboard, IsAHandThatLetsGoWhenItsInputEnds) {
+  const Pty pty;
+  const int closed = ::dup(pty.inner);
+  ASSERT_EQ(::write(pty.outer, "Wc", 2), 2);
+  Keyboard keyboard({}, closed);
+  KeyboardState state = keyboard.poll(MotionMode::kRate);
+  EXPECT_GT(state.target_m.x(), 0.0);
+  EXPECT_TRUE(state.requests.clutch);
+  EXPECT_EQ(keyboard.trouble(), "");
+  ::close(closed);  // a read error
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard has ended (Bad file descriptor)"), std::string::npos);
+  EXPECT_EQ(state.target_m, Vector3::Zero());
+  EXPECT_FALSE(state.requests.clutch);
+}
+
+TEST(Keyboard, SaysThatItsTerminalWasClosed) {
+  Pty pty;
+  ASSERT_EQ(::write(pty.outer, "W", 1), 1);
+  Keyboard keyboard({}, pty.inner);
+  KeyboardState state = keyboard.poll(MotionMode::kRate);
+  EXPECT_GT(state.target_m.x(), 0.0);
+  ::close(std::exchange(pty.outer, -1));
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard has ended (its terminal was closed)"),
+            std::string::npos);
+  EXPECT_EQ(state.target_m, Vector3::Zero());
+}
+
+TEST(Keyboard, IsNotThereWithoutInputAtTheStart) {
+  for (const char* path : {"/dev/null", "/"}) {
+    const int fd = ::open(path, O_RDONLY);
+    Keyboard keyboard({}, fd);
+    KeyboardState state;
+    EXPECT_EQ(end_of(keyboard, state).find("no keyboard is there ("), 0u) << path << keyboard.trouble();
+    ::close(fd);
+  }
+}
+
+/// In a session of its own whose terminal belongs first to another program, then to this one. 0: all is well.
+int keyboard_in_background(const Pty& pty) {
+  ::setsid();
+  ::ioctl(pty.inner, TIOCSCTTY, 0);
+  Keyboard keyboard({}, pty.inner);
+  (void)!::write(pty.outer, "W", 1);
+  if (keyboard.poll(MotionMode::kRate).target_m.x() <= 0.0) return 1;
+  const pid_t other = ::fork();
+  if (other == 0) {
+    ::setpgid(0, 0);
+    ::pause();
+  }
+  ::setpgid(other, other);
+  ::tcsetpgrp(pty.inner, other);
+  if (keyboard.poll(MotionMode::kRate).target_m.x() != 0.0) return 2;
+  if (keyboard.trouble().find("is in the background") == std::string::npos) return 3;
+  termios shell = pty.mode();
+  shell.c_lflag |= ICANON;
+  std::signal(SIGTTOU, SIG_IGN);
+  ::tcsetattr(pty.inner, TCSANOW, &shell);
+  ::tcsetpgrp(pty.inner, ::getpgrp());
+  ::kill(other, SIGKILL);
+  (void)keyboard.poll(MotionMode::kRate);
+  (void)!::write(pty.outer, "W", 1);
+  return keyboard.poll(MotionMode::kRate).target_m.x() > 0.0 && keyboard.trouble().empty() ? 0 : 4;
+}
+
+TEST(Keyboard, LetsGoInTheBackgroundAndIsReadAgainInTheForeground) {
+  const Pty pty;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(keyboard_in_background(pty));
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 0) << status;
 }
 
 TEST(TerminalGuard, GivesTheTerminalBackWhenASignalEndsTheProgram) {

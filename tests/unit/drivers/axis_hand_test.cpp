@@ -18,9 +18,26 @@ AxisSample pressing(PadButton button) {
 
 struct AxisHandTest : ::testing::Test {
   AxisHand hand{AxisHandConfig{}};
-  AxisHandState step(const AxisSample& s, MotionMode mode = MotionMode::kRate) {
+  /// With a new report each time, as while a hand holds it.
+  AxisHandState step(AxisSample s, MotionMode mode = MotionMode::kRate) {
+    s.reports = ++reports;
     return hand.step(s, mode, kStep_s);
   }
+  /// How long a deflection moves the hand without a new report, s.
+  double moves_s(AxisSample s, MotionMode mode = MotionMode::kRate) {
+    AxisHandState now = step(s, mode);
+    EXPECT_GT(now.level.target_m.x(), 0.0);
+    s.reports = reports;
+    int steps = 0;
+    for (Vector3 before; steps < 500; ++steps) {
+      before = now.level.target_m;
+      now = hand.step(s, mode, kStep_s);
+      if (now.silent && (mode == MotionMode::kRate ? Vector3(0, 0, 0) : before) == now.level.target_m) break;
+    }
+    EXPECT_GT(step(s, mode).level.target_m.x(), 0.0);  // a new report is a hand again
+    return steps * kStep_s;
+  }
+  std::uint32_t reports = 0;
 };
 
 TEST_F(AxisHandTest, InRateModeTheDeflectionIsWhereTheHandIs) {
@@ -84,6 +101,19 @@ TEST_F(AxisHandTest, ButtonsActWhenTheyGoDownTheClutchWhileItIsDown) {
   EXPECT_TRUE(step(all).requests.stop);
   step({.present = true});
   EXPECT_FALSE(step(all).requests.engage);  // a stop wins
+}
+
+TEST_F(AxisHandTest, ADeflectionWithoutNewReportsIsLetGo) {
+  step({.present = true});
+  for (const MotionMode mode : {MotionMode::kRate, MotionMode::kPosition}) {
+    EXPECT_LE(moves_s(pushed(0.7), mode), 0.3 + kStep_s);
+    EXPECT_LE(moves_s(pushed(1.0), mode), 1.0 + kStep_s);  // at its end stop a stick reads the same
+  }
+  OperatorConfig config;
+  config.kind = OperatorKind::kSpaceMouse;
+  hand = AxisHand(axis_hand_config(config, DeviceConfig{}));
+  step({.present = true});
+  EXPECT_LE(moves_s(pushed(1.0)), 0.3 + kStep_s);  // a puck reports all the time
 }
 
 TEST_F(AxisHandTest, WhatIsNotFiniteIsNoDeflection) {
