@@ -13,6 +13,7 @@
 namespace longreach {
 namespace {
 
+constexpr int kPausePolls = 5, kResetPolls = 50;
 constexpr int kReadsMax = 16;  // a poll, so that a flood of input cannot keep it
 
 /// Input, its end or an error: read() tells which.
@@ -64,12 +65,16 @@ KeyboardState Keyboard::poll(MotionMode mode) {
 
 void Keyboard::read_all(MotionMode mode) {
   std::array<char, 256> bytes{};
+  // Counted, since a thread that was late has not looked yet.
+  if (++idle_polls_ == kPausePolls) parser_.pause();
+  if (idle_polls_ == kResetPolls) parser_.reset();
   for (int i = 0; i < kReadsMax && readable(fd_); ++i) {
     const ssize_t n = ::read(fd_, bytes.data(), bytes.size());
     if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (n == 0) return end(raw_ ? "its terminal was closed" : "end of input");
     if (n < 0) return end(std::strerror(errno));
     used_ = true;
+    idle_polls_ = 0;
     for (const Key& key : parser_.feed({bytes.data(), static_cast<std::size_t>(n)})) {
       apply(key, config_, mode, state_);
     }

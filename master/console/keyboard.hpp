@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "master/console/keys.hpp"
+#include "master/console/key_parser.hpp"
 
 namespace longreach {
 
@@ -20,7 +20,8 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads what has been typed, never waits. The requests are those since the last poll.
+  /// Reads what has been typed, never waits. The requests are those since the last poll. To be called at 50
+  /// Hz.
   KeyboardState poll(MotionMode mode);
 
   /// Why there is no keyboard now, and what to do; empty: it is read.
@@ -38,6 +39,7 @@ class Keyboard {
   bool used_ = false;  // something has been read
   std::string trouble_;
   KeyParser parser_;
+  int idle_polls_ = 0;  // since something was read
   KeyboardState state_{};
 };
 

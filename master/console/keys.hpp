@@ -1,15 +1,11 @@
 #pragma once
-// From the bytes of a terminal to what they ask for. Pure. Escape sequences may be split over reads; unknown
-// bytes and sequences do nothing.
+// Keys, and what they ask for. Pure.
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
 // the large step; space: let go, home; m mode; + - scale; c clutch; g gripper with or without load; e engage;
 // x stop; q quit; ? keys.
 
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/spatial/spatial.hpp"
 #include "master/master_node.hpp"
@@ -37,15 +33,6 @@ struct Key {
   bool large = false;  // the large step
 
   bool operator==(const Key&) const = default;
-};
-
-class KeyParser {
- public:
-  /// The keys that these bytes complete.
-  std::vector<Key> feed(std::string_view bytes);
-
- private:
-  std::string pending_;  // an escape sequence that has begun; at most kPendingMax bytes
 };
 
 struct KeyboardConfig {

@@ -11,12 +11,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace longreach {
 namespace {
 
-constexpr std::array<char, 19> kLeaveScreen = {'\x1b', '[',    '?', '7', 'h', '\x1b', '[', '?', '2', '5',
-                                               'h',    '\x1b', '[', '?', '1', '0',    '4', '9', 'l'};
+constexpr std::string_view kLeaveScreen = "\x1b[?2004l\x1b[?7h\x1b[?25h\x1b[?1049l";
 
 constexpr int kTries = 20;
 constexpr int kTryPause_ms = 10;

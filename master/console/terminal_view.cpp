@@ -20,7 +20,8 @@ constexpr double kPlainPeriodS = 0.1, kFiguresPeriodS = 5.0;
 constexpr std::size_t kPlainMaxBytes = 64 << 10;
 constexpr std::chrono::milliseconds kScreenPatience{200};
 constexpr std::string_view kEnter =
-    "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J";  // other screen, no cursor, no wrap, empty
+    "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J"  // other screen, no cursor, no wrap, empty
+    "\x1b[?2004h";                         // what is pasted comes in brackets: no keys
 
 struct ScreenSize {
   int columns = 80;
