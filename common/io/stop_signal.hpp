@@ -1,5 +1,6 @@
 #pragma once
-// SIGINT and SIGTERM ask a program to end; the third one ends it at once. SIGPIPE is ignored.
+// SIGINT, SIGTERM and SIGHUP, unless it is ignored, ask a program to end; the third SIGINT or SIGTERM ends it
+// at once. SIGPIPE is ignored.
 
 #include <atomic>
 

@@ -1,7 +1,7 @@
 // longreach-wire: delays and drops whole IP packets between two hosts: handshakes, segments and
 // acknowledgements of TCP as well as datagrams. They come from the rule `-j NFQUEUE` in its own network
 // namespace, or, with --relay, it is the cable between two namespaces. It shares no code with
-// common/link/impairment, which it checks. Ends on SIGTERM or SIGINT and says what it did.
+// common/link/impairment, which it checks. Ends on SIGTERM, SIGINT or SIGHUP and says what it did.
 //
 // Not here: jitter, reordering, rate. A packet waits at least the delay, and longer by as much as this
 // program is scheduled late. What is on its way when it ends is lost.
@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   action.sa_handler = end;
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);
   try {
     if (hosts.empty())
       serve(std::make_unique<longreach::PacketQueue>(config, queue));

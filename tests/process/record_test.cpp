@@ -99,6 +99,38 @@ TEST_F(Recording, OnAFullDiskEndsWithAnEventAndChangesNothingElse) {
   EXPECT_GT(read_recording(file("slave.mcap")).ticks, 1000u);
 }
 
+TEST_F(Recording, IsWholeAndTheRobotIsReturnedAfterAHangUp) {
+  start_slave({"--record", file("slave.mcap")});
+  start_master({"--operator", "script", "--engage", "--record", file("master.mcap")});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  master_program_->signal(SIGHUP);
+  ASSERT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  EXPECT_NE(master_program_->output().find("end ticks="), std::string::npos) << outputs();
+  EXPECT_TRUE(eventually([this] {
+    const auto status = slave_.status();
+    return status && status->lease().empty();
+  }));
+  slave_program_->signal(SIGHUP);
+  ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();
+  EXPECT_TRUE(read_recording(file("slave.mcap")).whole);
+  EXPECT_TRUE(read_recording(file("master.mcap")).whole);
+}
+
+TEST_F(Recording, GoesOnAfterAHangUpThatIsIgnored) {
+  struct Ignored {
+    Ignored() { std::signal(SIGHUP, SIG_IGN); }  // as nohup(1) does; programs inherit it
+    ~Ignored() { std::signal(SIGHUP, SIG_DFL); }
+  };
+  {
+    const Ignored ignored;
+    start_slave();
+    ASSERT_TRUE(eventually([this] { return slave_.counter("ticks") > 100; })) << outputs();
+  }
+  slave_program_->signal(SIGHUP);
+  const std::uint64_t ticks = slave_.counter("ticks");
+  EXPECT_TRUE(eventually([&] { return slave_.counter("ticks") > ticks + 500; })) << outputs();
+}
+
 TEST_F(Recording, FromTheStartHasEveryTick) {
   start_slave({"--record", file("slave.mcap")});
   start_master({"--operator", "script", "--engage", "--record", file("master.mcap")});
