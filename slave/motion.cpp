@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFarRad = 0.1;         // a solution farther off than this is not one tick away
 constexpr double kSingularBand = 0.08;  // conditioning below which the arm is at a singular pose
-constexpr double kAside = 5e-3;         // of the reach: so far the tool may leave its way there
+constexpr double kAside = 5e-3;         // of the length: so far the tool may leave its way there
 constexpr double kTurningShare = 0.8;   // of what a joint may do, on its way to another solution
 
 }  // namespace
@@ -21,7 +21,7 @@ SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
       limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
       joints_(robot),
       watch_(robot),
-      patience_(inverse_.kinematics().reach_m()) {
+      patience_(inverse_.kinematics().motion_length_m()) {
   reset(start_joints(robot));
 }
 
@@ -106,7 +106,8 @@ bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goa
   const auto off = [&](double share) {
     const Rigid X = arm.rigid_forward(joints_.path_rad() + share * way_rad);
     if (!limiter_.within(X.p)) return std::numeric_limits<double>::infinity();
-    return std::hypot(arm.reach_m() * rotation_between(X.R, X_WE_goal.R).norm(), (X_WE_goal.p - X.p).norm());
+    return std::hypot(arm.motion_length_m() * rotation_between(X.R, X_WE_goal.R).norm(),
+                      (X_WE_goal.p - X.p).norm());
   };
   const double now = off(0.0);
   for (const double share : {0.125, 0.25, 0.5, 0.75}) {
@@ -129,7 +130,7 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   turning_ = false;
   if (input.contact.in_contact) return found;
   const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
-  const double aside_m = singular || turned ? kAside * kinematics().reach_m() : 0.0;
+  const double aside_m = singular || turned ? kAside * kinematics().motion_length_m() : 0.0;
   const bool homes = singular && inverse_.closed().applies();  // a search would not come back in time
   for (const bool home : {true, false}) {
     if (home && !homes) continue;

@@ -4,7 +4,7 @@
 // What the joints cannot do is taken back from the tool limiter at once: its pose and velocity are those of
 // the joints' path, so nothing winds up. The joints follow the tool's straight way, except near a singular
 // pose and where the arm is in its own way: there they go straight to the solution at the goal, or to the
-// nearest pose, as long as the tool only comes nearer on that way, but for half a per cent of the reach. Of
+// nearest pose, as long as the tool only comes nearer on that way, but for half a per cent of its length. Of
 // several solutions at a singular pose they take the branch that the arm was last in. In contact the tool
 // keeps its straight way. Every setpoint is watched from outside, by differences. The limits of the joints
 // always hold, the speed limits of the tool within 1 %; its acceleration limits only while it goes straight.

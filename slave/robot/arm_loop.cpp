@@ -8,7 +8,7 @@ namespace longreach {
 namespace {
 
 constexpr int kSpecialPlaces = 4;  // 1-2-3, 2-3-4, 3-4-5, 4-5-6
-constexpr double kApart = 1e-9;    // of the reach: parallel axes nearer to each other count as one
+constexpr double kApart = 1e-9;    // of the length: parallel axes nearer to each other count as one
 
 // Tz(before) Tx(a) Rx(α) Tz(behind)
 struct LinkRow {
@@ -93,10 +93,11 @@ bool applies(const Kinematics& arm, const Reading& reading) {
   const auto i = static_cast<std::size_t>(reading.first_joint);
   const DhLink &one = arm.links()[i], &two = arm.links()[i + 1];
   const bool parallel = near_zero(std::sin(one.alpha_rad), 1.0) && near_zero(std::sin(two.alpha_rad), 1.0);
-  const bool apart = std::abs(one.a_m) > kApart * arm.reach_m() && std::abs(two.a_m) > kApart * arm.reach_m();
+  const bool apart = std::abs(one.a_m) > kApart * arm.motion_length_m() &&
+                     std::abs(two.a_m) > kApart * arm.motion_length_m();
   if (reading.family == ArmFamily::kParallel) return parallel && apart;
-  const bool meet = near_zero(one.a_m, arm.reach_m()) && near_zero(two.a_m, arm.reach_m()) &&
-                    near_zero(two.d_m, arm.reach_m());
+  const bool meet = near_zero(one.a_m, arm.motion_length_m()) && near_zero(two.a_m, arm.motion_length_m()) &&
+                    near_zero(two.d_m, arm.motion_length_m());
   const bool turned = !near_zero(std::sin(one.alpha_rad), 1.0) && !near_zero(std::sin(two.alpha_rad), 1.0);
   return meet && turned;
 }
@@ -128,7 +129,7 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
   }
   slide_off(open, ArmLoop::kA);
   const LinkRow& a = open.row[ArmLoop::kA];
-  loop.a_m = near_zero(a.a_m, arm.reach_m()) ? 0.0 : a.a_m;
+  loop.a_m = near_zero(a.a_m, arm.motion_length_m()) ? 0.0 : a.a_m;
   loop.sin_alpha = near_zero(std::sin(a.alpha_rad), 1.0) ? 0.0 : std::sin(a.alpha_rad);
   loop.cos_alpha =
       loop.sin_alpha == 0.0 ? std::copysign(1.0, std::cos(a.alpha_rad)) : rotation_x(a.alpha_rad).R(2, 2);

@@ -10,8 +10,8 @@
 // and so that L_a = Tx(a) Rx(α) does not hold the pose. Of several such readings one with a = 0 or sin α = 0
 // is preferred: there the position falls into quadratic equations, else it takes one of fourth degree.
 //
-// Rows count as special within kRowTolerance: rad, and share of the reach. What is within it and not exact is
-// corrected afterwards by the caller with the exact kinematics.
+// Rows count as special within kRowTolerance: rad, and share of Kinematics::motion_length_m. What is within
+// it and not exact is corrected afterwards by the caller with the exact kinematics.
 
 #include <array>
 #include <string_view>

@@ -43,8 +43,8 @@ bool Inverse::place(const JointVector& solution, JointVector& placed) const {
   for (int i = 0; i < kMaxJoints; ++i) {
     const double low = numeric_.min_rad()[i], high = numeric_.max_rad()[i];
     double q = solution[i];
-    if (q > high + kSlack) q -= kTwoPi;
-    if (q < low - kSlack) q += kTwoPi;
+    if (q > high + kSlack) q -= kTwoPi * std::ceil((q - high - kSlack) / kTwoPi);
+    if (q < low - kSlack) q += kTwoPi * std::ceil((low - kSlack - q) / kTwoPi);
     if (!(q >= low - kSlack && q <= high + kSlack)) return false;
     placed[i] = std::clamp(q, low, high);
   }
@@ -115,7 +115,7 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
 }
 
 InverseResult Inverse::report(const Placed& placed, double enough_m) const {
-  const double length = kinematics().reach_m();
+  const double length = kinematics().motion_length_m();
   InverseResult result;
   result.joint_rad = placed.joint_rad;
   result.X_WE = to_pose(placed.tool.X_WE);
@@ -123,7 +123,7 @@ InverseResult Inverse::report(const Placed& placed, double enough_m) const {
   result.rotation_error_rad = placed.rotation_error_rad.norm();
   result.conditioning = conditioning(placed.tool.J, length);
   const double residual_m = std::hypot(length * result.rotation_error_rad, result.position_error_m);
-  if (!(residual_m <= std::max(enough_m, 2.0 * Refinement::kExact * length))) return result;
+  if (!(residual_m <= std::max(enough_m, 2.0 * Refinement::kExact * kinematics().reach_m()))) return result;
   result.status = InverseStatus::kFound;
   if (result.conditioning > kSingular) return result;
   result.status = InverseStatus::kSingular;
@@ -170,7 +170,29 @@ InverseResult Inverse::solve(const Pose& X_WE_goal, const JointVector& near_rad,
   if (cartesian_) return slide(goal, start);
   Placed placed;
   if (closed_.applies() && choose(goal, near_rad, placed)) return report(placed, tolerance.residual_m);
-  return iterate(goal, start, tolerance);
+  const InverseResult found = iterate(goal, start, tolerance);
+  const bool thorough = tolerance.restarts_max > 0;
+  if (found.status != InverseStatus::kNearest || !thorough ||
+      !choose_exact(X_WE_goal, near_rad, tolerance, placed))
+    return found;
+  return report(placed, tolerance.residual_m);
+}
+
+// A run of the search may end beside a solution that Newton steps reach.
+bool Inverse::choose_exact(const Pose& X_WE_goal, const JointVector& near_rad,
+                           const InverseTolerance& tolerance, Placed& placed) const {
+  const InverseSolutions exact = all(X_WE_goal, near_rad, tolerance);
+  double least = std::numeric_limits<double>::infinity();
+  JointVector best = near_rad, allowed;
+  for (int i = 0; i < exact.count; ++i) {
+    if (!place(exact.joint_rad[static_cast<std::size_t>(i)], allowed) || !(cost(allowed, near_rad) < least))
+      continue;
+    least = cost(allowed, near_rad);
+    best = allowed;
+  }
+  const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
+  placed = limited(goal, best);
+  return std::isfinite(least);
 }
 
 InverseResult Inverse::follow(const Pose& X_WE_goal, const JointVector& joint_rad,

@@ -10,7 +10,8 @@
 //
 // kFound     the tool reaches the goal
 // kSingular  it does, but in `lost` it cannot move from there
-// kNearest   it does not: the goal is out of reach, or only beyond joint limits; the errors say by how much
+// kNearest   it does not: the goal is out of reach, or only beyond joint limits; the errors say by how much.
+//            A search (restarts_max > 0) never says so while all() lists a solution within the limits
 // A robot without a wrist (Cartesian) ignores the rotation of the goal and says so in `rotation_ignored`.
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct InverseResult {
   double position_error_m = 0.0;                // of X_WE from the goal
   double rotation_error_rad = 0.0;
   double conditioning = 0.0;       // joint_step.hpp: 0 at a singular pose, about 0.3 at a good one
-  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times reach; linear]; else zero
+  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times length; linear]; else zero
   bool at_joint_limit = false;     // a joint limit was in the way
   bool rotation_ignored = false;
   std::uint32_t iterations = 0;  // of the numeric inverse
@@ -82,6 +83,8 @@ class Inverse {
   [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
   [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;
   [[nodiscard]] bool place(const JointVector& solution, JointVector& placed) const;
+  [[nodiscard]] bool choose_exact(const Pose& X_WE_goal, const JointVector& near_rad,
+                                  const InverseTolerance& tolerance, Placed& placed) const;
   [[nodiscard]] double cost(const JointVector& joint_rad, const JointVector& near_rad) const;
   [[nodiscard]] InverseResult report(const Placed& placed, double enough_m) const;
   [[nodiscard]] InverseResult iterate(const Rigid& goal, const JointVector& near_rad,

@@ -23,6 +23,37 @@ Rigid behind_joint(const DhLink& row) {
   return X;
 }
 
+// Mean and mean square of the tool's place over all angles of the joints behind, seen from the link that they
+// turn on.
+struct Spread {
+  Vector3 mean_m;
+  Matrix3 square_m2;
+
+  void shift(const Vector3& by_m) {
+    square_m2 += mean_m * by_m.transpose() + by_m * mean_m.transpose() + by_m * by_m.transpose();
+    mean_m += by_m;
+  }
+  void pass(const Rigid& link) {
+    square_m2 = link.R * square_m2 * link.R.transpose();
+    mean_m = link.R * mean_m;
+    shift(link.p);
+  }
+  /// The mean square of the way per rad.
+  double turn() {
+    const double square = square_m2(0, 0) + square_m2(1, 1);
+    mean_m = {0.0, 0.0, mean_m.z()};
+    square_m2 = Vector3(0.5 * square, 0.5 * square, square_m2(2, 2)).asDiagonal();
+    return square;
+  }
+  /// The square of the travel.
+  double slide(double min_m, double max_m) {
+    const double travel_m = max_m - min_m;
+    shift({0.0, 0.0, 0.5 * (min_m + max_m)});
+    square_m2(2, 2) += travel_m * travel_m / 12.0;
+    return travel_m * travel_m;
+  }
+};
+
 }  // namespace
 
 JointVector start_joints(const RobotConfig& robot) {
@@ -62,7 +93,23 @@ Kinematics::Kinematics(const RobotConfig& robot) {
   tool_ = {exp_rotation(robot.tool.rotation_rad).toRotationMatrix(), robot.tool.position_m};
   link_[kMaxJoints - 1].d_m = 0.0;
   last_ = behind_joint(row_[kMaxJoints - 1]) * tool_;
-  reach_m_ = std::max(reach_m_ + robot.tool.position_m.stableNorm(), 1e-3);
+  constexpr double kLeast_m = 1e-3;
+  reach_m_ = std::max(reach_m_ + robot.tool.position_m.stableNorm(), kLeast_m);
+  motion_length_m_ = std::max(kMotion * motion_m(robot), kLeast_m);
+}
+
+double Kinematics::motion_m(const RobotConfig& robot) const {
+  Spread tool{tool_.p, tool_.p * tool_.p.transpose()};
+  double square = 0.0;
+  for (std::size_t i = kMaxJoints; i-- > 0;) {
+    const JointConfig& j = robot.joint[i];
+    tool.pass(behind_joint(row_[i]));
+    if (j.kind == JointKind::kPrismatic) square += tool.slide(j.min_rad, j.max_rad);
+    if (j.kind == JointKind::kRevolute) square += tool.turn();
+    if (j.kind != JointKind::kRevolute)
+      tool.pass({exp_rotation({0.0, 0.0, j.theta_rad}).toRotationMatrix(), Vector3::Zero()});
+  }
+  return std::sqrt(square);
 }
 
 // A frame as columns of four: two vector instructions each, where three numbers need three.

@@ -43,8 +43,15 @@ class Kinematics {
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths, offsets and slides, tool included, at least 1 mm: the characteristic length.
+  /// Sum of all link lengths, offsets and slides of the table, tool included, at least 1 mm: the size of the
+  /// numbers that are added up, and so of their rounding.
   [[nodiscard]] double reach_m() const { return reach_m_; }
+  static constexpr double kMotion = 1.1;  // of a long arm it is the sum of its links
+  /// The length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean
+  /// square of how far the tool moves per rad, over all joints and all their angles; of a slide, its travel.
+  /// It depends on how the tool moves and on nothing else: not on where the base is, nor on which table says
+  /// it.
+  [[nodiscard]] double motion_length_m() const { return motion_length_m_; }
   [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
   [[nodiscard]] const Rigid& base() const { return base_; }  // B
   [[nodiscard]] const Rigid& tool() const { return tool_; }  // E
@@ -59,12 +66,14 @@ class Kinematics {
   template <typename Visit>
   Rigid walk(const JointVector& joint_rad, const Visit& visit) const;
   Rigid forward_into(const JointVector& joint_rad, Jacobian& J) const;
+  [[nodiscard]] double motion_m(const RobotConfig& robot) const;
 
   std::array<Link, kMaxJoints> link_{};
   std::array<DhLink, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
   Rigid last_{};  // behind the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
+  double motion_length_m_ = 0.0;
   bool all_revolute_ = true;
 };
 

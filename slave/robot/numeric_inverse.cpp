@@ -16,7 +16,7 @@ namespace {
 // smoothness.
 struct Temper {
   double step_max_rad;  // a longer step leaves the region in which the Jacobian means something
-  double singular;      // below this share of the reach a direction counts as nearly singular and is damped
+  double singular;      // below this share of the length a direction counts as nearly singular and is damped
   double damping;       // of |e|²
   std::uint32_t patience;  // a run gives up when so many steps have not halved the residual
   bool turns_freely;       // joints with a range of a whole turn pass their limits on the way
@@ -33,7 +33,7 @@ struct Candidate {
   void place(const Kinematics& kinematics, const Rigid& goal, const JointVector& q_rad) {
     joint_rad = q_rad;
     tool = kinematics.rigid_with_jacobian(q_rad);
-    error.head<3>() = kinematics.reach_m() * chord_between(tool.X_WE.R, goal.R);
+    error.head<3>() = kinematics.motion_length_m() * chord_between(tool.X_WE.R, goal.R);
     error.tail<3>() = goal.p - tool.X_WE.p;
     residual_m = error.norm();
   }
@@ -63,8 +63,8 @@ NumericInverse::NumericInverse(const RobotConfig& robot) : kinematics_(robot) {
 }
 
 NumericInverse::Place NumericInverse::place_m(const Rigid& X_WE) const {
-  constexpr double kRadius = 0.2;  // of the reach; measured: half the steps that the whole reach leads to
-  const double weight = kRadius * kinematics_.reach_m() / std::numbers::sqrt2;
+  constexpr double kRadius = 0.2;  // of the length; measured: half the steps that all of it leads to
+  const double weight = kRadius * kinematics_.motion_length_m() / std::numbers::sqrt2;
   Place place;
   place << weight * X_WE.R.reshaped().transpose(), X_WE.p.transpose();
   return place;
@@ -117,7 +117,7 @@ struct NumericInverse::Run {
 
   [[nodiscard]] NumericResult from(const JointVector& start_rad) const {
     const Kinematics& kinematics = inverse.kinematics_;
-    const double length = kinematics.reach_m();
+    const double length = kinematics.motion_length_m();
     std::array<Candidate, 2> candidates;
     Candidate *best = candidates.data(), *next = best + 1;
     best->place(kinematics, goal, start_rad);
@@ -126,7 +126,7 @@ struct NumericInverse::Run {
     std::uint32_t since = 0;
     // A loose tolerance must not freeze a slow motion: one step is made unless the start is exact.
     for (std::uint32_t i = 0; i < tolerance.iterations_max && std::isfinite(best->residual_m); ++i) {
-      const double enough = i == 0 ? 1e-14 * length : tolerance.residual_m;
+      const double enough = i == 0 ? 1e-14 * kinematics.reach_m() : tolerance.residual_m;
       if (best->residual_m <= enough || ++since > temper.patience) break;
       const JointVector step = step_from(*best, boost, length, temper);
       ++result.iterations;

@@ -1,11 +1,11 @@
 #pragma once
 // Joint angles for a tool pose, from joint angles nearby: damped least squares
 //   (JᵀJ + (|e|² + μ) I) Δq = Jᵀ e,   e = [L log(R_goal Rᵀ); p_goal - p]
-// with the robot's reach L making radians and metres comparable, damping |e|² that vanishes at the solution
-// (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after a step that did not
-// help (Levenberg). Joint limits are kept by projection. One run finds a solution of the branch that it
-// starts in and no other; a search starts again from elsewhere until it has found one: from a fixed sequence
-// of starts, those first whose tools are nearest to the goal.
+// with L (Kinematics::motion_length_m) making radians and metres comparable, damping |e|² that vanishes at
+// the solution (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after a step
+// that did not help (Levenberg). Joint limits are kept by projection. One run finds a solution of the branch
+// that it starts in and no other; a search starts again from elsewhere until it has found one: from a fixed
+// sequence of starts, those first whose tools are nearest to the goal.
 
 #include <cstdint>
 

@@ -39,8 +39,8 @@ bool Refinement::improve(Placed& placed) const {
 }
 
 Placed Refinement::moved(const Placed& from, bool damped) const {
-  constexpr double kDamping = 1e-12;  // of the reach squared
-  const double length = kinematics_.reach_m();
+  constexpr double kDamping = 1e-12;  // of the length squared
+  const double length = kinematics_.motion_length_m();
   Vector6 e_m;
   e_m << length * from.rotation_error_rad, from.position_error_m;
   if (damped)
@@ -75,7 +75,7 @@ bool Refinement::newton(Placed& placed) const {
 void Refinement::step_aside(Placed& placed) const {
   constexpr double kFirstRad = 1e-8, kLastRad = 0.3, kRatio = 1.6;
   constexpr int kRefinements = 12;
-  const JointVector along = idle_motion(placed.tool.J, kinematics_.reach_m());
+  const JointVector along = idle_motion(placed.tool.J, kinematics_.motion_length_m());
   const JointVector from = placed.joint_rad;
   double best = 0.0;
   const auto try_at = [&](double h) {

@@ -25,7 +25,7 @@ struct Worst {
 
 inline double least_singular_value(const Kinematics& arm, const JointVector& q) {
   Jacobian J = arm.rigid_with_jacobian(q).J;
-  J.bottomRows<3>() /= arm.reach_m();
+  J.bottomRows<3>() /= arm.motion_length_m();
   return Eigen::JacobiSVD<Jacobian>(J).singularValues()[5];
 }
 

@@ -138,7 +138,7 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run) {
       if (off_m > 1e-6 || turned > 1e-6) late_s = tick * kDt - 2.0 * kLegS;
       if (tick % kTicksPerRow != 0) continue;
       trace.row({now, off_m, turned, speed[0], speed[1], speed[2], speed[3], speed[4], speed[5],
-                 conditioning(arm.rigid_with_jacobian(before).J, arm.reach_m())});
+                 conditioning(arm.rigid_with_jacobian(before).J, arm.motion_length_m())});
     }
     const std::string name = passage.name;
     metrics.push_back({name + "_off_goal_max_m", off_max_m, "m"});

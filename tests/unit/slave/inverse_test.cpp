@@ -128,8 +128,8 @@ TEST(Inverse, NamesTheDirectionThatASingularPoseLoses) {
   EXPECT_EQ(result.status, InverseStatus::kSingular);
   EXPECT_NEAR(result.lost.norm(), 1.0, 1e-12);
   Jacobian J = inverse.kinematics().rigid_with_jacobian(result.joint_rad).J;
-  J.topRows<3>() *= inverse.kinematics().reach_m();
-  EXPECT_LT((J.transpose() * result.lost).norm(), 1e-6 * inverse.kinematics().reach_m());
+  J.topRows<3>() *= inverse.kinematics().motion_length_m();
+  EXPECT_LT((J.transpose() * result.lost).norm(), 1e-6 * inverse.kinematics().motion_length_m());
 }
 
 // The wrist stands above the base, which may turn, but not so far that the almost straight arm falls short.
