@@ -102,11 +102,11 @@ void require_device(const DeviceConfig& device) {
 }
 
 int operate(const MasterOptions& options) {
-  const auto config = load_config<proto::MasterConfig>(
-      with_shorthands(options), [](proto::MasterConfig& c) { resolve_files(c, find_deploy_folder()); });
+  std::vector<FileRead> files;
+  const auto config = load_config<proto::MasterConfig>(with_shorthands(options), files);
   require_device(to_struct(config).device);
   if (options.check) {
-    std::fputs(get_field(config, "", &config).c_str(), stdout);
+    std::fputs((files_text(files, "# ", "\n") + get_field(config, "", &config)).c_str(), stdout);
     return 0;
   }
   refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
@@ -121,8 +121,8 @@ int operate(const MasterOptions& options) {
   const Time began = monotonic_now();
   const auto desk = make_desk(service, shell, plain);
   RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
-  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}", shell.address(), plain.link.slave,
-               rpc.address(), plain.loop.rate_hz, plain.link.send_hz);
+  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
+               rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
   Housekeeping housekeeping({view_kind(options.view), options.seconds}, plain, shell, service);
   // The live view owns the terminal; it shows what the log would say.
   if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();

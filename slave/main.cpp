@@ -60,10 +60,11 @@ class Chronicle {
   std::string trouble_;
 };
 
-void log_start(const proto::SlaveConfig& config, const SlaveShell& shell, const RpcServer& rpc) {
-  spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}", shell.address(),
+void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
+               const RpcServer& rpc) {
+  spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
                rpc.address(), config.loop().rate_hz(), config.robot().name(), config.scene().name(),
-               config.scene().surface_size());
+               config.scene().surface_size(), files_text(files, " ", ""));
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
   const NeedsConfig needed = needs(to_struct(config).scene);
@@ -99,11 +100,10 @@ ProgramOptions with_shorthands(const SlaveOptions& options) {
 
 int serve(const SlaveOptions& options) {
   if (options.pair) return pair(options);
-  const auto config = load_config<proto::SlaveConfig>(
-      with_shorthands(options),
-      [](proto::SlaveConfig& loaded) { resolve_files(loaded, find_deploy_folder()); });
+  std::vector<FileRead> files;
+  const auto config = load_config<proto::SlaveConfig>(with_shorthands(options), files);
   if (options.check) {
-    std::fputs(get_field(config, "", &config).c_str(), stdout);
+    std::fputs((files_text(files, "# ", "\n") + get_field(config, "", &config)).c_str(), stdout);
     return 0;
   }
   refuse_insecure(options.insecure, to_struct(config).robot_adapter, "robot");
@@ -116,7 +116,7 @@ int serve(const SlaveOptions& options) {
   SlaveService service(shell, config, {options.recordings, seed});
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   RpcServer rpc(plain.rpc.listen, service, "slave", security);
-  log_start(config, shell, rpc);
+  log_start(config, files, shell, rpc);
 
   std::atomic<bool> end{false};
   std::exception_ptr failure;

@@ -17,4 +17,7 @@ struct DeploySearch {
 /// Throws ConfigError.
 std::filesystem::path find_deploy_folder(const DeploySearch& search);
 
+/// The nearest `deploy` or `share/longreach` beside or above the program, else above the working folder.
+std::optional<std::filesystem::path> installed_folder();
+
 }  // namespace longreach

@@ -2,6 +2,7 @@
 
 #include "common/config/accuracy.hpp"
 #include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
 #include "common/config/scene_files.hpp"
 #include "common/config/violation.hpp"
 
@@ -12,15 +13,26 @@ namespace fs = std::filesystem;
 
 constexpr int kJoints = 6;
 
-template <class Part>
-Part load_part(const fs::path& deploy_folder, const std::string& file, const char* field) {
-  if (file.empty()) {
-    throw ConfigError(std::string(field) + "_file is empty; name a file, or give the " + field + " in place");
+/// Looks for files, and keeps what it has read.
+struct Reading {
+  const FileSearch& search;
+  std::vector<FileRead>* read;
+
+  fs::path find(const std::string& field, const std::string& name) const {
+    const fs::path path = search.find(field, name);
+    if (read != nullptr) read->push_back({field, path});
+    return path;
   }
-  Part part;
-  load_text_file(deploy_folder / file, part);
-  return part;
-}
+
+  template <class Part>
+  fs::path load(const std::string& name, const std::string& field, Part& part) const {
+    if (name.empty())
+      throw ConfigError(field + "_file is empty; name a file, or give the " + field + " in place");
+    const fs::path path = find(field + "_file", name);
+    load_text_file(path, part);
+    return path;
+  }
+};
 
 void require_joints(const proto::Robot& robot, const std::string& where) {
   if (robot.joint_size() == kJoints) return;
@@ -29,10 +41,11 @@ void require_joints(const proto::Robot& robot, const std::string& where) {
 }
 
 // A robot in place that has joints is complete; else its fields go over those of the file.
-void resolve_robot(proto::SlaveConfig& config, const fs::path& deploy_folder) {
+void resolve_robot(proto::SlaveConfig& config, const Reading& reading) {
   if (config.robot().joint_size() == 0) {
-    auto robot = load_part<proto::Robot>(deploy_folder, config.robot_file(), "robot");
-    require_joints(robot, (deploy_folder / config.robot_file()).string() + ": the robot");
+    proto::Robot robot;
+    const fs::path path = reading.load(config.robot_file(), "robot", robot);
+    require_joints(robot, path.string() + ": the robot");
     robot.MergeFrom(config.robot());
     config.mutable_robot()->Swap(&robot);
   }
@@ -42,9 +55,18 @@ void resolve_robot(proto::SlaveConfig& config, const fs::path& deploy_folder) {
 }  // namespace
 
 void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
+  resolve_files(config, FileSearch({deploy_folder}), nullptr);
+}
+
+void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
+  resolve_files(config, FileSearch({deploy_folder}), nullptr);
+}
+
+void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read) {
   proto::MasterConfig resolved = config;
   if (!config.device_file().empty()) {
-    auto device = load_part<proto::Device>(deploy_folder, config.device_file(), "device");
+    proto::Device device;
+    (void)Reading{search, read}.load(config.device_file(), "device", device);
     // Lists replace each other as a whole.
     if (config.device().gravity_m_per_s2_size() > 0) device.clear_gravity_m_per_s2();
     if (config.device().delta().azimuth_rad_size() > 0) device.mutable_delta()->clear_azimuth_rad();
@@ -56,17 +78,23 @@ void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
   config.Swap(&resolved);
 }
 
-void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
+void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read) {
   proto::SlaveConfig resolved = config;
+  FileSearch of_scene = search;  // what the scene names is beside it
   // A scene in place is complete, also when it is empty: free space.
   if (!resolved.has_scene()) {
-    *resolved.mutable_scene() = load_part<proto::Scene>(deploy_folder, resolved.scene_file(), "scene");
+    const fs::path path =
+        Reading{search, read}.load(resolved.scene_file(), "scene", *resolved.mutable_scene());
+    of_scene = search.beside(path);
   }
+  const Reading by_scene{of_scene, read};
   if (resolved.scene().has_bodies())
-    load_scene_files(*resolved.mutable_scene()->mutable_bodies(), deploy_folder);
+    load_scene_files(*resolved.mutable_scene()->mutable_bodies(),
+                     [&](const std::string& name) { return by_scene.find("scene.bodies.mjcf_file", name); });
   const std::string& made_for = resolved.scene().robot_file();
-  if (!resolved.has_robot_file() && !made_for.empty()) resolved.set_robot_file(made_for);
-  resolve_robot(resolved, deploy_folder);
+  const bool from_scene = !resolved.has_robot_file() && !made_for.empty();
+  if (from_scene) resolved.set_robot_file(made_for);
+  resolve_robot(resolved, from_scene ? by_scene : Reading{search, read});
   apply_accuracy(resolved);
   validate(resolved);
   config.Swap(&resolved);

@@ -91,10 +91,13 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
   }
 }
 
-void load_scene_files(proto::Bodies& bodies, const fs::path& deploy_folder) {
-  if (bodies.file_size() > 0) return;
+void load_scene_files(proto::Bodies& bodies, const std::function<fs::path(const std::string& name)>& find) {
+  // What is in place stays, unless a setting has named another file since.
+  if (bodies.file_size() > 0 && (bodies.mjcf_file().empty() || bodies.file(0).name() == bodies.mjcf_file()))
+    return;
+  bodies.clear_file();
   if (bodies.mjcf_file().empty()) throw ConfigError("scene.bodies.mjcf_file is empty; name an MJCF file");
-  const fs::path file = deploy_folder / bodies.mjcf_file();
+  const fs::path file = find(bodies.mjcf_file());
   const std::string mjcf = read_user_file(file);
   add(bodies, bodies.mjcf_file(), mjcf);
   static const std::regex kNamed("\\bfile\\s*=\\s*[\"']([^\"']{0,255})[\"']");

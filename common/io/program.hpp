@@ -8,9 +8,11 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
 #include "common/config/link_profile.hpp"
 #include "common/io/address.hpp"
 #include "common/io/core_dumps.hpp"
@@ -51,7 +53,8 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
                  "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--profile", options.profile, "Link profile of deploy/links whose delay and loss to imitate")
+  app.add_option("--profile", options.profile,
+                 "Link profile whose delay and loss to imitate: a name of deploy/links, or a .txtpb file")
       ->type_name("NAME");
   app.add_option("--seconds", options.seconds, "End after this time")
       ->check(number_above_zero())
@@ -110,23 +113,38 @@ inline bool concerns_named_file(const std::string& setting) {
   return setting.starts_with("scene.") || setting.starts_with("robot.");
 }
 
-/// The file, over it the profile, over it the settings; `resolve` reads the files that it names,
-/// before the settings that change what they say. Throws ConfigError.
-template <class Message, class Resolve>
-Message load_config(const ProgramOptions& options, const Resolve& resolve) {
+/// The file, over it the profile, over it the settings; what these name is read before the settings that
+/// change what it says. `read` gets the files. Throws ConfigError.
+template <class Message>
+Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
   Message message;
-  if (!options.config.empty()) load_text_file(options.config, message);
+  const FileSearch installed = installed_files();
+  const FileSearch search = options.config.empty() ? installed : installed.beside(options.config);
+  if (!options.config.empty()) {
+    load_text_file(options.config, message);
+    read.push_back({"config", std::filesystem::absolute(options.config)});
+  }
   if (!options.profile.empty())
-    take_profile(*message.mutable_link(), load_link_profile(find_deploy_folder(), options.profile));
+    take_profile(*message.mutable_link(), load_link_profile(search, options.profile, &read));
   for (const std::string& setting : options.settings) {
-    if (!concerns_named_file(setting)) apply_setting(message, setting);
+    if (!concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
   }
-  resolve(message);
+  resolve_files(message, search, &read);
   for (const std::string& setting : options.settings) {
-    if (concerns_named_file(setting)) apply_setting(message, setting);
+    if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
   }
+  if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
+    resolve_files(message, search, nullptr);  // once more for what the settings changed
   validate(message);
   return message;
+}
+
+/// "robot_file=/a scene_file=/b", each on a line of its own behind "# " for --check.
+inline std::string files_text(const std::vector<FileRead>& read, const std::string& before,
+                              const std::string& behind) {
+  std::string text;
+  for (const FileRead& file : read) text += before + file.field + "=" + file.path.string() + behind;
+  return text;
 }
 
 /// Parses the options, runs, and turns exceptions into one sentence on standard error and an exit status.

@@ -1,8 +1,10 @@
 #include "deploy/cli/described_robot.hpp"
 
+#include <cstring>
 #include <numbers>
 
 #include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
 #include "common/config/number_text.hpp"
 #include "deploy/cli/invocation.hpp"
 
@@ -13,8 +15,10 @@ constexpr double kBeyond = 0.1;
 
 proto::Robot robot_of(const std::string& file) try {
   proto::SlaveConfig config;
-  config.set_robot_file(file);
-  resolve_files(config, find_deploy_folder());
+  const FileSearch search = installed_files();
+  set_field(config, "robot_file",
+            placed_setting("robot_file=" + file, search).substr(std::strlen("robot_file=")));
+  resolve_files(config, search, nullptr);
   return config.robot();
 } catch (const ConfigError& error) {
   throw UsageError(error.what());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
@@ -28,7 +29,7 @@ struct Change {
 
 std::vector<Change> changes_of(const Options& options, const LinkSetCommand& command) {
   proto::LinkProfile profile;
-  if (command.profile) profile = load_link_profile(find_deploy_folder(), *command.profile);
+  if (command.profile) profile = load_link_profile(installed_files(), *command.profile);
   const bool replace = command.clear || command.profile;
   proto::Impairment up = profile.up();
   proto::Impairment down = profile.down();

@@ -47,9 +47,10 @@ const Experiment* find_experiment(std::string_view name);
 
 /// A complete configuration from settings "path=value": first those that name files (profile, robot_file,
 /// scene_file) or choose others (accuracy), then what the files say, then the other settings in their order.
-/// Throws ConfigError.
+/// Relative names of files count from `from` first. Throws ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
-                           const std::filesystem::path& deploy_folder);
+                           const std::filesystem::path& deploy_folder,
+                           const std::filesystem::path& from = std::filesystem::current_path());
 
 /// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);

@@ -62,6 +62,14 @@ TEST(CampaignGrid, CountsWhatNoProgramCouldRun) {
   EXPECT_EQ(Grid(campaign).size(), Grid::kCellsMax + 1);
 }
 
+TEST(CampaignPlan, FindsFilesBesideTheGrid) {
+  const TemporaryFolder folder;
+  folder.write("mine.txtpb", "up { delay_s: 1.5 }");
+  const fs::path file = folder.write(
+      "grid.txtpb", "experiment: 'touch' setting { path: 'profile' value: ['mine.txtpb', 'moon'] }");
+  EXPECT_EQ(error_of([&] { static_cast<void>(load_plan(file, kDeploy)); }), "no error");
+}
+
 TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> mistakes = {

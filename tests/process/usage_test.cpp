@@ -122,6 +122,28 @@ TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
   EXPECT_NE(master.output.find("mode: RATE"), std::string::npos) << master.output;
 }
 
+TEST(Usage, AnEditedCopyOfTheFilesIsReadAndNamed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path copy = folder.path() / "copy";
+  std::filesystem::copy(LONGREACH_DEPLOY, copy, std::filesystem::copy_options::recursive);
+  std::ofstream(copy / "scenes/wall.txtpb") << "name: \"edited\"\n";
+  std::ofstream(copy / "links/mine.txtpb") << "up { delay_s: 0.123 }\n";
+  const std::string config = copy / "config/slave.txtpb", scene = copy / "scenes/wall.txtpb";
+  const Ended check =
+      run("longreach-slave", {"--config", config, "--check", "--profile", copy / "links/mine.txtpb"});
+  EXPECT_EQ(check.status, 0) << check.output;
+  for (const std::string& words :
+       {"# config=" + config + "\n# profile=" + copy.string() + "/links/mine.txtpb\n",
+        "# scene_file=" + scene + "\n# robot_file=" + copy.string() + "/robots/",
+        std::string("name: \"edited\""), std::string("delay_s: 0.123")}) {
+    EXPECT_NE(check.output.find(words), std::string::npos) << words << check.output;
+  }
+  const Ended start = run("longreach-slave", {"--config", config, "--insecure", "--seconds", "0.1", "--set",
+                                              "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0"});
+  EXPECT_EQ(start.status, 0) << start.output;
+  EXPECT_NE(start.output.find(" scene_file=" + scene), std::string::npos) << start.output;
+}
+
 TEST_F(Station, APortThatIsTakenEndsTheSecondProgramWithStatus1) {
   start_slave();
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();

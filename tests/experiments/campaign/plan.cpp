@@ -69,7 +69,8 @@ class Checker {
     const std::vector<std::string> all = grid.settings(cell);
     for (std::size_t n = 0; n <= all.size(); ++n) {
       try {
-        static_cast<void>(configure({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)}, deploy));
+        static_cast<void>(configure({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)}, deploy,
+                                    fs::absolute(file_).parent_path()));
       } catch (const ConfigError& e) {
         if (n == 0) throw;
         const PathStep setting = step(campaign_, "setting", static_cast<int>(n) - 1);
@@ -101,7 +102,7 @@ Plan load_plan(const fs::path& file, const fs::path& deploy_folder) {
   check.experiments();
   check.settings();
   check.seeds();
-  Plan plan{Grid(campaign), {}, {}};
+  Plan plan{Grid(campaign), fs::absolute(file).lexically_normal().parent_path(), {}, {}};
   if (plan.grid.size() > Grid::kCellsMax)
     throw ConfigError(file.string() + ": the grid has more than " + std::to_string(Grid::kCellsMax) +
                       " cells; make several campaigns of it");
@@ -110,7 +111,7 @@ Plan load_plan(const fs::path& file, const fs::path& deploy_folder) {
     const std::size_t seeds = campaign.seeds().to() - campaign.seeds().from() + std::size_t{1};
     const Cell cell = plan.grid.cell(i * seeds);
     try {
-      plan.configs.push_back(config_hash(configure(plan.grid.settings(cell), deploy_folder)));
+      plan.configs.push_back(config_hash(configure(plan.grid.settings(cell), deploy_folder, plan.folder)));
     } catch (const ConfigError&) {
       check.refuse_cell(plan.grid, cell, deploy_folder);
     }

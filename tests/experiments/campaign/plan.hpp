@@ -11,6 +11,7 @@ namespace longreach {
 
 struct Plan {
   Grid grid;
+  std::filesystem::path folder;      // of the grid: names in it count from here
   proto::CampaignRecord record;      // names the campaign
   std::vector<std::string> configs;  // hash of the configuration of each combination
 };

@@ -39,7 +39,7 @@ std::size_t jobs_of(const SweepOptions& options) {
 void run_cell(const Plan& plan, const CampaignFolder& folder, const fs::path& deploy, std::size_t number) {
   const Cell cell = plan.grid.cell(number);
   ExperimentRun run;
-  run.config = configure(plan.grid.settings(cell), deploy);
+  run.config = configure(plan.grid.settings(cell), deploy, plan.folder);
   run.seed = cell.seed;
   proto::CellRecord result;
   result.set_config(config_hash(run.config));

@@ -111,7 +111,8 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
       refused("", "cylinder { axis: [0, 0, 0] }"),
       "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
   config.set_scene_file("scenes/none.txtpb");
-  EXPECT_EQ(resolve_error(), path("scenes/none.txtpb") + ": there is no such file");
+  EXPECT_EQ(resolve_error(),
+            "scene_file = \"scenes/none.txtpb\": there is no such file in " + folder.path().string());
 }
 
 // Nobody writes into a FIFO, and a device has no end.
@@ -139,7 +140,8 @@ TEST_F(ResolveFiles, ReadsRegularFilesOfABoundedSizeAlone) {
 TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
   const std::string solid = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
   folder.write("scenes/wall.txtpb", "bodies { mjcf_file: \"scenes/b.xml\" }");
-  EXPECT_EQ(resolve_error(), path("scenes/b.xml") + ": there is no such file");
+  EXPECT_EQ(resolve_error(), "scene.bodies.mjcf_file = \"scenes/b.xml\": there is no such file in " +
+                                 path("scenes") + " or " + folder.path().string());
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   EXPECT_EQ(resolve_error(),
             path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": there is no such file");
@@ -165,11 +167,18 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
   ASSERT_EQ(config.scene().bodies().file_size(), 2);
   EXPECT_EQ(config.scene().bodies().file(0).name(), "scenes/b.xml");
   EXPECT_EQ(config.scene().bodies().file(1).name(), "m.obj");
+  // A setting that names another file is obeyed, also after the first was read.
+  folder.write("other.xml", "<mujoco/>");
+  config.mutable_scene()->mutable_bodies()->set_mjcf_file("other.xml");
+  EXPECT_EQ(resolve_error(), "no error");
+  ASSERT_EQ(config.scene().bodies().file_size(), 1);
+  EXPECT_EQ(config.scene().bodies().file(0).name(), "other.xml");
 }
 
 TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   config.set_robot_file("robots/none.txtpb");
-  EXPECT_EQ(resolve_error(), path("robots/none.txtpb") + ": there is no such file");
+  EXPECT_EQ(resolve_error(),
+            "robot_file = \"robots/none.txtpb\": there is no such file in " + folder.path().string());
   config.set_robot_file("");
   EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or give the robot in place");
   config.clear_robot_file();
@@ -276,8 +285,8 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
     EXPECT_EQ(
         error(name),
         "\"" + name +
-            "\" is not the name of a link profile; give a plain name, one of: lab, moon, or the absolute "
-            "path of a .txtpb file");
+            "\" is not the name of a link profile; give a plain name, one of: lab, moon, or the path of a "
+            ".txtpb file");
   }
   folder.write("mine.txtpb", "up { delay_s: 0.7 }");
   const std::string mine = (folder.path() / "mine.txtpb").string();
