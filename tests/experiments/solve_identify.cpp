@@ -1,12 +1,12 @@
 #include "tests/experiments/solve_identify.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <istream>
 #include <optional>
 #include <ostream>
 
 #include "slave/estimation/watched_identifier.hpp"
+#include "tests/experiments/contact_convention.hpp"
+#include "tests/experiments/contact_table.hpp"
 #include "tests/experiments/solve_json.hpp"
 
 namespace longreach {
@@ -15,98 +15,10 @@ namespace {
 using solve_json::BadRequest;
 using Json = nlohmann::ordered_json;
 
-struct Row {
-  double t_s = 0.0, x_m = 0.0, f_n = 0.0;
-  std::optional<double> v_m_per_s;
-};
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    result.push_back(trimmed(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return result;
-}
-
-/// Lines of either format as rows.
-class Recording {
- public:
-  Row read(const std::string& line) {
-    Row row = csv_.empty() ? from_json(line) : from_csv(line);
-    if (rows_ > 0 && !(row.t_s > last_t_s_)) throw BadRequest("\"t\" does not rise");
-    if (rows_ > 0 && row.v_m_per_s.has_value() != has_v_)
-      throw BadRequest(has_v_ ? "key \"v\" is missing, which the lines before have"
-                              : "\"v\" is there, which the lines before do not have");
-    has_v_ = row.v_m_per_s.has_value();
-    last_t_s_ = row.t_s;
-    ++rows_;
-    return row;
-  }
-
-  void header(const std::string& line) {
-    csv_ = cells(line);
-    for (std::size_t i = 0; i < csv_.size(); ++i) {
-      const std::string& name = csv_[i];
-      if (name != "t" && name != "x" && name != "v" && name != "f")
-        throw BadRequest("unknown column \"" + name + "\"; the header may have t, x, v and f");
-      for (std::size_t j = 0; j < i; ++j)
-        if (csv_[j] == name) throw BadRequest("column \"" + name + "\" is there twice");
-    }
-    for (const char* name : {"t", "x", "f"})
-      if (std::find(csv_.begin(), csv_.end(), name) == csv_.end())
-        throw BadRequest("column \"" + std::string(name) + "\" is missing");
-  }
-
- private:
-  static Row from_json(const std::string& line) {
-    const solve_json::Json object = solve_json::parse(line);
-    solve_json::require_known(object, "", {"t", "x", "v", "f"});
-    Row row{solve_json::number(object, "t"),
-            solve_json::number(object, "x"),
-            solve_json::number(object, "f"),
-            {}};
-    if (object.contains("v")) row.v_m_per_s = solve_json::number(object, "v");
-    return row;
-  }
-
-  [[nodiscard]] Row from_csv(const std::string& line) const {
-    const std::vector<std::string> values = cells(line);
-    if (values.size() != csv_.size())
-      throw BadRequest(std::to_string(values.size()) + " values for " + std::to_string(csv_.size()) +
-                       " columns");
-    Row row;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      double value = 0.0;
-      const char* end = values[i].data() + values[i].size();
-      const auto [stop, error] = std::from_chars(values[i].data(), end, value);
-      if (error != std::errc{} || stop != end)
-        throw BadRequest("\"" + csv_[i] + "\" must be a number, not \"" + values[i] + "\"");
-      if (!std::isfinite(value)) throw BadRequest("\"" + csv_[i] + "\" is not a finite number");
-      if (csv_[i] == "t") row.t_s = value;
-      if (csv_[i] == "x") row.x_m = value;
-      if (csv_[i] == "f") row.f_n = value;
-      if (csv_[i] == "v") row.v_m_per_s = value;
-    }
-    return row;
-  }
-
-  std::vector<std::string> csv_;  // names of the columns; empty: JSON
-  std::size_t rows_ = 0;
-  bool has_v_ = false;
-  double last_t_s_ = 0.0;
-};
-
 /// Turns rows into samples with a speed.
 class Feed {
  public:
-  void step(const Row& row, std::vector<WatchedIdentifier>& identifiers) {
+  void step(const ContactRow& row, std::vector<WatchedIdentifier>& identifiers) {
     if (row.v_m_per_s) {
       give({row.x_m, *row.v_m_per_s, row.f_n}, row.t_s, identifiers);
     } else if (rows_ >= 2) {
@@ -127,7 +39,7 @@ class Feed {
     for (WatchedIdentifier& identifier : identifiers) identifier.step(sample, dt);
   }
 
-  Row first_, before_;
+  ContactRow first_, before_;
   std::size_t rows_ = 0;
   std::optional<double> given_;
 };
@@ -198,31 +110,34 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
   for (const EstimatorKind kind : chosen)
     identifiers.emplace_back(
         IdentifierConfig{kind, options.exponent, 1.0, options.force_noise_n, options.position_noise_m});
-  Recording recording;
+  ContactTable table;
+  ContactConvention convention;
   Feed feed;
   std::string line;
-  bool begun = false;
   double t_s = 0.0;
+  const auto refuse = [&errors](const std::string& why) {
+    errors << "longreach-lab: " << why << '\n';
+    return 2;
+  };
   for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (trimmed(line).empty()) continue;
     try {
-      if (!begun && trimmed(line).front() != '{') {
-        recording.header(line);
-        begun = true;
-        continue;
-      }
-      begun = true;
-      const Row row = recording.read(line);
-      t_s = row.t_s;
-      feed.step(row, identifiers);
+      const auto row = table.read(line);
+      if (!row) continue;
+      convention.step(*row, table.time_has_unit());
+      t_s = row->t_s;
+      feed.step(*row, identifiers);
     } catch (const BadRequest& e) {
-      errors << "longreach-lab: line " << number << ": " << e.what() << '\n';
-      return 2;
+      return refuse("line " + std::to_string(number) + ": " + e.what());
     }
     if (options.estimator == "all") continue;
     Json answer{{"t", t_s}};
     answer.update(to_json(identifiers.front().answer()));
     out << answer << '\n' << std::flush;
+  }
+  try {
+    convention.require_signs();
+  } catch (const BadRequest& e) {
+    return refuse(e.what());
   }
   for (std::size_t i = 0; options.estimator == "all" && i < chosen.size(); ++i) {
     Json answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -112,6 +114,12 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,2\n0.1,1\n", "line 3: 2 values for 3 columns"},
       {"t,x,f\n0,1,nan\n", "line 2: \"f\" is not a finite number"},
       {"t,y,f\n", "line 1: unknown column \"y\"; the header may have t, x, v and f"},
+      {"t,x [inch],f\n", "line 1: the unit \"inch\" of \"x [inch]\" is unknown; give m, mm or um"},
+      {"0,0.1,3\n", "line 1: the first line must name the columns, as in t,x,f"},
+      {"t,x,f\n0,1,0,2,0,3\n", "line 2: 6 values for 3 columns; with decimal commas separate the columns by"},
+      {"t,x,f\n0,\"1,2\n", "line 2: a quotation mark is not closed"},
+      {"\xFF\xFEt,x,f\n", "line 1: the text is UTF-16; save it as UTF-8"},
+      {"t,x,f\r0,1,2\r", "line 1: lines end with CR alone"},
       {"t,x\n", "line 1: column \"f\" is missing"},
       {"t,x,x,f\n", "line 1: column \"x\" is there twice"},
       {"{\"t\": 0, \"x\": 1}\n", "line 1: key \"f\" is missing"},
@@ -127,6 +135,115 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
     EXPECT_EQ(r.status, 2) << input;
     EXPECT_NE(r.errors.find(reason), std::string::npos) << r.errors << reason;
   }
+}
+
+/// The record in a dialect: `header`, and each line by `row` of t, x and f.
+template <class RowOf>
+std::string dialect(const std::string& header, const RowOf& row) {
+  std::ostringstream out;
+  out << header;
+  double t = 0.0;
+  for (const PenetrationSample& s : record()) {
+    out << row(t, s.x_m, s.force_n);
+    t += 1e-3;
+  }
+  return out.str();
+}
+
+std::string digits(double value) {
+  std::ostringstream out;
+  out << std::setprecision(15) << value;
+  return out.str();
+}
+
+std::string comma(double value) {
+  std::string text = digits(value);
+  std::ranges::replace(text, '.', ',');
+  return text;
+}
+
+TEST(SolveIdentify, ReadsWhatSpreadsheetsWrite) {
+  const double expected = run(text(record(), Format::kCsv, false)).lines.back()["k"];
+  const auto plain = [](double t, double x, double f) {
+    return digits(t) + "," + digits(x) + "," + digits(f) + "\n";
+  };
+  const auto semicolons = [](double t, double x, double f) {
+    return comma(t) + ";" + comma(x) + ";" + comma(f) + "\r\n";
+  };
+  const auto quoted = [](const std::string& cell) { return '"' + cell + '"'; };
+  const std::pair<std::string, std::string> dialects[] = {
+      {"byte order mark", dialect("\xEF\xBB\xBFt,x,f\r\n", plain)},
+      {"semicolons and decimal commas", dialect("t;x;f\r\n", semicolons)},
+      {"a separator that the file names", dialect("\xEF\xBB\xBFsep=;\r\nt;x;f\r\n", semicolons)},
+      {"tabs and empty cells", dialect("t\tx\tf\t\n",
+                                       [](double t, double x, double f) {
+                                         return digits(t) + "\t" + comma(x) + "\t" + digits(f) + "\t\n";
+                                       }) +
+                                   "\t\t\t\n\n"},
+      {"quoted cells", dialect("\"t\",\"x\",\"f\"\n",
+                               [&](double t, double x, double f) {
+                                 return quoted(digits(t)) + "," + quoted(comma(x)) + ", " +
+                                        quoted(digits(f)) + "\n";
+                               })},
+      {"signs", dialect("t,x,f\n",
+                        [](double t, double x, double f) {
+                          return "+" + digits(t) + "," + (x < 0.0 ? "\xE2\x88\x92" : "+") +
+                                 digits(std::abs(x)) + "," + (f < 0.0 ? "" : "+") + digits(f) + "\n";
+                        })},
+      {"units", dialect("Time (ms), Penetration [mm], \"Force, kN\"\n",
+                        [](double t, double x, double f) {
+                          return digits(1e3 * t) + "," + digits(1e3 * x) + "," + digits(1e-3 * f) + "\n";
+                        })},
+      {"units in names", dialect("t_ns|x_um|f_mN\n",
+                                 [](double t, double x, double f) {
+                                   return digits(1e9 * t) + "|" + digits(1e6 * x) + "|" + digits(1e3 * f) +
+                                          "\n";
+                                 })},
+      {"comments and spaces", dialect("# made by hand, today\n# t x f\n",
+                                      [](double t, double x, double f) {
+                                        return digits(t) + "   " + digits(x) + " " + digits(f) + "\n";
+                                      })},
+      {"keys with units", dialect("",
+                                  [](double t, double x, double f) {
+                                    return json{{"t_ms", 1e3 * t}, {"x", x}, {"f [N]", f}}.dump() + "\n";
+                                  })},
+  };
+  for (const auto& [name, input] : dialects) {
+    const Result r = run(input);
+    EXPECT_EQ(r.status, 0) << name << ": " << r.errors;
+    ASSERT_EQ(r.lines.size(), 2000u) << name;
+    EXPECT_NEAR(r.lines.back()["k"], expected, 1e-3) << name;
+  }
+}
+
+TEST(SolveIdentify, DetectsWrongUnitsOfTimeAndWrongSigns) {
+  const auto scaled = [](double by_t, double by_x, double by_f) {
+    return dialect("t,x,f\n", [=](double t, double x, double f) {
+      return digits(by_t * t) + "," + digits(by_x * x) + "," + digits(by_f * f) + "\n";
+    });
+  };
+  const std::pair<std::string, const char*> cases[] = {
+      {scaled(1e3, 1, 1),
+       "line 6: \"t\" grows by 1 a line and is in s, so it looks like ms; name it \"t [ms]\""},
+      {scaled(1e6, 1, 1), "looks like us"},
+      {scaled(1e9, 1, 1), "looks like ns"},
+      {scaled(1, -1, -1), "counted negative: x and f are below 0"},
+      {scaled(1, -1, 1), "counted negative: the force grows where x is below 0"},
+      {scaled(1, 1, -1), "counted negative: f falls while x grows"}};
+  for (const auto& [input, words] : cases) {
+    const Result r = run(input);
+    EXPECT_EQ(r.status, 2) << words;
+    EXPECT_NE(r.errors.find(words), std::string::npos) << words << r.errors;
+  }
+  // Slow on purpose, and free space alone, with a sensor that has an offset.
+  EXPECT_EQ(run("t [s],x,f\n0,1,2\n1,1,2\n2,1,2\n3,1,2\n4,1,2\n5,1,2\n").status, 0);
+  EXPECT_EQ(run(dialect("t,x,f\n",
+                        [](double t, double x, double) {
+                          return digits(t) + "," + digits(-1e-3 - std::abs(x)) + "," +
+                                 digits(-3.0 + 0.1 * std::sin(1e4 * t)) + "\n";
+                        }))
+                .status,
+            0);
 }
 
 TEST(SolveIdentify, TakesNothingForNothing) {

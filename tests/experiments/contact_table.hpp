@@ -1,0 +1,54 @@
+#pragma once
+// A recording of a contact, line by line, as spreadsheets, loggers and programs write it. JSON objects, one a
+// line, or CSV with a header:
+//   separator   comma, semicolon, tab, bar or spaces, found in the header; a line `sep=;` is obeyed
+//   cells       may be quoted; a decimal comma is read where it cannot be a separator; `+0.1`, `1E-3`
+//   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
+//               in `x [mm]`, `t (ms)`, `f_kN`; without one s, m, m/s and N
+//   around it   a byte order mark, CR LF, empty lines and cells behind the last, comments that begin with #
+// Not read: UTF-16, thousands separators, cells over several lines.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace longreach {
+
+struct ContactRow {
+  double t_s = 0.0;
+  double x_m = 0.0;                   // penetration; 0 and below: free space
+  std::optional<double> v_m_per_s{};  // of x
+  double f_n = 0.0;                   // positive when pushing
+};
+
+class ContactTable {
+ public:
+  /// The row of the next line; none for a header, a comment or an empty line. Throws solve_json::BadRequest.
+  std::optional<ContactRow> read(std::string line);
+
+  /// Whether the recording names the unit of t.
+  [[nodiscard]] bool time_has_unit() const { return time_has_unit_; }
+
+ private:
+  struct Column {
+    char key = ' ';  // t, x, v or f; space: an empty one behind the last
+    std::string name;
+    double unit = 1.0;  // in SI
+  };
+
+  [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;
+  void header(std::string line);
+  Column column(const std::string& name);
+  ContactRow from_csv(const std::vector<std::string>& values) const;
+  ContactRow from_json(const std::string& line);
+
+  std::vector<Column> columns_;  // of CSV
+  std::optional<char> separator_{};
+  bool json_ = false;
+  std::size_t lines_ = 0, rows_ = 0;
+  bool has_v_ = false;
+  bool time_has_unit_ = false;
+  double last_t_s_ = 0.0;
+};
+
+}  // namespace longreach
