@@ -35,7 +35,8 @@ std::string adapter_trouble(const AdapterFigures& figures, const std::string& de
   if (figures.accepted > 0) return adapter + " has gone silent; if it stays so, start it again; then engage";
   if (figures.malformed > 0)
     return adapter + " sends what is not of the protocol; `longreach adapter check` says what";
-  return adapter + " does not answer; start it, then engage";
+  const std::string why = no_socket_there(unix_path(address));
+  return adapter + " does not answer" + (why.empty() ? "" : ": " + why) + "; start it, then engage";
 }
 
 }  // namespace longreach

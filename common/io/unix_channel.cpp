@@ -1,10 +1,12 @@
 #include "common/io/unix_channel.hpp"
 
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "common/config/adapter_address.hpp"
 #include "common/io/address.hpp"
@@ -32,6 +34,23 @@ int connect_unix(const std::string& path) {
   ::close(fd);
   errno = why;
   return -1;
+}
+
+std::string no_socket_there(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0)
+    return errno == ENOENT ? "there is no such file"
+                           : std::string("it cannot be reached: ") + std::strerror(errno);
+  if (S_ISDIR(found.st_mode)) return "it is a folder, not a socket";
+  return S_ISSOCK(found.st_mode) ? "" : "it is a file, not a socket";
+}
+
+std::string why_not_connected(const std::string& path, int error) {
+  if (const std::string why = no_socket_there(path); !why.empty()) return why;
+  if (error == ECONNREFUSED) return "it is a socket, but nothing listens there";
+  if (error == EPROTOTYPE) return "it is a socket of another type than SOCK_SEQPACKET";
+  if (error == EAGAIN) return "another program is connected, and more are waiting";
+  return std::string("it cannot be connected: ") + std::strerror(error);
 }
 
 std::optional<uid_t> peer_user(int socket) {

@@ -17,6 +17,10 @@ std::string unix_path(const std::string& address);
 
 /// To what listens there; -1: nothing does, with errno. Never waits.
 int connect_unix(const std::string& path);
+/// Why no socket can be there: "there is no such file", "it is a folder, not a socket"; empty: one is.
+std::string no_socket_there(const std::string& path);
+/// Why connect_unix(path) failed with `error`.
+std::string why_not_connected(const std::string& path, int error);
 /// Who has the other end; none: the system does not say.
 std::optional<uid_t> peer_user(int socket);
 /// This user, or root.

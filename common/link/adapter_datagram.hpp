@@ -1,7 +1,7 @@
 #pragma once
 // The adapter protocol, version 1: how a program of yours lets longreach use a haptic device or a robot. Copy
-// this file; it needs the standard library alone. deploy/adapters has an example of each kind, and
-// `longreach adapter check` tries yours.
+// this file; it needs the standard library of C++14 alone. deploy/adapters has an example of each kind with
+// the line that compiles it, and `longreach adapter check` tries yours.
 //
 // Datagrams on one machine, over a Unix socket (SOCK_SEQPACKET). Your adapter listens at a path that only its
 // user may use (mode 0600); longreach connects to unix:/PATH, as that user or as root, and each end asks the
@@ -28,15 +28,17 @@
 //   5  An adapter that has failed says so (its flag kOk is absent) and goes on sending. 20 ms without a
 //      datagram, or one without kOk, is a fault of the device or robot for longreach: it holds.
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
-namespace longreach::adapter {
+namespace longreach {
+namespace adapter {
 
-static_assert(std::endian::native == std::endian::little, "swap the bytes of every number on this machine");
+#if !defined(__BYTE_ORDER__) || __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "swap the bytes of every number on this machine"
+#endif
 
 constexpr std::uint8_t kVersion = 1;
 constexpr std::int64_t kWatchdog_ns = 20'000'000;
@@ -122,7 +124,8 @@ struct RobotDatagram {
 };
 
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
-              sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184);
+                  sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184,
+              "a struct has padding on this machine");
 
 template <std::size_t N>
 bool finite(const double (&numbers)[N]) {
@@ -147,7 +150,7 @@ template <class Datagram>
 bool decode(const void* bytes, std::size_t size, Datagram& out) {
   Datagram d;
   if (size != sizeof d) return false;
-  const Header expected;
+  const Header expected{};
   std::memcpy(&d, bytes, sizeof d);
   if (std::memcmp(d.header.magic, expected.magic, sizeof expected.magic) != 0 ||
       d.header.version != kVersion || d.header.kind != Datagram::kKind || d.header.size != sizeof d ||
@@ -194,4 +197,5 @@ class Exchange {
   std::int64_t heard_ns_ = 0;
 };
 
-}  // namespace longreach::adapter
+}  // namespace adapter
+}  // namespace longreach

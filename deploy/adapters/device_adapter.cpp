@@ -3,6 +3,9 @@
 // moves in three directions, held by a hand that rests at home or, with --push, pushes along x and comes
 // back.
 //
+//   g++ -std=c++14 -O2 -I . device_adapter.cpp -o device-adapter    (with common/link/adapter_datagram.hpp in
+//   .)
+//
 //   longreach-reference-device /run/user/1000/device [--push METRES]
 //   longreach-master --adapter unix:/run/user/1000/device
 
@@ -19,8 +22,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <numbers>
 #include <random>
 #include <thread>
 
@@ -31,6 +32,7 @@ namespace {
 using namespace longreach::adapter;
 
 constexpr double kPeriod_s = 1e-3;  // of this loop
+constexpr double kPi = 3.141592653589793;
 
 /// Your hardware. The figures are those of deploy/devices/desktop.txtpb with a light hand.
 class Device {
@@ -59,9 +61,7 @@ class Device {
 
  private:
   /// Where the hand wants the handle along x: at home for 5 s, out and back for 5 s.
-  [[nodiscard]] double hand() const {
-    return push_m_ * std::max(0.0, -std::sin(2.0 * std::numbers::pi * time_s_ / 10.0));
-  }
+  double hand() const { return push_m_ * std::max(0.0, -std::sin(2.0 * kPi * time_s_ / 10.0)); }
 
   double push_m_;
   double time_s_ = 0.0;
@@ -79,8 +79,8 @@ class Socket {
     const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
     const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
     ::close(other);
-    if (!taken && std::filesystem::is_socket(path)) ::unlink(path);  // of a program that has ended
-    ::umask(077);                                                    // nobody else may connect
+    if (!taken && is_socket(path)) ::unlink(path);  // of a program that has ended
+    ::umask(077);                                   // nobody else may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path, taken ? "somebody does" : std::strerror(errno));
       std::exit(1);
@@ -110,6 +110,10 @@ class Socket {
   }
 
  private:
+  static bool is_socket(const char* path) {
+    struct stat found {};
+    return ::stat(path, &found) == 0 && S_ISSOCK(found.st_mode);
+  }
   bool accept() {
     peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK);
     ucred who{};
@@ -142,7 +146,8 @@ std::uint64_t draw_session() {
   Socket socket(path);
   Exchange exchange(draw_session());
   Device device(push_m);
-  const sched_param priority{.sched_priority = 40};
+  sched_param priority{};
+  priority.sched_priority = 40;
   sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {

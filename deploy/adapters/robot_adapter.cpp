@@ -3,6 +3,9 @@
 // deploy/robots/cartesian.txtpb, whose first three joints move the tool along z, y and x, and a wall of
 // 1000 N/m that it meets on its way along x.
 //
+//   g++ -std=c++14 -O2 -I . robot_adapter.cpp -o robot-adapter    (with common/link/adapter_datagram.hpp in
+//   .)
+//
 //   longreach-reference-robot /run/user/1000/robot [--wall METRES]
 //   longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=robots/cartesian.txtpb
 
@@ -19,8 +22,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <numbers>
 #include <random>
 #include <thread>
 
@@ -31,6 +32,7 @@ namespace {
 using namespace longreach::adapter;
 
 constexpr double kPeriod_s = 1e-3;  // of this loop
+constexpr double kPi = 3.141592653589793;
 
 /// Your robot.
 class Robot {
@@ -51,9 +53,9 @@ class Robot {
   /// What encoders and force sensor say. Here a step of the simulation: servos of 10 Hz, 0.5 m/s at most.
   void read(RobotDatagram& out) {
     for (int i = 0; i < 3; ++i) {
-      constexpr double kServo_per_s = 2.0 * std::numbers::pi * 10.0, kFastest_m_per_s = 0.5;
+      constexpr double kServo_per_s = 2.0 * kPi * 10.0, kFastest_m_per_s = 0.5;
       const double speed = stopped_ ? 0.0 : kServo_per_s * (setpoint_m_[i] - joint_m_[i]);
-      speed_m_per_s_[i] = std::clamp(speed, -kFastest_m_per_s, kFastest_m_per_s);
+      speed_m_per_s_[i] = std::min(std::max(speed, -kFastest_m_per_s), kFastest_m_per_s);
       joint_m_[i] += kPeriod_s * speed_m_per_s_[i];
     }
     const double depth_m = joint_m_[2] - wall_m_;
@@ -81,8 +83,8 @@ class Socket {
     const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
     const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
     ::close(other);
-    if (!taken && std::filesystem::is_socket(path)) ::unlink(path);  // of a program that has ended
-    ::umask(077);                                                    // nobody else may connect
+    if (!taken && is_socket(path)) ::unlink(path);  // of a program that has ended
+    ::umask(077);                                   // nobody else may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path, taken ? "somebody does" : std::strerror(errno));
       std::exit(1);
@@ -112,6 +114,10 @@ class Socket {
   }
 
  private:
+  static bool is_socket(const char* path) {
+    struct stat found {};
+    return ::stat(path, &found) == 0 && S_ISSOCK(found.st_mode);
+  }
   bool accept() {
     peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK);
     ucred who{};
@@ -144,7 +150,8 @@ std::uint64_t draw_session() {
   Socket socket(path);
   Exchange exchange(draw_session());
   Robot robot(wall_m);
-  const sched_param priority{.sched_priority = 40};
+  sched_param priority{};
+  priority.sched_priority = 40;
   sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {

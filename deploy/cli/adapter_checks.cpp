@@ -34,6 +34,7 @@ class AdapterCheck {
     sched_setscheduler(0, SCHED_FIFO, &priority);
     section_.title = std::string(Subject::kWhat) + " adapter at " + address_;
     if (meet()) {
+      private_to_the_user();
       watch();
       obeys();
       ignores();
@@ -70,7 +71,11 @@ class AdapterCheck {
       add(true, "answers", std::string("with ") + Subject::kSends, "");
       return true;
     }
-    if (talk_.wrong().empty()) {
+    const std::string trouble = talk_.socket().trouble();
+    if (!trouble.empty()) {
+      add(false, "answers", "the adapter cannot be reached: " + trouble,
+          "start the adapter, and give the path at which it listens");
+    } else if (talk_.wrong().empty()) {
       add(false, "answers", "nothing has come back in 2 s",
           "start it; it has to answer the program that has connected");
     } else {
@@ -78,6 +83,12 @@ class AdapterCheck {
           "compare with common/link/adapter_datagram.hpp");
     }
     return false;
+  }
+
+  void private_to_the_user() {
+    const bool open = talk_.socket().open_to_others();
+    add(!open, "access", open ? "other users may connect to its path" : "other users cannot connect",
+        "listen with umask 077 or make the path's mode 0600, and close connections of other users");
   }
 
   /// Two seconds of what every tick has.

@@ -80,6 +80,7 @@ class Conversation {
   [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
   /// What came that is no datagram: why, and how often.
   [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }
+  [[nodiscard]] const AdapterSocket& socket() const { return socket_; }
   Random& random() { return random_; }
 
  private:

@@ -37,7 +37,7 @@ class Pushing {
   Section run() {
     rest_ = listen(1.0);
     if (rest_.count == 0) {
-      section_.findings.push_back({FindingVerdict::kFailure, "answers", "nothing has come back in 1 s",
+      section_.findings.push_back({FindingVerdict::kFailure, "answers", nothing_came(),
                                    "start it, and see what `longreach adapter check` says without --push"});
       return std::move(section_);
     }
@@ -58,6 +58,10 @@ class Pushing {
   }
 
  private:
+  [[nodiscard]] std::string nothing_came() const {
+    const std::string trouble = talk_.socket().trouble();
+    return trouble.empty() ? "nothing has come back in 1 s" : "the adapter cannot be reached: " + trouble;
+  }
   Told listen(double seconds) {
     const auto seen = talk_.talk(seconds, [](double) { return SetpointDatagram{}; });
     Told told;

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -36,6 +37,7 @@ AdapterSocket::AdapterSocket(const std::string& address) : path_(unix_path(addre
 void AdapterSocket::reach() const {
   if (fd_ >= 0) return;
   fd_ = connect_unix(path_);
+  error_ = errno;
   if (fd_ < 0) return;
   const auto user = peer_user(fd_);
   if (!user || !may_be_trusted(*user)) {
@@ -53,6 +55,13 @@ void AdapterSocket::leave() const {
 }
 
 AdapterSocket::~AdapterSocket() { leave(); }
+
+std::string AdapterSocket::trouble() const { return fd_ < 0 ? why_not_connected(path_, error_) : ""; }
+
+bool AdapterSocket::open_to_others() const {
+  struct stat found {};
+  return ::stat(path_.c_str(), &found) == 0 && (found.st_mode & (S_IWGRP | S_IWOTH)) != 0;
+}
 
 std::int64_t AdapterSocket::now_ns() {
   timespec t{};

@@ -26,6 +26,11 @@ class AdapterSocket {
   AdapterSocket(const AdapterSocket&) = delete;
   AdapterSocket& operator=(const AdapterSocket&) = delete;
 
+  /// Why there is no connection, or empty.
+  [[nodiscard]] std::string trouble() const;
+  /// Whether another user than the owner of the path may connect.
+  [[nodiscard]] bool open_to_others() const;
+
   /// Returns when.
   std::int64_t send(std::span<const std::byte> datagram) const;
   /// The next datagram; none until `end_ns`.
@@ -37,7 +42,8 @@ class AdapterSocket {
   void leave() const;
 
   std::string path_;
-  mutable int fd_ = -1;  // none: nobody listens
+  mutable int fd_ = -1;    // none: nobody listens
+  mutable int error_ = 0;  // of the last attempt to connect
 };
 
 }  // namespace longreach

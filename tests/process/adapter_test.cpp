@@ -1,8 +1,11 @@
 // Real devices and robots behind adapters: the reference adapters in a loop, killed, and tried.
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <future>
 
 #include "tests/process/broken_adapter.hpp"
@@ -173,6 +176,32 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
   EXPECT_EQ(try_adapter({}).status, 2);
 }
 
+TEST_F(Adapters, TheCheckSaysWhyThereIsNoConnection) {
+  const std::string path = folder_.path() / "place";
+  const auto expect = [&](const std::string& words) {
+    for (const std::string kind : {"--device", "--robot"}) {
+      const Tried tried = try_adapter({kind, "unix:" + path});
+      EXPECT_EQ(tried.status, 1);
+      EXPECT_NE(tried.output.find("the adapter cannot be reached: " + words), std::string::npos)
+          << tried.output;
+    }
+  };
+  expect("there is no such file");
+  std::ofstream(path) << "text";
+  expect("it is a file, not a socket");
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  expect("it is a folder, not a socket");
+}
+
+TEST_F(Adapters, ASocketThatOthersMayUseIsReported) {
+  const std::string address = start(device_, "device");
+  ::chmod(address.substr(5).c_str(), 0777);
+  const Tried tried = try_adapter({"--device", address});
+  EXPECT_EQ(tried.status, 1);
+  EXPECT_NE(tried.output.find("other users may connect to its path"), std::string::npos) << tried.output;
+}
+
 TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
   for (const std::string address : {"192.0.2.7:47101", "127.0.0.1:47101", "unix:here"}) {
     start_master({"--adapter", address});
@@ -212,7 +241,9 @@ TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
   start_master({"--adapter", "unix:/nowhere", "--engage"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Fault"; }))
       << outputs();
-  EXPECT_TRUE(says(*slave_program_, "the adapter of the robot at unix:/nowhere does not answer; start it"))
+  EXPECT_TRUE(
+      says(*slave_program_,
+           "the adapter of the robot at unix:/nowhere does not answer: there is no such file; start it"))
       << outputs();
   EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not answer"))
       << outputs();
