@@ -20,7 +20,9 @@ using google::protobuf::Message;
 using google::protobuf::TextFormat;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxBytes = 1 << 20;  // a thousand times the longest file that ships
+// Of a file; a thousand times the longest one that ships. With the files that it names the whole may be
+// longer.
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 // Keeps the first error; what follows it is mostly its consequence.
 class FirstError : public google::protobuf::io::ErrorCollector {
@@ -77,13 +79,15 @@ std::string place_in_file(const fs::path& file, const Message& message, const Fi
 }
 
 void load_text_file(const fs::path& file, Message& message) {
-  load_text(file.string(), read_user_file(file), message);
+  const std::string text = read_user_file(file);
+  if (text.size() > kMaxBytes)
+    throw ConfigError(file.string() + ": is longer than 1 MiB; no configuration is");
+  load_text(file.string(), text, message);
 }
 
 void load_text(const std::string& name, const std::string& whole, Message& message) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
-  if (text.size() > kMaxBytes) throw ConfigError(name + ": is longer than 1 MiB; no configuration is");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw ConfigError(name + ": is empty; a file of defaults has at least a comment");
   const std::unique_ptr<Message> loaded(message.New());

@@ -10,9 +10,13 @@ namespace longreach {
 
 namespace {
 
+// A configuration with the meshes of its scene, which may be 64 MiB.
+constexpr int kAnswerMaxBytes = 256 << 20;
+
 /// Patient, and straight to the address.
 grpc::ChannelArguments patient() {
   grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(kAnswerMaxBytes);
   // The addresses are the user's own machines: a proxy for the web does not lead there.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   // The least time that connecting is given; the call's deadline is the limit.

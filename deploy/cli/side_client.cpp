@@ -81,6 +81,9 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kDown, down_sentence(side, options, false)};
     case grpc::StatusCode::CANCELLED:
       return {SideError::Kind::kDown, down_sentence(side, options, false)};
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return {SideError::Kind::kRefused,
+              the_side + " answers with more than this program reads: " + status.error_message()};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
                                              " does not know this call: use programs of one version"};

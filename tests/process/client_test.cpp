@@ -89,6 +89,15 @@ TEST(Client, ASideThatIsDownIsNamedWithItsAddressAndWhatToStart) {
   EXPECT_TRUE(json.out.starts_with("{\"error\":\"the slave does not answer at")) << json.out;
 }
 
+TEST(Client, ShowsAConfigurationOfManyMegabytes) {
+  FakeStation station;
+  constexpr std::size_t kBytes = 6 << 20;  // gRPC reads 4 MiB unless it is told otherwise
+  station.slave.put_mesh(kBytes);
+  const Ended ended = run(station.arguments({"get", "slave"}));
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_GT(ended.out.size(), kBytes);
+}
+
 /// A port that accepts connections and never says a word.
 class SilentPort {
  public:

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "common/io/recording/mcap_reader.hpp"
@@ -113,10 +116,9 @@ std::string cell(const Message& message, const Column& column) {
 /// The type of a topic, from the descriptors in the file, and its table.
 class Table {
  public:
-  Table(const McapSchema& schema, const std::filesystem::path& file)
-      : out_(file, std::ios::binary), table_{file} {
+  Table(const McapSchema& schema, const std::filesystem::path& file) : table_{file} {
     google::protobuf::FileDescriptorSet files;
-    if (schema.encoding != "protobuf" || !files.ParseFromString(schema.descriptors))
+    if (!files.ParseFromString(schema.descriptors))
       throw RecordingError("the schema " + schema.name + " is not of protobuf");
     for (const auto& one : files.file())
       if (pool_.BuildFile(one) == nullptr)
@@ -125,6 +127,11 @@ class Table {
     if (type == nullptr) throw RecordingError("the schema " + schema.name + " is not whole");
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored))
+      throw RecordingError(file.string() + " exists; give another folder with --out, or remove it");
+    out_.open(file, std::ios::binary);
+    made_ = true;
     out_ << "t_s,log_time_ns";
     for (const Column& column : columns_) out_ << ',' << name_of(column);
     out_ << '\n';
@@ -137,21 +144,33 @@ class Table {
     out_ << number_text(1e-9 * static_cast<double>(since_ns)) << ',' << message.log_time_ns;
     for (const Column& column : columns_) out_ << ',' << cell(*message_, column);
     out_ << '\n';
+    if (!out_) fail();
     ++table_.rows;
   }
 
   CsvTable finish() {
     out_.close();
-    if (!out_) throw RecordingError("cannot write " + table_.file.string());
+    if (!out_) fail();
     return table_;
+  }
+  /// Removes what was written.
+  void undo() {
+    std::error_code ignored;
+    if (made_) std::filesystem::remove(table_.file, ignored);
   }
 
  private:
+  [[noreturn]] void fail() const {
+    throw RecordingError("cannot write " + table_.file.string() + ": " +
+                         (errno != 0 ? std::strerror(errno) : "unknown reason"));
+  }
+
   google::protobuf::DescriptorPool pool_;
   google::protobuf::DynamicMessageFactory factory_{&pool_};
   std::unique_ptr<Message> message_;
   std::vector<Column> columns_;
   std::ofstream out_;
+  bool made_ = false;
   CsvTable table_;
 };
 
@@ -159,12 +178,60 @@ std::string file_name(const std::string& topic) {
   std::string name = topic.substr(topic.starts_with('/') ? 1 : 0);
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
-  return name + ".csv";
+  return name;
 }
+
+/// The tables of one recording.
+class Tables {
+ public:
+  Tables(const McapReader& reader, std::filesystem::path folder)
+      : reader_(reader), folder_(std::move(folder)) {}
+
+  void add(const McapMessage& message, std::uint64_t zero_ns) {
+    const McapChannel& channel = *message.channel;
+    const auto schema = reader_.schemas().find(channel.schema);
+    if (schema == reader_.schemas().end() || schema->second.encoding != "protobuf" ||
+        channel.encoding != "protobuf") {
+      const bool none = schema == reader_.schemas().end();
+      skipped_.insert(channel.topic + (none ? " (no schema)" : " (" + channel.encoding + ")"));
+      return;
+    }
+    auto& table = tables_[channel.id];
+    if (!table) table = std::make_unique<Table>(schema->second, free_name(channel.topic));
+    table->add(message, zero_ns);
+  }
+
+  CsvExport finish() {
+    CsvExport out;
+    out.skipped.assign(skipped_.begin(), skipped_.end());
+    for (const auto& [channel, table] : tables_) out.tables.push_back(table->finish());
+    return out;
+  }
+  void undo() {
+    for (const auto& [channel, table] : tables_) {
+      if (table) table->undo();
+    }
+  }
+
+ private:
+  /// Two topics of one recording may have one name.
+  std::filesystem::path free_name(const std::string& topic) {
+    const std::string name = file_name(topic);
+    std::string free = name;
+    for (int i = 2; !names_.insert(free).second; ++i) free = name + "_" + std::to_string(i);
+    return folder_ / (free + ".csv");
+  }
+
+  const McapReader& reader_;
+  std::filesystem::path folder_;
+  std::map<std::uint16_t, std::unique_ptr<Table>> tables_;
+  std::set<std::string> names_, skipped_;
+};
 
 }  // namespace
 
-CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder) {
+CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder,
+                     std::uint64_t zero_ns) {
   McapReader reader(recording);
   auto message = reader.next();
   if (!message)
@@ -173,19 +240,21 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw RecordingError("cannot make the folder " + folder.string() + ": " + error.message());
-  const std::uint64_t first_ns = message->log_time_ns;
-  std::map<std::uint16_t, std::unique_ptr<Table>> tables;
-  for (; message; message = reader.next()) {
-    auto& table = tables[message->channel->id];
-    if (!table)
-      table = std::make_unique<Table>(reader.schemas().at(message->channel->schema),
-                                      folder / file_name(message->channel->topic));
-    table->add(*message, first_ns);
+  const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
+  Tables tables(reader, folder);
+  try {
+    for (; message; message = reader.next()) tables.add(*message, first_ns);
+    CsvExport out = tables.finish();
+    out.whole = reader.whole();
+    if (!out.tables.empty()) return out;
+    std::string topics;
+    for (const std::string& topic : out.skipped) topics += (topics.empty() ? "" : ", ") + topic;
+    throw RecordingError(recording.string() + " has no messages of protobuf, which alone are exported, but " +
+                         topics);
+  } catch (const RecordingError&) {
+    tables.undo();
+    throw;
   }
-  CsvExport out;
-  out.whole = reader.whole();
-  for (const auto& [channel, table] : tables) out.tables.push_back(table->finish());
-  return out;
 }
 
 }  // namespace longreach

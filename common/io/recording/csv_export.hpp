@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace longreach {
@@ -15,12 +16,15 @@ struct CsvTable {
 
 struct CsvExport {
   std::vector<CsvTable> tables;
-  bool whole = false;  // false: the recording is cut, or still being written
+  std::vector<std::string> skipped{};  // topics that are not protobuf, with the reason
+  bool whole = false;                  // false: the recording is cut, or still being written
 };
 
-/// Into `folder`, which is made: TOPIC.csv each, '/' as '_'. First columns: t_s since the first message of
-/// the recording, log_time_ns. What is absent is an empty cell, a repeated field a text. Throws
-/// RecordingError, also, before anything is made, for a recording without a whole message.
-CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder);
+/// Into `folder`, which is made: TOPIC.csv each, '/' as '_'. First columns: t_s since `zero_ns` (0: the first
+/// message of the recording), log_time_ns (Unix time, the same for every recording). What is absent is an
+/// empty cell, a repeated field a text. Nothing is overwritten. Throws RecordingError, and then no table is
+/// left; before anything is made for a recording without a whole message.
+CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder,
+                     std::uint64_t zero_ns = 0);
 
 }  // namespace longreach

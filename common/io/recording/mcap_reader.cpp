@@ -5,6 +5,7 @@
 #include <span>
 
 #include "common/io/recording/crc32.hpp"
+#include "common/io/recording/decompression.hpp"
 #include "common/io/recording/mcap_cursor.hpp"
 
 namespace longreach {
@@ -78,9 +79,15 @@ void McapReader::open_chunk(std::string_view content) {
   const auto size = cursor.take<std::uint64_t>();
   const auto crc = cursor.take<std::uint32_t>();
   const std::string_view compression = cursor.take_text();
-  if (!compression.empty())
-    damaged("its chunks are compressed (" + std::string(compression) + "), longreach's are not");
-  const std::string_view records = cursor.take_bytes(cursor.take<std::uint64_t>());
+  std::string_view records = cursor.take_bytes(cursor.take<std::uint64_t>());
+  if (!compression.empty()) {
+    try {
+      unpacked_ = decompress(compression, records, size);
+    } catch (const RecordingError& e) {
+      throw RecordingError(path_.string() + ": " + e.what());
+    }
+    records = unpacked_;
+  }
   if (records.size() != size) damaged("a chunk has another size than it says");
   if (crc != 0 && crc32(std::as_bytes(std::span(records))) != crc)
     damaged("the checksum of a chunk is wrong");

@@ -1,9 +1,10 @@
 #pragma once
 // Reads the messages of an MCAP file from its start to its end, in the order in which they were written, and
 // needs no summary: a file that was cut ends with the last record that is whole. Lengths are checked before
-// anything is allocated, chunks against their CRC.
+// anything is allocated, chunks against their CRC. Chunks that other programs compressed (zstd, lz4) are
+// read, too.
 //
-// Does not handle: compressed chunks, attachments (passed over).
+// Does not handle: attachments (passed over).
 
 #include <cstdint>
 #include <filesystem>
@@ -70,7 +71,8 @@ class McapReader {
   std::ifstream file_;
   std::uint64_t left_ = 0;  // bytes of the file behind what was read
   std::string buffer_;      // the present record of the file
-  std::string_view chunk_;  // what is left of the present chunk, in buffer_
+  std::string unpacked_;    // the present chunk, when it was compressed
+  std::string_view chunk_;  // what is left of the present chunk, in buffer_ or unpacked_
   bool whole_ = false;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;

@@ -128,6 +128,11 @@ TEST(TextFile, SaysWhatIsWrongWithTheFileItself) {
             root + "/blank.txtpb: is empty; a file of defaults has at least a comment");
   EXPECT_EQ(error(folder.write("big.txtpb", std::string((1 << 20) + 1, '#'))),
             root + "/big.txtpb: is longer than 1 MiB; no configuration is");
+  // What a program wrote, with the files of its scene, may be longer.
+  EXPECT_EQ(error_of([&] {
+              load_text("recorded", "#" + std::string(2 << 20, '#') + "\nloop { priority: 7 }", config);
+            }),
+            "no error");
   EXPECT_EQ(error(folder.path() / "empty.txtpb" / "x"), root + "/empty.txtpb/x: there is no such file");
   EXPECT_EQ(error("/dev/zero"), "/dev/zero: is not a regular file");
   // Reads of address 0 fail there, for everybody.

@@ -39,6 +39,11 @@ class FakeBackend : public ControlBackend {
     const std::lock_guard lock(mutex_);
     link_ = link;
   }
+  /// A mesh of so many bytes in the configuration.
+  void put_mesh(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    config_.mutable_scene()->mutable_bodies()->add_file()->set_text(std::string(bytes, 'v'));
+  }
   /// Changes of the configuration stay inside until it is false again.
   void block_changes(bool block) { blocked_ = block; }
   /// Most changes that were ever inside at once.

@@ -2,6 +2,7 @@
 #include "common/io/recording/csv_export.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <fstream>
 
@@ -49,8 +50,9 @@ void write_sample(const std::filesystem::path& path) {
 TEST(CsvExport, HasARowAMessageAndAColumnANumber) {
   const TemporaryFolder folder;
   write_sample(folder.path() / "a.mcap");
-  const auto [tables, whole] = export_csv(folder.path() / "a.mcap", folder.path() / "new" / "tables");
-  EXPECT_TRUE(whole);
+  const CsvExport written = export_csv(folder.path() / "a.mcap", folder.path() / "new" / "tables");
+  const auto& tables = written.tables;
+  EXPECT_TRUE(written.whole);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[0].file, folder.path() / "new" / "tables" / "slave_link.csv");
   EXPECT_EQ(tables[0].rows, 2u);
@@ -84,6 +86,80 @@ TEST(CsvExport, TakesForeignSchemasWithListsAndTypesThatContainThemselves) {
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].file.filename(), "odd_topic_name.csv");
   EXPECT_NE(read_all(tables[0].file).find("two"), std::string::npos);
+}
+
+TEST(CsvExport, CountsTimeFromAnInstantThatRecordingsShare) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap");
+  const auto tables = export_csv(folder.path() / "a.mcap", folder.path() / "t", 250'000'000).tables;
+  EXPECT_NE(read_all(tables[0].file).find("\n0.75,1000000000,"), std::string::npos)
+      << read_all(tables[0].file);
+}
+
+TEST(CsvExport, OverwritesNothing) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap");
+  (void)export_csv(folder.path() / "a.mcap", folder.path() / "t");
+  std::ofstream(folder.path() / "t/slave_link.csv") << "edited";
+  std::filesystem::remove(folder.path() / "t/slave_event.csv");
+  try {
+    (void)export_csv(folder.path() / "a.mcap", folder.path() / "t");
+    FAIL();
+  } catch (const RecordingError& e) {
+    EXPECT_EQ(std::string(e.what()), (folder.path() / "t/slave_link.csv").string() +
+                                         " exists; give another folder with --out, or remove it");
+  }
+  EXPECT_EQ(read_all(folder.path() / "t/slave_link.csv"), "edited");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "t/slave_event.csv"));
+}
+
+/// A record of the format: opcode, length, content.
+std::string mcap_record(std::uint8_t op, const std::string& content) {
+  std::string out(1, static_cast<char>(op));
+  for (int i = 0; i < 8; ++i) out += static_cast<char>(content.size() >> (8 * i));
+  return out + content;
+}
+std::string text_field(const std::string& text) {
+  return std::string{static_cast<char>(text.size()), 0, 0, 0} + text;
+}
+
+TEST(CsvExport, LeavesOutTopicsThatAreNotProtobuf) {
+  const TemporaryFolder folder;
+  const std::string magic = "\x89MCAP0\r\n", two("\0\0", 2), id("\1\0", 2);
+  const std::string channel = mcap_record(
+      4, id + two + text_field("/json") + text_field("json") + std::string(4, '\0'));  // without a schema
+  const std::string message = mcap_record(5, id + std::string(20, '\1') + "{}");
+  std::ofstream(folder.path() / "json.mcap", std::ios::binary)
+      << magic << mcap_record(1, text_field("") + text_field("")) << channel << message
+      << mcap_record(15, std::string(4, '\0')) << magic;
+  try {
+    (void)export_csv(folder.path() / "json.mcap", folder.path() / "json");
+    FAIL();
+  } catch (const RecordingError& e) {
+    EXPECT_EQ(std::string(e.what()),
+              (folder.path() / "json.mcap").string() +
+                  " has no messages of protobuf, which alone are exported, but /json (no "
+                  "schema)");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "json"));
+}
+
+TEST(CsvExport, GivesTheReasonWhyATableCannotBeWritten) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{10, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string why;
+  try {
+    (void)export_csv(folder.path() / "a.mcap", folder.path() / "t");
+  } catch (const RecordingError& e) {
+    why = e.what();
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(why, "cannot write " + (folder.path() / "t/slave_link.csv").string() + ": File too large");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "t"));
 }
 
 TEST(CsvExport, SaysWhyNot) {

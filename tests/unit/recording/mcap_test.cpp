@@ -246,5 +246,77 @@ TEST(Mcap, WithoutRoomEndsWithTheLastWholeChunk) {
   EXPECT_FALSE(reader.whole());
 }
 
+std::string little_endian(std::uint64_t value, int bytes) {
+  std::string out;
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i));
+  return out;
+}
+std::string record(std::uint8_t op, const std::string& content) {
+  return static_cast<char>(op) + little_endian(content.size(), 8) + content;
+}
+std::string text(const std::string& text) { return little_endian(text.size(), 4) + text; }
+
+/// A file of one channel and one chunk, whose bytes another program has packed.
+void write_packed(const std::filesystem::path& path, const std::string& how, const std::string& packed,
+                  std::uint64_t size) {
+  const std::string magic = "\x89MCAP0\r\n";
+  const std::string channel = little_endian(1, 2) + little_endian(0, 2) + text("/a") + text("x") + text("");
+  const std::string chunk = little_endian(1, 8) + little_endian(1, 8) + little_endian(size, 8) +
+                            little_endian(0, 4) + text(how) + little_endian(packed.size(), 8) + packed;
+  write_all(path, magic + record(1, text("") + text("")) + record(4, channel) + record(6, chunk) +
+                      record(15, little_endian(0, 4)) + magic);
+}
+
+std::string from_hex(std::string_view hex) {
+  std::string out;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    out += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
+  return out;
+}
+
+// A message record of 64 letters a, packed by the programs zstd 1.5.4 and lz4 1.9.4.
+TEST(Mcap, ReadsChunksThatOtherProgramsCompressed) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "packed.mcap";
+  const std::pair<const char*, const char*> packed[] = {
+      {"zstd", "28b52ffd245fad00006805560000000000000001000161020004924840124e915077"},
+      {"lz4", "04224d186440a7180000003205560001003f0100010100001f610100275061616161610000000053becfdf"}};
+  for (const auto& [how, hex] : packed) {
+    write_packed(path, how, from_hex(hex), 95);
+    McapReader reader(path);
+    const auto message = reader.next();
+    ASSERT_TRUE(message) << how;
+    EXPECT_EQ(message->channel->topic, "/a");
+    EXPECT_EQ(message->bytes, std::string(64, 'a'));
+    EXPECT_FALSE(reader.next());
+    EXPECT_TRUE(reader.whole());
+  }
+}
+
+TEST(Mcap, SaysWhyACompressedChunkIsNotRead) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "packed.mcap";
+  const auto error = [&](const std::string& how, const std::string& bytes,
+                         std::uint64_t size) -> std::string {
+    write_packed(path, how, bytes, size);
+    McapReader reader(path);
+    try {
+      (void)reader.next();
+    } catch (const RecordingError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error("brotli", "x", 95),
+            path.string() +
+                ": its chunks are compressed by \"brotli\", and only zstd and lz4 are read; write it "
+                "again with one of them");
+  for (const char* how : {"zstd", "lz4"}) {
+    EXPECT_EQ(error(how, "nonsense", 95), path.string() + ": a compressed chunk cannot be unpacked");
+    EXPECT_EQ(error(how, "", 95), path.string() + ": a compressed chunk cannot be unpacked");
+    EXPECT_NE(error(how, "x", std::uint64_t{1} << 60U).find("more than 256 MiB"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace longreach
