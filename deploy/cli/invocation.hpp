@@ -87,10 +87,10 @@ struct DoctorCommand {
 struct RecordCommand {
   enum class What { kStart, kStop, kList, kExport };
   What what = What::kStart;
-  std::string name;        // of a start; empty: the time
-  double max_mb = 4096.0;  // likewise
-  std::string file;        // to be exported
-  std::string folder;      // listed or exported to; empty: the usual one
+  std::string name;                  // of a start; empty: the time
+  double max_mb = 4096.0;            // likewise
+  std::vector<std::string> files{};  // to be exported
+  std::string folder;                // listed or exported to; empty: the usual one
 };
 /// An adapter of a device or a robot is tried.
 struct AdapterCheckCommand {

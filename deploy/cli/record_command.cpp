@@ -1,8 +1,10 @@
 // `longreach record`: start and stop by RPC at both sides, list and export on this machine.
 
+#include <algorithm>
 #include <cstdio>
 #include <future>
 #include <iostream>
+#include <limits>
 
 #include "common/io/recording/csv_export.hpp"
 #include "common/io/recording/mcap_reader.hpp"
@@ -84,22 +86,38 @@ ExitStatus list(const Options& options, const RecordCommand& command) {
   return ExitStatus::kDone;
 }
 
+/// All files that are exported together: t_s of every table counts from the first message of them.
 ExitStatus export_tables(const Options& options, const RecordCommand& command) {
-  const std::filesystem::path file = command.file;
-  const std::filesystem::path folder =
-      command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
-  if (folder == file) {
-    (void)mcap_figures(file);  // what is no recording is called so
-    throw UsageError("say with --out DIR where the tables shall go");
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : command.files) {
+    const bool path = name.find('/') != std::string::npos;
+    const auto found = find_recordings(path ? std::filesystem::path() : default_recordings(), name);
+    files.insert(files.end(), found.begin(), found.end());
   }
-  const CsvExport written = export_csv(file, folder);
-  std::uint64_t rows = 0;
-  for (const auto& table : written.tables) rows += table.rows;
-  print_done(
-      options,
-      std::to_string(written.tables.size()) + " tables with " + std::to_string(rows) + " rows in " +
-          folder.string() +
-          (written.whole ? "" : "; the recording is cut: what came after its last whole part is lost"));
+  std::uint64_t zero_ns = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& file : files) {
+    const McapFigures figures = mcap_figures(file);  // what is no recording is called so
+    if (figures.messages > 0) zero_ns = std::min(zero_ns, figures.first_ns);
+  }
+  std::uint64_t tables = 0, rows = 0;
+  bool whole = true;
+  std::string folders, skipped;
+  for (const auto& file : files) {
+    const std::filesystem::path folder =
+        command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
+    if (folder == file) throw UsageError("say with --out DIR where the tables shall go");
+    const CsvExport written = export_csv(file, folder, zero_ns);
+    for (const auto& table : written.tables) rows += table.rows;
+    tables += written.tables.size();
+    whole = whole && written.whole;
+    for (const std::string& topic : written.skipped) skipped += (skipped.empty() ? "" : ", ") + topic;
+    if (folders.find(folder.string()) == std::string::npos)
+      folders += (folders.empty() ? "" : " and ") + folder.string();
+  }
+  print_done(options,
+             std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " + folders +
+                 (skipped.empty() ? "" : "; not protobuf, left out: " + skipped) +
+                 (whole ? "" : "; the recording is cut: what came after its last whole part is lost"));
   return ExitStatus::kDone;
 }
 

@@ -34,10 +34,13 @@ void RecordWords::declare(CLI::App& app) {
                                "A recording that is still being written is shown as cut.\n"
                                "Example: longreach record list");
   list->add_option("DIR", folder_, "folder [$XDG_STATE_HOME/longreach/recordings]");
-  CLI::App* csv = declare_one(*record_, "export", "write a recording as tables, a CSV file a topic",
-                              "Columns: t_s since the first message, log_time_ns, then every number.\n"
-                              "Example: longreach record export drill-3-slave.mcap --out tables");
-  csv->add_option("FILE", file_, "recording")->required();
+  CLI::App* csv =
+      declare_one(*record_, "export", "write a recording as tables, a CSV file a topic",
+                  "Columns: t_s since the first message of all files that are named, log_time_ns "
+                  "(Unix time,\nby which tables of any recordings are joined), then every number.\n"
+                  "Example: longreach record export drill-3");
+  csv->add_option("FILE", files_, "files, or names of `record start` and `record list`; drill-3: both sides")
+      ->required();
   csv->add_flag("--csv", csv_, "as CSV, which is the only form");
   csv->add_option("--out", folder_, "folder; made if missing [FILE without .mcap]")->type_name("DIR");
 }
@@ -46,7 +49,7 @@ RecordCommand RecordWords::command() const {
   RecordCommand out;
   out.name = name_;
   out.folder = folder_;
-  out.file = file_;
+  out.files = files_;
   if (record_->got_subcommand("start")) {
     out.what = RecordCommand::What::kStart;
     const auto max_mb = parse_number(max_mb_);

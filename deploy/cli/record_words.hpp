@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "deploy/cli/invocation.hpp"
 
@@ -17,7 +18,8 @@ class RecordWords {
 
  private:
   CLI::App* record_ = nullptr;
-  std::string name_, folder_, file_, max_mb_ = "4096";
+  std::string name_, folder_, max_mb_ = "4096";
+  std::vector<std::string> files_;
   bool csv_ = false;
 };
 

@@ -35,6 +35,10 @@ TEST(Install, ProgramsFindTheirFilesAndUnitsAreValid) {
     EXPECT_EQ(said, "");
     std::ofstream(config) << "# edited\n";
   }
+  RunningProgram laboratory(prefix + "/bin/longreach-lab", {"list"});
+  EXPECT_EQ(laboratory.wait(std::chrono::seconds(60)), 0) << laboratory.output();
+  for (const char* file : {"/share/man/man1/longreach-lab.1", "/share/longreach/cluster/parallel"})
+    EXPECT_TRUE(std::filesystem::exists(prefix + file)) << file;
   // A vendor copies this folder and has all that an adapter needs.
   for (const std::string kind : {"device", "robot"}) {
     const std::string adapters = prefix + "/share/longreach/adapters/";

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include "common/io/recording/mcap_reader.hpp"
@@ -44,6 +45,24 @@ Recorded read_recording(const std::filesystem::path& path) {
 class Recording : public Station {
  protected:
   [[nodiscard]] std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+  /// The recording drill of both sides below the folder: tables have one time base.
+  void expect_exported_by_name() const {
+    RunningProgram by_name("/usr/bin/env", {"XDG_STATE_HOME=" + folder_.path().string(),
+                                            std::string(LONGREACH_BIN) + "/longreach", "record", "export",
+                                            "drill", "--out", file("tables")});
+    EXPECT_EQ(by_name.wait(std::chrono::seconds(60)), 0) << by_name.output();
+    const auto zero_s = [&](const std::string& table) {
+      std::ifstream in(file("tables/" + table));
+      std::string line;
+      std::getline(in, line);
+      double t_s = 0.0, log_time_ns = 0.0;
+      char comma = ' ';
+      in >> t_s >> comma >> log_time_ns;
+      return 1e-9 * log_time_ns - t_s;
+    };
+    EXPECT_GT(zero_s("slave_tick.csv"), 1e9);
+    EXPECT_NEAR(zero_s("slave_tick.csv"), zero_s("master_tick.csv"), 1e-5);
+  }
   TemporaryFolder folder_;
 };
 
@@ -179,7 +198,7 @@ TEST_F(Recording, IsReplayedBitForBitAfterAllThatMayChangeOnTheWay) {
 }
 
 TEST_F(Recording, StartsAndStopsOnTheWay) {
-  const std::string folder = file("all");
+  const std::string folder = file("longreach/recordings");
   start_slave({"--recordings", folder});
   start_master({"--operator", "none", "--engage", "--recordings", folder});
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -210,6 +229,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   const std::string tables = client({"record", "export", folder + "/drill-slave.mcap", "--csv"});
   EXPECT_TRUE(tables.starts_with("0 ")) << tables;
   EXPECT_TRUE(std::filesystem::exists(folder + "/drill-slave/slave_tick.csv")) << tables;
+  expect_exported_by_name();
   for (const char* name : {"/drill-slave.mcap", "/drill-master.mcap"}) {
     const Recorded recorded = read_recording(folder + name);
     EXPECT_TRUE(recorded.whole);

@@ -177,5 +177,32 @@ TEST_F(Sweep, MistakesEndWithStatus2AndOneSentenceBeforeAnythingRuns) {
   expect({"merge"}, "folders");
 }
 
+// A stand-in for GNU parallel writes down which shards it is to run.
+TEST_F(Sweep, OnAClusterHasFourShardsAHost) {
+  const auto script = [this](const std::string& name, const std::string& text) {
+    fs::permissions(folder_.write("bin/" + name, "#!/bin/sh\n" + text), fs::perms::owner_all);
+  };
+  script("parallel", "cat > " + path("shards") + "\n");
+  script("lab", "exit 0\n");
+  const std::string grid = write_grid("");
+  folder_.write("hosts", "one\n\ntwo");
+  const auto shards = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"PATH=" + path("bin") + ":/usr/bin:/bin",
+                                   std::string(LONGREACH_DEPLOY) + "/cluster/parallel",
+                                   grid,
+                                   "--lab",
+                                   path("bin/lab"),
+                                   "--out",
+                                   path("out")};
+    words.insert(words.end(), options.begin(), options.end());
+    RunningProgram program("/usr/bin/env", words);
+    EXPECT_EQ(program.wait(std::chrono::minutes(1)), 0) << program.output();
+    return text_of(path("shards"));
+  };
+  EXPECT_EQ(shards({}), "1\n2\n3\n4\n");
+  EXPECT_EQ(shards({"--hosts", path("hosts")}), "1\n2\n3\n4\n5\n6\n7\n8\n");
+  EXPECT_EQ(shards({"--shards", "2"}), "1\n2\n");
+}
+
 }  // namespace
 }  // namespace longreach

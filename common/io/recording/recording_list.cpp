@@ -43,4 +43,23 @@ std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder
   return out;
 }
 
+std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& folder,
+                                                   const std::string& name) {
+  std::error_code ignored;
+  const auto is_file = [&](const std::filesystem::path& path) {
+    return std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored);
+  };
+  if (is_file(name)) return {name};
+  const bool plain = !name.empty() && name.find('/') == std::string::npos;
+  std::vector<std::filesystem::path> found;
+  for (const std::string end : {"", ".mcap", "-master.mcap", "-slave.mcap"}) {
+    if (plain && is_file(folder / (name + end))) found.push_back(folder / (name + end));
+    if (!found.empty() && end != "-master.mcap") break;
+  }
+  if (found.empty())
+    throw RecordingError("there is no recording " + name + (plain ? " here or in " + folder.string() : "") +
+                         "; `longreach record list` shows what there is");
+  return found;
+}
+
 }  // namespace longreach

@@ -23,4 +23,9 @@ struct ListedRecording {
 /// read.
 std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder);
 
+/// What `name` means: a file; else NAME, NAME.mcap, or NAME-master.mcap and NAME-slave.mcap in `folder`.
+/// Throws RecordingError that says where it looked.
+std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& folder,
+                                                   const std::string& name);
+
 }  // namespace longreach

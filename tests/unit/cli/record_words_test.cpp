@@ -34,7 +34,7 @@ TEST(RecordWords, SayWhatIsToBeDone) {
   EXPECT_EQ(command({"record", "list", "/somewhere"}).folder, "/somewhere");
   const RecordCommand tables = command({"record", "export", "a.mcap", "--csv", "--out", "tables"});
   EXPECT_EQ(tables.what, What::kExport);
-  EXPECT_EQ(tables.file, "a.mcap");
+  EXPECT_EQ(tables.files, std::vector<std::string>{"a.mcap"});
   EXPECT_EQ(tables.folder, "tables");
 }
 

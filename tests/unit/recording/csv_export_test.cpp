@@ -162,6 +162,22 @@ TEST(CsvExport, GivesTheReasonWhyATableCannotBeWritten) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "t"));
 }
 
+TEST(Recordings, AreFoundByTheirNamesToo) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.mcap", "b-master.mcap", "b-slave.mcap", "c-slave.mcap"})
+    write_sample(folder.path() / name);
+  using Paths = std::vector<std::filesystem::path>;
+  const auto found = [&](const std::string& name) { return find_recordings(folder.path(), name); };
+  EXPECT_EQ(found("a"), Paths{folder.path() / "a.mcap"});
+  EXPECT_EQ(found("a.mcap"), Paths{folder.path() / "a.mcap"});
+  EXPECT_EQ(found("b"), (Paths{folder.path() / "b-master.mcap", folder.path() / "b-slave.mcap"}));
+  EXPECT_EQ(found("b-slave"), Paths{folder.path() / "b-slave.mcap"});
+  EXPECT_EQ(found("c"), Paths{folder.path() / "c-slave.mcap"});
+  EXPECT_EQ(found(folder.path() / "a.mcap"), Paths{folder.path() / "a.mcap"});
+  for (const std::string& name : {std::string("none"), std::string(), (folder.path() / "none.mcap").string()})
+    EXPECT_THROW((void)found(name), RecordingError) << name;
+}
+
 TEST(CsvExport, SaysWhyNot) {
   const TemporaryFolder folder;
   EXPECT_THROW((void)export_csv(folder.path() / "none.mcap", folder.path()), RecordingError);
