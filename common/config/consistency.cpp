@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -77,6 +78,15 @@ Finding is_direction(const Message& message, const char* field,
   return at(
       message, field,
       " has the length " + format_number(length) + ", which is outside 1e-9 to 1e9: it gives no direction");
+}
+
+// A rotation vector; one of more than a whole turn is meant in degrees.
+Finding is_rotation(const Message& message, const google::protobuf::RepeatedField<double>& numbers) {
+  const double square = std::inner_product(numbers.begin(), numbers.end(), numbers.begin(), 0.0);
+  if (square <= 6.3 * 6.3) return std::nullopt;
+  return at(message, "rotation_rad",
+            " has the length " + format_number(std::sqrt(square)) +
+                ", more than a turn; it is in rad, and this looks like degrees");
 }
 
 Finding check_joint(const proto::Joint& joint) {
@@ -276,8 +286,7 @@ Finding within(const PathStep& step, Finding finding) {
   return finding;
 }
 
-// A force that the sensor cannot tell, or that is passed before it is noticed, is one that nobody guards
-// against.
+// A force that the sensor cannot measure, or that is passed before it is noticed, is not guarded.
 Finding check_guarded(const proto::SlaveConfig& config) {
   const double guard_n = config.command().force_guard_n(), range_n = config.sensing().force_range_n();
   if (range_n > 0.0 && guard_n >= range_n) {
@@ -317,6 +326,10 @@ Finding check_laboratory(const proto::LabConfig& lab) {
 Finding check_message(const Message& message) {
   if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
   if (const auto* robot = dynamic_cast<const proto::Robot*>(&message)) return check_robot(*robot);
+  if (const auto* tool = dynamic_cast<const proto::Tool*>(&message))
+    return is_rotation(*tool, tool->rotation_rad());
+  if (const auto* box = dynamic_cast<const proto::Box*>(&message))
+    return is_rotation(*box, box->rotation_rad());
   if (const auto* scene = dynamic_cast<const proto::Scene*>(&message)) return check_scene(*scene);
   if (const auto* mapping = dynamic_cast<const proto::Mapping*>(&message)) return check_mapping(*mapping);
   if (const auto* surface = dynamic_cast<const proto::Surface*>(&message)) return check_shape(*surface);

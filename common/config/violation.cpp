@@ -1,6 +1,7 @@
 #include "common/config/violation.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
@@ -46,7 +47,13 @@ std::string broken_range(double value, const FieldDescriptor& field) {
   const std::string min = format_number(range.min()) + (range.above() ? " (excluded)" : "");
   if (!range.has_max()) return " is below " + min;
   if (!range.has_min()) return " is above " + format_number(range.max());
-  return " is outside " + min + " to " + format_number(range.max());
+  const std::string outside = " is outside " + min + " to " + format_number(range.max());
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const bool degrees =
+      field.name().ends_with("_rad") && value * kDegree >= range.min() && value * kDegree <= range.max();
+  return outside + (degrees ? "; it is in rad, and this looks like degrees: " + format_number(value) +
+                                  " degrees are " + format_number(value * kDegree)
+                            : "");
 }
 
 std::optional<Violation> find_in_message(const Message& message, FieldPath& path);

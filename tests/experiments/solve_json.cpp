@@ -1,7 +1,9 @@
 #include "tests/experiments/solve_json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <vector>
 
@@ -13,6 +15,12 @@ double finite(const Json& value, const std::string& name) {
   const double x = value.get<double>();
   if (!std::isfinite(x)) throw BadRequest("\"" + name + "\" is not a finite number");
   return x;
+}
+
+std::string rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", value);
+  return text.data();
 }
 
 Vector3 three(const Json& value, const std::string& name) {
@@ -86,8 +94,12 @@ Matrix3 matrix3(const Json& object, const std::string& key) {
 Quaternion rotation(const Json& object, const std::string& key) {
   constexpr double kGiven = 1e-6;  // how exactly rows must be of unit length and orthogonal
   const Matrix3 R = matrix3(object, key);
-  const bool orthogonal = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() <= kGiven;
-  if (!orthogonal || R.determinant() < 0.0) throw BadRequest("\"" + key + "\" is not a rotation matrix");
+  const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= kGiven))
+    throw BadRequest("\"" + key + "\" is not a rotation matrix: R R^T differs from 1 by " + rounded(off) +
+                     ", and " + rounded(kGiven) + " is allowed; give more digits");
+  if (R.determinant() < 0.0)
+    throw BadRequest("\"" + key + "\" is not a rotation matrix: its determinant is -1, a reflection");
   return Quaternion(R).normalized();
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
+#include "common/config/number_text.hpp"
 #include "slave/robot/inverse.hpp"
 
 namespace longreach {
@@ -29,6 +31,15 @@ JointVector joints(const Json& request, const std::string& key) {
 
 Json to_json(const JointVector& q) { return Json(std::vector<double>(q.begin(), q.end())); }
 
+/// An angle of a row; the limits are those of a robot's file.
+double angle(const Json& row, const std::string& key, double most) {
+  const double value = number(row, key);
+  if (std::abs(value) <= most) return value;
+  throw BadRequest("\"" + key + "\" = " + format_number(value) + " of a row of \"dh\" is outside " +
+                   format_number(-most) + " to " + format_number(most) +
+                   "; it is in rad, and this looks like degrees");
+}
+
 RobotConfig rows(const Json& request) {
   const Json& dh = solve_json::member(request, "dh");
   if (!dh.is_array() || dh.size() != kMaxJoints)
@@ -39,18 +50,19 @@ RobotConfig rows(const Json& request) {
     if (!dh[i].is_object()) throw BadRequest("a row of \"dh\" must be an object");
     solve_json::require_known(dh[i], "dh", {"a", "alpha", "d", "theta"});
     robot.joint[i].a_m = number(dh[i], "a");
-    robot.joint[i].alpha_rad = number(dh[i], "alpha");
+    robot.joint[i].alpha_rad = angle(dh[i], "alpha", 3.2);
     robot.joint[i].d_m = number(dh[i], "d");
-    robot.joint[i].theta_rad = dh[i].contains("theta") ? number(dh[i], "theta") : 0.0;
+    robot.joint[i].theta_rad = dh[i].contains("theta") ? angle(dh[i], "theta", 6.3) : 0.0;
   }
   return robot;
 }
 
 RobotConfig named(const std::string& name) {
+  const FileSearch search = installed_files();
   proto::SlaveConfig config;
-  config.set_robot_file(name.starts_with('/') ? name : "robots/" + name + ".txtpb");
+  config.set_robot_file(search.first_in(working_folder()).find_named("robot", "robots", name).string());
   config.mutable_scene();
-  resolve_files(config, find_deploy_folder());
+  resolve_files(config, search, nullptr);
   return to_struct(config).robot;
 }
 

@@ -144,6 +144,20 @@ TEST_F(SolveRobot, TakesRowsInPlace) {
             answer("robot-fk", {{"robot", "ur10"}, {"q", q}}));
 }
 
+TEST_F(SolveRobot, TakesAFileByItsPathFromTheWorkingFolder) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "longreach_solve_robot";
+  std::filesystem::create_directories(folder / "mine");
+  std::filesystem::copy_file(std::filesystem::path(LONGREACH_DEPLOY) / "robots/ur10.txtpb",
+                             folder / "mine/arm.txtpb", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::current_path(folder);
+  const Json q = {0.1, -1.0, 1.2, 0.3, 0.8, -2.0};
+  EXPECT_EQ(answer("robot-fk", {{"robot", "mine/arm.txtpb"}, {"q", q}}),
+            answer("robot-fk", {{"robot", "ur10"}, {"q", q}}));
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+}
+
 TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
   const auto error = [](const std::string& kind, const std::string& line) {
     std::istringstream in(line);
@@ -151,8 +165,19 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
     EXPECT_EQ(solve(kind, in, out), 1) << line;
     return Json::parse(out.str())["error"].get<std::string>();
   };
-  EXPECT_NE(error("robot-fk", R"({"robot": "none", "q": [0,0,0,0,0,0]})").find("there is no such file"),
-            std::string::npos);
+  const auto says = [&](const std::string& kind, const std::string& line, const std::string& words) {
+    const std::string said = error(kind, line);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  says("robot-fk", R"({"robot": "ur1", "q": [0,0,0,0,0,0]})", "; did you mean \"ur10\"?");
+  says("robot-fk", R"({"robot": "none.txtpb", "q": [0,0,0,0,0,0]})", "there is no such file in ");
+  says(
+      "robot-fk",
+      R"({"dh": [{"a":0,"d":0,"alpha":90},{"a":1,"d":0,"alpha":0},{"a":1,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0}], "q": [0,0,0,0,0,0]})",
+      "\"alpha\" = 90 of a row of \"dh\" is outside -3.2 to 3.2; it is in rad, and this looks like degrees");
+  says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,1.01,0],[0,0,0,1]]})",
+       "R R^T differs from 1 by 0.02, and 1e-06 is allowed");
+  says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]})", "a reflection");
   EXPECT_EQ(error("robot-fk", R"({"robot": "ur10", "q": [0,0,0]})"), "\"q\" must be a list of six numbers");
   EXPECT_EQ(error("robot-fk", R"({"dh": [], "q": [0,0,0,0,0,0]})"),
             "\"dh\" must be a list of six rows; this has 0");

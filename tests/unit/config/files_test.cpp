@@ -267,6 +267,23 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   EXPECT_EQ(resolve_error(), "robot has 1 joints; 6 are needed");
 }
 
+TEST_F(ResolveFiles, RecognisesDegrees) {
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string robot = kRobot;
+    robot.replace(robot.find(from), from.size(), to);
+    folder.write("robots/space_arm.txtpb", robot);
+    return resolve_error();
+  };
+  EXPECT_NE(refused("a_m: 1", "a_m: 1 alpha_rad: 90")
+                .find("alpha_rad = 90 is outside -3.2 to 3.2; it is in rad, and this looks like degrees: 90 "
+                      "degrees are 1.57"),
+            std::string::npos);
+  EXPECT_NE(refused("servo_hz: 7", "tool { rotation_rad: [0, 0, 90] }")
+                .find("tool.rotation_rad has the length 90, more than a turn; it is in rad, and this "
+                      "looks like degrees"),
+            std::string::npos);
+}
+
 TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
   const TemporaryFolder folder;
   folder.write("links/moon.txtpb", "up { delay_s: 1.3 }");
