@@ -17,8 +17,25 @@ constexpr double kFast_m_per_s = 0.02;      // unhurried motion of the hand
 constexpr double kCareful_m_per_s = 0.008;  // towards something that will be touched
 constexpr double kCoarse_m_per_s = 0.08;    // at the slave, in rate mode
 constexpr double kRest_s = 2.0;
-constexpr double kHome_m = 1e-4;  // of the handle, along the direction
+constexpr double kStop_n = 8.0;         // no person pushes harder against the end of the workspace
+constexpr double kRelocated_m = 0.005;  // of the handle from its home, when the clutch is let go
+constexpr double kRelocates_s = 3.0;    // at most
+constexpr double kHome_m = 1e-4;        // of the handle, along the direction
 constexpr double kComesHome_s = 0.8;
+
+/// In which the hand moves until something happens: 1 towards the surface, -1 away from it.
+double direction_of(ScriptPhase phase) {
+  switch (phase) {
+    case ScriptPhase::kApproach:
+    case ScriptPhase::kReturn:
+      return 1.0;
+    case ScriptPhase::kRetreat:
+    case ScriptPhase::kRelease:
+      return -1.0;
+    default:
+      return 0.0;
+  }
+}
 
 }  // namespace
 
@@ -54,7 +71,12 @@ ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
   if (!input.engaged && phase_ != ScriptPhase::kWaiting) enter(ScriptPhase::kWaiting, input.now);
   out.mode = decide(input);
   const double before_m = reach_m_;
-  move(input, dt_s);
+  out.target.buttons.clutch = relocates(input);
+  if (relocating_) {
+    reach_m_ -= dt_s * std::clamp(8.0 * reach_m_, -0.1, 0.1);
+  } else {
+    move(input, dt_s);
+  }
   speed_m_per_s_ = dt_s > 0.0 ? (reach_m_ - before_m) / dt_s : 0.0;
   out.target.position_m = reach_m_ * direction_;
   out.target.velocity_m_per_s = speed_m_per_s_ * direction_;
@@ -133,6 +155,23 @@ double ScriptedOperator::coarse_deflection(double left_m) const {
   return mapping_.dead_zone_m + speed / mapping_.kv_per_s;
 }
 
+/// In position mode, at the end of the workspace: clutches, brings the handle home, takes the robot up again.
+bool ScriptedOperator::relocates(const ScriptInput& in) {
+  const double way = direction_of(phase_), handle_m = direction_.dot(in.handle_m);
+  const bool blocked = way != 0.0 && !(way > 0.0 && in.felt_n > kFelt_n) &&
+                       way * (reach_m_ - handle_m) > 0.95 * kStop_n / hand_stiffness_;
+  if (relocating_) {
+    const double elapsed_s = to_seconds(in.now - blocked_);
+    relocating_ = in.engaged && way != 0.0 && std::abs(handle_m) > kRelocated_m && elapsed_s < kRelocates_s;
+    if (!relocating_) blocked_ = in.now;
+    return relocating_;
+  }
+  if (!blocked) blocked_ = in.now;
+  relocating_ = to_seconds(in.now - blocked_) > config_.reaction_s;
+  if (relocating_) blocked_ = in.now;
+  return relocating_;
+}
+
 /// Moves the hand's target along the direction.
 void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   const double handle_m = direction_.dot(in.handle_m);
@@ -172,6 +211,11 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
       break;
   }
   reach_m_ += dt_s * std::clamp(speed, -0.1, 0.1);
+  // A small device may not have the deflection of the fastest speed.
+  if (phase_ == ScriptPhase::kCoarse || direction_of(phase_) != 0.0) {
+    const double stop_m = kStop_n / hand_stiffness_;
+    reach_m_ = std::clamp(reach_m_, handle_m - stop_m, handle_m + stop_m);
+  }
 }
 
 }  // namespace longreach

@@ -1,7 +1,8 @@
 #pragma once
 // A simulated person who touches a surface: drives up in rate mode, until there or until a wall is felt,
 // approaches in scaled position mode, touches, backs off, touches again, presses, probes about the pressing
-// force, releases, rests, and begins again from the second touch. Deterministic; knows only what a person
+// force, releases, rests, and begins again from the second touch; at the end of a small workspace brings the
+// handle home with the clutch. Deterministic; knows only what a person
 // would: the own hand, the felt contact force, the picture of the own commands (goal) and of the surface once
 // it is registered. Never evidence about people.
 
@@ -62,6 +63,7 @@ class ScriptedOperator {
   void enter(ScriptPhase phase, Time now);
   std::optional<MotionMode> decide(const ScriptInput& input);
   void move(const ScriptInput& input, double dt_s);
+  bool relocates(const ScriptInput& input);
   [[nodiscard]] double left_m(const ScriptInput& input) const;
   [[nodiscard]] double coarse_deflection(double left_m) const;
 
@@ -83,6 +85,8 @@ class ScriptedOperator {
   std::uint32_t engagement_ = 0;
   double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
+  bool relocating_ = false;  // with the clutch
+  Time blocked_{};           // since when the handle does not follow; relocating: since when
 };
 
 }  // namespace longreach

@@ -117,6 +117,33 @@ TEST(Touch, IsTheSameWithASensorThatCarriesAToolAndHasABias) {
   EXPECT_EQ(v.at("false_holds"), 0.0);
 }
 
+// Small ones do not have the deflection of the fastest speed.
+TEST(Touch, IsRightWithEveryShippedDevice) {
+  for (const char* device : {"falcon", "paper"}) {
+    for (const char* profile : {"lab", "moon"}) {
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Values v = touch(
+            {std::string("device_file=devices/") + device + ".txtpb", std::string("profile=") + profile},
+            seed);
+        EXPECT_LT(v.at("displayed_stiffness_error"), 0.05) << device << ' ' << profile << ' ' << seed;
+        EXPECT_GT(v.at("probing_cycles_done"), 0.0) << device << ' ' << profile << ' ' << seed;
+        EXPECT_EQ(v.at("false_holds"), 0.0) << device << ' ' << profile << ' ' << seed;
+      }
+    }
+  }
+}
+
+// In position mode 110 mm of the handle, whose workspace ends at 40 and 30 mm.
+TEST(Touch, ReachesAFarWallOfASmallDeviceWithTheClutch) {
+  for (const char* device : {"falcon", "paper"}) {
+    const Values v = touch({std::string("device_file=devices/") + device + ".txtpb",
+                            "operator.rate_distance_m=0.05", "operator.approach_speed_m_per_s=0.006"},
+                           1);
+    EXPECT_LT(v.at("displayed_stiffness_error"), 0.05) << device;
+    EXPECT_GT(v.at("probing_cycles_done"), 0.0) << device;
+  }
+}
+
 /// Stiffer than command.guard_stiffness_n_per_m, and the hand slides on it a little.
 TEST(Touch, AWallOfSteelIsNotTakenForAWrongSensor) {
   for (const char* wall : {"5e4", "1e5", "1e6"}) {
