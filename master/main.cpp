@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
   app.add_flag("--take", options.take,
                "Take the robot from a master that has it; it holds until this one engages");
   app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
-      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->transform(CLI::IsMember({"auto", "plain", "none"}, CLI::ignore_case))
       ->capture_default_str();
   app.add_option("--wall", options.wall_n_per_m,
                  "True stiffness of what will be touched, where it is known: the summary judges by it")

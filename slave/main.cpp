@@ -16,6 +16,7 @@
 #include "common/io/service_watch.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/io/stop_signal.hpp"
+#include "slave/motion.hpp"
 #include "slave/robot/inverse.hpp"
 #include "slave/slave_service.hpp"
 
@@ -60,6 +61,22 @@ class Chronicle {
   std::string trouble_;
 };
 
+/// A real robot begins where it is.
+void warn_of_singular_start(const SlaveConfig& config) {
+  if (!config.robot_adapter.address.empty()) return;
+  const Inverse inverse(config.robot);
+  JointVector start_rad;
+  for (std::size_t i = 0; i < config.robot.joint.size(); ++i)
+    start_rad[static_cast<int>(i)] = config.robot.joint[i].start_rad;
+  const InverseResult at = inverse.solve(inverse.kinematics().forward(start_rad), start_rad, {});
+  if (at.conditioning >= kSingularBand) return;
+  spdlog::warn(
+      "start pose=singular conditioning={:.3f} below={} because=\"in some directions the tool cannot move "
+      "from "
+      "there; choose another robot.joint.start_rad\"",
+      at.conditioning, kSingularBand);
+}
+
 void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
                const RpcServer& rpc) {
   spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
@@ -67,6 +84,7 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
                config.scene().surface_size(), files_text(files, " ", ""));
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
+  warn_of_singular_start(to_struct(config));
   const NeedsConfig needed = needs(to_struct(config).scene);
   std::string left_out;
   if (!needed.contact) left_out = "contact, estimation";

@@ -7,10 +7,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kFarRad = 0.1;         // a solution farther off than this is not one tick away
-constexpr double kSingularBand = 0.08;  // conditioning below which the arm is at a singular pose
-constexpr double kAside = 5e-3;         // of the length: so far the tool may leave its way there
-constexpr double kTurningShare = 0.8;   // of what a joint may do, on its way to another solution
+constexpr double kFarRad = 0.1;        // a solution farther off than this is not one tick away
+constexpr double kAside = 5e-3;        // of the length: so far the tool may leave its way there
+constexpr double kTurningShare = 0.8;  // of what a joint may do, on its way to another solution
 
 }  // namespace
 

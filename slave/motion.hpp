@@ -20,6 +20,9 @@
 
 namespace longreach {
 
+/// Conditioning (joint_step.hpp) below which the arm is at a singular pose.
+constexpr double kSingularBand = 0.08;
+
 struct MotionInput {
   std::optional<Pose> X_WE_goal{};  // none: brake and stay
   ContactForce contact{};

@@ -56,6 +56,10 @@ std::string get_field(const google::protobuf::Message& message, std::string_view
 /// loop.rate_hz and accuracy, sets both. Throws ConfigError; any other ambiguous path names both.
 void set_lab_field(proto::LabConfig& config, std::string_view setting);
 
+/// The whole paths of the fields that set_lab_field sets by `path`: both sides', or one; `path` itself when
+/// it is unknown.
+std::vector<std::string> lab_fields(const std::string& path);
+
 /// Paths of the fields whose effective values differ between two messages of one type and that may not change
 /// with `engaged` (or, for AT_START fields and all inside them, while the program runs).
 std::vector<std::string> refused_changes(const google::protobuf::Message& before,

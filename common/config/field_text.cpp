@@ -134,7 +134,9 @@ void set_value(Message& message, const FieldDescriptor& field, std::string_view 
   if (field.cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE)
     throw ConfigError(path + " cannot be set from text");
   reflection->ClearField(&message, &field);
-  if (trim(text).empty()) return;
+  text = trim(text);
+  if (text.starts_with('[') && text.ends_with(']')) text = trim(text.substr(1, text.size() - 2));
+  if (text.empty()) return;
   for (std::size_t i = 0; i < kMaxElements; ++i) {
     const auto comma = text.find(',');
     const std::string element = path + "." + std::to_string(i);

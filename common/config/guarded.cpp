@@ -31,6 +31,28 @@ FirstTouch first_touch(const proto::SlaveConfig& config) {
   return touch;
 }
 
+/// What holds the guard instead, within what is allowed.
+std::string advice(const proto::SlaveConfig& config, FirstTouch touch, double least_n) {
+  const double guard_n = config.command().force_guard_n(), range_n = config.sensing().force_range_n();
+  constexpr double kGuardMaxN = 1000.0, kSpeedMin = 1e-4;  // of the fields
+  const double rounded_n = std::ceil(10.0 * least_n) / 10.0;
+  const bool allowed = rounded_n <= kGuardMaxN && (range_n <= 0.0 || rounded_n < range_n);
+  double below = 0.0, above = touch.speed_m_per_s;
+  for (int i = 0; i < 50; ++i) {
+    touch.speed_m_per_s = 0.5 * (below + above);
+    (least_guard_n(touch) <= guard_n ? below : above) = touch.speed_m_per_s;
+  }
+  below = std::floor(1e4 * below) / 1e4;
+  const std::string slower = below >= kSpeedMin
+                                 ? "set command.speed_max_m_per_s to " + format_number(below) + " at most"
+                                 : std::string("lower command.guard_stiffness_n_per_m");
+  if (allowed) return "; set it to that, or " + slower;
+  return ", which " +
+         (rounded_n > kGuardMaxN ? "is above " + format_number(kGuardMaxN)
+                                 : "sensing.force_range_n = " + format_number(range_n) + " does not allow") +
+         "; " + slower;
+}
+
 }  // namespace
 
 std::string unguarded(const proto::SlaveConfig& config) {
@@ -40,8 +62,7 @@ std::string unguarded(const proto::SlaveConfig& config) {
   if (guard_n >= least_n) return "";
   return " = " + format_number(guard_n) + " cannot be held at a touch with " +
          format_number(touch.speed_m_per_s) + " m/s on " + format_number(touch.stiffness_n_per_m) +
-         " N/m, but " + format_number(std::ceil(10.0 * least_n) / 10.0) +
-         "; set it to that, or command.speed_max_m_per_s lower";
+         " N/m, but " + format_number(std::ceil(10.0 * least_n) / 10.0) + advice(config, touch, least_n);
 }
 
 }  // namespace longreach

@@ -46,6 +46,24 @@ bool whole(const Candidate& candidate) { return candidate.found.error.empty(); }
 
 }  // namespace
 
+std::vector<std::string> lab_fields(const std::string& path) {
+  // What a file describes, the robot and the scene, is not there yet: its first word says whose it is.
+  const proto::LabConfig config;
+  const std::string_view word = std::string_view(path).substr(0, path.find('.'));
+  const auto has = [&](const google::protobuf::Descriptor* type) {
+    return type->FindFieldByName(std::string(word)) != nullptr;
+  };
+  if (has(proto::LabConfig::descriptor())) return {path};
+  std::vector<std::string> fields;
+  const bool both = has(proto::MasterConfig::descriptor()) && has(proto::SlaveConfig::descriptor());
+  for (const auto& [side, type] : {std::pair{"master.", proto::MasterConfig::descriptor()},
+                                   std::pair{"slave.", proto::SlaveConfig::descriptor()}}) {
+    if (has(type) && (!both || whole(candidate(config, side, path)))) fields.push_back(side + path);
+  }
+  if (fields.empty()) fields.push_back(path);
+  return fields;
+}
+
 void set_lab_field(proto::LabConfig& config, std::string_view setting) {
   const auto equals = setting.find('=');
   if (equals == std::string_view::npos || equals == 0) {

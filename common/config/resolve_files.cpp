@@ -75,6 +75,12 @@ void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::v
   }
   apply_accuracy(resolved);
   validate(resolved);
+  // Lists have no defaults of their own: what is effective is shown.
+  const proto::Device effective = to_message(to_struct(resolved)).device();
+  proto::Device& device = *resolved.mutable_device();
+  if (device.gravity_m_per_s2_size() == 0) *device.mutable_gravity_m_per_s2() = effective.gravity_m_per_s2();
+  if (device.delta().azimuth_rad_size() == 0)
+    *device.mutable_delta()->mutable_azimuth_rad() = effective.delta().azimuth_rad();
   config.Swap(&resolved);
 }
 

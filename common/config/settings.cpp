@@ -36,9 +36,11 @@ Message& mutable_holder(Message& root, const FieldPath& path) {
 }
 
 // `scene` beside `scene_file`, `robot` beside `robot_file`: what it does not say is not there, and there may
-// be no more than one kind of shape. Printed empty, it would read as one.
+// be no more than one kind of shape. Printed empty, it would read as one. What a device does not say has
+// defaults.
 bool is_of_file(const FieldDescriptor& field) {
-  return field.containing_type()->FindFieldByName(field.name() + "_file") != nullptr;
+  return field.name() != "device" &&
+         field.containing_type()->FindFieldByName(field.name() + "_file") != nullptr;
 }
 
 /// Prints fields with their defaults where they are not set; of what a file describes only what is there.

@@ -26,8 +26,7 @@ class Service final : public proto::Pairing::Service {
     const std::lock_guard lock(mutex_);
     auto result = offer_.answer(*request, monotonic_now());
     const auto* refusal = std::get_if<std::string>(&result);
-    const std::string peer = context->peer();
-    tried_(peer.substr(peer.find(':') + 1), refusal != nullptr ? *refusal : "");
+    tried_(readable_peer(context->peer()), refusal != nullptr ? *refusal : "");
     if (refusal != nullptr) return {grpc::StatusCode::PERMISSION_DENIED, *refusal};
     *answer = std::get<proto::PairingMessage>(std::move(result));
     return grpc::Status::OK;

@@ -69,4 +69,13 @@ void note_rpc_refusal(std::string_view who, std::string_view why) {
 
 std::uint64_t rpc_refusals() { return tally().count; }
 
+std::string readable_peer(const std::string& peer) {
+  std::string text = peer.substr(peer.find(':') + 1);
+  for (const auto& [coded, plain] : {std::pair{"%5B", "["}, {"%5D", "]"}, {"%25", "%"}}) {
+    for (auto at = text.find(coded); at != std::string::npos; at = text.find(coded, at + 1))
+      text.replace(at, 3, plain);
+  }
+  return text;
+}
+
 }  // namespace longreach

@@ -5,6 +5,7 @@
 // one. gRPC does not tell the address of a connection that failed.
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace longreach {
@@ -15,6 +16,9 @@ void take_rpc_log();
 
 /// `who`: an address, or "connection".
 void note_rpc_refusal(std::string_view who, std::string_view why);
+
+/// "[::1]:53211" of gRPC's "ipv6:%5B::1%5D:53211".
+std::string readable_peer(const std::string& peer);
 
 /// Since the program's start.
 std::uint64_t rpc_refusals();

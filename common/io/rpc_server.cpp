@@ -223,11 +223,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     return {grpc::StatusCode::PERMISSION_DENIED, why};
   }
 
-  /// "127.0.0.1:53211" of "ipv4:127.0.0.1:53211".
-  static std::string caller_of(const Context& context) {
-    const std::string peer = context.peer();
-    return peer.substr(peer.find(':') + 1);
-  }
+  static std::string caller_of(const Context& context) { return readable_peer(context.peer()); }
 
   void note_holder(std::uint64_t session, const std::string& fingerprint) {
     const std::lock_guard lock(mutex_);

@@ -61,6 +61,9 @@ SiteFiles new_site() {
 fs::path draft(const fs::path& site, const SiteFiles& files) {
   std::error_code error;
   fs::create_directories(site.parent_path(), error);
+  if (error)
+    throw SiteError("cannot make " + site.parent_path().string() + ": " + error.message() +
+                    "; choose another place with --site DIR");
   std::string folder = site.string() + ".XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr)
     throw SiteError("cannot make " + site.string() + ": " + std::strerror(errno) +
@@ -160,7 +163,8 @@ void require_origin(const fs::path& folder) {
 fs::path default_site() {
   const auto given = [](const char* name) {
     const char* value = std::getenv(name);
-    return value != nullptr ? std::string(value) : std::string();
+    // A relative one is ignored, as the XDG specification asks; it would mean another folder everywhere.
+    return value != nullptr && *value == '/' ? std::string(value) : std::string();
   };
   if (const std::string config = given("XDG_CONFIG_HOME"); !config.empty())
     return fs::path(config) / "longreach";
@@ -168,7 +172,8 @@ fs::path default_site() {
   if (const passwd* user = ::getpwuid(::geteuid()); home.empty() && user != nullptr) home = user->pw_dir;
   if (!home.empty()) return fs::path(home) / ".config" / "longreach";
   throw SiteError(
-      "neither XDG_CONFIG_HOME nor HOME is set; say with --site DIR where the certificates are kept");
+      "neither XDG_CONFIG_HOME nor HOME is an absolute path; say with --site DIR where the certificates are "
+      "kept");
 }
 
 std::string file_stem(RpcRole role) {

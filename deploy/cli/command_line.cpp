@@ -118,15 +118,15 @@ void Grammar::declare_views() {
 }
 
 void Grammar::declare_fields() {
-  const auto sides = CLI::IsMember({"master", "slave"});
+  const auto sides = CLI::IsMember({"master", "slave"}, CLI::ignore_case);
   CLI::App* get = declare(app_, "get", "print the configuration of a side, or a part of it",
                           "Fields, units and ranges: proto/config.proto.\n"
                           "Example: longreach get slave estimator.forgetting");
-  get->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
+  get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; all when left out");
   CLI::App* set =
       declare(app_, "set", "change fields of a side's configuration, all of them or none", kSetMore);
-  set->add_option("SIDE", words_.side, "master or slave")->required()->check(sides);
+  set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   set->add_option("PATH VALUE", words_.assignments, "field and its new value, as often as wanted")
       ->required();
 }
@@ -135,7 +135,7 @@ CLI::Option* Grammar::declare_direction(CLI::App& command) {
   return command
       .add_option("--direction", words_.direction,
                   "up (master to slave), down (slave to master) or both [both]")
-      ->check(CLI::IsMember({"up", "down", "both"}))
+      ->transform(CLI::IsMember({"up", "down", "both"}, CLI::ignore_case))
       ->type_name("DIRECTION");
 }
 
@@ -166,7 +166,7 @@ void Grammar::declare_motion() {
           "Example: longreach mode position")
       ->add_option("MODE", words_.mode, "rate or position")
       ->required()
-      ->check(CLI::IsMember({"rate", "position"}));
+      ->transform(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
   declare(app_, "scale", "set the scale of motion: robot over hand, 0.05 to 1",
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1, or up or down by 0.05")

@@ -71,6 +71,15 @@ std::string read_token(const std::string& file) {
   return token;
 }
 
+/// As a shell reads it.
+std::string shell_word(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:@%,";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string to_json(const PairedCertificate& one) {
   return "{\"host\":" + json_string(one.host) + ",\"role\":" + json_string(one.role) +
          ",\"since\":" + json_string(one.since) + ",\"expires\":" + json_string(one.expires) +
@@ -113,7 +122,12 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   if (site_exists(site) && !command.replace)
     throw PairingError("this host has a site at " + site.string() +
                        " already; put it aside with --replace, or choose another folder with --site DIR");
-  const auto token = PairingToken::parse(read_token(command.token_file));
+  const std::string text = read_token(command.token_file);
+  if (text.find_first_not_of(" \t\r") == std::string::npos)
+    throw UsageError(
+        "no token was given: the input is empty; type it in a terminal, or give a file with "
+        "--token-file; longreach-slave --pair prints one");
+  const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(
         "the token is mistyped: it has 24 letters and digits, as longreach-slave --pair printed it");
@@ -127,9 +141,10 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   print_done(options, done);
   if (!options.json) {
     const std::string host = options.slave_address.substr(0, options.slave_address.rfind(':'));
+    const std::string with = options.site.empty() ? "" : " --site " + shell_word(site.string());
     std::cout << "Next, with the ports that the slave listens on:\n"
-              << "  longreach --slave " << host << ":47020 status\n"
-              << "  longreach-master --set link.slave=" << host << ":47001\n";
+              << "  longreach --slave " << host << ":47020" << with << " status\n"
+              << "  longreach-master --set link.slave=" << host << ":47001" << with << "\n";
   }
   return ExitStatus::kDone;
 }

@@ -56,7 +56,7 @@ std::string recording_cell(const Status& s) {
 
 std::string energy(const Status& status) {
   if (!status.has_energy_j()) return "";
-  return with_unit(status.energy_j(), "J") + ", least " + with_unit(status.energy_min_j(), "J");
+  return with_unit(status.energy_j(), "J") + ", minimum " + with_unit(status.energy_min_j(), "J");
 }
 
 /// A row of the table: how a side's status fills its cell; empty where it does not know.
@@ -186,6 +186,8 @@ std::string with_unit(double value, std::string_view unit) {
     const char* letter;
   };
   constexpr std::array<Prefix, 2> kSmall{{{1e3, "m"}, {1e6, "u"}}};
+  // Rounding of a sum is no figure.
+  if (std::abs(value) < 1e-12) value = 0.0;
   double shown = value;
   std::string prefix;
   for (const Prefix& p : kSmall) {

@@ -216,10 +216,12 @@ void CollisionModel::take_laws(const SceneConfig& scene) {
     const std::string name = m.geom_matid[g] < 0 ? "" : engine_->name(mjOBJ_MATERIAL, m.geom_matid[g]);
     const auto material = std::ranges::find(scene.material, name, &MaterialConfig::name);
     if (material == scene.material.end())
-      refuse(file_, "the geom \"" + engine_->name(mjOBJ_GEOM, g) + "\" " +
-                        (name.empty() ? "has no material"
-                                      : "is of \"" + name + "\", which the scene does not have") +
-                        "; give it one of the scene's, or contype=\"0\" conaffinity=\"0\"");
+      refuse(
+          file_,
+          "the geom \"" + engine_->name(mjOBJ_GEOM, g) + "\" " +
+              (name.empty() ? "has no material" : "is of \"" + name + "\", which the scene does not have") +
+              "; give it material=\"NAME\" of the scene's, with <asset><material name=\"NAME\"/></asset>, or "
+              "contype=\"0\" conaffinity=\"0\"");
     const double k =
         material->stiffness_n_per_m / std::pow(material->reference_depth_m, material->exponent - 1.0);
     laws_.back() = {k, material->exponent, material->damping_s_per_m};

@@ -213,13 +213,30 @@ std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metri
   return plots;
 }
 
+namespace {
+
+/// Every field is set, also to its default, and no file is named: what they said is in it.
+proto::LabConfig spelled_out(const proto::LabConfig& config) {
+  proto::LabConfig out;
+  *out.mutable_master() = to_message(to_struct(config.master()));
+  *out.mutable_slave() = to_message(to_struct(config.slave()));
+  out.mutable_master()->clear_device_file();
+  out.mutable_slave()->clear_robot_file();
+  out.mutable_slave()->clear_scene_file();
+  out.set_duration_s(config.duration_s());
+  out.set_trace_hz(config.trace_hz());
+  return out;
+}
+
+}  // namespace
+
 std::string config_hash(const proto::LabConfig& config) {
   std::string bytes;
   {
     google::protobuf::io::StringOutputStream stream(&bytes);
     google::protobuf::io::CodedOutputStream coded(&stream);
     coded.SetSerializationDeterministic(true);
-    config.SerializeToCodedStream(&coded);
+    spelled_out(config).SerializeToCodedStream(&coded);
   }
   return name_hash(bytes);
 }

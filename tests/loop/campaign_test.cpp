@@ -16,6 +16,7 @@
 #include "tests/experiments/campaign/plan.hpp"
 #include "tests/experiments/campaign/results.hpp"
 #include "tests/experiments/campaign/sweep.hpp"
+#include "tests/experiments/experiment.hpp"
 #include "tests/unit/config/temporary_folder.hpp"
 
 namespace longreach {
@@ -62,6 +63,26 @@ TEST(CampaignGrid, CountsWhatNoProgramCouldRun) {
   EXPECT_EQ(Grid(campaign).size(), Grid::kCellsMax + 1);
 }
 
+TEST(CampaignGrid, GivesFieldsThatBelongTogetherTheSameValue) {
+  const Grid grid(
+      campaign_of("experiment: 'touch' setting { path: 'master.link.impairment.delay_s' "
+                  "also: 'slave.link.impairment.delay_s' value: ['0.1', '0.2'] }"));
+  ASSERT_EQ(grid.size(), 2u);
+  EXPECT_EQ(grid.settings(grid.cell(1)), (std::vector<std::string>{"master.link.impairment.delay_s=0.2",
+                                                                   "slave.link.impairment.delay_s=0.2"}));
+}
+
+TEST(ConfigHash, DependsOnWhatIsEffectiveAlone) {
+  const auto hash = [](const std::vector<std::string>& settings) {
+    return config_hash(configure(settings, kDeploy));
+  };
+  EXPECT_EQ(hash({}), hash({"profile=moon", "operator.press_n=3", "robot_file=robots/space_arm.txtpb"}));
+  EXPECT_EQ(hash({}), hash({"scene_file=" + (kDeploy / "scenes/wall.txtpb").string()}));
+  for (const std::string other : {"profile=lab", "operator.press_n=4", "duration_s=30",
+                                  "scene.material.wall.stiffness_n_per_m=999", "robot.joint.1.d_m=1e-9"})
+    EXPECT_NE(hash({}), hash({other})) << other;
+}
+
 TEST(CampaignPlan, FindsFilesBesideTheGrid) {
   const TemporaryFolder folder;
   folder.write("mine.txtpb", "up { delay_s: 1.5 }");
@@ -86,6 +107,14 @@ TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
       {"experiment: 'touch'\nsetting { path: 'profile' value: 'lab' }\n"
        "setting { path: 'mapping.scale' value: '0.2' value: '7' }",
        ":3:46: master.mapping.scale = 7 is outside"},
+      {"experiment: 'touch'\nsetting { path: 'mapping.scale' value: '0.2' }\n"
+       "setting { path: 'master.mapping.scale' value: '0.3' }",
+       ":3:11: setting \"master.mapping.scale\" is there twice"},
+      {"experiment: 'touch'\nsetting { path: 'mapping.scale' also: 'mapping.scale' value: '0.2' }",
+       ":2:33: setting \"mapping.scale\" is there twice, as master.mapping.scale"},
+      {"experiment: 'touch'\nsetting { path: 'duration_s' value: '2' }\n"
+       "setting { path: 'mapping.scale' also: 'operator.press_n' value: '1' value: '0.25' }",
+       ":3:69: master.operator.press_n = 0.25 is outside"},
       {"experiment: 'touch'\nseeds { from: 3 to: 2 }", ":2:1: seeds.from = 3 is above seeds.to = 2"},
       {"experiment: 'touch'\nseed { from: 3 }", ":2:1: "},
       {"experiment: 'touch'\nseeds { from: -3 }", ":2:15: "},

@@ -92,8 +92,13 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
       there(pair_words({offer.address, "0000-0000-0000-0000-0000-0000"}, {"--replace"}));
   EXPECT_EQ(wrong, 2);
   EXPECT_NE(sentence.find("mistyped"), std::string::npos) << sentence;
+  const auto [empty, advice] = there({"pair", "--slave", offer.address, "--token-file", "-", "--replace"});
+  EXPECT_EQ(empty, 2);  // the input of these programs is empty
+  EXPECT_NE(advice.find("no token was given: the input is empty"), std::string::npos) << advice;
   const auto [done, said] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(done, 0) << said;
+  EXPECT_NE(said.find(":47020 --site " + site_ + " status\n"), std::string::npos) << said;
+  EXPECT_NE(said.find(":47001 --site " + site_ + "\n"), std::string::npos) << said;
   EXPECT_EQ(site_credentials(site_, RpcRole::kClient).authority,
             site_credentials(default_site(), RpcRole::kClient).authority);
   EXPECT_EQ(site_credentials(site_ + ".before-1", RpcRole::kClient).authority, before);

@@ -120,6 +120,11 @@ TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
   EXPECT_EQ(master.status, 0) << master.output;
   EXPECT_NE(master.output.find("engage_at_start: true"), std::string::npos) << master.output;
   EXPECT_NE(master.output.find("mode: RATE"), std::string::npos) << master.output;
+  // Of a device file that says nothing of them.
+  const Ended falcon = run("longreach-master", {"--check", "--set", "device_file=devices/falcon.txtpb"});
+  for (const char* part : {"behaviour {", "spherical {", "gravity_m_per_s2: [0, -9.81, 0]"})
+    EXPECT_NE(falcon.output.find(part), std::string::npos) << part << falcon.output;
+  EXPECT_NE(master.output.find("gravity_m_per_s2: [0, 0, -9.81]"), std::string::npos) << master.output;
 }
 
 TEST(Usage, AnEditedCopyOfTheFilesIsReadAndNamed) {
@@ -142,6 +147,17 @@ TEST(Usage, AnEditedCopyOfTheFilesIsReadAndNamed) {
                                               "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0"});
   EXPECT_EQ(start.status, 0) << start.output;
   EXPECT_NE(start.output.find(" scene_file=" + scene), std::string::npos) << start.output;
+}
+
+TEST(Usage, ASingularStartPoseIsReported) {
+  const auto output = [](const std::string& elbow_rad) {
+    return run("longreach-slave", {"--insecure", "--seconds", "0.1", "--set", "robot_file=robots/ur10.txtpb",
+                                   "--set", "robot.joint.2.start_rad=" + elbow_rad, "--set",
+                                   "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0"})
+        .output;
+  };
+  EXPECT_NE(output("0").find("start pose=singular conditioning=0.0"), std::string::npos) << output("0");
+  EXPECT_EQ(output("1.5").find("singular"), std::string::npos) << output("1.5");
 }
 
 TEST_F(Station, APortThatIsTakenEndsTheSecondProgramWithStatus1) {

@@ -46,8 +46,9 @@ std::vector<std::string> Grid::settings(const Cell& cell) const {
   std::vector<std::string> settings;
   for (int i = 0; i < campaign_.setting_size(); ++i) {
     const auto& setting = campaign_.setting(i);
-    settings.push_back(setting.path() + "=" +
-                       setting.value(static_cast<int>(cell.value[static_cast<std::size_t>(i)])));
+    const std::string& value = setting.value(static_cast<int>(cell.value[static_cast<std::size_t>(i)]));
+    settings.push_back(setting.path() + "=" + value);
+    for (const std::string& also : setting.also()) settings.push_back(also + "=" + value);
   }
   return settings;
 }

@@ -43,8 +43,9 @@ class Checker {
       const auto& setting = campaign_.setting(i);
       const PathStep at = step(campaign_, "setting", i);
       if (setting.path().empty()) refuse({at}, "setting has no path");
-      if (!paths.insert(setting.path()).second)
-        refuse({at, step(setting, "path", -1)}, "setting \"" + setting.path() + "\" is there twice");
+      take(setting.path(), {at, step(setting, "path", -1)}, paths);
+      for (int k = 0; k < setting.also_size(); ++k)
+        take(setting.also(k), {at, step(setting, "also", k)}, paths);
       if (setting.value().empty())
         refuse({at}, "setting \"" + setting.path() + "\" has no value; without one the grid is empty");
       std::set<std::string> values;
@@ -67,14 +68,17 @@ class Checker {
   /// The error of a whole cell, at the first setting with which it is there.
   [[noreturn]] void refuse_cell(const Grid& grid, const Cell& cell, const fs::path& deploy) const {
     const std::vector<std::string> all = grid.settings(cell);
+    std::vector<int> of;  // each: the setting that it belongs to
+    for (int i = 0; i < campaign_.setting_size(); ++i)
+      of.insert(of.end(), static_cast<std::size_t>(1 + campaign_.setting(i).also_size()), i);
     for (std::size_t n = 0; n <= all.size(); ++n) {
       try {
         static_cast<void>(configure({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)}, deploy,
                                     fs::absolute(file_).parent_path()));
       } catch (const ConfigError& e) {
         if (n == 0) throw;
-        const PathStep setting = step(campaign_, "setting", static_cast<int>(n) - 1);
-        const auto value = static_cast<int>(cell.value[n - 1]);
+        const PathStep setting = step(campaign_, "setting", of[n - 1]);
+        const auto value = static_cast<int>(cell.value[static_cast<std::size_t>(of[n - 1])]);
         refuse({setting, step(campaign_.setting(setting.index), "value", value)}, e.what());
       }
     }
@@ -84,6 +88,13 @@ class Checker {
  private:
   static PathStep step(const Message& message, const char* field, int index) {
     return {message.GetDescriptor()->FindFieldByName(field), index};
+  }
+  /// Notes which fields a path sets; `mapping.scale` and `master.mapping.scale` are one.
+  void take(const std::string& path, const FieldPath& at, std::set<std::string>& known) const {
+    for (const std::string& field : lab_fields(path)) {
+      if (!known.insert(field).second)
+        refuse(at, "setting \"" + path + "\" is there twice" + (field == path ? "" : ", as " + field));
+    }
   }
   [[noreturn]] void refuse(const FieldPath& path, const std::string& why) const {
     throw ConfigError(place_in_file(file_, campaign_, path) + ": " + why);

@@ -129,6 +129,13 @@ TEST(CommandLine, OptionsOfAllCommandsMayStandBehindTheCommand) {
   EXPECT_EQ(invocation.options.master_address, "127.0.0.1:47010");
 }
 
+TEST(CommandLine, TakesWordsInAnyCase) {
+  const auto mode = std::get<Invocation>(parse({"mode", "Rate"}));
+  EXPECT_EQ(std::get<ModeCommand>(mode.command).mode, proto::Mapping::RATE);
+  const auto get = std::get<Invocation>(parse({"get", "Slave"}));
+  EXPECT_EQ(std::get<GetCommand>(get.command).side, Side::kSlave);
+}
+
 TEST(CommandLine, RefusesWhatIsOutOfRangeAndSaysTheRange) {
   expect_refused({"scale", "0.01"}, "0.05 to 1");
   expect_refused({"scale", "nan"}, "0.05 to 1");

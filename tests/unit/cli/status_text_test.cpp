@@ -81,6 +81,7 @@ TEST(WithUnit, ChoosesThePrefix) {
   EXPECT_EQ(with_unit(0.0, "J"), "0 J");
   EXPECT_EQ(with_unit(-2e-5, "s"), "-20 us");
   EXPECT_EQ(with_unit(1e-9, "s"), "0.001 us");
+  EXPECT_EQ(with_unit(-1.025e-26, "J"), "0 J");
   EXPECT_EQ(with_unit(1e9, "s"), "1e+09 s");
   EXPECT_FALSE(with_unit(std::nan(""), "s").empty());
 }

@@ -259,7 +259,15 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   EXPECT_EQ(
       resolve_error(),
       "command.force_guard_n = 5 cannot be held at a touch with 0.05 m/s on 5000 N/m, but 8.6; set it to "
-      "that, or command.speed_max_m_per_s lower");
+      "that, or set command.speed_max_m_per_s to 0.0339 at most");
+  // What is advised is allowed, and does.
+  config.mutable_sensing()->set_force_range_n(8.0);
+  EXPECT_EQ(resolve_error(),
+            "command.force_guard_n = 5 cannot be held at a touch with 0.05 m/s on 5000 N/m, but 8.6, which "
+            "sensing.force_range_n = 8 does not allow; set command.speed_max_m_per_s to 0.0339 at most");
+  config.clear_sensing();
+  config.mutable_command()->set_speed_max_m_per_s(0.0339);
+  EXPECT_EQ(resolve_error(), "no error");
   config.mutable_command()->set_speed_max_m_per_s(0.01);
   EXPECT_EQ(resolve_error(), "no error");
   config.Clear();

@@ -44,6 +44,11 @@ TEST(SetField, SetsEachTypeFromText) {
   EXPECT_FALSE(config.loop().lock_memory());
   EXPECT_EQ(config.link().slave(), "10.0.0.2:47001 = as is ");
   EXPECT_EQ(get_field(config, "operator.direction"), "0, -1, 0.001");
+  set_field(config, "operator.direction", " [1, 0, 0] ");  // as --check prints it
+  EXPECT_EQ(get_field(config, "operator.direction"), "1, 0, 0");
+  set_field(config, "operator.direction", "[]");
+  EXPECT_EQ(config.operator_().direction_size(), 0);
+  EXPECT_THROW(set_field(config, "operator.direction", "[1, 0, 0"), ConfigError);
   set_field(config, "operator.direction", "");
   EXPECT_EQ(config.operator_().direction_size(), 0);
 }

@@ -31,5 +31,11 @@ TEST(RpcRefusals, AFloodIsCountedAndOneLineASecondIsLogged) {
   }
 }
 
+TEST(RpcRefusals, NameAddressesAsAUserWritesThem) {
+  EXPECT_EQ(readable_peer("ipv4:127.0.0.1:53211"), "127.0.0.1:53211");
+  EXPECT_EQ(readable_peer("ipv6:%5B::1%5D:53211"), "[::1]:53211");
+  EXPECT_EQ(readable_peer("ipv6:%5Bfe80::1%252%5D:53211"), "[fe80::1%2]:53211");
+}
+
 }  // namespace
 }  // namespace longreach

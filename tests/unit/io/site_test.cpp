@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 #include <vector>
@@ -48,6 +49,25 @@ TEST(Site, IsMadeAtTheFirstStartAndOpenToItsOwnerAlone) {
   EXPECT_EQ(files, 8);
   for (const auto& entry : fs::directory_iterator(site.parent_path()))
     EXPECT_EQ(entry.path(), site) << "drafts are gone";
+}
+
+TEST(Site, IsNotMadeBelowARelativeXdgConfigHome) {
+  const std::string config = std::getenv("XDG_CONFIG_HOME") ? std::getenv("XDG_CONFIG_HOME") : "";
+  const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
+  ::setenv("XDG_CONFIG_HOME", "etc", 1);
+  ::setenv("HOME", "/somewhere", 1);
+  EXPECT_EQ(default_site(), "/somewhere/.config/longreach");
+  ::setenv("XDG_CONFIG_HOME", "/etc/xdg", 1);
+  EXPECT_EQ(default_site(), "/etc/xdg/longreach");
+  config.empty() ? ::unsetenv("XDG_CONFIG_HOME") : ::setenv("XDG_CONFIG_HOME", config.c_str(), 1);
+  home.empty() ? ::unsetenv("HOME") : ::setenv("HOME", home.c_str(), 1);
+}
+
+TEST(Site, SaysWhyAFolderCannotBeMade) {
+  // Nobody makes folders there, root included; what is below it does not exist.
+  const std::string refusal = refusal_of("/sys/nowhere/longreach");
+  EXPECT_TRUE(refusal.starts_with("cannot make /sys/nowhere: ")) << refusal;
+  EXPECT_EQ(refusal.find("No such file"), std::string::npos) << refusal;
 }
 
 TEST(Site, StaysAsItIsAndTellsRolesApart) {
