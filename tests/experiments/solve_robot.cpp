@@ -20,12 +20,19 @@ double element(const Json& list, std::size_t i, const std::string& name) {
   return solve_json::number(Json{{name, list[i]}}, name);
 }
 
-JointVector joints(const Json& request, const std::string& key) {
+JointVector joints(const Json& request, const std::string& key, const RobotConfig& robot) {
   const Json& list = solve_json::member(request, key);
   if (!list.is_array() || list.size() != kMaxJoints)
     throw BadRequest("\"" + key + "\" must be a list of six numbers");
   JointVector q;
-  for (std::size_t i = 0; i < kMaxJoints; ++i) q[static_cast<int>(i)] = element(list, i, key);
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const double value = element(list, i, key);
+    if (robot.joint[i].kind == JointKind::kRevolute && std::abs(value) > kUnlimited)
+      throw BadRequest("\"" + key + "\" = " + format_number(value) +
+                       " is more than two turns of a joint; it is in rad, "
+                       "and this looks like degrees");
+    q[static_cast<int>(i)] = value;
+  }
   return q;
 }
 
@@ -116,8 +123,8 @@ Json matrix_to_json(const Matrix& m) {
 
 Json solve_robot_fk(const Json& request) {
   solve_json::require_known(request, "", {"robot", "dh", "convention", "q"});
-  const Kinematics kinematics(robot(request));
-  const RigidKinematics at = kinematics.rigid_with_jacobian(joints(request, "q"));
+  const RobotConfig arm = robot(request);
+  const RigidKinematics at = Kinematics(arm).rigid_with_jacobian(joints(request, "q", arm));
   Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
   X.topLeftCorner<3, 3>() = at.X_WE.R;
   X.topRightCorner<3, 1>() = at.X_WE.p;
@@ -127,9 +134,10 @@ Json solve_robot_fk(const Json& request) {
 Json solve_robot_ik(const Json& request) {
   solve_json::require_known(request, "", {"robot", "dh", "convention", "X", "near"});
   constexpr InverseTolerance kThorough{1e-12, 100, 200};
-  const Inverse inverse(robot(request));
+  const RobotConfig arm = robot(request);
+  const Inverse inverse(arm);
   const Pose goal = pose(request);
-  const JointVector near = request.contains("near") ? joints(request, "near") : JointVector::Zero();
+  const JointVector near = request.contains("near") ? joints(request, "near", arm) : JointVector::Zero();
   const InverseSolutions all = inverse.all(goal, near, kThorough);
   const InverseResult best = inverse.solve(goal, near, kThorough);
   Json solutions = Json::array();
