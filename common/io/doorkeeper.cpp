@@ -51,6 +51,20 @@ std::array<unsigned char, 16> host_of(int fd) {
   return host;
 }
 
+/// "192.0.2.9:4711"; "connection" when it has gone.
+std::string address_of(int fd) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> port{};
+  auto* any = reinterpret_cast<sockaddr*>(&address);
+  if (::getpeername(fd, any, &size) != 0 || ::getnameinfo(any, size, host.data(), host.size(), port.data(),
+                                                          port.size(), NI_NUMERICHOST | NI_NUMERICSERV) != 0)
+    return "connection";
+  const std::string name = host.data();
+  return (name.find(':') == std::string::npos ? name : "[" + name + "]") + ":" + port.data();
+}
+
 std::size_t inside_max() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return Doorkeeper::kInsideMax;
@@ -163,7 +177,7 @@ void Doorkeeper::let_in(int fd) {
   if (crowded(who) != nullptr) count_inside();
   if (crowded(who) != nullptr) shut_unproven(who);
   if (const char* why = crowded(who)) {
-    note_rpc_refusal("connection", why);
+    note_rpc_refusal(address_of(fd), why);
     ::close(fd);
     return;
   }
@@ -189,13 +203,13 @@ void Doorkeeper::shut_unproven(const Inside& in_favour_of) {
            info.tcpi_bytes_received < kProvenBytes;
   });
   if (found == inside_.end()) return;
-  note_rpc_refusal("connection", "its handshake does not end");
+  note_rpc_refusal(address_of(found->fd), "its handshake does not end");
   ::shutdown(found->fd, SHUT_RDWR);  // its owner closes it then
   inside_.erase(found);
 }
 
 void Doorkeeper::close_oldest(const char* why) {
-  note_rpc_refusal("connection", why);
+  note_rpc_refusal(address_of(silent_.front().fd), why);
   ::close(silent_.front().fd);
   silent_.pop_front();
 }

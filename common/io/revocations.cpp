@@ -138,7 +138,7 @@ class Check final : public grpc::AuthMetadataProcessor {
                        OutputMetadata*) override {
     if (!is_revoked(*caller)) return grpc::Status::OK;
     constexpr const char* kWhy = "the certificate of this host has been revoked: pair it again";
-    note_rpc_refusal("connection", kWhy);
+    note_rpc_refusal("connection " + certificate_text(*caller), kWhy);
     return {grpc::StatusCode::PERMISSION_DENIED, kWhy};
   }
 };
@@ -196,6 +196,15 @@ std::string fingerprint_of(const grpc::AuthContext& caller) {
   } catch (const std::runtime_error&) {
     return "";
   }
+}
+
+std::string certificate_text(const grpc::AuthContext& caller) {
+  const std::string shown = fingerprint_of(caller);
+  if (shown.empty()) return "certificate=none";
+  const auto names = caller.FindPropertyValues(GRPC_X509_SAN_PROPERTY_NAME);
+  const std::string role =
+      names.empty() ? "" : "role=" + std::string(names.front().data(), names.front().size()) + " ";
+  return role + "certificate=" + shown;
 }
 
 bool is_revoked(const grpc::AuthContext& caller) {

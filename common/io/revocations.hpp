@@ -43,6 +43,8 @@ void refuse_revoked(const std::filesystem::path& site);
 bool is_revoked(const std::string& fingerprint);
 /// The certificate that a caller has shown; empty: none.
 std::string fingerprint_of(const grpc::AuthContext& caller);
+/// "role=client.longreach certificate=SHA256:5f0c...", or "certificate=none".
+std::string certificate_text(const grpc::AuthContext& caller);
 bool is_revoked(const grpc::AuthContext& caller);
 /// Refuses every call of those who are revoked.
 std::shared_ptr<grpc::AuthMetadataProcessor> revocation_check();

@@ -14,7 +14,7 @@ namespace longreach {
 /// noted, the rest is dropped. For the whole program; every channel and server of ours calls it.
 void take_rpc_log();
 
-/// `who`: an address, or "connection".
+/// `who`: an address, or "connection"; then "role=... certificate=..." where one was shown.
 void note_rpc_refusal(std::string_view who, std::string_view why);
 
 /// "[::1]:53211" of gRPC's "ipv6:%5B::1%5D:53211".

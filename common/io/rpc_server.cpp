@@ -219,7 +219,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
            names.end();
   }
   static grpc::Status denied(const Context& context, const char* why) {
-    note_rpc_refusal(caller_of(context), why);
+    note_rpc_refusal(caller_of(context) + " " + certificate_text(*context.auth_context()), why);
     return {grpc::StatusCode::PERMISSION_DENIED, why};
   }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/core/random.hpp"
+#include "common/io/certificate.hpp"
 #include "common/io/rpc_channel.hpp"
 #include "common/io/site.hpp"
 #include "tests/process/datagram_tap.hpp"
@@ -137,6 +138,11 @@ TEST_F(Refusals, AStolenSessionNumberUnderAClientsCertificate) {
   };
   EXPECT_EQ(call(slave_rpc(), test_site(RpcRole::kClient), close).error_code(),
             grpc::StatusCode::PERMISSION_DENIED);
+  const std::string fingerprint =
+      longreach::fingerprint(site_credentials(default_site(), RpcRole::kClient).certificate);
+  EXPECT_TRUE(says(*slave_program_, "role=client.longreach certificate=" + fingerprint + " because="))
+      << outputs();
+  EXPECT_TRUE(says(*slave_program_, "rpc refused=127.0.0.1:")) << outputs();
   EXPECT_TRUE(says(*slave_program_, "because=\"only a master of this site may open a session\""))
       << outputs();
   // Not even a master is told the secret of a session that it names.
