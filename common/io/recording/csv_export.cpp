@@ -1,6 +1,7 @@
 #include "common/io/recording/csv_export.hpp"
 
 #include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/descriptor_database.h>
 #include <google/protobuf/dynamic_message.h>
 #include <google/protobuf/text_format.h>
 
@@ -65,6 +66,11 @@ std::string csv_quoted(const std::string& text) {
 
 std::string value_text(const Message& message, const FieldDescriptor& field) {
   const auto& r = *message.GetReflection();
+  if (field.type() == FieldDescriptor::TYPE_BYTES) {
+    std::string text;
+    google::protobuf::TextFormat::PrintFieldValueToString(message, &field, -1, &text);
+    return csv_quoted(text.substr(1, text.size() - 2));
+  }
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
       return number_text(r.GetDouble(message, &field));
@@ -113,6 +119,15 @@ std::string cell(const Message& message, const Column& column) {
   return "";
 }
 
+/// Keeps the first error of descriptors, which protobuf would log.
+struct FirstError : google::protobuf::DescriptorPool::ErrorCollector {
+  void AddError(const std::string&, const std::string& element, const Message*, ErrorLocation,
+                const std::string& message) override {
+    if (text.empty()) text = element + ": " + message;
+  }
+  std::string text;
+};
+
 /// The type of a topic, from the descriptors in the file, and its table.
 class Table {
  public:
@@ -120,11 +135,14 @@ class Table {
     google::protobuf::FileDescriptorSet files;
     if (!files.ParseFromString(schema.descriptors))
       throw RecordingError("the schema " + schema.name + " is not of protobuf");
-    for (const auto& one : files.file())
-      if (pool_.BuildFile(one) == nullptr)
-        throw RecordingError("the schema " + schema.name + " is not whole");
+    std::set<std::string> names;
+    for (const auto& one : files.file()) {  // in any order, and perhaps twice
+      if (names.insert(one.name()).second) (void)files_.Add(one);
+    }
     const auto* type = pool_.FindMessageTypeByName(schema.name);
-    if (type == nullptr) throw RecordingError("the schema " + schema.name + " is not whole");
+    if (type == nullptr)
+      throw RecordingError("the schema " + schema.name + " cannot be used: " +
+                           (error_.text.empty() ? "it does not describe its type" : error_.text));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
@@ -165,7 +183,12 @@ class Table {
                          (errno != 0 ? std::strerror(errno) : "unknown reason"));
   }
 
-  google::protobuf::DescriptorPool pool_;
+  FirstError error_;
+  google::protobuf::SimpleDescriptorDatabase files_;
+  google::protobuf::DescriptorPoolDatabase known_{*google::protobuf::DescriptorPool::generated_pool()};
+  google::protobuf::MergedDescriptorDatabase all_{&files_,
+                                                  &known_};  // some leave out google.protobuf.Timestamp
+  google::protobuf::DescriptorPool pool_{&all_, &error_};
   google::protobuf::DynamicMessageFactory factory_{&pool_};
   std::unique_ptr<Message> message_;
   std::vector<Column> columns_;
@@ -178,7 +201,8 @@ std::string file_name(const std::string& topic) {
   std::string name = topic.substr(topic.starts_with('/') ? 1 : 0);
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
-  return name;
+  constexpr std::size_t kLengthMax = 200;
+  return name.empty() ? "topic" : name.substr(0, kLengthMax);
 }
 
 /// The tables of one recording.

@@ -1,6 +1,7 @@
 // Recordings as tables and as a list.
 #include "common/io/recording/csv_export.hpp"
 
+#include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -120,7 +121,33 @@ std::string mcap_record(std::uint8_t op, const std::string& content) {
   return out + content;
 }
 std::string text_field(const std::string& text) {
-  return std::string{static_cast<char>(text.size()), 0, 0, 0} + text;
+  std::string out;
+  for (int i = 0; i < 4; ++i) out += static_cast<char>(text.size() >> (8 * i));
+  return out + text;
+}
+
+// As the format's C++ example does: the file of the message first, what it imports behind it; here twice.
+TEST(CsvExport, TakesDescriptorsInAnyOrder) {
+  const TemporaryFolder folder;
+  google::protobuf::FileDescriptorSet files;
+  for (int i = 0; i < 2; ++i) {
+    proto::Scene::descriptor()->file()->CopyTo(files.add_file());
+    google::protobuf::FileOptions::descriptor()->file()->CopyTo(files.add_file());
+  }
+  proto::Scene scene;
+  scene.set_name("found");
+  const std::string magic = "\x89MCAP0\r\n", id("\1\0", 2);
+  std::ofstream(folder.path() / "a.mcap", std::ios::binary)
+      << magic << mcap_record(1, text_field("") + text_field(""))
+      << mcap_record(3, id + text_field("longreach.proto.Scene") + text_field("protobuf") +
+                            text_field(files.SerializeAsString()))
+      << mcap_record(4, id + id + text_field("") + text_field("protobuf") + std::string(4, '\0'))
+      << mcap_record(5, id + std::string(20, '\1') + scene.SerializeAsString())
+      << mcap_record(15, std::string(4, '\0')) << magic;
+  const auto tables = export_csv(folder.path() / "a.mcap", folder.path() / "t").tables;
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].file, folder.path() / "t/topic.csv");
+  EXPECT_NE(read_all(tables[0].file).find(",found,"), std::string::npos);
 }
 
 TEST(CsvExport, LeavesOutTopicsThatAreNotProtobuf) {
