@@ -171,14 +171,28 @@ void ContactTable::header(std::string line) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const char key = columns[i].key;
     if (key == ' ' && !names[i].empty())
-      throw BadRequest("unknown column \"" + names[i] +
-                       "\"; the header may have t, x, v and f, with units as in \"x [mm]\"");
+      throw BadRequest(
+          "unknown column \"" + names[i] +
+          "\"; the header may have t, x, v and f (time, penetration, speed, force), with units as in "
+          "\"x [mm]\"");
     if (key != ' ' && has(key) > 1) throw BadRequest("column \"" + std::string(1, key) + "\" is there twice");
   }
   for (const char key : {'t', 'x', 'f'}) {
     if (has(key) == 0) throw BadRequest("column \"" + std::string(1, key) + "\" is missing");
   }
   columns_ = std::move(columns);
+}
+
+/// A line of units below the names.
+bool ContactTable::take_units(const std::vector<std::string>& values) {
+  const auto is_number = [](const std::string& value) { return number(value).has_value(); };
+  if (values.size() != columns_.size() || std::ranges::any_of(values, is_number)) return false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (columns_[i].key == ' ') continue;
+    const Column with_unit = column(std::string(1, columns_[i].key) + " " + values[i]);
+    if (!values[i].empty()) columns_[i].unit = with_unit.unit;
+  }
+  return true;
 }
 
 ContactRow ContactTable::from_json(const std::string& line) {
@@ -235,6 +249,7 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
     if (trimmed(line).front() == '#') return std::nullopt;
     const std::vector<std::string> values = cells(*separator_ == '\t' ? line : trimmed(line));
     if (std::ranges::all_of(values, &std::string::empty)) return std::nullopt;
+    if (rows_ == 0 && take_units(values)) return std::nullopt;
     row = from_csv(values);
   }
   if (rows_ > 0 && !(row.t_s > last_t_s_)) throw BadRequest("\"t\" does not rise");

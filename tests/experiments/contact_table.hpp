@@ -4,7 +4,7 @@
 //   separator   comma, semicolon, tab, bar or spaces, found in the header; a line `sep=;` is obeyed
 //   cells       may be quoted; a decimal comma is read where it cannot be a separator; `+0.1`, `1E-3`
 //   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
-//               in `x [mm]`, `t (ms)`, `f_kN`; without one s, m, m/s and N
+//               in `x [mm]`, `t (ms)`, `f_kN`, or in a line below; without one s, m, m/s and N
 //   around it   a byte order mark, CR LF, empty lines and cells behind the last, comments that begin with #
 // Not read: UTF-16, thousands separators, cells over several lines.
 
@@ -39,6 +39,7 @@ class ContactTable {
   [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;
   void header(std::string line);
   Column column(const std::string& name);
+  bool take_units(const std::vector<std::string>& values);
   ContactRow from_csv(const std::vector<std::string>& values) const;
   ContactRow from_json(const std::string& line);
 

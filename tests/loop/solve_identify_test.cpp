@@ -7,6 +7,8 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "tests/property/contact_record.hpp"
 
@@ -139,7 +141,7 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
 
 /// The record in a dialect: `header`, and each line by `row` of t, x and f.
 template <class RowOf>
-std::string dialect(const std::string& header, const RowOf& row) {
+std::string dialect(const std::string& header, RowOf row) {
   std::ostringstream out;
   out << header;
   double t = 0.0;
@@ -162,8 +164,8 @@ std::string comma(double value) {
   return text;
 }
 
-TEST(SolveIdentify, ReadsWhatSpreadsheetsWrite) {
-  const double expected = run(text(record(), Format::kCsv, false)).lines.back()["k"];
+/// The record as programs write it.
+std::vector<std::pair<std::string, std::string>> dialects() {
   const auto plain = [](double t, double x, double f) {
     return digits(t) + "," + digits(x) + "," + digits(f) + "\n";
   };
@@ -171,7 +173,7 @@ TEST(SolveIdentify, ReadsWhatSpreadsheetsWrite) {
     return comma(t) + ";" + comma(x) + ";" + comma(f) + "\r\n";
   };
   const auto quoted = [](const std::string& cell) { return '"' + cell + '"'; };
-  const std::pair<std::string, std::string> dialects[] = {
+  return {
       {"byte order mark", dialect("\xEF\xBB\xBFt,x,f\r\n", plain)},
       {"semicolons and decimal commas", dialect("t;x;f\r\n", semicolons)},
       {"a separator that the file names", dialect("\xEF\xBB\xBFsep=;\r\nt;x;f\r\n", semicolons)},
@@ -203,12 +205,25 @@ TEST(SolveIdentify, ReadsWhatSpreadsheetsWrite) {
                                       [](double t, double x, double f) {
                                         return digits(t) + "   " + digits(x) + " " + digits(f) + "\n";
                                       })},
+      {"a line of units", dialect("Time,Depth,Force\n[ms],[mm],[N]\n",
+                                  [](double t, double x, double f) {
+                                    return digits(1e3 * t) + "," + digits(1e3 * x) + "," + digits(f) + "\n";
+                                  })},
+      {"an index before the names", dialect(",t,x,f\n",
+                                            [i = 0](double t, double x, double f) mutable {
+                                              return std::to_string(i++) + "," + digits(t) + "," + digits(x) +
+                                                     "," + digits(f) + "\n";
+                                            })},
       {"keys with units", dialect("",
                                   [](double t, double x, double f) {
                                     return json{{"t_ms", 1e3 * t}, {"x", x}, {"f [N]", f}}.dump() + "\n";
                                   })},
   };
-  for (const auto& [name, input] : dialects) {
+}
+
+TEST(SolveIdentify, ReadsWhatSpreadsheetsWrite) {
+  const double expected = run(text(record(), Format::kCsv, false)).lines.back()["k"];
+  for (const auto& [name, input] : dialects()) {
     const Result r = run(input);
     EXPECT_EQ(r.status, 0) << name << ": " << r.errors;
     ASSERT_EQ(r.lines.size(), 2000u) << name;
