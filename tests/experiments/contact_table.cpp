@@ -247,8 +247,9 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
     row = from_json(line);
   } else {
     if (trimmed(line).front() == '#') return std::nullopt;
-    const std::vector<std::string> values = cells(*separator_ == '\t' ? line : trimmed(line));
+    std::vector<std::string> values = cells(*separator_ == '\t' ? line : trimmed(line));
     if (std::ranges::all_of(values, &std::string::empty)) return std::nullopt;
+    while (values.size() > columns_.size() && values.back().empty()) values.pop_back();
     if (rows_ == 0 && take_units(values)) return std::nullopt;
     row = from_csv(values);
   }

@@ -174,6 +174,9 @@ std::vector<std::pair<std::string, std::string>> dialects() {
   };
   const auto quoted = [](const std::string& cell) { return '"' + cell + '"'; };
   return {
+      {"empty cells behind the last",
+       dialect("t,x,f\n", [](double t, double x,
+                             double f) { return digits(t) + "," + digits(x) + "," + digits(f) + ",,\n"; })},
       {"byte order mark", dialect("\xEF\xBB\xBFt,x,f\r\n", plain)},
       {"semicolons and decimal commas", dialect("t;x;f\r\n", semicolons)},
       {"a separator that the file names", dialect("\xEF\xBB\xBFsep=;\r\nt;x;f\r\n", semicolons)},
