@@ -116,7 +116,7 @@ const char* usage_of(CertificateUse use) {
   return "serverAuth,clientAuth";
 }
 
-std::string certificate_text(X509* certificate) {
+std::string pem_text(X509* certificate) {
   const Bio text = memory();
   require(PEM_write_bio_X509(text.get(), certificate) == 1);
   return text_of(text.get());
@@ -140,7 +140,7 @@ std::string sign(const Certificate& authority, EVP_PKEY* key, const CertificateT
   add_extension(out.get(), issuer.get(), NID_subject_key_identifier, "hash");
   add_extension(out.get(), issuer.get(), NID_authority_key_identifier, "keyid");
   require(X509_sign(out.get(), issuer_key.get(), EVP_sha256()) != 0);
-  return certificate_text(out.get());
+  return pem_text(out.get());
 }
 
 template <class Read>
@@ -163,7 +163,7 @@ Certificate make_authority(const std::string& name) {
   add_extension(out.get(), out.get(), NID_key_usage, "critical,keyCertSign,cRLSign");
   add_extension(out.get(), out.get(), NID_subject_key_identifier, "hash");
   require(X509_sign(out.get(), key.get(), EVP_sha256()) != 0);
-  return {certificate_text(out.get()), key_text(key.get())};
+  return {pem_text(out.get()), key_text(key.get())};
 }
 
 Certificate issue(const Certificate& authority, const CertificateTerms& terms) {

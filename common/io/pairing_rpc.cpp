@@ -13,7 +13,7 @@
 namespace longreach {
 namespace {
 
-constexpr int kMessageMaxBytes = 1 << 14;
+constexpr int kPairingMaxBytes = 1 << 14;
 constexpr int kPairingThreadsMax = 8;
 constexpr auto kPairingGrace = std::chrono::seconds(2);
 
@@ -53,7 +53,7 @@ PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tri
     : state_(new State{{offer, std::move(tried)}, {}}) {
   take_rpc_log();
   grpc::ServerBuilder builder;
-  builder.SetMaxReceiveMessageSize(kMessageMaxBytes);
+  builder.SetMaxReceiveMessageSize(kPairingMaxBytes);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
   builder.SetResourceQuota(grpc::ResourceQuota("longreach-pairing").SetMaxThreads(kPairingThreadsMax));
