@@ -15,7 +15,7 @@ void merge(Clamps& all, const Clamps& one) {
 
 // A goal behind a remembered surface is proof that the surface has gone only together with the tool's place:
 // while the tool moves, it is reported more often than by the heartbeat.
-constexpr double kMoved_m = 5e-4, kMoved_rad = 5e-3, kMovedPeriod_s = 0.1;
+constexpr double kReportedAfter_m = 5e-4, kReportedAfter_rad = 5e-3, kReportedAfter_s = 0.1;
 
 bool changed(const ContactAtPlace& now, const ContactStiffness& reported) {
   return now.contact.touch() != reported.touch || now.contact.in_contact() != reported.in_contact ||
@@ -58,10 +58,10 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
                     translation.contact.reported_n_per_m() != reported_n_per_m_ ||
                     changed(rotation, reported_.rotation) ||
                     rotation.contact.reported_n_per_m() != reported_nm_per_rad_;
-  const bool elsewhere =
-      moved(translation, reported_.translation, kMoved_m) || moved(rotation, reported_.rotation, kMoved_rad);
+  const bool elsewhere = moved(translation, reported_.translation, kReportedAfter_m) ||
+                         moved(rotation, reported_.rotation, kReportedAfter_rad);
   const bool touching = translation.contact.in_contact() || rotation.contact.in_contact();
-  if (news || (elsewhere && input.now - reported_at_ >= from_seconds(kMovedPeriod_s))) reports_.hurry();
+  if (news || (elsewhere && input.now - reported_at_ >= from_seconds(kReportedAfter_s))) reports_.hurry();
   if (!input.may_send ||
       !reports_.due(input.now, touching ? link_.heartbeat_contact_hz : link_.heartbeat_free_hz))
     return;
