@@ -18,7 +18,7 @@ namespace longreach {
 namespace {
 
 constexpr double kScaleStep = 0.05;
-constexpr double kHistory_s = 60.0;  // longer than any round trip a person works over
+constexpr double kHistory_s = 300.0;  // longer than any round trip a person works over
 
 std::size_t history_capacity(double send_hz) {
   return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
@@ -160,7 +160,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     const StiffnessReport& report = received.message;
     if (time.stalled_since() && report.state == SafetyState::kEngaged) continue;
     safety.on_report(report);
-    view.in_contact = report.translation.in_contact;
+    view.in_contact = report.translation.in_contact() || report.rotation.in_contact();
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
     lead.on_report(report.translation, report.reached_sequence);
     turn_lead.on_report(report.rotation, report.reached_sequence);
@@ -302,7 +302,7 @@ void MasterNode::State::publish(const Wrench& F) {
   // What is ramped away is not felt.
   view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
   view.surface_known = linear.contact.known();
-  view.surface_m = surface.surface;
+  view.surface_m = surface.surface - surface.foot / mapping.scale();
   view.inward = surface.n_M;
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
   view.spring_moment_nm =

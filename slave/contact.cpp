@@ -1,22 +1,20 @@
 #include "slave/contact.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 namespace longreach {
 namespace {
 
-constexpr double kOnsetShare = 0.25;   // of the touch threshold: the force has left the noise
-constexpr double kSamePlaceM = 0.003;  // the surface that was met before is met again
-constexpr double kSameNormal = 0.9;
-constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
-constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
-constexpr std::size_t kBefore = 64;       // samples before the touch that are kept
-constexpr double kValidSd = 0.5;          // fraction
-
-WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
-  return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
-}
+constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
+constexpr std::size_t kBefore = 64;   // samples before the touch that are kept
+constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured otherwise
+constexpr double kAcross = 0.5;    // sine, 30 degrees: of another surface's force with those that are pressed
+constexpr double kFriction = 0.6;  // the greatest coefficient of friction
+constexpr double kStickM = 5e-4;   // by which friction is at its greatest
+constexpr double kGrown = 1.5;     // of what is no friction, though as small, as the way doubles
+constexpr double kLeastShare = 0.1;  // of the largest, that an error of its normal may make
 
 }  // namespace
 
@@ -27,176 +25,213 @@ SensingConfig rotational(SensingConfig s) {
   return s;
 }
 
-EstimatorConfig rotational(EstimatorConfig e) {
-  e.working_force_n = e.working_moment_nm;
-  return e;
-}
-
 SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
     : sensing_(sensing),
-      estimator_(estimator),
       detector_(sensing),
-      identifier_(identifier(estimator, sensing)),
-      reported_(estimator),
+      surfaces_{Surface(sensing, estimator), Surface(sensing, estimator), Surface(sensing, estimator)},
       before_(kBefore) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
-  const bool other = estimator.kind != estimator_.kind || estimator.exponent != estimator_.exponent ||
-                     estimator.forgetting != estimator_.forgetting;
-  if (other) identifier_ = identifier(estimator, sensing);
   sensing_ = sensing;
-  estimator_ = estimator;
   detector_.configure(sensing);
-  reported_.configure(estimator);
+  for (Surface& s : surfaces_) s.configure(sensing, estimator);
 }
 
 void SlaveContact::step(const ContactInput& input) {
   reading_ = detector_.step(input.force_n, input.dt, input.doubt_n);
-  if (reading_.began) begin(input);
   force_ = {};
-  penetration_m_ = 0.0;
+  if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
   if (reading_.in_contact) {
-    identify(input);
-    return;
+    press(input);
+  } else {
+    for (Surface& s : surfaces_) {
+      if (s.pressed()) s.release();
+    }
+    before_.push({input.p_WE, input.v_WE, input.force_n});
+    if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_ = input.p_WE;
   }
-  answer_ = {};
-  before_.push({input.p_WE, input.v_WE, input.force_n});
-  if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_m_ = input.p_WE;
+  forget_what_is_free(input);
 }
 
-void SlaveContact::begin(const ContactInput& input) {
-  ++touch_;
-  const bool again = known_ && reading_.normal.dot(known_normal_) > kSameNormal &&
-                     std::abs(known_normal_.dot(onset_m_ - known_point_m_)) < kSamePlaceM;
-  known_ = again;
-  identifier_.begin();
-  working_.begin();
-  working_force_n_ = input.scale * estimator_.working_force_n;
-  reported_.begin(again);
-  if (!again) stiffness_.setZero();
-  tool_m_ = input.p_WE;
-  inward_m_ = 0.0;
-  surface_m_ = -reading_.normal.dot((known_ ? known_point_m_ : onset_m_) - tool_m_);
-  // As far in front of the onset as the tool is behind it.
-  const double first_m = -2.0 * reading_.normal.dot(onset_m_ - tool_m_);
-  for (std::size_t i = 0; i < before_.size(); ++i) {
-    const Before& at = before_[i];
-    const double x_m = -reading_.normal.dot(at.p_WE - tool_m_);
-    if (x_m >= first_m) {
-      identifier_.step({x_m, -reading_.normal.dot(at.v_WE), reading_.normal.dot(at.force_n)}, 0.0);
+void SlaveContact::begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset) {
+  bool again = false;
+  Surface* surface = place_for(force_n.stableNormalized(), onset, input.p_WE, again);
+  if (surface == nullptr) return;
+  surface->begin({++touches_, force_n, input.p_WE, onset, input.played_sequence, input.scale}, again,
+                 before_);
+  foremost_ = static_cast<std::size_t>(surface - surfaces_.data());
+  before_.clear();
+  aside_ = {input.p_WE};
+  turning_ = true;
+}
+
+Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool,
+                                 bool& again) {
+  Surface* place = nullptr;
+  for (Surface& s : surfaces_) {
+    if (!s.there() || s.pressed()) continue;
+    if (s.met(normal, onset, tool)) {
+      again = true;
+      return &s;
+    }
+    if (s.normal().dot(normal) > kBeside) s.forget();
+  }
+  for (Surface& s : surfaces_) {
+    if (s.pressed()) continue;
+    if (!s.there()) return &s;
+    if (place == nullptr || s.touch() < place->touch()) place = &s;  // the one that was left longest ago
+  }
+  return place;
+}
+
+void SlaveContact::press(const ContactInput& input) {
+  if (pressed() > 1) {
+    press_several(input);
+  } else {
+    for (Surface& s : surfaces_) {
+      if (!s.pressed()) continue;
+      if (turning_) s.turn(reading_.filtered_n, input.dt);
+      const Vector3 outward = reading_.filtered_n.stableNormalized();
+      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded});
     }
   }
-  before_.clear();
-  played_at_touch_ = input.played_sequence;
-  touch_sequence_ = 0.0;
-}
-
-// What the tool goes against the force is depth, so that neither a slide along the surface nor its curvature
-// counts as that, which a mean direction would have a long lever for.
-PenetrationSample SlaveContact::sample(const ContactInput& input) {
-  const Vector3 outward = reading_.filtered_n.stableNormalized();
-  const double out_m = outward.dot(input.p_WE - tool_m_);
-  const bool possible = std::abs(out_m) < kStepMaxM;
-  if (possible) {
-    inward_m_ -= out_m;
-    tool_m_ = input.p_WE;
-  }
-  return {possible ? inward_m_ : std::nan(""), -outward.dot(input.v_WE), outward.dot(input.force_n)};
-}
-
-void SlaveContact::identify(const ContactInput& input) {
-  const Vector3& normal = reading_.normal;
-  const PenetrationSample s = sample(input);
-  identifier_.step(s, input.dt);
-  answer_ = identifier_.answer();
-  if (answer_.changes != changes_) working_.begin();
-  changes_ = answer_.changes;
-  const double working_m = identifier_.told().depth_of(working_force_n_);
-  ContactAnswer told = identifier_.told().answer_at(working_.depth_m(working_m));
-  // Another object under the tool: rather than to extrapolate far, the nearest depth that was visited.
-  if (changes_ > 0 && told.valid && !well_known(told))
-    told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
-  // A depth at which the guard holds the tool is not the operator's choice.
-  if (well_known(told) && !input.guarded) {
-    working_.follow(working_m, inward_m_ - told.surface.value, estimator_.depth_filter_s, input.dt);
-  }
-  if (reported_.step(told, normal)) {
-    stiffness_ = reported_.stiffness_n_per_m() * normal * normal.transpose();
-    reported_at_m_ = tool_m_ + (inward_m_ - answer_.surface.value - reported_.depth_m()) * normal;
-  }
-  if (well_known(answer_)) {
-    known_ = true;
-    known_normal_ = normal;
-    surface_m_ = answer_.surface.value;
-    known_point_m_ = surface_point();
-  }
-  penetration_m_ = std::max(inward_m_ - surface_m_, 0.0);
+  look_aside(input);
   // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
-  force_ = {true, normal, std::max(s.force_n, normal.dot(reading_.filtered_n)),
-            reported_.stiffness_n_per_m()};
+  const Vector3& normal = reading_.normal;
+  force_ = {true, normal, std::max(normal.dot(input.force_n), normal.dot(reading_.filtered_n)),
+            stiffness_along(normal)};
+}
+
+void SlaveContact::press_several(const ContactInput& input) {
+  turn_several(input.dt);
+  const Vector3 filtered_n = shares(reading_.filtered_n), raw_n = shares(input.force_n);
+  foremost_ = 0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    Surface& s = surfaces_[i];
+    if (!s.pressed()) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    if (pressed() > 1 && filtered_n[at] < std::max(sensing_.release_n, kLeastShare * filtered_n.maxCoeff())) {
+      s.release();
+      continue;
+    }
+    s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded});
+    if (!surfaces_[foremost_].pressed() || filtered_n[at] > filtered_n[static_cast<Eigen::Index>(foremost_)])
+      foremost_ = i;
+  }
+}
+
+/// Each by what the laws of the others leave.
+void SlaveContact::turn_several(double dt) {
+  for (Surface& s : surfaces_) {
+    if (!s.pressed()) continue;
+    Vector3 rest = reading_.filtered_n;
+    bool foreseen = true;
+    for (const Surface& other : surfaces_) {
+      if (&other == &s || !other.pressed()) continue;
+      const auto force_n = other.foreseen_n();
+      foreseen = foreseen && force_n;
+      rest -= force_n.value_or(0.0) * other.normal();
+    }
+    if (foreseen && rest.stableNorm() > sensing_.touch_n) s.turn(rest, dt);
+  }
+}
+
+Vector3 SlaveContact::shares(const Vector3& force_n) const {
+  constexpr double kRegular = 1e-9;  // normals in a plane have no shares of their own
+  Matrix3 normals = Matrix3::Zero();
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    if (surfaces_[i].pressed()) normals.col(static_cast<Eigen::Index>(i)) = surfaces_[i].normal();
+  }
+  const Matrix3 gram = normals.transpose() * normals + kRegular * Matrix3::Identity();
+  return gram.llt().solve(normals.transpose() * force_n);
+}
+
+// What the laws of the surfaces do not foresee. On a ball the force turns with the way, on another surface
+// against it.
+void SlaveContact::look_aside(const ContactInput& input) {
+  turning_ = true;
+  if (pressed() == 0 || pressed() == kSurfaces) return;
+  const Vector3 share_n = shares(reading_.filtered_n);
+  Vector3 rest = reading_.filtered_n, across = reading_.filtered_n;
+  double borne_n = 0.0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const Surface& s = surfaces_[i];
+    if (!s.pressed()) continue;
+    const double share = share_n[static_cast<Eigen::Index>(i)];
+    rest -= s.foreseen_n().value_or(share) * s.normal();
+    across -= share * s.normal();
+    borne_n += std::abs(share);
+  }
+  const double across_n = across.stableNorm();
+  if (across_n < kOnsetShare * sensing_.touch_n) {
+    aside_ = {input.p_WE};
+    for (Surface& s : surfaces_) s.mark();
+    return;
+  }
+  const double way_m = -across.dot(input.p_WE - aside_.p_WE) / across_n;
+  if (way_m <= 0.0) return;
+  turning_ = false;
+  if (across_n <= sensing_.touch_n + input.doubt_n || across_n < kAcross * rest.stableNorm()) return;
+  const double share = across_n / borne_n;
+  const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);
+  if (share > kFriction || (judged && further && share > kGrown * aside_.share)) {
+    for (Surface& s : surfaces_) s.straighten(aside_.p_WE);
+    return begin(input, rest, aside_.p_WE);
+  }
+  if (further) aside_.way_m = way_m, aside_.share = share;
+}
+
+// The filtered force lags behind a tool that comes fast.
+void SlaveContact::forget_what_is_free(const ContactInput& input) {
+  const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
+  const auto beside = [](const Surface& one) {
+    return [&one](const Surface& s) { return s.pressed() && s.normal().dot(one.normal()) > kBeside; };
+  };
+  for (Surface& s : surfaces_) {
+    if (!s.there() || s.pressed()) continue;
+    const bool free = s.normal().dot(reading_.filtered_n) < sensing_.touch_n;
+    if ((free && std::min(s.depth_of(felt_at), s.depth_of(input.p_WE)) > s.proof_depth_m()) ||
+        std::ranges::any_of(surfaces_, beside(s)))
+      s.forget();
+  }
+}
+
+std::size_t SlaveContact::pressed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(surfaces_, &Surface::pressed));
+}
+
+double SlaveContact::stiffness_along(const Vector3& n) const {
+  double sum = 0.0;
+  for (const Surface& s : surfaces_) {
+    if (s.pressed()) sum += std::pow(n.dot(s.normal()), 2) * s.told().stiffness_n_per_m();
+  }
+  return sum;
+}
+
+void SlaveContact::locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence) {
+  for (Surface& s : surfaces_) s.locate(playout, anchor, played_sequence);
+}
+
+void SlaveContact::forget_goals() {
+  for (Surface& s : surfaces_) s.forget_goals();
 }
 
 void SlaveContact::move_origin(const Vector3& by) {
-  for (Vector3* place : {&onset_m_, &known_point_m_, &tool_m_, &reported_at_m_}) *place -= by;
+  if (onset_) *onset_ -= by;
+  aside_.p_WE -= by;
   before_.clear();
+  for (Surface& s : surfaces_) s.move_origin(by);
 }
 
-bool SlaveContact::well_known(const ContactAnswer& a) const {
-  return a.valid && a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
-}
-
-void SlaveContact::locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence) {
-  if (!reading_.in_contact) return;
-  if (played_at_touch_ <= 0.0) {  // older than the goals: it is felt from the first of them on
-    if (touch_sequence_ <= 0.0) touch_sequence_ = std::max(played_sequence, 0.0);
-    return;
+std::array<ReportedSurface, kSurfaces> SlaveContact::report(const Vector3& anchor) const {
+  std::array<ReportedSurface, kSurfaces> all{};
+  std::size_t count = 0;
+  for (const bool pressed : {true, false}) {
+    for (const Surface& s : surfaces_) {
+      if (s.there() && s.pressed() == pressed) all[count++] = s.report(anchor);
+    }
   }
-  if (played_sequence - played_at_touch_ > kHistoryGoals) return;
-  const auto crossing = playout.crossing(-reading_.normal, surface_point() - anchor_m, played_at_touch_);
-  if (crossing) touch_sequence_ = *crossing;
-}
-
-ContactEstimate SlaveContact::estimate() const {
-  ContactEstimate result;
-  if (!reading_.in_contact) return result;
-  const ContactAnswer& a = answer_;
-  result.valid = a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
-  if (!result.valid) return result;
-  result.stiffness_n_per_m = a.stiffness.value;
-  result.stiffness_sd_n_per_m = a.stiffness.sd;
-  result.secant_n_per_m = a.secant.value;
-  result.k = a.k.value;
-  result.lambda = a.lambda.value;
-  result.n = a.n.value;
-  result.k_sd = a.k.sd;
-  result.lambda_sd = a.lambda.sd;
-  result.n_sd = a.n.sd;
-  result.correlation = a.correlation;
-  result.stiffness_verdict = a.stiffness.verdict;
-  result.k_verdict = a.k.verdict;
-  result.lambda_verdict = a.lambda.verdict;
-  result.n_verdict = a.n.verdict;
-  result.depth_m = a.depth_m;
-  return result;
-}
-
-ContactStiffness SlaveContact::report() const {
-  ContactStiffness result;
-  result.touch = touch_;
-  result.touch_sequence = touch_sequence_;
-  result.in_contact = reading_.in_contact;
-  if (reading_.in_contact) {
-    result.stiffness = stiffness_;
-    result.proof_depth = proof_depth_m();
-  }
-  return result;
-}
-
-// Of the law F = k xⁿ, where it is known.
-double SlaveContact::proof_depth_m() const {
-  constexpr double kTwice = 2.0, kMost = 0.1;
-  if (!(answer_.valid && answer_.k.value > 0.0 && answer_.n.value > 0.0)) return 0.0;
-  return std::min(std::pow(kTwice * sensing_.touch_n / answer_.k.value, 1.0 / answer_.n.value), kMost);
+  return all;
 }
 
 }  // namespace longreach

@@ -1,19 +1,19 @@
 #pragma once
-// One contact from touch to release: detection, identification, what is reported of it, and which command it
-// was met at. Depth counts along the tool's way, ds = -n(t)·dp, from where it was at the touch. Until the fit
-// knows the surface, it is where the force first left the noise.
+// What the tool touches, in translation or in rotation: up to three surfaces at once or remembered. A touch
+// begins when the force leaves the noise. The force is that of the surfaces that are pressed, each along its
+// normal; what is left across them, pushes against the tool's way and is more than friction, is another one.
+// A surface is remembered after its touch, so that the next one goes on with what is known, and forgotten
+// when the tool feels nothing so deep behind it that it would press with twice the touch threshold; a touch
+// less than 60 degrees beside it, or elsewhere along its normal, is of the same object, measured otherwise.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 #include "common/core/ring.hpp"
-#include "common/link/playout.hpp"
-#include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
 #include "slave/command/goal_limiter.hpp"
-#include "slave/estimation/reported_stiffness.hpp"
-#include "slave/estimation/watched_identifier.hpp"
-#include "slave/estimation/working_depth.hpp"
 #include "slave/sensing/contact_detector.hpp"
+#include "slave/surface.hpp"
 
 namespace longreach {
 
@@ -30,7 +30,6 @@ struct ContactInput {
 
 /// For a contact by rotation: places are rotation vectors, N are N m, m are rad.
 SensingConfig rotational(SensingConfig sensing);
-EstimatorConfig rotational(EstimatorConfig estimator);
 
 class SlaveContact {
  public:
@@ -39,67 +38,54 @@ class SlaveContact {
   void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
   void step(const ContactInput& input);
 
-  /// Looks up, in the goals that were followed, the one that lies at the surface. While the history reaches
-  /// back.
-  void locate_touch(const Playout& playout, const Vector3& anchor_m, double played_sequence);
-  /// The goals begin anew: the present contact was met by none of them and counts from the first.
-  void forget_goals() { touch_sequence_ = played_at_touch_ = 0.0; }
+  /// Looks up, in the goals that were followed, those that lie at the surfaces.
+  void locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence);
+  /// The goals begin anew: what is known was met by none of them.
+  void forget_goals();
   /// All places count from elsewhere.
   void move_origin(const Vector3& by);
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
-  [[nodiscard]] std::uint32_t touch() const { return touch_; }  // counts from 1
-  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
-  [[nodiscard]] double touch_sequence() const { return touch_sequence_; }  // fractional; 0: none
-  [[nodiscard]] double reported_n_per_m() const { return reported_.stiffness_n_per_m(); }
-  [[nodiscard]] double reported_depth_m() const { return reported_.depth_m(); }
-  /// Where that is, in W.
-  [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
-  [[nodiscard]] double penetration_m() const { return penetration_m_; }  // below the estimated surface
-  /// No goal of the engagement met it.
-  [[nodiscard]] bool older() const { return reading_.in_contact && played_at_touch_ <= 0.0; }
-  /// Of the surface, beneath the tool, in W.
-  [[nodiscard]] Vector3 surface_point() const { return tool_m_ + (inward_m_ - surface_m_) * reading_.normal; }
-  [[nodiscard]] const ContactForce& force() const { return force_; }  // for the force guard
-  [[nodiscard]] ContactEstimate estimate() const;
-  [[nodiscard]] ContactStiffness report() const;
+  [[nodiscard]] std::uint32_t touch() const { return touches_; }           // counts from 1
+  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }  // of the whole force
+  [[nodiscard]] const ContactForce& force() const { return force_; }       // for the force guard
+  /// The surface that presses most; none is pressed: the one that was touched last.
+  [[nodiscard]] const Surface& foremost() const { return surfaces_[foremost_]; }
+  /// `anchor`: from which places count. Those that are pressed come first.
+  [[nodiscard]] std::array<ReportedSurface, kSurfaces> report(const Vector3& anchor) const;
 
  private:
-  void begin(const ContactInput& input);
-  struct Before {  // the touch
-    Vector3 p_WE, v_WE, force_n;
+  /// Force across what is pressed.
+  struct Aside {
+    Vector3 p_WE = Vector3::Zero();  // tool when it was last in the noise
+    double way_m = 0.0,
+           share = 0.0;  // of the way against it, of the force on what is pressed, as judged last
   };
-  PenetrationSample sample(const ContactInput& input);
-  void identify(const ContactInput& input);
-  [[nodiscard]] double proof_depth_m() const;
-  [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
+
+  /// A touch by `force_n`, of a surface that is known or new.
+  void begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset);
+  Surface* place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool, bool& again);
+  void press(const ContactInput& input);
+  void press_several(const ContactInput& input);
+  void turn_several(double dt);
+  void look_aside(const ContactInput& input);
+  /// What of `force_n` each pressed surface bears; zero for the others.
+  [[nodiscard]] Vector3 shares(const Vector3& force_n) const;
+  void forget_what_is_free(const ContactInput& input);
+  [[nodiscard]] std::size_t pressed() const;  // how many
+  [[nodiscard]] double stiffness_along(const Vector3& n) const;
 
   SensingConfig sensing_;
-  EstimatorConfig estimator_;
   ContactDetector detector_;
-  WatchedIdentifier identifier_;
-  WorkingDepth working_;
-  double working_force_n_ = 1.0;  // at the tool
-  std::uint32_t changes_ = 0;     // of the contact, that were found
-  ReportedStiffness reported_;
-  ContactAnswer answer_{};
-  Ring<Before> before_;  // what was measured just before the touch
+  std::array<Surface, kSurfaces> surfaces_;
+  std::size_t foremost_ = 0;
+  Ring<TouchSample> before_;  // what was measured just before the touch
   ContactReading reading_{};
   ContactForce force_{};
-  Vector3 onset_m_ = Vector3::Zero();  // tool when the force was last in the noise
-  // The surface as identified last: a touch at the same place goes on with what is known of it.
-  bool known_ = false;
-  Vector3 known_normal_ = Vector3::Zero();
-  Vector3 known_point_m_ = Vector3::Zero();
-  Vector3 tool_m_ = Vector3::Zero();     // now, or at the last contact
-  double inward_m_ = 0.0;                // its way against the force since the touch
-  double surface_m_ = 0.0;               // where the surface is on that way
-  Matrix3 stiffness_ = Matrix3::Zero();  // as reported
-  Vector3 reported_at_m_ = Vector3::Zero();
-  double penetration_m_ = 0.0;
-  double played_at_touch_ = 0.0;
-  double touch_sequence_ = 0.0;
-  std::uint32_t touch_ = 0;
+  std::optional<Vector3> onset_{};  // tool when the force was last in the noise
+  Aside aside_{};
+  bool turning_ = true;  // the force's direction is that of the one surface that is pressed
+  std::uint32_t touches_ = 0;
 };
 
 }  // namespace longreach

@@ -44,7 +44,7 @@ struct SlaveNode::State {
         doubt(config.sensing, config.command),
         sensor(config.sensing, kZeroMax * config.command.force_guard_n),
         contact(config.sensing, config.estimator),
-        turn_contact(rotational(config.sensing), rotational(config.estimator)),
+        turn_contact(rotational(config.sensing), config.estimator),
         playout(config.playout),
         turn_playout(config.playout) {}
 
@@ -117,7 +117,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.doubt.configure(config.sensing, config.command);
   s.sensor.configure(config.sensing, kZeroMax * config.command.force_guard_n);
   s.contact.configure(config.sensing, config.estimator);
-  s.turn_contact.configure(rotational(config.sensing), rotational(config.estimator));
+  s.turn_contact.configure(rotational(config.sensing), config.estimator);
   s.playout.configure(config.playout);
   s.turn_playout.configure(config.playout);
 }
@@ -152,8 +152,8 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
                    {s.turn_contact, log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
                     s.turn_held_back.direction(), Vector3::Zero()},
                    output);
-  s.reports.telemetry(input, s.view, s.robot_ok, s.contact.penetration_m(), output);
-  s.view.touch_sequence = s.contact.touch_sequence();
+  s.reports.telemetry(input, s.view, s.robot_ok, s.contact.foremost().depth_m(), output);
+  s.view.touch_sequence = s.contact.foremost().touch_sequence();
   return output;
 }
 
@@ -376,12 +376,13 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.engagement = safety.engagement();
   view.X_WE_anchor = X_WE_anchor;
   view.in_contact = contact.in_contact() || turn_contact.in_contact();
-  view.estimate = contact.estimate();
-  view.reported_stiffness_n_per_m = contact.reported_n_per_m();
-  view.turn_estimate = turn_contact.estimate();
-  view.reported_stiffness_nm_per_rad = turn_contact.reported_n_per_m();
-  view.reported_at_m = contact.reported_at_m();
-  view.touch_sequence = contact.touch_sequence();
+  const Surface &surface = contact.foremost(), &stop = turn_contact.foremost();
+  view.estimate = surface.estimate();
+  view.reported_stiffness_n_per_m = surface.told().stiffness_n_per_m();
+  view.turn_estimate = stop.estimate();
+  view.reported_stiffness_nm_per_rad = stop.told().stiffness_n_per_m();
+  view.reported_at_m = surface.told_at_m();
+  view.touch_sequence = surface.touch_sequence();
   view.touch = contact.touch();
   view.played_sequence = played_sequence;
   view.playout_delay_s = playout.delay_s();

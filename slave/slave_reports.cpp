@@ -1,5 +1,7 @@
 #include "slave/slave_reports.hpp"
 
+#include <algorithm>
+
 namespace longreach {
 namespace {
 
@@ -13,31 +15,26 @@ void merge(Clamps& all, const Clamps& one) {
   all.unreachable = all.unreachable || one.unreachable;
 }
 
-// A goal behind a remembered surface is proof that the surface has gone only together with the tool's place:
-// while the tool moves, it is reported more often than by the heartbeat.
+// The goal may not run ahead of a tool that is held back: while it moves, that is told more often than by the
+// heartbeat.
 constexpr double kReportedAfter_m = 5e-4, kReportedAfter_rad = 5e-3, kReportedAfter_s = 0.1;
 
-bool changed(const ContactAtPlace& now, const ContactStiffness& reported) {
-  return now.contact.touch() != reported.touch || now.contact.in_contact() != reported.in_contact ||
+bool same(const ReportedSurface& a, const ReportedSurface& b) {
+  return a.touch == b.touch && a.pressed == b.pressed && a.stiffness == b.stiffness && a.foot == b.foot;
+}
+
+bool changed(const ContactReport& now, const ContactReport& reported) {
+  return !std::ranges::equal(now.surfaces, reported.surfaces, same) ||
          now.held_back.isZero(0.0) != reported.held_back.isZero(0.0);
 }
 
-/// The place takes bytes only where it proves something: where nothing is touched though something was, where
-/// a limit is, where no goal has told of the surface.
-bool proves(const ContactAtPlace& at) {
-  return (at.contact.touch() > 0 && !at.contact.in_contact()) || !at.held_back.isZero(0.0) ||
-         at.contact.older();
+bool moved(const ContactReport& now, const ContactReport& reported, double far) {
+  return !now.held_back.isZero(0.0) && (now.place - reported.place).norm() > far;
 }
 
-bool moved(const ContactAtPlace& now, const ContactStiffness& reported, double far) {
-  return proves(now) && (now.place - reported.place).norm() > far;
-}
-
-ContactStiffness report_of(const ContactAtPlace& at) {
-  ContactStiffness report = at.contact.report();
-  report.held_back = at.held_back;
-  if (at.contact.older()) report.surface = at.contact.surface_point() - at.anchor;
-  if (proves(at)) report.place = at.place;
+ContactReport report_of(const ContactAtPlace& at) {
+  ContactReport report{.surfaces = at.contact.report(at.anchor), .held_back = at.held_back};
+  if (!at.held_back.isZero(0.0)) report.place = at.place;
   return report;
 }
 
@@ -53,28 +50,25 @@ bool Pace::due(Time now, double rate_hz) {
 void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
                           const PlayedGoals& goals, const ContactAtPlace& translation,
                           const ContactAtPlace& rotation, SlaveOutput& output) {
+  const ContactReport linear = report_of(translation), angular = report_of(rotation);
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
-                    view.cause != reported_.cause || changed(translation, reported_.translation) ||
-                    translation.contact.reported_n_per_m() != reported_n_per_m_ ||
-                    changed(rotation, reported_.rotation) ||
-                    rotation.contact.reported_n_per_m() != reported_nm_per_rad_;
-  const bool elsewhere = moved(translation, reported_.translation, kReportedAfter_m) ||
-                         moved(rotation, reported_.rotation, kReportedAfter_rad);
-  const bool touching = translation.contact.in_contact() || rotation.contact.in_contact();
+                    view.cause != reported_.cause || changed(linear, reported_.translation) ||
+                    changed(angular, reported_.rotation);
+  const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
+                         moved(angular, reported_.rotation, kReportedAfter_rad);
+  const bool touching = linear.in_contact() || angular.in_contact();
   if (news || (elsewhere && input.now - reported_at_ >= from_seconds(kReportedAfter_s))) reports_.hurry();
   if (!input.may_send ||
       !reports_.due(input.now, touching ? link_.heartbeat_contact_hz : link_.heartbeat_free_hz))
     return;
-  translation.contact.locate_touch(goals.positions, goals.anchor_m, goals.sequence);
-  rotation.contact.locate_touch(goals.turns, Vector3::Zero(), goals.turn_sequence);
+  translation.contact.locate_touches(goals.positions, goals.anchor_m, goals.sequence);
+  rotation.contact.locate_touches(goals.turns, Vector3::Zero(), goals.turn_sequence);
   reported_.engagement = view.engagement;
   reported_.state = view.state;
   reported_.cause = view.cause;
   reported_.translation = report_of(translation);
   reported_.rotation = report_of(rotation);
   reported_.reached_sequence = reached_sequence;
-  reported_n_per_m_ = translation.contact.reported_n_per_m();
-  reported_nm_per_rad_ = rotation.contact.reported_n_per_m();
   reported_at_ = input.now;
   output.report = reported_;
   output.report_sequence = ++report_sequence_;

@@ -55,7 +55,6 @@ class SlaveReports {
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};
   Time reported_at_{};
-  double reported_n_per_m_ = 0.0, reported_nm_per_rad_ = 0.0;
   Pace telemetry_;
   std::uint64_t telemetry_sequence_ = 0;
   Clamps clamps_{};  // since the last telemetry

@@ -187,14 +187,12 @@ void visit_fields(Visitor& visit, S& s) {
   visit("force_max_n", s.force_max_n);
   visit("moment_max_nm", s.moment_max_nm);
   visit("ramp_s", s.ramp_s);
-  visit("forget_depth_m", s.forget_depth_m);
   visit("ke_rotation", s.ke_rotation);
   visit("contact_damping_nm_s_per_rad", s.contact_damping_nm_s_per_rad);
   visit("stiffness_max_nm_per_rad", s.stiffness_max_nm_per_rad);
   visit("registration", s.registration);
   visit("slew_n_per_s", s.slew_n_per_s);
   visit("slew_nm_per_s", s.slew_nm_per_s);
-  visit("forget_depth_rad", s.forget_depth_rad);
   visit("load_factor", s.load_factor);
   visit("friction_nm", s.friction_nm);
   visit("friction_stiffness_nm_per_rad", s.friction_stiffness_nm_per_rad);
@@ -333,11 +331,9 @@ void visit_fields(Visitor& visit, S& s) {
   visit("kind", s.kind);
   visit("exponent", s.exponent);
   visit("forgetting", s.forgetting);
-  visit("depth_filter_s", s.depth_filter_s);
+  visit("depth_memory_s", s.depth_memory_s);
   visit("first_sd", s.first_sd);
   visit("deadband", s.deadband);
-  visit("working_force_n", s.working_force_n);
-  visit("working_moment_nm", s.working_moment_nm);
 }
 
 template <class Visitor, Is<SlaveSafetyConfig> S>

@@ -10,7 +10,7 @@
 namespace longreach {
 namespace {
 
-constexpr char kContext[crypto_kdf_CONTEXTBYTES + 1] = "longrch3";  // 3: the wire version
+constexpr char kContext[crypto_kdf_CONTEXTBYTES + 1] = "longrch4";  // 4: the wire version
 constexpr std::uint64_t kDirections = 2;
 
 using NonceBytes = std::array<unsigned char, 12>;

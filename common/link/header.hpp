@@ -13,7 +13,7 @@
 
 namespace longreach {
 
-constexpr std::uint8_t kWireVersion = 3;
+constexpr std::uint8_t kWireVersion = 4;
 constexpr std::size_t kHeaderBytes = 18;
 constexpr std::size_t kOverheadBytes = kHeaderBytes + 16;  // with the tag
 constexpr std::size_t kDatagramMaxBytes = 508;             // passes any IPv4 path unfragmented

@@ -154,8 +154,8 @@ std::size_t Playout::first_beyond(double sequence) const {
   return i;
 }
 
-std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m,
-                                        double last_sequence) const {
+std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
+                                        double most_m) const {
   struct Place {
     double sequence, distance_m;
   };
@@ -174,7 +174,7 @@ std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m
     next = beyond;
   }
   std::optional<double> nearest;
-  double least_m = std::numeric_limits<double>::infinity();
+  double least_m = most_m;
   const auto consider = [&](const Place& p) {
     if (std::abs(p.distance_m) >= least_m) return;
     least_m = std::abs(p.distance_m);

@@ -10,6 +10,7 @@
 // Does not handle orientation separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -47,9 +48,9 @@ class Playout {
 
   /// Fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane through
   /// `point_m` with normal `n` (unit): where n . (position - point) changes its sign from negative, or is
-  /// nearest to zero.
-  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m,
-                                               double last_sequence) const;
+  /// nearest to zero; none that is further than `most_m` from it.
+  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
+                                               double most_m = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] double delay_s() const;  // playout delay in use
   void clear();

@@ -19,10 +19,12 @@ void reserve(int numbers, Fields*... fields) {
 void make_room(proto::MotionCommand& m) { reserve(3, m.mutable_position_m(), m.mutable_rotation_rad()); }
 
 void make_room(proto::StiffnessReport& m) {
-  reserve(6, m.mutable_translation_n_per_m(), m.mutable_rotation_nm_per_rad());
-  reserve(3, m.mutable_translation_place_m(), m.mutable_translation_held_back(),
-          m.mutable_rotation_place_rad(), m.mutable_rotation_held_back(), m.mutable_translation_surface_m(),
-          m.mutable_rotation_surface_rad());
+  constexpr int kMost = static_cast<int>(kSurfaces);
+  reserve(kLineNumbers * kMost, m.mutable_translation_lines(), m.mutable_rotation_lines());
+  reserve(kMost, m.mutable_translation_places(), m.mutable_rotation_places());
+  reserve(kMost, m.mutable_translation_touches(), m.mutable_rotation_touches());
+  reserve(3, m.mutable_translation_tool_m(), m.mutable_translation_held_back(), m.mutable_rotation_tool_rad(),
+          m.mutable_rotation_held_back());
 }
 
 void make_room(proto::Telemetry& m) {

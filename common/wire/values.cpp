@@ -48,10 +48,11 @@ bool read_vector(const Field& values, double limit, Vector3& out) {
   return true;
 }
 
+bool is_direction(const Vector3& v) { return std::abs(v.norm() - 1.0) < kUnitTolerance; }
+
 /// A unit vector; none: zero.
 bool read_direction(const Doubles& values, Vector3& out) {
-  return read_vector(values, 1.0 + kUnitTolerance, out) &&
-         (values.empty() || std::abs(out.norm() - 1.0) < kUnitTolerance);
+  return read_vector(values, 1.0 + kUnitTolerance, out) && (values.empty() || is_direction(out));
 }
 
 template <class Field, class Vector>
@@ -66,21 +67,49 @@ void assign_unless_zero(const Vector3& values, Doubles& out) {
   if (!values.isZero(0.0)) assign(values, out);
 }
 
-// Upper triangle of the symmetric part; a zero matrix takes no bytes.
-void write(const Matrix3& stiffness, Doubles& out) {
-  out.Clear();
-  if (stiffness.isZero(0.0)) return;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column)
-      out.Add(0.5 * (stiffness(row, column) + stiffness(column, row)));
+using Touches = google::protobuf::RepeatedField<std::uint32_t>;
+
+constexpr std::uint32_t kPressed = 1, kOlder = 2, kTouch = 4;  // in the integer of a surface
+
+void write(const ContactReport& contact, Floats& lines, Doubles& places, Touches& touches) {
+  lines.Clear();
+  places.Clear();
+  touches.Clear();
+  for (const ReportedSurface& s : contact.surfaces) {
+    if (s.touch == 0) continue;
+    const bool older = s.touch_sequence == 0.0;
+    for (const double v : {s.normal.x(), s.normal.y(), s.normal.z(), s.stiffness, s.foot})
+      lines.Add(static_cast<float>(v));
+    places.Add(older ? s.offset : s.touch_sequence);
+    touches.Add(s.touch * kTouch + (older ? kOlder : 0) + (s.pressed ? kPressed : 0));
   }
 }
 
-bool read(const Doubles& k, Matrix3& out) {
-  out.setZero();
-  if (k.empty()) return true;
-  if (k.size() != 6 || !all_within(k, kStiffnessMaxNPerM)) return false;
-  out << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+/// `line` of one surface; `far`: the greatest length that is possible.
+bool read(const float* line, double place, std::uint32_t touch, double far, ReportedSurface& out) {
+  out = {.normal = {static_cast<double>(line[0]), static_cast<double>(line[1]), static_cast<double>(line[2])},
+         .stiffness = static_cast<double>(line[3]),
+         .foot = static_cast<double>(line[4]),
+         .touch = touch / kTouch,
+         .pressed = (touch & kPressed) != 0};
+  const bool older = (touch & kOlder) != 0;
+  (older ? out.offset : out.touch_sequence) = place;
+  if (!is_direction(out.normal)) return false;
+  out.normal.normalize();
+  return out.touch > 0 && within(out.stiffness, 0.0, kStiffnessMaxNPerM) && within(out.foot, 0.0, far) &&
+         (older ? within(place, -far, far) : within(place, 0.0, kSequenceMax));
+}
+
+bool read(const Floats& lines, const Doubles& places, const Touches& touches, double far,
+          ContactReport& out) {
+  out.surfaces = {};
+  const int count = touches.size();
+  if (count > static_cast<int>(kSurfaces) || lines.size() != kLineNumbers * count || places.size() != count)
+    return false;
+  for (int i = 0; i < count; ++i) {
+    ReportedSurface& surface = out.surfaces[static_cast<std::size_t>(i)];
+    if (!read(lines.data() + kLineNumbers * i, places[i], touches[i], far, surface)) return false;
+  }
   return true;
 }
 
@@ -216,47 +245,26 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_state(static_cast<std::uint32_t>(report.state));
   out.set_cause(static_cast<std::uint32_t>(report.cause));
   out.set_reached_sequence(report.reached_sequence);
-  write(report.translation.stiffness, *out.mutable_translation_n_per_m());
-  out.set_translation_touch_sequence(report.translation.touch_sequence);
-  out.set_translation_touch(report.translation.touch);
-  out.set_translation_in_contact(report.translation.in_contact);
-  write(report.rotation.stiffness, *out.mutable_rotation_nm_per_rad());
-  out.set_rotation_touch_sequence(report.rotation.touch_sequence);
-  out.set_rotation_touch(report.rotation.touch);
-  out.set_rotation_in_contact(report.rotation.in_contact);
-  out.set_translation_proof_depth_m(report.translation.proof_depth);
-  out.set_rotation_proof_depth_rad(report.rotation.proof_depth);
-  assign_unless_zero(report.translation.place, *out.mutable_translation_place_m());
+  write(report.translation, *out.mutable_translation_lines(), *out.mutable_translation_places(),
+        *out.mutable_translation_touches());
+  write(report.rotation, *out.mutable_rotation_lines(), *out.mutable_rotation_places(),
+        *out.mutable_rotation_touches());
+  assign_unless_zero(report.translation.place, *out.mutable_translation_tool_m());
   assign_unless_zero(report.translation.held_back, *out.mutable_translation_held_back());
-  assign_unless_zero(report.rotation.place, *out.mutable_rotation_place_rad());
-  assign_unless_zero(report.translation.surface, *out.mutable_translation_surface_m());
-  assign_unless_zero(report.rotation.surface, *out.mutable_rotation_surface_rad());
+  assign_unless_zero(report.rotation.place, *out.mutable_rotation_tool_rad());
   assign_unless_zero(report.rotation.held_back, *out.mutable_rotation_held_back());
 }
 
 bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.engagement = in.engagement();
   out.reached_sequence = in.reached_sequence();
-  out.translation.touch_sequence = in.translation_touch_sequence();
-  out.translation.touch = in.translation_touch();
-  out.translation.in_contact = in.translation_in_contact();
-  out.rotation.touch_sequence = in.rotation_touch_sequence();
-  out.rotation.touch = in.rotation_touch();
-  out.rotation.in_contact = in.rotation_in_contact();
-  out.translation.proof_depth = in.translation_proof_depth_m();
-  out.rotation.proof_depth = in.rotation_proof_depth_rad();
   return read_enum(in.state(), SafetyState::kFault, out.state) &&
          read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
-         read(in.translation_n_per_m(), out.translation.stiffness) &&
-         read(in.rotation_nm_per_rad(), out.rotation.stiffness) &&
-         within(out.translation.touch_sequence, 0.0, kSequenceMax) &&
-         within(out.rotation.touch_sequence, 0.0, kSequenceMax) &&
-         within(out.translation.proof_depth, 0.0, kGoalMaxM) &&
-         within(out.rotation.proof_depth, 0.0, kGoalMaxRad) &&
-         read_vector(in.translation_place_m(), kGoalMaxM, out.translation.place) &&
-         read_vector(in.rotation_place_rad(), kGoalMaxRad, out.rotation.place) &&
-         read_vector(in.translation_surface_m(), kGoalMaxM, out.translation.surface) &&
-         read_vector(in.rotation_surface_rad(), kGoalMaxRad, out.rotation.surface) &&
+         read(in.translation_lines(), in.translation_places(), in.translation_touches(), kGoalMaxM,
+              out.translation) &&
+         read(in.rotation_lines(), in.rotation_places(), in.rotation_touches(), kGoalMaxRad, out.rotation) &&
+         read_vector(in.translation_tool_m(), kGoalMaxM, out.translation.place) &&
+         read_vector(in.rotation_tool_rad(), kGoalMaxRad, out.rotation.place) &&
          read_direction(in.translation_held_back(), out.translation.held_back) &&
          read_direction(in.rotation_held_back(), out.rotation.held_back);
 }

@@ -29,6 +29,8 @@ struct WireMessageOf<Telemetry> {
 template <class Message>
 using WireMessage = typename WireMessageOf<Message>::Type;
 
+inline constexpr int kLineNumbers = 5;  // that the line of a surface has in a report
+
 // Every field of `out` is overwritten but its stamp; its memory is used again.
 void write(const MotionCommand& command, proto::MotionCommand& out);
 void write(const StiffnessReport& report, proto::StiffnessReport& out);

@@ -43,8 +43,15 @@ std::string held_back(const MasterView& view) {
   return "";
 }
 
+/// A stop is felt, and no wall.
+bool turned_against(const MasterView& view) {
+  return view.spring_moment_nm.norm() > 0.0 && !(view.spring_force_n.norm() > 0.0);
+}
+
 std::string touching(const ConsoleSnapshot& s) {
   const double k = s.view.stiffness_n_per_m;
+  if (turned_against(s.view))
+    return formatted("turned against a stop: it gives %.3g N m/rad", s.view.rotational_stiffness_nm_per_rad);
   if (!(k > 0.0)) return "touching: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
@@ -66,6 +73,11 @@ std::string following(const ConsoleSnapshot& s) {
   const std::string limit = held_back(s.view);
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
+  if (turned_against(s.view)) {
+    return formatted("the stop is remembered here, %.3g N m/rad; the robot is not touching it",
+                     s.view.rotational_stiffness_nm_per_rad) +
+           as_of(s);
+  }
   if (s.view.spring_force_n.norm() > 0.0) {
     return formatted("the wall is remembered here, %.2f N/mm; the robot is not touching it",
                      s.view.stiffness_n_per_m * 1e-3) +

@@ -19,7 +19,7 @@ class LeadBound {
   void reset() { *this = LeadBound(lead_); }
 
   /// Of the present engagement; `reached`: newest command whose goal the robot has reached.
-  void on_report(const ContactStiffness& report, std::uint64_t reached) {
+  void on_report(const ContactReport& report, std::uint64_t reached) {
     if (!report.held_back.isZero(0.0)) {
       bound_ = {report.place, report.held_back};
     } else if (within_ && reached >= *within_) {

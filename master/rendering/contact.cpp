@@ -1,33 +1,33 @@
 #include "master/rendering/contact.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 namespace longreach {
 namespace {
 
-constexpr double kSameSurfaceAxis = 0.2;  // sine: 11 degrees
-constexpr double kAcross = 0.5;           // cosine: 60 degrees
-constexpr double kLeastShare = 1e-3;      // of the largest stiffness: less is no surface but noise
-constexpr double kLeastSense = 0.02;      // cosine of the motion with an axis that tells its sense
-constexpr double kDeepest = 1.5;          // depth of a spring, over that of the hand behind the surface
+constexpr double kSameTouch = 0.5;       // cosine, of the directions of a surface that is pressed
+constexpr double kSameDirection = 0.9;   // likewise, of one that is met again
+constexpr double kTurned = 0.98;         // likewise, 11 degrees: a spring under force goes no further
+constexpr double kDeepest = 1.5;         // depth of a spring, over that of the hand behind the surface
+constexpr double kUnitTolerance = 1e-3;  // of a normal's length
 
-struct Principal {
-  Vector3 values;  // ascending
-  Matrix3 vectors;
-};
-
-Principal principal(const Matrix3& symmetric) {
-  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
-  solver.computeDirect(symmetric);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+bool possible(const ReportedSurface& s) {
+  return s.normal.allFinite() && std::abs(s.normal.norm() - 1.0) < kUnitTolerance &&
+         std::isfinite(s.stiffness) && s.stiffness >= 0.0 && std::isfinite(s.foot) && s.foot >= 0.0 &&
+         std::isfinite(s.touch_sequence) && s.touch_sequence >= 0.0 && std::isfinite(s.offset);
 }
 
-/// What is left of the tensor across `n`.
-Matrix3 across(const Matrix3& K, const Vector3& n) {
-  const Matrix3 P = Matrix3::Identity() - n * n.transpose();
-  return P * K * P;
+/// Of the same direction there is one.
+bool possible(const std::array<ReportedSurface, kSurfaces>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].touch == 0) continue;
+    if (!possible(all[i])) return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (all[j].touch > 0 && all[i].normal.dot(all[j].normal) > kTurned) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -43,119 +43,95 @@ void Contact::reset() {
   force_step_ = 0.0;
 }
 
-ContactChange Contact::on_report(const ContactStiffness& contact, const GoalHistory& history,
+ContactChange Contact::on_report(const ContactReport& report, const GoalHistory& history,
                                  const ContactHandle& handle, const Mapping& mapping) {
-  if (!contact.stiffness.allFinite() || !std::isfinite(contact.touch_sequence) ||
-      !contact.place.allFinite() || !contact.surface.allFinite() || !std::isfinite(contact.proof_depth))
-    return ContactChange::kRejected;
-  if (!contact.in_contact) {
-    for (ContactAxis& a : axes_) a.released = true;
-    forget_what_is_free(contact.place, handle.x);
-    return ContactChange::kNone;
+  if (!possible(report.surfaces)) return ContactChange::kRejected;
+  std::array<std::optional<Vector3>, kSurfaces> goals{};
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const ReportedSurface& s = report.surfaces[i];
+    if (s.touch == 0) continue;
+    goals[i] = goal_of(s, history);
+    if (!goals[i] && !history.forgotten(s.touch_sequence)) return ContactChange::kRejected;
   }
-  const bool older = !contact.surface.isZero(0.0);  // than the engagement: no goal was there
-  auto goal = config_.by_arrival ? history.newest() : history.at(contact.touch_sequence);
-  if (older && !config_.by_arrival) goal = contact.surface;
-  if (!(contact.stiffness.cwiseAbs().maxCoeff() > 0.0)) return ContactChange::kNone;  // not identified yet
-  if (!goal && !history.forgotten(contact.touch_sequence)) return ContactChange::kRejected;
-  const Vector3 motion = older ? Vector3(contact.place - contact.surface)
-                               : history.motion_before(contact.touch_sequence, config_.least_motion);
   const Vector3 before = spring_force(handle.x);
-  if (!take_tensor(contact, goal, motion, handle, mapping))
-    return goal ? ContactChange::kNone : ContactChange::kRejected;
+  for (ContactAxis& a : axes_) {
+    const auto same = [&](const ReportedSurface& s) { return s.touch > 0 && axis_of(s) == &a; };
+    if (a.known && std::ranges::none_of(report.surfaces, same)) forget(a, handle.x);
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const ReportedSurface& s = report.surfaces[i];
+    if (s.touch == 0 || s.stiffness <= 0.0) continue;  // none, or not identified yet
+    ContactAxis* known = axis_of(s);
+    any = any || known || goals[i];
+    if (known) {
+      update(*known, s, goals[i], handle, mapping);
+    } else if (goals[i]) {  // nothing new can be placed without
+      add_axis(s, *goals[i], handle, mapping);
+    }
+  }
+  if (!any) return ContactChange::kNone;
   force_step_ = (spring_force(handle.x) - before).norm();
   return ContactChange::kUpdated;
 }
 
-void Contact::forget_what_is_free(const Vector3& place, const Vector3& x) {
+std::optional<Vector3> Contact::goal_of(const ReportedSurface& s, const GoalHistory& history) const {
+  std::optional<Vector3> goal = history.newest();
+  if (!config_.by_arrival)
+    goal = s.touch_sequence > 0.0 ? history.at(s.touch_sequence) : Vector3(s.offset * s.normal);
+  if (goal) *goal -= s.foot * s.normal;
+  return goal;
+}
+
+ContactAxis* Contact::axis_of(const ReportedSurface& s) {
   for (ContactAxis& a : axes_) {
-    if (!a.known || a.n_W.dot(place - a.goal) < a.proof_depth + config_.place_error) continue;
-    a.known = false;
-    a.spring.set_stiffness(a.s(x), 0.0);
+    const double cosine = -a.n_W.dot(s.normal);
+    if (a.known && cosine > (a.touch == s.touch ? kSameTouch : kSameDirection)) return &a;
   }
+  return nullptr;
 }
 
-bool Contact::take_tensor(const ContactStiffness& contact, const std::optional<Vector3>& goal,
-                          const Vector3& motion, const ContactHandle& handle, const Mapping& mapping) {
-  Matrix3 left = 0.5 * (contact.stiffness + contact.stiffness.transpose());
-  const double ke = this->ke(mapping);
-  const double least = kLeastShare * left.cwiseAbs().maxCoeff();
-  bool any = false;
-  // News is old: an axis that is not in it may be pressed again by now, and stays until free space disproves
-  // it.
-  for (ContactAxis& a : axes_) {
-    if (!a.known) continue;
-    const Vector3 row = left * a.n_W;
-    const double k = a.n_W.dot(row);
-    if (k > least && (row - k * a.n_W).norm() <= kSameSurfaceAxis * k) {
-      // Met again, or known better: another touch while this one lasts does not move it.
-      if (goal && (a.released || (a.touch == contact.touch && !config_.by_arrival))) a.goal = *goal;
-      a.touch = a.released ? contact.touch : a.touch;
-      a.released = false;
-      a.proof_depth = proof_depth(contact);
-      a.reported = ke * k;
-      left = across(left, a.n_W);
-      any = true;
-      if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), a.reported);
-    }
-  }
-  if (!goal) return any;  // nothing new can be placed
-  const Principal rest = principal(left);
-  for (int i = 2; i >= 0; --i) {
-    if (!(rest.values[i] > least)) continue;
-    const Vector3 n = rest.vectors.col(i).normalized();
-    const Vector3 into = inward(n, motion);
-    if (!n.allFinite() || into.isZero(0.0)) continue;
-    forget_beside(n, handle.x);
-    add_axis(into, contact, *goal, handle, mapping, rest.values[i]);
-    any = true;
-  }
-  return any;
+void Contact::forget(ContactAxis& a, const Vector3& x) {
+  a.known = false;
+  a.spring.set_stiffness(a.s(x), 0.0);
 }
 
-Vector3 Contact::inward(const Vector3& n, const Vector3& motion) const {
-  const double sense = n.dot(motion);
-  if (std::abs(sense) > kLeastSense * motion.norm()) return sense > 0.0 ? n : Vector3(-n);
-  for (const Vector3& met : met_) {
-    if (std::abs(n.dot(met)) > 1.0 - kSameSurfaceAxis) return n.dot(met) > 0.0 ? n : Vector3(-n);
+void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::optional<Vector3>& goal,
+                     const ContactHandle& handle, const Mapping& mapping) {
+  const bool turned = -a.n_W.dot(s.normal)<kTurned, pressed = a.spring.energy_j(a.s(handle.x))> 0.0;
+  if (turned && pressed) return forget(a, handle.x);
+  if (goal && (a.touch != s.touch || !config_.by_arrival)) a.goal = *goal;
+  a.touch = s.touch;
+  a.foot = s.foot;
+  a.reported = ke(mapping) * s.stiffness;
+  if (!pressed && a.n_W != -s.normal) {
+    a.n_W = -s.normal;
+    a.n_M = mapping.base().conjugate() * a.n_W;
+    a.surface = locate(a, handle, mapping);
+    a.spring.begin(a.s(handle.x), a.surface);
   }
-  return Vector3::Zero();
+  if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), a.reported);
 }
 
-/// A remembered axis that is neither this one nor well across it is the same surface, measured otherwise.
-void Contact::forget_beside(const Vector3& n_W, const Vector3& x) {
-  for (ContactAxis& a : axes_) {
-    if (!a.known || std::abs(a.n_W.dot(n_W)) < kAcross) continue;
-    a.known = false;
-    a.spring.set_stiffness(a.s(x), 0.0);
-  }
-}
-
-/// Takes the first place without force; where there is none, the report after the fading brings the axis
+/// Takes the first place without force; where there is none, the report after the fading brings the surface
 /// again.
-void Contact::add_axis(const Vector3& n_W, const ContactStiffness& contact, const Vector3& goal,
-                       const ContactHandle& handle, const Mapping& mapping, double stiffness) {
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    ContactAxis& a = axes_[i];
+void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const ContactHandle& handle,
+                       const Mapping& mapping) {
+  for (ContactAxis& a : axes_) {
     if (a.known || a.spring.energy_j(a.s(handle.x)) > 0.0) continue;
-    met_[i] = n_W;
     a = ContactAxis{.known = true,
-                    .n_W = n_W,
-                    .n_M = mapping.base().conjugate() * n_W,
+                    .n_W = -s.normal,
+                    .n_M = mapping.base().conjugate() * -s.normal,
                     .goal = goal,
-                    .proof_depth = proof_depth(contact),
-                    .reported = ke(mapping) * stiffness,
-                    .touch = contact.touch};
+                    .reported = ke(mapping) * s.stiffness,
+                    .foot = s.foot,
+                    .touch = s.touch};
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
     a.spring.set_stiffness(a.s(handle.x), a.reported);
     return;
   }
-}
-
-double Contact::proof_depth(const ContactStiffness& contact) const {
-  return contact.proof_depth > 0.0 ? contact.proof_depth : config_.forget_depth;
 }
 
 double Contact::ke(const Mapping& mapping) const {
@@ -192,7 +168,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       const bool presses = handle.held && !handle.clutched;
       a.spring.set_surface(presses ? a.surface : std::max(a.surface, s));
       // No contact, no force: what the anchor lags behind may exceed the depth by half of it and no more.
-      if (handle.held) a.spring.limit_depth(s, presses ? kDeepest * std::max(0.0, s - a.surface) : 0.0);
+      a.spring.limit_depth(s, handle.clutched ? 0.0 : kDeepest * std::max(0.0, s - a.surface));
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
     } else {

@@ -32,15 +32,4 @@ std::optional<Vector3> GoalHistory::newest() const {
   return goals_[goals_.size() - 1];
 }
 
-Vector3 GoalHistory::motion_before(double sequence, double least_m) const {
-  const auto end = at(sequence);
-  if (!end) return Vector3::Zero();
-  for (double back = 16.0; back <= static_cast<double>(2 * goals_.size()); back *= 2.0) {
-    const auto begin = at(std::max(sequence - back, static_cast<double>(first_)));
-    const Vector3 motion = *end - begin.value_or(*end);
-    if (motion.norm() > least_m) return motion;
-  }
-  return Vector3::Zero();
-}
-
 }  // namespace longreach

@@ -33,10 +33,6 @@ class GoalHistory {
 
   [[nodiscard]] std::optional<Vector3> newest() const;
 
-  /// Direction (not unit) in which the goal moved up to `sequence`: the displacement over the shortest reach
-  /// back, doubled from 16 commands on, that exceeds `least_m`; zero if there is none.
-  [[nodiscard]] Vector3 motion_before(double sequence, double least_m) const;
-
  private:
   std::uint64_t first_ = 0;  // sequence of goals_[0]
   bool whole_ = true;        // nothing has been dropped since it began

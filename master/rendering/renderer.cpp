@@ -21,10 +21,7 @@ ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice
           .ke = c.ke,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_n_s_per_m,
-          .forget_depth = c.forget_depth_m,
-          .place_error = 5e-5,
-          .by_arrival = c.registration == Registration::kArrival,
-          .least_motion = 1e-4};
+          .by_arrival = c.registration == Registration::kArrival};
 }
 
 ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d) {
@@ -36,10 +33,7 @@ ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d
           .ke = c.ke_rotation,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_nm_s_per_rad,
-          .forget_depth = c.forget_depth_rad,
-          .place_error = 5e-4,
-          .by_arrival = c.registration == Registration::kArrival,
-          .least_motion = 1e-3};
+          .by_arrival = c.registration == Registration::kArrival};
 }
 
 PortGuardConfig translation_guard(const RenderingConfig& c, const RenderedDevice& d) {

@@ -37,11 +37,9 @@ struct RenderingConfig {
   Registration registration = Registration::kTouch;
   double slew_n_per_s = 5000.0;
   double slew_nm_per_s = 200.0;
-  double forget_depth_rad = 0.02;
   double force_max_n = 15.0;
   double moment_max_nm = 0.3;
   double ramp_s = 0.05;
-  double forget_depth_m = 0.005;
   double load_factor = 1.5;
   double friction_nm = 0.003;
   double friction_stiffness_nm_per_rad = 1.0;

@@ -17,11 +17,9 @@ struct EstimatorConfig {
   EstimatorKind kind = EstimatorKind::kFixedExponent;
   double exponent = 1.0;
   double forgetting = 0.9998;  // a sample at 1 kHz
-  double depth_filter_s = 10.0;
-  double first_sd = 0.03;          // fraction; first values off by up to 6 % (p95); 0.05: 11 %, which is felt
-  double deadband = 0.08;          // fraction
-  double working_force_n = 3.0;    // at the hand
-  double working_moment_nm = 0.1;  // likewise
+  double depth_memory_s = 2.0;
+  double first_sd = 0.03;  // fraction; first values off by up to 6 % (p95); 0.05: 11 %, which is felt
+  double deadband = 0.08;  // fraction
 };
 
 }  // namespace longreach

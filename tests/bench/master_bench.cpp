@@ -66,10 +66,11 @@ void MasterStep(benchmark::State& state) {
     report.message.engagement = m.node.view().engagement;
     report.message.state = SafetyState::kEngaged;
     if (i > 1000) {
-      report.message.translation.in_contact = true;
-      report.message.translation.touch = 1;
-      report.message.translation.touch_sequence = 150.0;
-      report.message.translation.stiffness(0, 0) = 1000.0;
+      report.message.translation.surfaces[0] = {.normal = -Vector3::UnitX(),
+                                                .stiffness = 1000.0,
+                                                .touch_sequence = 150.0,
+                                                .touch = 1,
+                                                .pressed = true};
     }
     m.in.reports = i % 100 == 0 ? std::span(&report, 1) : std::span<const Received<StiffnessReport>>();
     step();

@@ -39,7 +39,7 @@ const std::vector<Experiment> kExperiments = {
     {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
      run_rate_contact, rate_contact_plots, "",
      "the hand feels {felt_over_tool_force} of the tool's force of {tool_force_n} N"},
-    {"six-dof-contact", "An oblique plane, a corner and a torque, from stiffness tensors alone.",
+    {"six-dof-contact", "An oblique plane, a corner and a torque, from reported surfaces alone.",
      run_six_dof_contact, six_dof_contact_plots, "",
      "off by {oblique_displayed_error*100} % on an oblique plane, {corner_displayed_error_x*100} and "
      "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},

@@ -153,7 +153,7 @@ void Laboratory::step_master() {
   requests_ = OperatorRequests{};
   for (const auto& received : in.reports) {
     const std::uint64_t back = last_report_ - received.sequence;
-    if (!received.newest || !received.message.translation.in_contact || back >= report_places_.size())
+    if (!received.newest || !received.message.translation.in_contact() || back >= report_places_.size())
       continue;
     rendered_at_m_ = report_places_[report_places_.size() - 1 - back];
   }

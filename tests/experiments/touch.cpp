@@ -3,8 +3,9 @@
 //
 // Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
 // the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on, and again
-// after each hold, which leaves the wall at another place of the handle (own intercept). Its
-// reference is ke times the material's true stiffness (tangent) at the place that the slave reported it for.
+// after each hold and each other tangent, which leave the wall at another place of the handle (own intercept).
+// Its reference is the slope of a spring with ke times the material's true stiffness (tangent) at the place that
+// the slave reported it for, over the same samples.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,8 @@ struct Watch {
   HapticReturn return_before{}, return_after{};  // while probing
   double return_s = 0.0;
   LineFit displayed;
-  double reference_sum = 0.0;  // of ke times the true tangent, over the samples of `displayed`
+  LineFit reference;  // of a spring with ke times the true tangent, over the same samples
+  double rendered_n_per_m = 0.0, true_n_per_m = 0.0;
   double displayed_span_s = 0.0;
   double first_touch_s = -1.0;
   double unsettled_s = -1.0;  // when the hand was last in a hold
@@ -93,14 +95,21 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   }
   w.phase = phase;
   if (w.first_touch_s < 0.0) return;
-  if (m.state != SafetyState::kEngaged) {
-    w.unsettled_s = lab.now_s();
+  if (m.state != SafetyState::kEngaged) w.unsettled_s = lab.now_s();
+  // Another tangent of a curved law begins elsewhere.
+  const double true_n_per_m = ke * lab.arm().material_stiffness(lab.rendered_at_m());
+  const bool other = m.stiffness_n_per_m != w.rendered_n_per_m || true_n_per_m != w.true_n_per_m;
+  if (m.state != SafetyState::kEngaged || other) {
     w.displayed.begin_group();
+    w.reference.begin_group();
   }
+  w.rendered_n_per_m = m.stiffness_n_per_m;
+  w.true_n_per_m = true_n_per_m;
   if (lab.now_s() < std::max(w.first_touch_s, w.unsettled_s) + w.rtt_s + 1.0) return;
   if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
-    w.displayed.add(m.inward.dot(m.p_MH), spring_n);
-    w.reference_sum += ke * lab.arm().material_stiffness(lab.rendered_at_m());
+    const double in_m = m.inward.dot(m.p_MH);
+    w.displayed.add(in_m, spring_n);
+    w.reference.add(in_m, true_n_per_m * in_m);
     w.displayed_span_s += lab.period_s();
   }
 }
@@ -108,11 +117,10 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
 std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
   const MasterView& m = lab.master();
   const SlaveView& s = lab.slave();
-  const double reference =
-      w.displayed.count() > 0 ? w.reference_sum / static_cast<double>(w.displayed.count()) : 0.0;
-  const double displayed = w.displayed.slope();
+  const double reference = w.reference.slope(), displayed = w.displayed.slope();
   const double error = reference > 0.0 ? std::abs(displayed - reference) / reference : 1.0;
-  const double rendered_error = reference > 0.0 ? std::abs(m.stiffness_n_per_m - reference) / reference : 1.0;
+  const double rendered_error =
+      w.true_n_per_m > 0.0 ? std::abs(m.stiffness_n_per_m - w.true_n_per_m) / w.true_n_per_m : 1.0;
   const double probed_s = std::max(w.return_s, lab.period_s());
   return {{"displayed_stiffness_n_per_m", displayed, "N/m"},
           {"reference_stiffness_n_per_m", reference, "N/m"},

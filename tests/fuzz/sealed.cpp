@@ -22,11 +22,14 @@ void judge(const MotionCommand& c) {
   require(within(c.position_m, kGoalMaxM) && within(c.rotation_rad, kGoalMaxRad), "a goal is possible");
 }
 
-void judge(const ContactStiffness& c) {
-  require(c.stiffness.allFinite() && c.stiffness.cwiseAbs().maxCoeff() <= kStiffnessMaxNPerM,
-          "a stiffness is possible");
-  require(c.stiffness == c.stiffness.transpose(), "a stiffness is symmetric");
-  require(std::isfinite(c.touch_sequence) && c.touch_sequence >= 0.0, "a touch sequence is a number");
+void judge(const ContactReport& c) {
+  for (const ReportedSurface& s : c.surfaces) {
+    if (s.touch == 0) continue;
+    require(std::abs(s.normal.norm() - 1.0) < 1e-6, "a normal is unit");
+    require(s.stiffness >= 0.0 && s.stiffness <= kStiffnessMaxNPerM, "a stiffness is possible");
+    require(s.foot >= 0.0 && s.foot <= kGoalMaxM && std::abs(s.offset) <= kGoalMaxM, "a place is possible");
+    require(std::isfinite(s.touch_sequence) && s.touch_sequence >= 0.0, "a touch sequence is a number");
+  }
 }
 
 void judge(const StiffnessReport& r) {

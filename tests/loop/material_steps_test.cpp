@@ -27,8 +27,7 @@ TEST(MaterialSteps, WhatIsReportedFollowsTheMaterialAndTheForceDoesNotStep) {
       EXPECT_GE(all[of + "_port_energy_min_j"], -returned_most_j()) << of;
       const bool slow = kind == "two_stage" || kind == "log_linear";
       if (slow) continue;
-      const double unknown = name == "layers" && kind == "maximum_likelihood" ? 1.0 : 0.0;
-      EXPECT_EQ(all[of + "_followed"], all[of + "_changes"] - unknown) << of;
+      EXPECT_EQ(all[of + "_followed"], all[of + "_changes"]) << of;
       EXPECT_LE(all[of + "_slowest_s"], 6.0) << of;
       EXPECT_LE(all[of + "_farthest_m"], 0.015) << of;
       EXPECT_LE(all[of + "_error_end"], 0.2) << of;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <vector>
 
 #include "common/config/config.hpp"
 #include "master/rendering/rendering_config.hpp"
@@ -61,6 +63,49 @@ double returned_j(RenderingLaw law) {
 TEST(Store, AThousandLoadsWinNothingFromIt) {
   EXPECT_LE(returned_j(RenderingLaw::kStiffness), returned_most_j());
   EXPECT_GT(returned_j(RenderingLaw::kNaive), 2.0 * returned_most_j());
+}
+
+/// A force sensor whose zero steps.
+struct BiasedSensor : Meddler {
+  void robot_told(RobotState& told) override { told.F_F_W.force += bias_n; }
+  Vector3 bias_n = Vector3::Zero();
+};
+
+/// Contact force at a light hand that presses, at rest or probing by 1.5 mm, every tick of the 8 s after the
+/// sensor's zero has stepped.
+std::vector<double> felt_n(const Vector3& bias_n, double probe_m) {
+  const proto::LabConfig config =
+      configure({"profile=lab", "safety.engage_at_start=true", "scene.surface.wall.plane.point_m=0.02,0,0"},
+                LONGREACH_DEPLOY);
+  Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
+  BiasedSensor sensor;
+  lab.let_meddle(sensor);
+  constexpr double kTouch_s = 3.0, kStep_s = 12.0, kEnd_s = 20.0;
+  std::vector<double> felt;
+  while (lab.now_s() < kEnd_s) {
+    const double way_m = 0.042 * std::min(1.0, lab.now_s() / kTouch_s);
+    HandTarget target;
+    target.position_m.x() = way_m + probe_m * std::sin(2.0 * std::numbers::pi * 0.5 * lab.now_s());
+    lab.drive(target);
+    if (lab.now_s() >= kStep_s) sensor.bias_n = bias_n;
+    lab.step();
+    if (lab.now_s() >= kStep_s) felt.push_back(lab.master().spring_force_n.norm());
+  }
+  return felt;
+}
+
+TEST(Person, AStepOfTheSensorsZeroIsNotFelt) {
+  for (const double probe_m : {0.0, 1.5e-3}) {
+    const std::vector<double> without = felt_n(Vector3::Zero(), probe_m);
+    EXPECT_GT(*std::ranges::min_element(without), 1.0);
+    for (int axis = 0; axis < 6; ++axis) {
+      const std::vector<double> with = felt_n((axis < 3 ? 1.0 : -1.0) * Vector3::Unit(axis % 3), probe_m);
+      ASSERT_EQ(with.size(), without.size());
+      double most_n = 0.0;
+      for (std::size_t i = 0; i < with.size(); ++i) most_n = std::max(most_n, std::abs(with[i] - without[i]));
+      EXPECT_LT(most_n, 0.1) << "axis " << axis << " probing by " << probe_m;
+    }
+  }
 }
 
 }  // namespace

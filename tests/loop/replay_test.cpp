@@ -254,6 +254,23 @@ TEST_F(Replay, RefusesWhatIsNoRecording) {
   EXPECT_NE(err.str().find("none.mcap"), std::string::npos) << err.str();
 }
 
+TEST_F(Replay, RefusesWhatAnotherWireVersionRecorded) {
+  {
+    RecordingFile out(file("old"));
+    McapWriter writer(out, "test");
+    writer.add_metadata("longreach", {{"wire", "3"}, {"commit", "0123abcd"}});
+    const auto channel = writer.add_channel("/master/tick", *recording::MasterTick::descriptor());
+    writer.write(channel, 1, recording::MasterTick());
+    writer.finish();
+  }
+  std::ostringstream out, err;
+  EXPECT_EQ(replay({file("old").string()}, out, err), 2);
+  EXPECT_NE(err.str().find("old.mcap was recorded with wire version 3, this program has 4"),
+            std::string::npos)
+      << err.str();
+  EXPECT_NE(err.str().find("commit 0123abcd"), std::string::npos) << err.str();
+}
+
 TEST_F(Replay, OfTheSameRunHasTheSameBytes) {
   record_session(file("again1"), 3.0, "analog");
   record_session(file("again2"), 3.0, "analog");

@@ -36,12 +36,12 @@ class Person : public Station {
       return now && now->force_n() >= least_n && now->force_n() <= most_n;
     });
   }
-  /// More than 1 N, for a second.
-  bool feels_contact() {
+  /// More than this, for a second.
+  bool feels_contact(double least_n = 1.0) {
     int times = 0;
     return eventually([&, this] {
       const auto now = master_.status();
-      times = now && now->contact_n() > 1.0 ? times + 1 : 0;
+      times = now && now->contact_n() > least_n ? times + 1 : 0;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
       return times >= 10;
     });
@@ -134,6 +134,42 @@ TEST_F(Person, FeelsAWallInRateMode) {
   terminal_.type("WWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
   EXPECT_TRUE(feels_contact()) << outputs();
+}
+
+TEST_F(Person, FeelsBothSidesOfASlot) {
+  const TemporaryFolder folder;
+  const std::string scene = (folder.path() / "slot.txtpb").string();
+  std::ofstream(scene) << "name: 'slot' needs { contact: true }\n"
+                          "material { name: 'm' stiffness_n_per_m: 1000 damping_s_per_m: 0.1 }\n"
+                          "surface { name: 'front' material: 'm'\n"
+                          "  plane { point_m: [0.02, 0, 0] normal: [-1, 0, 0] } }\n"
+                          "surface { name: 'back' material: 'm'\n"
+                          "  plane { point_m: [-0.02, 0, 0] normal: [1, 0, 0] } }\n";
+  start({"--set", "scene_file=" + scene}, "position");
+  terminal_.type("WWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  EXPECT_TRUE(feels_contact(0.4)) << outputs();
+  terminal_.type("SSSSSSSSSSSS");
+  ASSERT_TRUE(eventually([this] { return tool_x_m() < anchor_m_ - 0.015; })) << outputs();
+  ASSERT_TRUE(touches(true)) << outputs();
+  EXPECT_TRUE(feels_contact(0.4)) << outputs();
+  EXPECT_LT(goal_x_m(), -0.02) << "the hand is pushed back, not pulled in";
+  terminal_.type("WWWW");
+  ASSERT_TRUE(touches(false)) << outputs();
+  EXPECT_TRUE(feels(0.0, 0.3)) << outputs();
+}
+
+TEST_F(Person, ANewMasterFeelsWhatTheRobotPressesOn) {
+  start({"--set", "scene.surface.wall.plane.point_m=0.01,0,0"}, "position");
+  terminal_.type("WWWWWWWWW");
+  ASSERT_TRUE(touches(true)) << outputs();
+  ASSERT_TRUE(feels_contact()) << outputs();
+  master_program_->signal(SIGTERM);
+  ASSERT_TRUE(master_program_->wait(std::chrono::seconds(10)).has_value()) << outputs();
+  const Terminal another;
+  start_master({"--operator", "keyboard", "--mode", "position", "--engage"}, {another.inner, -1, -1});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  EXPECT_TRUE(feels_contact(0.3)) << outputs();  // it drives a light hand back from home
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 namespace longreach {
 
-static_assert(sizeof(MotionCommand) == 72 && sizeof(ContactStiffness) == 168 &&
-              sizeof(StiffnessReport) == 352);
+static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
+              sizeof(StiffnessReport) == 496);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
@@ -37,43 +37,37 @@ Wrench read(const recording::Wrench& in) { return {read(in.moment_nm()), read(in
 
 namespace {
 
-void write(const Matrix3& m, recording::Tensor& out) {
-  out.set_xx(m(0, 0));
-  out.set_xy(m(0, 1));
-  out.set_xz(m(0, 2));
-  out.set_yx(m(1, 0));
-  out.set_yy(m(1, 1));
-  out.set_yz(m(1, 2));
-  out.set_zx(m(2, 0));
-  out.set_zy(m(2, 1));
-  out.set_zz(m(2, 2));
+void write(const ReportedSurface& surface, recording::Surface& out) {
+  longreach::write(surface.normal, *out.mutable_normal());
+  out.set_stiffness(surface.stiffness);
+  out.set_foot(surface.foot);
+  out.set_touch_sequence(surface.touch_sequence);
+  out.set_offset(surface.offset);
+  out.set_touch(surface.touch);
+  out.set_pressed(surface.pressed);
 }
 
-Matrix3 read(const recording::Tensor& in) {
-  Matrix3 out;
-  out << in.xx(), in.xy(), in.xz(), in.yx(), in.yy(), in.yz(), in.zx(), in.zy(), in.zz();
-  return out;
+ReportedSurface read(const recording::Surface& in) {
+  return {.normal = longreach::read(in.normal()),
+          .stiffness = in.stiffness(),
+          .foot = in.foot(),
+          .touch_sequence = in.touch_sequence(),
+          .offset = in.offset(),
+          .touch = in.touch(),
+          .pressed = in.pressed()};
 }
 
-void write(const ContactStiffness& contact, recording::ContactStiffness& out) {
-  write(contact.stiffness, *out.mutable_stiffness());
-  out.set_touch_sequence(contact.touch_sequence);
-  out.set_touch(contact.touch);
-  out.set_in_contact(contact.in_contact);
-  out.set_proof_depth(contact.proof_depth);
+void write(const ContactReport& contact, recording::ContactReport& out) {
+  write(contact.surfaces[0], *out.mutable_first());
+  write(contact.surfaces[1], *out.mutable_second());
+  write(contact.surfaces[2], *out.mutable_third());
   longreach::write(contact.place, *out.mutable_place());
-  longreach::write(contact.surface, *out.mutable_surface());
   longreach::write(contact.held_back, *out.mutable_held_back());
 }
 
-ContactStiffness read(const recording::ContactStiffness& in) {
-  return {.stiffness = read(in.stiffness()),
-          .touch_sequence = in.touch_sequence(),
-          .touch = in.touch(),
-          .in_contact = in.in_contact(),
-          .proof_depth = in.proof_depth(),
+ContactReport read(const recording::ContactReport& in) {
+  return {.surfaces = {read(in.first()), read(in.second()), read(in.third())},
           .place = longreach::read(in.place()),
-          .surface = longreach::read(in.surface()),
           .held_back = longreach::read(in.held_back())};
 }
 

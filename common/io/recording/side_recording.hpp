@@ -15,6 +15,7 @@
 #include "common/io/recording/recorder.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/io/recording/recording_folder.hpp"
+#include "common/link/header.hpp"
 
 namespace longreach {
 
@@ -101,6 +102,7 @@ class SideRecording {
   [[nodiscard]] TextMap facts(const Request& request) const {
     return {{"side", side_},
             {"version", std::string(build_version())},
+            {"wire", std::to_string(kWireVersion)},
             {"commit", std::string(build_commit())},
             {"seed", std::to_string(request.seed)},
             {"began", recording_name_now()}};

@@ -86,7 +86,13 @@ export class Panel {
     });
     write('felt-n', `${number(Math.hypot(...frame.force_n), 2)} N`);
     const k = frame.stiffness_n_per_m;
-    write('felt-k', k > 0 ? `${number(1e-3 * k, 2)} N/mm` : '–');
+    const turning = frame.rotational_stiffness_nm_per_rad;
+    const felt = [];
+    if (k > 0) felt.push(`${number(1e-3 * k, 2)} N/mm`);
+    if (turning > 0) felt.push(`${number(turning, 2)} N m/rad`);
+    write('felt-k', felt.join(', ') || '–');
+    write('felt-nm', `${number(1e3 * Math.hypot(...frame.moment_nm), 0)} mN m`);
+    write('tool-nm', frame.far ? `${number(Math.hypot(...frame.far.moment_nm), 2)} N m` : '–');
   }
 
   banner(state, sentence, clamped) {

@@ -49,10 +49,11 @@ HandTarget motion(double t, Grip grip) {
 
 Received<StiffnessReport> report_of(const Feeling& what, const MasterView& view, std::uint64_t number) {
   StiffnessReport report{.engagement = view.engagement, .state = SafetyState::kEngaged};
-  report.translation.in_contact = true;
-  report.translation.touch = 1;
-  report.translation.touch_sequence = what.touch_sequence;
-  report.translation.stiffness(0, 0) = what.stiffness_n_per_m;
+  report.translation.surfaces[0] = {.normal = -Vector3::UnitX(),
+                                    .stiffness = what.stiffness_n_per_m,
+                                    .touch_sequence = what.touch_sequence,
+                                    .touch = 1,
+                                    .pressed = true};
   return {.sequence = number, .newest = true, .message = report};
 }
 

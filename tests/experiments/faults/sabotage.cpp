@@ -47,9 +47,10 @@ void Saboteur::answer(SlaveOutput& out) {
     out.report->translation = out.report->rotation = {};
   constexpr double kEarly = 100.0;  // commands
   if (what_ != Sabotage::kTouchedEarly || !out.report) return;
-  ContactStiffness& contact = out.report->translation;
-  if (contact.in_contact && contact.touch_sequence > kEarly) {
-    contact.touch_sequence -= kEarly;
+  ContactReport& contact = out.report->translation;
+  ReportedSurface& surface = contact.surfaces[0];
+  if (surface.pressed && surface.touch_sequence > kEarly) {
+    surface.touch_sequence -= kEarly;
     touched_ = contact;
   } else if (touched_) {
     contact = *touched_;

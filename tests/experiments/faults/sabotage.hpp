@@ -67,7 +67,7 @@ class Saboteur {
   std::vector<Received<MotionCommand>> commands_;
   std::uint64_t ticks_ = 0;
   std::optional<Pose> first_{};
-  std::optional<ContactStiffness> touched_{};
+  std::optional<ContactReport> touched_{};
 };
 
 }  // namespace longreach

@@ -76,16 +76,19 @@ void goal_leaps(World&, Active& fault, MasterOutput& out) {
 }
 void report_numbers(World&, Active& fault, SlaveOutput& out) {
   if (!out.report) return;
-  ContactStiffness& c = fault.random.chance(0.7) ? out.report->translation : out.report->rotation;
-  c.in_contact = true;
-  c.stiffness(static_cast<int>(fault.random.next() % 3), static_cast<int>(fault.random.next() % 3)) =
-      wild(fault.random);
-  if (fault.random.chance(0.3)) c.touch_sequence = wild(fault.random);
+  ContactReport& c = fault.random.chance(0.7) ? out.report->translation : out.report->rotation;
+  ReportedSurface& s = c.surfaces[fault.random.next() % kSurfaces];
+  s.touch += s.touch == 0;
+  s.pressed = true;
+  double* const numbers[] = {&s.stiffness, &s.foot, &s.offset, &s.normal.x(), &s.normal.y(), &s.normal.z()};
+  *numbers[fault.random.next() % std::size(numbers)] = wild(fault.random);
+  if (fault.random.chance(0.3)) s.touch_sequence = wild(fault.random);
 }
 /// Stiffness that changes with each report, by a thousand.
 void report_leaps(World&, Active& fault, SlaveOutput& out) {
-  if (!out.report || !out.report->translation.in_contact) return;
-  out.report->translation.stiffness *= log_scale(fault.random.uniform(), 1e-3, 1e3);
+  if (!out.report) return;
+  for (ReportedSurface& s : out.report->translation.surfaces)
+    s.stiffness *= log_scale(fault.random.uniform(), 1e-3, 1e3);
 }
 
 constexpr std::string_view kGroup = "values";

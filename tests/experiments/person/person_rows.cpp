@@ -166,6 +166,7 @@ const std::vector<PersonRow>& person_rows() {
         {"stop", "a stop while the hand presses", freed_by_stop, judge_freed},
     };
     add_resting_hands(all);
+    add_oriented_surfaces(all);
     add_rows_that_stay(all);
     return all;
   }();

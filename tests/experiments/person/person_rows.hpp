@@ -27,6 +27,9 @@ const std::vector<PersonRow>& person_rows();
 /// Hands that rest: what they feel, and that it is calm.
 void add_resting_hands(std::vector<PersonRow>& rows);
 
+/// Surfaces on either side, met from behind, known before the engagement, curved laws, stops.
+void add_oriented_surfaces(std::vector<PersonRow>& rows);
+
 /// What was right before the experiment was, and is to stay so.
 void add_rows_that_stay(std::vector<PersonRow>& rows);
 

@@ -18,7 +18,8 @@ struct PersonMove {
   Vector3 to_m = Vector3::Zero();  // of the hand, from home, M
   double speed_m_per_s = 0.02;
   double wait_s = 1.0;
-  double wait_rtt = 1.0;  // round trips more
+  double wait_rtt = 1.0;               // round trips more
+  Vector3 turn_rad = Vector3::Zero();  // rotation vector to turn to meanwhile, M, at 0.1 rad/s
   bool clutch = false;
   std::optional<MotionMode> mode{};
   bool stop = false, hold = false, engage = false, let_go = false;
@@ -54,7 +55,10 @@ struct MoveSeen {
   double felt_swing_n = 0.0;  // between its least and its largest in the second half of the wait
   double tool_n = 0.0;        // true force at the tool, at its end
   double tool_max_n = 0.0;
-  double lead_m = 0.0;  // |goal - tool| at its end
+  double felt_nm = 0.0, tool_nm = 0.0;  // moments likewise, at its end
+  double given_j = 0.0;                 // work of the contact force on the hand, up to when it last felt none
+  double felt_s = -1.0;                 // from its beginning until 0.2 N are felt; -1: never
+  double lead_m = 0.0;                  // |goal - tool| at its end
   double lead_max_m = 0.0;
   double goal_step_m = 0.0;   // largest in a tick
   double felt_step_n = 0.0;   // largest rise in a tick

@@ -3,6 +3,7 @@
 #include "common/config/config.hpp"
 #include "common/io/recording/build_name.hpp"
 #include "common/io/recording/recording_error.hpp"
+#include "common/link/header.hpp"
 
 namespace longreach {
 namespace {
@@ -19,6 +20,7 @@ LabRecording::LabRecording(const std::filesystem::path& file, const MasterConfig
       slave_(slave.loop.rate_hz, -clocks.slave.time_since_epoch()) {
   writer_.add_metadata("longreach", {{"side", "both"},
                                      {"version", std::string(build_version())},
+                                     {"wire", std::to_string(kWireVersion)},
                                      {"commit", std::string(build_commit())},
                                      {"seed", std::to_string(seed)}});
   master_.declare(writer_);

@@ -8,6 +8,7 @@
 #include "common/io/recording/build_name.hpp"
 #include "common/io/recording/mcap_reader.hpp"
 #include "common/io/recording/recording_error.hpp"
+#include "common/link/header.hpp"
 #include "tests/experiments/recording/node_replay.hpp"
 
 namespace longreach {
@@ -49,13 +50,34 @@ int judge(const SideReplay& side, double spent_s, std::ostream& out) {
 
 }  // namespace
 
+/// What this program wrote about the recording; empty: nothing of this name.
+std::string fact(const McapReader& reader, const std::string& name) {
+  const auto facts = reader.metadata().find("longreach");
+  if (facts == reader.metadata().end()) return "";
+  const auto found = facts->second.find(name);
+  return found == facts->second.end() ? "" : found->second;
+}
+
+/// Messages of another wire version hold other fields, which the nodes of this one cannot be given.
+void refuse_other_wire(const McapReader& reader, const std::filesystem::path& file) {
+  const std::string wire = fact(reader, "wire"), commit = fact(reader, "commit");
+  if (wire == std::to_string(kWireVersion) || (wire.empty() && commit.empty())) return;
+  throw RecordingError(file.string() + " was recorded with wire version " +
+                       (wire.empty() ? "3 or older" : wire) + ", this program has " +
+                       std::to_string(kWireVersion) + ": replay it with the program of commit " + commit +
+                       "; `longreach record export` reads it here, too");
+}
+
 FileReplay replay_file(const std::filesystem::path& file) {
   McapReader reader(file);
   MasterReplay master;
   SlaveReplay slave;
   bool has_master = false, has_slave = false;
   try {
+    bool first = true;
     while (const auto message = reader.next()) {
+      if (first) refuse_other_wire(reader, file);  // the facts come before all messages
+      first = false;
       if (const auto name = name_in(message->channel->topic, "master"); !name.empty()) {
         has_master = true;
         master.take(name, message->bytes);
@@ -69,9 +91,7 @@ FileReplay replay_file(const std::filesystem::path& file) {
   }
   FileReplay out;
   out.whole = reader.whole();
-  if (const auto facts = reader.metadata().find("longreach"); facts != reader.metadata().end())
-    if (const auto commit = facts->second.find("commit"); commit != facts->second.end())
-      out.commit = commit->second;
+  out.commit = fact(reader, "commit");
   if (has_master) out.sides.push_back(master.result());
   if (has_slave) out.sides.push_back(slave.result());
   return out;

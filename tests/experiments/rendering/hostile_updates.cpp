@@ -23,13 +23,17 @@ enum class Attack {
   kAlternating,
   kNotFinite,
   kNegative,
-  kAsymmetric,
+  kNotUnit,
+  kDoubled,
+  kFlipped,
+  kPlaces,
   kRotating,
   kEverything,
   kCount
 };
-constexpr std::array<const char*, 8> kAttackNames = {"uniform",  "log_uniform", "alternating", "not_finite",
-                                                     "negative", "asymmetric",  "rotating",    "everything"};
+constexpr std::array<const char*, 11> kAttackNames = {"uniform",  "log_uniform", "alternating", "not_finite",
+                                                      "negative", "not_unit",    "doubled",     "flipped",
+                                                      "places",   "rotating",    "everything"};
 
 struct Hand {
   const char* name;
@@ -49,14 +53,17 @@ class Attacker {
  public:
   Attacker(Attack attack, Random random) : attack_(attack), random_(std::move(random)) {}
 
-  ContactStiffness next(std::uint64_t newest_sequence, double unit) {
-    ContactStiffness c;
-    c.in_contact = !random_.chance(0.02);
-    c.touch = 1 + static_cast<std::uint32_t>(count_++ / 100);
-    c.touch_sequence = random_.uniform(1.0, static_cast<double>(newest_sequence) + 1.0);
-    c.stiffness = unit * tensor();
+  ContactReport next(std::uint64_t newest_sequence, double unit) {
+    ContactReport c;
+    ReportedSurface& s = c.surfaces[0];
+    s = {.normal = -Vector3::UnitX(),
+         .touch_sequence = random_.uniform(1.0, static_cast<double>(newest_sequence) + 1.0),
+         .touch = 1 + static_cast<std::uint32_t>(count_++ / 100),
+         .pressed = !random_.chance(0.02)};
+    strike(c);
+    for (ReportedSurface& one : c.surfaces) one.stiffness *= unit;
     if (attack_ == Attack::kEverything && random_.chance(0.05))
-      c.touch_sequence = random_.chance(0.5) ? std::nan("") : 1e300;
+      s.touch_sequence = random_.chance(0.5) ? std::nan("") : 1e300;
     return c;
   }
 
@@ -65,39 +72,56 @@ class Attacker {
     return Vector3(random_.normal(), random_.normal(), random_.normal()).stableNormalized();
   }
   double log_uniform() { return std::exp(random_.uniform(std::log(1.0), std::log(1e9))); }
+  double not_finite() { return random_.chance(0.5) ? std::nan("") : std::numeric_limits<double>::infinity(); }
 
-  Matrix3 tensor() {
-    const auto along = [](const Vector3& n, double k) { return Matrix3(k * n * n.transpose()); };
+  void strike(ContactReport& c) {
+    ReportedSurface &s = c.surfaces[0], &second = c.surfaces[1];
+    s.stiffness = log_uniform();
     Attack attack = attack_;
     if (attack == Attack::kEverything)
       attack = static_cast<Attack>(random_.next() % static_cast<std::uint64_t>(Attack::kEverything));
     switch (attack) {
       case Attack::kUniform:
-        return along(Vector3::UnitX(), random_.uniform(0.0, 1e4));
-      case Attack::kLogUniform:
-        return along(Vector3::UnitX(), log_uniform());
+        s.stiffness = random_.uniform(0.0, 1e4);
+        break;
       case Attack::kAlternating:
-        return along(Vector3::UnitX(), count_ % 2 == 0 ? 1e9 : 0.0);
+        s.stiffness = count_ % 2 == 0 ? 1e9 : 0.0;
+        break;
       case Attack::kNotFinite: {
-        Matrix3 K = along(Vector3::UnitX(), 1e3);
-        K(static_cast<int>(random_.next() % 3), static_cast<int>(random_.next() % 3)) =
-            random_.chance(0.5) ? std::nan("") : std::numeric_limits<double>::infinity();
-        return random_.chance(0.5) ? K : along(Vector3::UnitX(), log_uniform());
+        double* const numbers[] = {&s.stiffness, &s.foot, &s.normal.x(), &s.normal.z(), &s.offset};
+        if (random_.chance(0.5)) *numbers[random_.next() % std::size(numbers)] = not_finite();
+        break;
       }
       case Attack::kNegative:
-        return along(Vector3::UnitX(), (random_.chance(0.5) ? -1.0 : 1.0) * log_uniform());
-      case Attack::kAsymmetric: {
-        Matrix3 K;
-        for (double& v : K.reshaped()) v = random_.normal() * log_uniform();
-        return K;
-      }
+        (random_.chance(0.5) ? s.stiffness : s.foot) *= -1.0;
+        if (random_.chance(0.5)) s.foot = -0.01 * random_.uniform();
+        break;
+      case Attack::kNotUnit:
+        s.normal *= random_.chance(0.5) ? 0.0 : log_uniform();
+        break;
+      case Attack::kDoubled:
+        second = s;
+        second.touch += random_.chance(0.5) ? 1 : 0;
+        break;
+      case Attack::kFlipped:
+        if (random_.chance(0.5)) s.normal = -s.normal;
+        break;
+      case Attack::kPlaces:
+        s.foot = 0.05 * random_.uniform();
+        if (random_.chance(0.5)) s.touch_sequence = 0.0, s.offset = 0.05 * random_.normal();
+        break;
       case Attack::kRotating:
-        return along(direction(), log_uniform()) + along(direction(), log_uniform());
+        s.normal = direction();
+        second = s;
+        second.normal = direction();
+        ++second.touch;
+        second.stiffness = log_uniform();
+        break;
+      case Attack::kLogUniform:
       case Attack::kEverything:
       case Attack::kCount:
         break;
     }
-    return Matrix3::Zero();
   }
 
   Attack attack_;

@@ -38,12 +38,13 @@ class PlayedSlave {
   [[nodiscard]] const StiffnessReport& report() const { return report_; }
 
  private:
-  void touch(ContactStiffness& at, double stiffness, double beyond, std::uint64_t sequence) {
-    if (at.in_contact || !(stiffness > 0.0) || beyond <= 0.0) return;
-    at.in_contact = true;
-    at.touch = 1;
-    at.touch_sequence = static_cast<double>(sequence);
-    at.stiffness = stiffness * draw_.inward * draw_.inward.transpose();
+  void touch(ContactReport& at, double stiffness, double beyond, std::uint64_t sequence) {
+    if (at.in_contact() || !(stiffness > 0.0) || beyond <= 0.0) return;
+    at.surfaces[0] = {.normal = -draw_.inward,
+                      .stiffness = stiffness,
+                      .touch_sequence = static_cast<double>(sequence),
+                      .touch = 1,
+                      .pressed = true};
   }
 
   const IdleDraw& draw_;

@@ -1,6 +1,6 @@
 // Contacts that are more than a wall across the motion: an oblique plane, a corner of two planes, a torque.
-// The master is the real one; the far side is a formula that answers with stiffness tensors, half a round
-// trip late each way.
+// The master is the real one; the far side is a formula that answers with surfaces, half a round trip late
+// each way.
 
 #include <algorithm>
 #include <array>
@@ -35,30 +35,27 @@ struct World {
 /// What it touches now, and since which command.
 class FarContact {
  public:
-  explicit FarContact(std::vector<Plane> planes) : planes_(std::move(planes)), inside_(planes_.size()) {}
+  explicit FarContact(std::vector<Plane> planes) : planes_(std::move(planes)) {}
 
-  ContactStiffness touch(const Vector3& goal, std::uint64_t sequence) {
-    ContactStiffness c;
+  ContactReport touch(const Vector3& goal, std::uint64_t sequence) {
     for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const bool inside = planes_[i].n.dot(goal) > planes_[i].d;
-      if (inside && !inside_[i]) {
-        ++touch_;
-        at_ = static_cast<double>(sequence);
-      }
-      inside_[i] = inside;
-      if (inside) c.stiffness += planes_[i].stiffness * planes_[i].n * planes_[i].n.transpose();
-      c.in_contact = c.in_contact || inside;
+      const Plane& plane = planes_[i];
+      ReportedSurface& s = report_.surfaces[i];
+      const bool inside = plane.n.dot(goal) > plane.d;
+      if (inside && !s.pressed)
+        s = {.normal = -plane.n,
+             .stiffness = plane.stiffness,
+             .touch_sequence = static_cast<double>(sequence),
+             .touch = ++touch_};
+      s.pressed = inside;
     }
-    c.touch = touch_;
-    c.touch_sequence = at_;
-    return c;
+    return report_;
   }
 
  private:
   std::vector<Plane> planes_;
-  std::vector<bool> inside_;
+  ContactReport report_{};
   std::uint32_t touch_ = 0;
-  double at_ = 0.0;
 };
 
 class Bench {

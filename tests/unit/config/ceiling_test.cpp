@@ -149,8 +149,6 @@ const std::vector<Fixed>& master_fixed() {
                                             {"rendering.contact_damping_nm_s_per_rad", "1e-3", "0", "1"},
                                             {"rendering.rate_damping_n_s_per_m", "4", "0", "50"},
                                             {"rendering.rotational_damping_nm_s_per_rad", "0.01", "0", "1"},
-                                            {"rendering.forget_depth_m", "0.005", "1e-4", "1"},
-                                            {"rendering.forget_depth_rad", "0.02", "1e-4", "1"},
                                             {"rendering.registration", "TOUCH", "ARRIVAL", "ARRIVAL"},
                                             {"rendering.home_spring", "false", "true", "true"},
                                             {"rendering.ke_by_scale", "true", "false", "false"},
@@ -228,18 +226,10 @@ const char* const kImpairment[] = {
 // The network, what the hand is told (its own guards stand whatever that is), who stands for a person, and
 // what is for the eyes.
 TEST(Ceiling, LeavesNothingElseToClientsThanThis) {
-  Paths slave = {"link.telemetry_hz",
-                 "link.budget_kbit_per_s",
-                 "playout.adaptive",
-                 "playout.quantile",
-                 "estimator.kind",
-                 "estimator.exponent",
-                 "estimator.forgetting",
-                 "estimator.depth_filter_s",
-                 "estimator.first_sd",
-                 "estimator.deadband",
-                 "estimator.working_force_n",
-                 "estimator.working_moment_nm"};
+  Paths slave = {"link.telemetry_hz",    "link.budget_kbit_per_s",   "playout.adaptive",
+                 "playout.quantile",     "estimator.kind",           "estimator.exponent",
+                 "estimator.forgetting", "estimator.depth_memory_s", "estimator.first_sd",
+                 "estimator.deadband"};
   Paths master = {
       "device.behaviour.idle", "device.behaviour.motion",  "hand.grip", "mapping.mode", "mapping.scale",
       "mapping.kv_per_s",      "mapping.kv_rotation_per_s"};

@@ -90,11 +90,9 @@ void expect_same(const EstimatorConfig& s, const proto::Estimator& m) {
   EXPECT_EQ(static_cast<int>(s.kind), m.kind());
   EXPECT_EQ(s.exponent, m.exponent());
   EXPECT_EQ(s.forgetting, m.forgetting());
-  EXPECT_EQ(s.depth_filter_s, m.depth_filter_s());
+  EXPECT_EQ(s.depth_memory_s, m.depth_memory_s());
   EXPECT_EQ(s.first_sd, m.first_sd());
   EXPECT_EQ(s.deadband, m.deadband());
-  EXPECT_EQ(s.working_force_n, m.working_force_n());
-  EXPECT_EQ(s.working_moment_nm, m.working_moment_nm());
 }
 
 void expect_same(const SlaveSafetyConfig& s, const proto::SlaveSafety& m) {

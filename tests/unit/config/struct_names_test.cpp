@@ -117,14 +117,12 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.force_max_n, m.force_max_n());
   EXPECT_EQ(s.moment_max_nm, m.moment_max_nm());
   EXPECT_EQ(s.ramp_s, m.ramp_s());
-  EXPECT_EQ(s.forget_depth_m, m.forget_depth_m());
   EXPECT_EQ(s.ke_rotation, m.ke_rotation());
   EXPECT_EQ(s.contact_damping_nm_s_per_rad, m.contact_damping_nm_s_per_rad());
   EXPECT_EQ(s.stiffness_max_nm_per_rad, m.stiffness_max_nm_per_rad());
   EXPECT_EQ(static_cast<int>(s.registration), static_cast<int>(m.registration()));
   EXPECT_EQ(s.slew_n_per_s, m.slew_n_per_s());
   EXPECT_EQ(s.slew_nm_per_s, m.slew_nm_per_s());
-  EXPECT_EQ(s.forget_depth_rad, m.forget_depth_rad());
   EXPECT_EQ(s.load_factor, m.load_factor());
   EXPECT_EQ(s.friction_nm, m.friction_nm());
   EXPECT_EQ(s.friction_stiffness_nm_per_rad, m.friction_stiffness_nm_per_rad());

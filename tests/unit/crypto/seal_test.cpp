@@ -54,7 +54,7 @@ unsigned char* raw(Bytes& bytes) { return reinterpret_cast<unsigned char*>(bytes
 
 /// BLAKE2b keyed with the secret, the number of the key as salt, the context as personalisation.
 Bytes openssl_key(const Session& s, std::uint8_t id) {
-  std::array<unsigned char, 16> salt{id}, custom{'l', 'o', 'n', 'g', 'r', 'c', 'h', '3'};
+  std::array<unsigned char, 16> salt{id}, custom{'l', 'o', 'n', 'g', 'r', 'c', 'h', '4'};
   std::size_t size = 32;
   const OSSL_PARAM parameters[] = {
       OSSL_PARAM_construct_octet_string(OSSL_MAC_PARAM_SALT, salt.data(), salt.size()),

@@ -22,7 +22,7 @@ Rejection rejection(const Bytes& bytes) { return std::get<Rejection>(read_header
 TEST(Header, LiesInTheBytesBigEndian) {
   const Bytes bytes = datagram({DatagramType::kTelemetry, 0x0102030405060708, 0x1112131415161718}, 0);
   ASSERT_EQ(bytes.size(), 34U);
-  EXPECT_EQ(std::to_integer<int>(bytes[0]), 3);
+  EXPECT_EQ(std::to_integer<int>(bytes[0]), kWireVersion);
   EXPECT_EQ(std::to_integer<int>(bytes[1]), 3);
   for (int i = 0; i < 8; ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[static_cast<std::size_t>(2 + i)]), i + 1);

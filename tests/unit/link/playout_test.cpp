@@ -197,6 +197,8 @@ TEST(PlayoutCrossing, GivesTheNearestWhereNothingCrosses) {
   for (int i = 0; i < 6; ++i) playout.push(at(i), peer(i), static_cast<std::uint64_t>(i + 1), goal(x[i]));
   EXPECT_EQ(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 6.0).value(), 5.0) << "the newest of equals";
   EXPECT_EQ(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 4.0).value(), 3.0);
+  EXPECT_EQ(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 6.0, 0.11).value(), 5.0);
+  EXPECT_FALSE(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 6.0, 0.09)) << "too far from the plane";
 }
 
 TEST(PlayoutCrossing, AGoalOnThePlaneHasCrossed) {

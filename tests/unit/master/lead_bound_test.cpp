@@ -5,8 +5,8 @@
 namespace longreach {
 namespace {
 
-ContactStiffness held(double place_m) {
-  ContactStiffness c;
+ContactReport held(double place_m) {
+  ContactReport c;
   c.place = {place_m, 0.0, 0.0};
   c.held_back = Vector3::UnitX();
   return c;

@@ -48,10 +48,8 @@ struct Bench {
   }
   StiffnessReport contact(double k, double sequence) const {
     StiffnessReport r = engaged_report();
-    r.translation.stiffness(0, 0) = k;
-    r.translation.touch_sequence = sequence;
-    r.translation.touch = 1;
-    r.translation.in_contact = true;
+    r.translation.surfaces[0] = {
+        .normal = -Vector3::UnitX(), .stiffness = k, .touch_sequence = sequence, .touch = 1, .pressed = true};
     return r;
   }
 
@@ -229,12 +227,15 @@ TEST(MasterNode, StaysPassiveAndLimitedUnderHostileReports) {
       b.in.handle = handle.read(b.in.now + std::chrono::milliseconds(1));
       StiffnessReport report =
           b.contact(std::exp(random.uniform(-10.0, 25.0)), random.uniform(1.0, 0.2 * i + 1.0));
-      if (random.chance(0.1))
-        report.translation.stiffness(0, 0) = random.chance(0.5) ? std::nan("") : HUGE_VAL;
-      if (random.chance(0.1)) report.translation.stiffness = -report.translation.stiffness;
-      if (random.chance(0.1)) report.translation.stiffness(0, 1) = random.normal() * 1e6;
-      if (random.chance(0.1)) report.translation.touch_sequence = random.chance(0.5) ? std::nan("") : 1e300;
-      if (random.chance(0.1)) report.translation.in_contact = false;
+      ReportedSurface& surface = report.translation.surfaces[0];
+      if (random.chance(0.1)) surface.stiffness = random.chance(0.5) ? std::nan("") : HUGE_VAL;
+      if (random.chance(0.1)) surface.stiffness = -surface.stiffness;
+      if (random.chance(0.1)) surface.foot = std::exp(random.uniform(-12.0, 0.0));
+      if (random.chance(0.1)) surface.normal = -surface.normal;
+      if (random.chance(0.1)) surface.normal.y() = random.normal();
+      if (random.chance(0.1)) surface.touch_sequence = random.chance(0.5) ? std::nan("") : 1e300;
+      if (random.chance(0.1)) surface.touch_sequence = 0.0, surface.offset = 0.1 * random.normal();
+      if (random.chance(0.1)) surface.pressed = false;
       const MasterOutput out = random.chance(0.5) ? b.tick(&report) : b.tick();
       handle.write(out.F_H_M);
       ASSERT_TRUE(out.F_H_M.force.allFinite() && out.F_H_M.moment.allFinite())

@@ -70,22 +70,24 @@ MotionCommand sample_command(Numbers& n) {
   return c;
 }
 
-ContactStiffness sample_stiffness(Numbers& n) {
-  ContactStiffness c;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) c.stiffness(row, column) = n.next();
-  c.touch_sequence = n.next();
-  c.touch = 4'000'000'000;
-  c.in_contact = true;
-  c.proof_depth = n.next();
+ContactReport sample_contact(Numbers& n) {
+  ContactReport c;
+  for (ReportedSurface& s : c.surfaces) {
+    s = {.normal = n.vector(),
+         .stiffness = n.next(),
+         .foot = n.next(),
+         .touch_sequence = n.next(),
+         .offset = n.next(),
+         .touch = 4'000'000'000,
+         .pressed = true};
+  }
   c.place = n.vector();
-  c.surface = n.vector();
   c.held_back = n.vector();
   return c;
 }
 
 StiffnessReport sample_report(Numbers& n) {
-  return {9, SafetyState::kFault, HoldCause::kNoRelief, sample_stiffness(n), sample_stiffness(n), ~0ULL};
+  return {9, SafetyState::kFault, HoldCause::kNoRelief, sample_contact(n), sample_contact(n), ~0ULL};
 }
 
 Telemetry sample_telemetry(Numbers& n) {

@@ -76,23 +76,24 @@ TEST(SlaveNode, TouchesTheWallReportsItsStiffnessAndWhereItWasMet) {
     ASSERT_TRUE(view.in_contact);
     EXPECT_EQ(view.touch, 1U);
     EXPECT_NEAR(view.reported_stiffness_n_per_m / loop.arm.material_stiffness(view.reported_at_m), 1.0, 0.03);
-    const Matrix3 expected =
-        view.reported_stiffness_n_per_m * Vector3::UnitX() * Vector3::UnitX().transpose();
-    EXPECT_LT((loop.last_report->translation.stiffness - expected).norm(), 0.03 * stiffness);
+    const ReportedSurface& surface = loop.last_report->translation.surfaces[0];
+    EXPECT_TRUE(surface.pressed);
+    EXPECT_EQ(surface.touch, 1U);
+    EXPECT_EQ(surface.stiffness, view.reported_stiffness_n_per_m);
+    EXPECT_LT((surface.normal + Vector3::UnitX()).norm(), 0.02);
     // The goal of the touch command is the wall, though the tool came later.
-    const double touch = loop.last_report->translation.touch_sequence;
+    const double touch = surface.touch_sequence;
     const auto whole = static_cast<std::size_t>(touch);
     ASSERT_GT(whole, 0U);
     const double part = touch - static_cast<double>(whole);
     const double goal = loop.goals_x[whole] + part * (loop.goals_x[whole + 1] - loop.goals_x[whole]);
     EXPECT_NEAR(goal, 0.05, 1e-4);
-    EXPECT_TRUE(loop.last_report->translation.place.isZero(0.0)) << "proves nothing in contact";
     EXPECT_TRUE(loop.last_report->translation.held_back.isZero(0.0));
-    // A retreat ends the contact and its stiffness.
+    // After a retreat it is remembered.
     loop.move_to(0.045, 0.01);
     loop.run(0.5);
-    EXPECT_FALSE(loop.last_report->translation.in_contact);
-    EXPECT_EQ(loop.last_report->translation.stiffness, Matrix3::Zero());
+    EXPECT_FALSE(loop.last_report->translation.in_contact());
+    EXPECT_EQ(loop.last_report->translation.surfaces[0].stiffness, view.reported_stiffness_n_per_m);
     EXPECT_EQ(view.limit_violations, 0U);
   }
 }
@@ -102,14 +103,14 @@ TEST(SlaveNode, ALaterDipOfTheGoalDoesNotMoveTheTouch) {
   loop.engage();
   loop.move_to(0.052, 0.005);
   loop.run(1.0);
-  const double touch = loop.last_report->translation.touch_sequence;
+  const double touch = loop.last_report->translation.surfaces[0].touch_sequence;
   ASSERT_GT(touch, 0.0);
   loop.command.position_m.x() = 0.0495;  // in front of the wall for one command: too short for the tool
   loop.run(0.005);
   loop.command.position_m.x() = 0.052;
   loop.run(1.0);
   EXPECT_EQ(loop.view().touch, 1U);
-  EXPECT_NEAR(loop.last_report->translation.touch_sequence, touch, 5.0);
+  EXPECT_NEAR(loop.last_report->translation.surfaces[0].touch_sequence, touch, 5.0);
 }
 
 TEST(SlaveNode, HoldsOnSilenceWithinGapAndBraking) {

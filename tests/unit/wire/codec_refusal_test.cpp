@@ -73,7 +73,7 @@ int refuses_in_every_field(Wire wire) {
 TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
-  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 34);
+  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 36);
   EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 40);
 }
 
@@ -144,31 +144,36 @@ TEST(Codec, RefusesACommandWithoutOrWithTwoGoals) {
   }
 }
 
-TEST(Codec, RefusesStiffnessOfAnotherShapeOrSize) {
-  auto wire = wire_of<proto::StiffnessReport>(samples::report());
-  auto& k = *wire.mutable_translation_n_per_m();
-  k.Set(3, 1.1e12);
-  EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue);
-  k.Clear();
-  for (int size = 0; size <= 7; ++size) {
-    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()).has_value(), size != 0 && size != 6)
-        << size;
-    k.Add(1.0);
-  }
-  k.Clear();
-  for (const double k_max : {1e12, 1.1e12}) {
-    wire.set_rotation_nm_per_rad(5, k_max);
-    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()).has_value(), k_max > 1e12);
-  }
-  wire.clear_rotation_nm_per_rad();
-  for (const double sequence : {-1.0, 1e16}) {
-    wire.set_translation_touch_sequence(sequence);
-    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue) << sequence;
-    wire.set_translation_touch_sequence(0.0);
-    wire.set_rotation_touch_sequence(sequence);
-    EXPECT_EQ(rejection_of<StiffnessReport>(wire.SerializeAsString()), Rejection::kValue) << sequence;
-    wire.set_rotation_touch_sequence(0.0);
-  }
+TEST(Codec, RefusesSurfacesThatAreNone) {
+  using Wire = proto::StiffnessReport;
+  const auto refused = [](const auto& change) {
+    auto wire = wire_of<Wire>(samples::report());
+    change(wire);
+    return rejection_of<StiffnessReport>(wire.SerializeAsString()) == Rejection::kValue;
+  };
+  EXPECT_FALSE(refused([](Wire&) {}));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_lines(0, -0.9f); })) << "a normal shorter than unit";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_lines(1, 0.1f); })) << "longer than unit";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_lines(3, -1.0f); })) << "a negative stiffness";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_lines(3, 1.1e12f); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_lines(4, -1e-3f); }))
+      << "a foot in front of the surface";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_lines(4, 101.0f); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_places(0, -1.0); })) << "a sequence below zero";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_places(0, 1e16); }));
+  EXPECT_FALSE(refused([](Wire& w) { w.set_translation_places(1, -1000.0); })) << "an offset may be negative";
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_places(1, -1000.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_touches(1, 3); })) << "no touch";
+  EXPECT_TRUE(refused([](Wire& w) { w.add_translation_lines(0.0f); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_translation_places(0.0); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_touches(4); }));
+  EXPECT_TRUE(refused([](Wire& w) {
+    for (int i = 0; i < 2; ++i) {
+      for (const float v : {1.0f, 0.0f, 0.0f, 5.0f, 0.0f}) w.add_translation_lines(v);
+      w.add_translation_places(1.0);
+      w.add_translation_touches(4);
+    }
+  })) << "four surfaces";
 }
 
 TEST(Codec, RefusesPlacesAndDirectionsThatAreNone) {
@@ -178,17 +183,14 @@ TEST(Codec, RefusesPlacesAndDirectionsThatAreNone) {
     return rejection_of<StiffnessReport>(wire.SerializeAsString()) == Rejection::kValue;
   };
   using Wire = proto::StiffnessReport;
-  EXPECT_FALSE(refused([](Wire& w) { w.clear_translation_place_m(); }));
+  EXPECT_FALSE(refused([](Wire& w) { w.clear_translation_tool_m(); }));
   EXPECT_FALSE(refused([](Wire& w) { w.clear_translation_held_back(); }));
-  EXPECT_TRUE(refused([](Wire& w) { w.add_translation_place_m(0.0); }));
-  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_place_m(1, 1000.1); }));
-  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_place_rad(1, -100.1); }));
-  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_surface_m(1, 1000.1); }));
-  EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_surface_rad(0.0); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.add_translation_tool_m(0.0); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_tool_m(1, 1000.1); }));
+  EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_tool_rad(1, -100.1); }));
   EXPECT_TRUE(refused([](Wire& w) { w.add_rotation_held_back(0.0); }));
   EXPECT_TRUE(refused([](Wire& w) { w.set_rotation_held_back(0, 0.5); })) << "longer than unit";
   EXPECT_TRUE(refused([](Wire& w) { w.set_translation_held_back(2, 0.0); })) << "shorter than unit";
-  EXPECT_TRUE(refused([](Wire& w) { w.set_translation_proof_depth_m(-1e-3); }));
 }
 
 TEST(Codec, RefusesPosesThatAreNone) {

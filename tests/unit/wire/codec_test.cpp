@@ -49,27 +49,26 @@ TEST(Codec, KeepsEveryFieldOfTheStamp) {
 
 TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
   StiffnessReport in = samples::report();
-  in.rotation.touch_sequence = 1200.25;
-  in.rotation.touch = 2;
-  in.rotation.in_contact = false;
+  in.rotation.surfaces[0].touch_sequence = 1200.25;
+  in.rotation.surfaces[0].pressed = false;
   const StiffnessReport out = round_trip(in);
   EXPECT_EQ(out.engagement, 5u);
   EXPECT_EQ(out.state, SafetyState::kEngaged);
   EXPECT_EQ(out.cause, HoldCause::kOperator);
   EXPECT_EQ(out.reached_sequence, 1230u);
-  EXPECT_EQ(out.translation.stiffness, in.translation.stiffness);
-  EXPECT_EQ(out.translation.touch_sequence, 1234.75);
-  EXPECT_EQ(out.translation.touch, 7u);
-  EXPECT_TRUE(out.translation.in_contact);
-  EXPECT_EQ(out.rotation.stiffness, in.rotation.stiffness);
-  EXPECT_EQ(out.rotation.touch_sequence, 1200.25);
-  EXPECT_EQ(out.rotation.touch, 2u);
-  EXPECT_FALSE(out.rotation.in_contact);
-  for (const ContactStiffness* contact : {&out.translation, &out.rotation}) {
-    EXPECT_EQ(contact->proof_depth, in.translation.proof_depth);
-    EXPECT_EQ(contact->place, in.translation.place);
-    EXPECT_EQ(contact->held_back, in.translation.held_back);
-    EXPECT_EQ(contact->surface, in.translation.surface);
+  for (const auto& [got, sent] : {std::pair(out.translation, in.translation), {out.rotation, in.rotation}}) {
+    EXPECT_EQ(got.place, sent.place);
+    EXPECT_EQ(got.held_back, sent.held_back);
+    for (std::size_t i = 0; i < kSurfaces; ++i) {
+      const ReportedSurface &a = got.surfaces[i], &b = sent.surfaces[i];
+      EXPECT_EQ(a.normal, b.normal);
+      EXPECT_EQ(a.stiffness, b.stiffness);
+      EXPECT_EQ(a.foot, b.foot);
+      EXPECT_EQ(a.touch_sequence, b.touch_sequence);
+      EXPECT_EQ(a.offset, b.offset);
+      EXPECT_EQ(a.touch, b.touch);
+      EXPECT_EQ(a.pressed, b.pressed);
+    }
   }
 }
 
@@ -145,8 +144,8 @@ void expect_defaults(const MotionCommand& m) {
   EXPECT_EQ(m.rotation_rad, Vector3(Vector3::Zero()));
 }
 void expect_defaults(const StiffnessReport& m) {
-  EXPECT_EQ(m.translation.stiffness, Matrix3(Matrix3::Zero()));
-  EXPECT_EQ(m.rotation.stiffness, Matrix3(Matrix3::Zero()));
+  EXPECT_EQ(m.translation.surfaces[0].touch, 0u);
+  EXPECT_EQ(m.rotation.surfaces[0].touch, 0u);
 }
 void expect_defaults(const Telemetry& m) {
   EXPECT_EQ(m.estimate.k_sd, 0.0);

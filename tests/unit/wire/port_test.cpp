@@ -73,7 +73,7 @@ TEST_F(PortUnderFire, DropsGarbageOfEveryLength) {
     Rejection reason = Rejection::kVersion;
     if (length < 34 || length > 508) {
       reason = Rejection::kLength;
-    } else if (bytes[0] == std::byte{3}) {
+    } else if (bytes[0] == std::byte{kWireVersion}) {
       reason = bytes[1] == std::byte{1} ? Rejection::kSession : Rejection::kType;
     }
     expect_slave_drops(bytes, reason, "garbage of " + std::to_string(length));
@@ -233,7 +233,7 @@ TEST_F(PortWithAFaultyPeer, ImpossibleValuesAreNotRead) {
   command.scale = 5.0;
   expect_unread(datagram(command, 12), Rejection::kValue);
   StiffnessReport report = samples::report();
-  report.translation.stiffness(1, 1) = 1e13;
+  report.translation.surfaces[0].stiffness = 1e13;
   deliver_to_master(datagram(report, 11));
   Telemetry telemetry = samples::telemetry();
   telemetry.F_E_W.force.z() = -std::numeric_limits<double>::infinity();

@@ -46,16 +46,17 @@ inline MotionCommand turn() {
   return c;
 }
 
-inline ContactStiffness contact(double scale) {
-  ContactStiffness c;
-  c.stiffness << 1, 2, 3, 2, 4, 5, 3, 5, 6;
-  c.stiffness *= scale;
-  c.touch_sequence = 1234.75;
-  c.touch = 7;
-  c.in_contact = true;
-  c.proof_depth = 0.00125;
+// Numbers that floats hold exactly.
+inline ContactReport contact(double scale) {
+  ContactReport c;
+  c.surfaces[0] = {.normal = -Vector3::UnitX(),
+                   .stiffness = 2.5 * scale,
+                   .foot = 0.0078125,
+                   .touch_sequence = 1234.75,
+                   .touch = 7,
+                   .pressed = true};
+  c.surfaces[1] = {.normal = Vector3::UnitZ(), .stiffness = 3.5 * scale, .offset = -0.1, .touch = 6};
   c.place = {0.25, -0.5, 0.125};
-  c.surface = {0.25, -0.5, 0.0625};
   c.held_back = {0.0, -0.6, 0.8};
   return c;
 }
@@ -102,10 +103,14 @@ inline MotionCommand extreme_command() {
 }
 
 inline StiffnessReport extreme_report() {
-  ContactStiffness c = contact(1.0);
-  c.stiffness.setConstant(-kStiffnessMaxNPerM);
-  c.touch_sequence = 9e15;
-  c.touch = std::numeric_limits<std::uint32_t>::max();
+  ContactReport c = contact(1.0);
+  for (std::size_t i = 0; i < kSurfaces; ++i)
+    c.surfaces[i] = {.normal = Vector3::Unit(static_cast<Eigen::Index>(i)),
+                     .stiffness = 0.9 * kStiffnessMaxNPerM,
+                     .foot = 1.0,
+                     .touch_sequence = 9e15,
+                     .touch = std::numeric_limits<std::uint32_t>::max() / 4,
+                     .pressed = true};
   return {std::numeric_limits<std::uint32_t>::max(), SafetyState::kFault, HoldCause::kNoRelief, c, c,
           std::numeric_limits<std::uint64_t>::max()};
 }

@@ -1,4 +1,4 @@
-#include "slave/estimation/reported_stiffness.hpp"
+#include "slave/estimation/reported_tangent.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ constexpr double kWrongSd = 0.3;  // fraction, of what replaces it
 
 }  // namespace
 
-bool ReportedStiffness::step(const ContactAnswer& a, const Vector3& normal) {
+bool ReportedTangent::step(const ContactAnswer& a, const Vector3& normal) {
   if (!a.valid) return false;
   const double value = a.stiffness.value;
   const double sd = a.stiffness.sd / value;
@@ -32,6 +32,7 @@ bool ReportedStiffness::step(const ContactAnswer& a, const Vector3& normal) {
   }
   stiffness_n_per_m_ = value;
   depth_m_ = a.depth_m;
+  foot_m_ = std::max(0.0, a.depth_m - a.depth_m * (a.secant.value / value));
   normal_ = normal;
   return true;
 }
