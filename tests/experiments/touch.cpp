@@ -3,9 +3,9 @@
 //
 // Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
 // the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on, and again
-// after each hold and each other tangent, which leave the wall at another place of the handle (own intercept).
-// Its reference is the slope of a spring with ke times the material's true stiffness (tangent) at the place that
-// the slave reported it for, over the same samples.
+// after each hold and each other tangent, which leave the wall at another place of the handle (own
+// intercept). Its reference is the slope of a spring with ke times the material's true stiffness (tangent) at
+// the place that the slave reported it for, over the same samples.
 
 #include <algorithm>
 #include <cmath>
