@@ -29,6 +29,7 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
   out.rejected = s.side.rejected;
   if (scripted(config)) out.operator_phase = to_string(s.phase);
   out.force_max_n = config.rendering.force_max_n;
+  out.turns = config.device.turns;
   out.hand_outside = s.hand_outside;
   return out;
 }

@@ -87,9 +87,16 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
 std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shell,
                                        const MasterConfig& config) {
   return std::make_unique<DeskService>(
-      DeskService::Reach{config.device.delta.workspace_m, config.device.spherical.workspace_rad},
+      DeskService::Reach{config.device.delta.workspace_m,
+                         config.device.turns ? config.device.spherical.workspace_rad : 0.0},
       [&, began = monotonic_now()] { return picture(service, config, to_seconds(monotonic_now() - began)); },
       [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
+}
+
+/// What the configuration means for the operator, each line after `before`.
+std::string notes_on(const DeviceConfig& device, const std::string& before) {
+  if (device.turns) return "";
+  return before + "the handle does not turn: the robot keeps its orientation, and no moment is rendered\n";
 }
 
 /// What ranges cannot tell: whether the mechanisms close their loops.
@@ -101,14 +108,17 @@ void require_device(const DeviceConfig& device) {
   }
 }
 
+int print_check(const std::vector<FileRead>& files, const proto::MasterConfig& config) {
+  const std::string notes = notes_on(to_struct(config).device, "# ");
+  std::fputs((files_text(files, "# ", "\n") + notes + get_field(config, "", &config)).c_str(), stdout);
+  return 0;
+}
+
 int operate(const MasterOptions& options) {
   std::vector<FileRead> files;
   const auto config = load_config<proto::MasterConfig>(with_shorthands(options), files);
   require_device(to_struct(config).device);
-  if (options.check) {
-    std::fputs((files_text(files, "# ", "\n") + get_field(config, "", &config)).c_str(), stdout);
-    return 0;
-  }
+  if (options.check) return print_check(files, config);
   refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
   auto& stop = stop_requested();
   set_up_log("master", options.log);

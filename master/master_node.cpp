@@ -66,7 +66,7 @@ struct MasterNode::State {
   }
 
   void decide(const MasterInput& input);
-  void take_handle(const HandleState& h);
+  void take_handle(HandleState h);
   void take_requests(const OperatorRequests& r);
   void take_buttons(const Buttons& now);
   void change_scale(double scale, int steps);
@@ -101,7 +101,8 @@ struct MasterNode::State {
 MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
 MasterNode::~MasterNode() = default;
 
-void MasterNode::State::take_handle(const HandleState& h) {
+void MasterNode::State::take_handle(HandleState h) {
+  if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
   if (plausible(h)) {
     handle = motion.step(h, period_s);
   } else {
@@ -257,6 +258,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
+  if (!s.config.device.turns) out.F_H_M.moment.setZero();
 
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
@@ -307,6 +309,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
   view.spring_moment_nm =
       -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
+  if (!config.device.turns) view.spring_moment_nm.setZero();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.port_energy_j = renderer.port_energy_j();
   view.port_energy_min_j = renderer.port_energy_min_j();

@@ -18,10 +18,10 @@ std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterCo
 }
 
 /// By more than friction leaves, and nearly as much as the dead zones of rate mode; or on its way.
-bool away(const HandLevel& level, const HandleState& handle) {
+bool away(const HandLevel& level, const HandleState& handle, bool turns) {
   constexpr double kFar_m = 0.004, kFar_rad = 0.04, kMoves_m_per_s = 0.01, kMoves_rad_per_s = 0.1;
   return norm(level.target_m - handle.p_MH) > kFar_m ||
-         norm(level.target_rad - log_rotation(handle.q_MH)) > kFar_rad ||
+         (turns && norm(level.target_rad - log_rotation(handle.q_MH)) > kFar_rad) ||
          norm(handle.velocity_m_per_s) > kMoves_m_per_s || norm(handle.angular_rad_per_s) > kMoves_rad_per_s;
 }
 
@@ -57,7 +57,9 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   MasterInput in;
   in.now = now;
   in.handle = device_.read(now);
-  devices_.set_target(operate(now, in.handle, requests));
+  HandTarget target = operate(now, in.handle, requests);
+  if (!config_.device.turns) target.rotation_rad.setZero();
+  devices_.set_target(target);
   // The hand has nothing to hold any more: a device that has failed.
   if (lost_) in.handle.ok = false;
   in.reports = port_.reports();
@@ -138,7 +140,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
     hand_stale_ = to_seconds(now - level.said) > kHandAgeMax_s;
     // Taken again, it counts when the hand has brought the handle to where it wants it: else the robot would
     // move by what was left of the deflection.
-    lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle)));
+    lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle, config_.device.turns)));
     requests.clutch = level.clutch;
     return hold(level, handle);
   }

@@ -126,6 +126,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("delay_samples", s.delay_samples);
   visit("velocity_filter_s", s.velocity_filter_s);
   visit("behaviour", s.behaviour);
+  visit("turns", s.turns);
 }
 
 template <class Visitor, Is<HandConfig> S>

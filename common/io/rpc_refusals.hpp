@@ -2,7 +2,8 @@
 // Who was turned away by RPC, counted and logged: connections that fail their handshake (no certificate, one
 // of another site, an expired or forged one, no TLS at all), as gRPC's own log tells them, and calls that the
 // caller's role may not make. One log line a second at most, which says how many there were since the last
-// one. gRPC does not tell the address of a connection that failed.
+// one. gRPC does not report the address of a connection whose
+// handshake failed.
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,9 @@
 #include "common/io/unix_channel.hpp"
 
+#include <sys/fsuid.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -9,6 +11,7 @@
 #include <cstring>
 
 #include "common/config/adapter_address.hpp"
+#include "common/core/check.hpp"
 #include "common/io/address.hpp"
 
 namespace longreach {
@@ -34,6 +37,19 @@ int connect_unix(const std::string& path) {
   ::close(fd);
   errno = why;
   return -1;
+}
+
+int connect_unix_as(uid_t user, const std::string& path) {
+  const uid_t own = ::geteuid();
+  constexpr auto kKeep = static_cast<uid_t>(-1);
+  // Of this thread alone, which looks paths up as the user that it was.
+  if (::syscall(SYS_setresuid, kKeep, user, kKeep) != 0) return -1;
+  ::setfsuid(own);
+  const int fd = connect_unix(path);
+  const int why = errno;
+  CHECK(::syscall(SYS_setresuid, kKeep, own, kKeep) == 0);
+  errno = why;
+  return fd;
 }
 
 std::string no_socket_there(const std::string& path) {

@@ -17,6 +17,8 @@ std::string unix_path(const std::string& address);
 
 /// To what listens there; -1: nothing does, with errno. Never waits.
 int connect_unix(const std::string& path);
+/// Likewise, for the other end a program of `user`, whatever the path's mode; root alone can do that.
+int connect_unix_as(uid_t user, const std::string& path);
 /// Why no socket can be there: "there is no such file", "it is a folder, not a socket"; empty: one is.
 std::string no_socket_there(const std::string& path);
 /// Why connect_unix(path) failed with `error`.

@@ -1,6 +1,7 @@
 #include "deploy/cli/adapter_checks.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <limits>
 
@@ -26,7 +27,7 @@ class AdapterCheck {
   AdapterCheck(const std::string& address, Subject subject)
       : address_(address),
         subject_(subject),
-        talk_(address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {}
+        talk_(std::in_place, address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {}
 
   Section run() {
     // So that what is late is the adapter. Without the right to it the check is as good as the machine.
@@ -41,7 +42,9 @@ class AdapterCheck {
       rests();
       goes_on();
       restarts();
-      talk_.talk(0.05, [this](double) { return subject_.nothing(); });
+      talk_->talk(0.05, [this](double) { return subject_.nothing(); });
+      talk_.reset();
+      knows_its_peer();
     }
     return std::move(section_);
   }
@@ -57,7 +60,7 @@ class AdapterCheck {
 
   [[nodiscard]] std::string wrong() const {
     std::string text;
-    for (const auto& [why, times] : talk_.wrong())
+    for (const auto& [why, times] : talk_->wrong())
       text += (text.empty() ? "" : "; ") + std::to_string(times) + " times " + why;
     return text;
   }
@@ -65,17 +68,17 @@ class AdapterCheck {
   bool meet() {
     Seen seen;
     for (int i = 0; i < 20 && seen.empty(); ++i)
-      seen = talk_.talk(0.1, [this](double) { return subject_.nothing(); });
+      seen = talk_->talk(0.1, [this](double) { return subject_.nothing(); });
     if (!seen.empty()) {
       subject_.know(seen.back().in);
       add(true, "answers", std::string("with ") + Subject::kSends, "");
       return true;
     }
-    const std::string trouble = talk_.socket().trouble();
+    const std::string trouble = talk_->socket().trouble();
     if (!trouble.empty()) {
       add(false, "answers", "the adapter cannot be reached: " + trouble,
           "start the adapter, and give the path at which it listens");
-    } else if (talk_.wrong().empty()) {
+    } else if (talk_->wrong().empty()) {
       add(false, "answers", "nothing has come back in 2 s",
           "start it; it has to answer the program that has connected");
     } else {
@@ -86,15 +89,29 @@ class AdapterCheck {
   }
 
   void private_to_the_user() {
-    const bool open = talk_.socket().open_to_others();
+    const bool open = talk_->socket().open_to_others();
     add(!open, "access", open ? "other users may connect to its path" : "other users cannot connect",
         "listen with umask 077 or make the path's mode 0600, and close connections of other users");
   }
 
+  /// One program at a time: when this one has gone. What is said commands nothing.
+  void knows_its_peer() {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() != 0) return;
+    Talk stranger(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
+    const bool answers = !stranger.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
+    add(!answers, "peer",
+        answers ? "it answers a program of another user (number 65534)"
+                : "does not answer a program of another user",
+        "ask getsockopt(SO_PEERCRED) after accept(), and close the connection unless it is of the adapter's "
+        "own "
+        "user or of root");
+  }
+
   /// Two seconds of what every tick has.
   void watch() {
-    const Seen seen = talk_.talk(2.0, [this](double) { return subject_.nothing(); });
-    add(talk_.wrong().empty(), "layout", talk_.wrong().empty() ? "every datagram is one" : wrong(),
+    const Seen seen = talk_->talk(2.0, [this](double) { return subject_.nothing(); });
+    add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is one" : wrong(),
         "compare with common/link/adapter_datagram.hpp; a number that is not known is 0, and kOk is cleared");
     judge_rate(seen);
     judge_sequence(seen);
@@ -132,10 +149,10 @@ class AdapterCheck {
     add(trouble.empty(), "sequence", trouble.empty() ? "counts by one in one session" : trouble,
         "draw the session once at the start and count every datagram that is sent");
     const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
-    const bool follows = echo <= talk_.sent() && echo + 100 > talk_.sent();
+    const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
         follows ? "follows what is sent"
-                : "is " + std::to_string(echo) + " after " + std::to_string(talk_.sent()) + " datagrams",
+                : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " datagrams",
         "echo the number of the newest datagram that was accepted");
   }
 
@@ -185,10 +202,10 @@ class AdapterCheck {
       });
     spoiled("bytes of any length", [this](const AdapterSocket& socket, const Out& meant) {
       std::array<std::byte, 1400> bytes{};
-      for (auto& b : bytes) b = static_cast<std::byte>(talk_.random().next());
+      for (auto& b : bytes) b = static_cast<std::byte>(talk_->random().next());
       const Out poison = subject_.poison(meant);
-      if (talk_.random().chance(0.5)) std::memcpy(bytes.data(), &poison, sizeof poison);
-      std::size_t size = 1 + talk_.random().next() % (bytes.size() - 1);  // none would end the talk
+      if (talk_->random().chance(0.5)) std::memcpy(bytes.data(), &poison, sizeof poison);
+      std::size_t size = 1 + talk_->random().next() % (bytes.size() - 1);  // none would end the talk
       if (size == sizeof poison) ++size;
       socket.send(std::span(bytes).first(size));
     });
@@ -198,8 +215,8 @@ class AdapterCheck {
 
   void rests() {
     ask(0.1);
-    const std::int64_t last_ns = talk_.last_sent_ns();
-    const Seen seen = talk_.talk(0.6, {});
+    const std::int64_t last_ns = talk_->last_sent_ns();
+    const Seen seen = talk_->talk(0.6, {});
     const auto after_s = [last_ns](const auto& s) { return 1e-9 * static_cast<double>(s.at_ns - last_ns); };
     double last_active_s = 0.0;
     bool rested = false;
@@ -233,8 +250,8 @@ class AdapterCheck {
   }
 
   void restarts() {
-    talk_.talk(0.1, {});
-    talk_.begin();
+    talk_->talk(0.1, {});
+    talk_->begin();
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "restart",
@@ -244,7 +261,7 @@ class AdapterCheck {
   }
 
   Seen ask(double seconds, const typename Talk::Beside& beside = {}) {
-    return talk_.talk(
+    return talk_->talk(
         seconds, [this](double t_s) { return subject_.ask(t_s); }, beside);
   }
   /// What was told instead of what was asked for.
@@ -257,7 +274,7 @@ class AdapterCheck {
 
   std::string address_;
   Subject subject_;
-  Talk talk_;
+  std::optional<Talk> talk_;
   Section section_;
 };
 

@@ -44,7 +44,10 @@ class Conversation {
   using Say = std::function<Out(double t_s)>;
   using Beside = std::function<void(const AdapterSocket&, const Out&)>;
 
-  Conversation(const std::string& address, std::uint64_t seed) : socket_(address), random_(seed) { begin(); }
+  Conversation(const std::string& address, std::uint64_t seed, std::optional<uid_t> user = {})
+      : socket_(address, user), random_(seed) {
+    begin();
+  }
 
   /// A program that starts again.
   void begin() {

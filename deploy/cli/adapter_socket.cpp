@@ -32,11 +32,14 @@ std::int64_t taken_ns(msghdr& message) {
 
 }  // namespace
 
-AdapterSocket::AdapterSocket(const std::string& address) : path_(unix_path(address)) { reach(); }
+AdapterSocket::AdapterSocket(const std::string& address, std::optional<uid_t> user)
+    : path_(unix_path(address)), user_(user) {
+  reach();
+}
 
 void AdapterSocket::reach() const {
   if (fd_ >= 0) return;
-  fd_ = connect_unix(path_);
+  fd_ = user_ ? connect_unix_as(*user_, path_) : connect_unix(path_);
   error_ = errno;
   if (fd_ < 0) return;
   const auto user = peer_user(fd_);

@@ -3,6 +3,8 @@
 // at which the system took it, so that a late reader blames nobody. The adapter may come later, end and come
 // again.
 
+#include <sys/types.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +22,8 @@ class AdapterSocket {
     std::array<std::byte, 1024> bytes{};
   };
 
-  /// Throws AddressError or std::runtime_error.
-  explicit AdapterSocket(const std::string& address);
+  /// `user`: connects as a program of that user; root alone can. Throws AddressError or std::runtime_error.
+  explicit AdapterSocket(const std::string& address, std::optional<uid_t> user = {});
   ~AdapterSocket();
   AdapterSocket(const AdapterSocket&) = delete;
   AdapterSocket& operator=(const AdapterSocket&) = delete;
@@ -42,6 +44,7 @@ class AdapterSocket {
   void leave() const;
 
   std::string path_;
+  std::optional<uid_t> user_;
   mutable int fd_ = -1;    // none: nobody listens
   mutable int error_ = 0;  // of the last attempt to connect
 };

@@ -24,6 +24,7 @@ struct ConsoleSnapshot {
   std::optional<double> seconds_left{};  // none: runs until it is ended
   double force_max_n = 15.0;             // full length of the force bars
   bool show_keys = false;                // list the keys below the view
+  bool turns = true;                     // the device's handle does
   bool hand_outside = false;             // a hand from outside holds the handle
   std::string_view pad_keys{};           // likewise of a gamepad or SpaceMouse, where there is one
 };

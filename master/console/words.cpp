@@ -86,7 +86,7 @@ std::string following(const ConsoleSnapshot& s) {
   const bool rate = s.view.mode == MotionMode::kRate;
   return (rate ? "moving freely: the hand's deflection sets the robot's speed"
                : formatted("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale)) +
-         as_of(s);
+         (s.turns ? "" : "; its orientation stays, as this handle does not turn") + as_of(s);
 }
 
 std::string holding(const ConsoleSnapshot& s) {

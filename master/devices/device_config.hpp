@@ -78,6 +78,7 @@ struct DeviceConfig {
   std::uint32_t delay_samples = 0;
   double velocity_filter_s = 0.002;
   BehaviourConfig behaviour{};
+  bool turns = true;
 };
 
 enum class Grip : std::uint8_t { kLight = 0, kFirm = 1, kReleased = 2 };

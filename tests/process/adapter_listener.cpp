@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-AdapterListener::AdapterListener()
-    : fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+AdapterListener::AdapterListener(bool anyone)
+    : anyone_(anyone), fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
   std::string name = (std::filesystem::temp_directory_path() / "adapter-XXXXXX").string();
   folder_ = ::mkdtemp(name.data());
   path_ = folder_ / "socket";
@@ -31,6 +31,14 @@ AdapterListener::~AdapterListener() {
 std::optional<std::size_t> AdapterListener::receive(std::span<std::byte> buffer) {
   if (peer_ < 0) peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (peer_ < 0) return std::nullopt;
+  ucred who{};
+  socklen_t length = sizeof who;
+  ::getsockopt(peer_, SOL_SOCKET, SO_PEERCRED, &who, &length);
+  if (!anyone_ && who.uid != ::geteuid()) {
+    ::close(peer_);
+    peer_ = -1;
+    return std::nullopt;
+  }
   const ssize_t size = ::recv(peer_, buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (size > 0) return static_cast<std::size_t>(size);
   if (size == 0 || errno != EAGAIN) {

@@ -10,8 +10,8 @@ namespace longreach {
 
 class AdapterListener {
  public:
-  /// In a folder of its own that goes with it.
-  AdapterListener();
+  /// In a folder of its own that goes with it. `anyone`: takes a program of any user.
+  explicit AdapterListener(bool anyone = false);
   ~AdapterListener();
   AdapterListener(const AdapterListener&) = delete;
   AdapterListener& operator=(const AdapterListener&) = delete;
@@ -22,6 +22,7 @@ class AdapterListener {
   void send(std::span<const std::byte> datagram) const;
 
  private:
+  bool anyone_;
   std::filesystem::path folder_, path_;
   int fd_ = -1, peer_ = -1;
 };

@@ -36,7 +36,7 @@ bool counts(Flaw flaw, const std::array<std::byte, 2048>& bytes, std::size_t siz
 
 }  // namespace
 
-BrokenAdapter::BrokenAdapter(Flaw flaw) : flaw_(flaw) {
+BrokenAdapter::BrokenAdapter(Flaw flaw) : flaw_(flaw), listener_(flaw == Flaw::kTakesAnyone) {
   thread_ = std::thread([this] { run(); });
 }
 

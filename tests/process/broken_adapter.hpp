@@ -20,8 +20,9 @@ enum class Flaw {
   kTakesAnything,  // of the right size
   kTakesOldNumbers,
   kTakesNoRestart,
-  kNoWrench,  // tells no wrench
-  kFailed     // never says that it works
+  kNoWrench,     // tells no wrench
+  kTakesAnyone,  // of whichever user
+  kFailed        // never says that it works
 };
 
 class BrokenAdapter {

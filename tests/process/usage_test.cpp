@@ -122,7 +122,8 @@ TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
   EXPECT_NE(master.output.find("mode: RATE"), std::string::npos) << master.output;
   // Of a device file that says nothing of them.
   const Ended falcon = run("longreach-master", {"--check", "--set", "device_file=devices/falcon.txtpb"});
-  for (const char* part : {"behaviour {", "spherical {", "gravity_m_per_s2: [0, -9.81, 0]"})
+  for (const char* part : {"turns: false", "# the handle does not turn: the robot keeps its orientation",
+                           "behaviour {", "spherical {", "gravity_m_per_s2: [0, -9.81, 0]"})
     EXPECT_NE(falcon.output.find(part), std::string::npos) << part << falcon.output;
   EXPECT_NE(master.output.find("gravity_m_per_s2: [0, 0, -9.81]"), std::string::npos) << master.output;
 }

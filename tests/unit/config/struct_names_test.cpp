@@ -60,6 +60,7 @@ void expect_same(const DeviceConfig& s, const proto::Device& m) {
   EXPECT_EQ(s.delay_samples, m.delay_samples());
   EXPECT_EQ(s.velocity_filter_s, m.velocity_filter_s());
   expect_same(s.behaviour, m.behaviour());
+  EXPECT_EQ(s.turns, m.turns());
 }
 
 void expect_same(const HandConfig& s, const proto::Hand& m) {

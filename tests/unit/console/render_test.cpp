@@ -44,6 +44,15 @@ ConsoleSnapshot touching() {
   return s;
 }
 
+TEST(Render, SaysThatAHandleThatDoesNotTurnLeavesTheOrientation) {
+  ConsoleSnapshot s;
+  s.view.state = s.view.far_state = SafetyState::kEngaged;
+  s.view.far_known = true;
+  EXPECT_EQ(happening(s).find("orientation"), std::string::npos);
+  s.turns = false;
+  EXPECT_NE(happening(s).find("its orientation stays, as this handle does not turn"), std::string::npos);
+}
+
 std::string without_colors(const std::string& text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {

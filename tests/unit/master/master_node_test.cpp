@@ -71,6 +71,47 @@ TEST(MasterNode, SendsAtItsRateWithSequencesFromOne) {
   EXPECT_NEAR(static_cast<double>(expected), 300.0, 1.0);
 }
 
+/// What comes of a handle that is turned by 0.3 rad, in an engagement.
+struct Turned {
+  double goal_rad = 0.0, moment_nm = 0.0;
+};
+Turned turned(bool turns, MotionMode mode) {
+  MasterConfig config;
+  config.device.turns = turns;
+  config.mapping.mode = mode;
+  Bench b(config);
+  b.engage();
+  Turned most;
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = std::min(0.3, 1e-3 * i);
+    b.in.handle.q_MH = exp_rotation(Vector3(0.0, 0.0, angle));
+    b.in.handle.angular_rad_per_s = Vector3(0.0, 0.0, angle < 0.3 ? 1.0 : 0.0);
+    StiffnessReport r = b.engaged_report();
+    r.rotation.surfaces[0] = {
+        .normal = -Vector3::UnitZ(), .stiffness = 2.0, .touch_sequence = 1.0, .touch = 1, .pressed = true};
+    const MasterOutput out = b.tick(i % 100 == 50 ? &r : nullptr);
+    most.goal_rad = std::max(most.goal_rad, b.node.view().goal_rad.norm());
+    most.moment_nm = std::max(most.moment_nm, out.F_H_M.moment.norm());
+  }
+  return most;
+}
+
+// As Omega.3 and Falcon, whose adapters may tell any orientation.
+TEST(MasterNode, KeepsTheOrientationForADeviceThatTurnsNothing) {
+  for (const MotionMode mode : {MotionMode::kPosition, MotionMode::kRate}) {
+    const Turned can = turned(true, mode), cannot = turned(false, mode);
+    EXPECT_GT(can.goal_rad, 0.01);
+    EXPECT_GT(can.moment_nm, 0.01);
+    EXPECT_EQ(cannot.goal_rad, 0.0);
+    EXPECT_EQ(cannot.moment_nm, 0.0);
+  }
+  MasterConfig config;
+  config.device.turns = false;
+  Bench b(config);
+  b.in.handle.q_MH.coeffs().setZero();  // an adapter that leaves it out
+  b.engage();
+}
+
 TEST(MasterNode, CommandsNothingBeforeTheSlaveConfirms) {
   Bench b;
   b.in.requests.engage = true;
