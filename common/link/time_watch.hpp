@@ -1,7 +1,10 @@
 #pragma once
 // What a side knows of time: since its tick before, and on the way of what it hears. Says when it stood still
-// for longer than its gap timer, does not keep its rate, or the delay has risen. Pure: time comes in.
+// for longer than its gap timer, does not keep its rate, or the delay has risen. A datagram, or an echo, that
+// newer ones have overtaken by more than 0.25 s is of a delay that was: it does not count. Pure: time comes
+// in.
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -23,7 +26,12 @@ class TimeWatch {
   /// What has come with this tick; before step().
   template <class Message>
   void hear(Time now, std::span<const Received<Message>> messages) {
-    for (const auto& received : messages) delay_.add(now, received.rtt);
+    for (const auto& received : messages) {
+      if (received.echo_sent)
+        newest_echo_ = std::max(newest_echo_.value_or(*received.echo_sent), *received.echo_sent);
+      const bool overtaken = received.echo_sent && *newest_echo_ - *received.echo_sent > kOvertaken;
+      if (!overtaken) delay_.add(now, received.rtt);
+    }
   }
   /// A tick. `overdue`: ticks so far that came late by over one period, or not at all.
   void step(Time now, double gap_s, std::uint64_t overdue) {
@@ -45,11 +53,14 @@ class TimeWatch {
   [[nodiscard]] const DelayWatch& delay() const { return delay_; }
 
  private:
+  static constexpr Duration kOvertaken = std::chrono::milliseconds(250);
+
   OverrunWatch overrun_;
   DelayWatch delay_;
   std::optional<Time> stepped_at_{};
   std::optional<Time> stalled_since_{};
   std::optional<double> passed_s_{};
+  std::optional<Time> newest_echo_{};  // of what this side has sent
 };
 
 }  // namespace longreach

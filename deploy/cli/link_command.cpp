@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
+#include "common/config/number_text.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
@@ -116,6 +117,21 @@ ExitStatus run_link_show(const Options& options) {
   return ExitStatus::kFailed;
 }
 
+/// What the change does to a robot that is engaged; empty: nothing, or the master cannot be asked.
+std::string what_follows(const Options& options, std::vector<Change>& changes) try {
+  double rise_s = 0.0;
+  for (Change& change : changes) rise_s += change.client.link().delay_s() - change.before.delay_s();
+  SideClient master(Side::kMaster, options);
+  if (!(rise_s > 0.0) || master.status().state() != "Engaged") return "";
+  const double most_s = parse_number(master.get("safety.delay_rise_max_s")).value_or(rise_s);
+  if (rise_s <= most_s) return "";
+  return "; the round trip rises by " + format_number(rise_s) +
+         " s, more than safety.delay_rise_max_s = " + format_number(most_s) +
+         ": the robot holds, and `longreach engage` accepts the new delay";
+} catch (const SideError&) {
+  return "";
+}
+
 std::string set_link(const Options& options, const LinkSetCommand& command) {
   std::vector<Change> changes = changes_of(options, command);
   look(changes);
@@ -124,7 +140,7 @@ std::string set_link(const Options& options, const LinkSetCommand& command) {
   for (Change& change : changes)
     done += (done.empty() ? "" : "; ") + std::string(change.side == Side::kSlave ? "up: " : "down: ") +
             in_words(change.client.link());
-  return done;
+  return done + what_follows(options, changes);
 }
 
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command) {

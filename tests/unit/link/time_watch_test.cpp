@@ -28,6 +28,33 @@ struct Side {
   }
 };
 
+// `link clear` from the delay of the Moon, one direction after the other: for a round trip what was under way
+// comes among what is fresh, and the echoes of either.
+TEST(TimeWatch, AFallOfTheDelayIsNoRise) {
+  for (const bool up_first : {true, false}) {
+    Side side;
+    const auto hear = [&](double echo_age_s) {
+      std::vector<Received<int>> received(1);
+      received[0].rtt = from_seconds(echo_age_s);
+      received[0].echo_sent = side.now - from_seconds(echo_age_s);
+      side.watch.hear(side.now, std::span<const Received<int>>(received));
+    };
+    for (int i = 0; i < 3000; ++i) hear(2.6), side.tick(1);
+    side.watch.rebase();
+    for (int i = 0; i < 6000; ++i) {
+      const bool old = i < 2600;  // is still under way
+      if (!up_first || i > 1300) hear(0.01);
+      if (old) hear(2.6);
+      if (up_first && i <= 1300) hear(1.3);
+      side.tick(1);
+      ASSERT_FALSE(side.watch.delay().rose(0.3)) << i << ", up first " << up_first;
+    }
+    EXPECT_LT(side.watch.delay().median_s().value_or(9.0), 0.02);
+    for (int i = 0; i < 1000; ++i) hear(0.5), side.tick(1);
+    EXPECT_TRUE(side.watch.delay().rose(0.3)) << "a rise is one still";
+  }
+}
+
 TEST(TimeWatch, ATickThatComesLaterThanTheGapTimerIsAStallFromTheTickBefore) {
   Side side;
   EXPECT_FALSE(side.watch.stalls(side.now + std::chrono::hours(9), kGap_s))
