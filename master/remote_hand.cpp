@@ -30,12 +30,14 @@ void RemoteHand::take(const RemoteHandInput& in) {
   gripped_ = in.aim.grip;
   led_m_ = in.handle.p_MH;
   led_rad_ = log_rotation(in.handle.q_MH);
+  from_m_ = led_m_ - in.aim.position_m;
+  from_rad_ = led_rad_ - in.aim.rotation_rad;
 }
 
 HandTarget RemoteHand::lead(const RemoteHandInput& in) {
-  const Vector3 step = clamp_norm(in.aim.position_m - led_m_, kSpeed_m_per_s * period_s_);
+  const Vector3 step = clamp_norm(from_m_ + in.aim.position_m - led_m_, kSpeed_m_per_s * period_s_);
   led_m_ += step;
-  led_rad_ += clamp_norm(in.aim.rotation_rad - led_rad_, kSpeed_rad_per_s * period_s_);
+  led_rad_ += clamp_norm(from_rad_ + in.aim.rotation_rad - led_rad_, kSpeed_rad_per_s * period_s_);
   HandTarget target;
   target.position_m = led_m_;
   target.velocity_m_per_s = step / period_s_;

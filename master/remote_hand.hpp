@@ -4,7 +4,8 @@
 // holds the handle then until the next engagement, so that no script or keyboard goes on where a person
 // stopped.
 //
-// The handle is led towards the newest aim at no more than the speed of a hand.
+// The handle is led at no more than the speed of a hand. Aims count from where it is when it is taken: taking
+// it, like giving it back, moves nothing.
 
 #include <cstdint>
 #include <optional>
@@ -63,6 +64,8 @@ class RemoteHand {
   bool gripped_ = false;
   Vector3 led_m_ = Vector3::Zero();  // where it is
   Vector3 led_rad_ = Vector3::Zero();
+  Vector3 from_m_ = Vector3::Zero();  // what is added to aims
+  Vector3 from_rad_ = Vector3::Zero();
 };
 
 }  // namespace longreach

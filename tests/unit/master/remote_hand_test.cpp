@@ -33,6 +33,8 @@ TEST(RemoteHand, BeginsWhereTheHandleIsAndMovesNoFasterThanAHand) {
   Handle h;
   h.in.handle.p_MH = {0.03, 0.0, -0.01};
   h.in.aim.holds = true;
+  h.in.aim.position_m = h.in.handle.p_MH;
+  h.tick();
   h.in.aim.position_m = {-0.03, 0.0, 0.0};
   h.in.aim.rotation_rad = {0.0, 0.0, 0.3};
   Vector3 before = h.in.handle.p_MH;
@@ -44,6 +46,24 @@ TEST(RemoteHand, BeginsWhereTheHandleIsAndMovesNoFasterThanAHand) {
   }
   EXPECT_NEAR((before - h.in.aim.position_m).norm(), 0.0, 1e-12);
   EXPECT_NEAR(h.tick()->rotation_rad.z(), 0.3, 1e-12);
+}
+
+// As the page does with device.behaviour.idle = STAY: its first aim knows nothing of how the handle is
+// turned.
+TEST(RemoteHand, TakingTheHandleMovesAndTurnsNothing) {
+  Handle h;
+  h.in.handle.p_MH = {0.03, 0.0, -0.01};
+  h.in.handle.q_MH = exp_rotation(Vector3(0.1, -0.2, 0.3));
+  h.in.aim.holds = true;
+  for (int i = 0; i < 600; ++i) {
+    const auto target = h.tick();
+    ASSERT_TRUE(target);
+    ASSERT_NEAR((target->position_m - h.in.handle.p_MH).norm(), 0.0, 1e-12) << i;
+    ASSERT_NEAR((target->rotation_rad - Vector3(0.1, -0.2, 0.3)).norm(), 0.0, 1e-12) << i;
+  }
+  h.in.aim.rotation_rad = {0.0, 0.0, 0.1};
+  for (int i = 0; i < 600; ++i) h.tick();
+  EXPECT_NEAR((h.tick()->rotation_rad - Vector3(0.1, -0.2, 0.4)).norm(), 0.0, 1e-12);
 }
 
 TEST(RemoteHand, LetsGoInOrderWithoutAHold) {
