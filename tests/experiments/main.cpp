@@ -57,6 +57,8 @@ void add_run(CLI::App& app, RunOptions& o) {
                 "`longreach-lab replay` can run it again");
   run->add_option("--schedule", o.schedule, "Faults to inject, as a failing run prints them (only faults)")
       ->type_name("FILE");
+  run->add_option("--seeds", o.seeds, "Seeds to run, COUNT from FIRST on (only faults)")
+      ->type_name("FIRST:COUNT");
   run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 

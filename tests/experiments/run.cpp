@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/config/config.hpp"
+#include "common/config/number_text.hpp"
 #include "tests/experiments/campaign/plan.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/faults/faults.hpp"
@@ -53,10 +54,36 @@ void repeat(const RunOptions& o) {
   if (!holds) throw std::runtime_error("an invariant is violated");
 }
 
+/// A range of seeds, each judged; none is drawn or kept in a folder.
+void run_seeds(const RunOptions& o) {
+  const auto colon = o.seeds.find(':');
+  const auto first = parse_integer<std::uint64_t>(std::string_view(o.seeds).substr(0, colon));
+  const auto count = colon == std::string::npos
+                         ? std::nullopt
+                         : parse_integer<std::uint64_t>(std::string_view(o.seeds).substr(colon + 1));
+  if (!first || !count || *count == 0 || *count > 1'000'000)
+    throw ConfigError("--seeds '" + o.seeds +
+                      "': write FIRST:COUNT with a COUNT from 1 to 1000000, e.g. 8000001:50");
+  ProgressLine line(o.quiet);
+  const Tally tally = run_faults(*first, *count, [&](double done) {
+    line.show("faults: " + std::to_string(std::lround(100.0 * done)) + " %", done);
+  });
+  line.clear();
+  say_failures(tally);
+  if (!o.quiet)
+    std::printf("%llu seeds from %llu, %.2f virtual hours, %.0f %% engaged: %zu failing seeds\n",
+                static_cast<unsigned long long>(tally.seeds), static_cast<unsigned long long>(*first),
+                tally.virtual_s / 3600.0, 100.0 * tally.engaged_s / std::max(1.0, tally.virtual_s),
+                tally.failures.size());
+  if (!tally.failures.empty()) throw std::runtime_error("an invariant is violated");
+}
+
 }  // namespace
 
 void run(const RunOptions& o) {
   const bool faults = o.name == "faults";
+  if (!o.seeds.empty() && !faults) throw ConfigError("--seeds is for the experiment faults alone");
+  if (!o.seeds.empty()) return run_seeds(o);
   if (!o.schedule.empty() && !faults) throw ConfigError("--schedule is for the experiment faults alone");
   if (faults && (o.seeded || !o.schedule.empty())) return repeat(o);
   const Experiment* experiment = find_experiment(o.name);

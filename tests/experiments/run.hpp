@@ -12,6 +12,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   bool seeded = false;   // --seed was given
   std::string schedule;  // of faults, a file
+  std::string seeds;     // likewise, FIRST:COUNT
   std::vector<std::string> settings;
   std::string out;
   bool record = false;

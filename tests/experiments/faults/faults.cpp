@@ -69,6 +69,8 @@ std::vector<Metric> metrics_of(const Tally& t) {
           {"never_seen", static_cast<double>(never_seen(t).size()), ""}};
 }
 
+}  // namespace
+
 void say_failures(const Tally& tally) {
   constexpr std::size_t kMost = 20;
   for (std::size_t i = 0; i < std::min(kMost, tally.failures.size()); ++i) {
@@ -77,10 +79,7 @@ void say_failures(const Tally& tally) {
                  f.violation.invariant.c_str(), f.violation.t_s, f.violation.words.c_str(),
                  static_cast<unsigned long long>(f.seed));
   }
-  for (const std::string& what : never_seen(tally)) std::fprintf(stderr, "never seen: %s\n", what.c_str());
 }
-
-}  // namespace
 
 // The experiment draws its table itself.
 std::vector<Plot> faults_plots() {
@@ -102,6 +101,7 @@ std::vector<Metric> run_fault_campaign(const ExperimentRun& run) {
   }
   if (!run.out.empty()) write_faults(run.out, tally);
   say_failures(tally);
+  for (const std::string& what : never_seen(tally)) std::fprintf(stderr, "never seen: %s\n", what.c_str());
   return metrics_of(tally);
 }
 

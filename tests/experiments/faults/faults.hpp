@@ -29,6 +29,9 @@ namespace longreach {
 /// Seeds `first` to `first + count - 1`, on all cores.
 Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<void(double)>& progress = {});
 
+/// The first of the failures, on standard error: each with the command that repeats it.
+void say_failures(const Tally& tally);
+
 /// One seed, or a schedule that was written down: says what is violated, and by which faults at least. False
 /// if something is.
 bool repeat_faults(const Schedule& schedule, std::string& said);
