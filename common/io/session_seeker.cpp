@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
 #include "common/io/rpc_channel.hpp"
@@ -109,6 +110,7 @@ void SessionSeeker::run() {
     }
     std::string trouble = seek(present.session);
     const bool done = trouble.empty();
+    if (done) trouble = unheard(present);
     pause = done ? kAfterAnswer : retry;
     retry = done ? kRetryFirst : std::min(2 * retry, kRetryLast);
     const std::lock_guard lock(mutex_);
@@ -131,7 +133,9 @@ std::string SessionSeeker::seek(std::uint64_t present) {
   request.set_take(take_);
   request.set_send_hz(send_hz_);
   proto::OpenSessionResponse answer;
+  const auto asked_at = std::chrono::steady_clock::now();
   const grpc::Status status = rpc_->stub->OpenSession(&context, request, &answer);
+  call_took_ = std::chrono::steady_clock::now() - asked_at;
   {
     const std::lock_guard lock(mutex_);
     call_ = nullptr;
@@ -158,8 +162,22 @@ std::string SessionSeeker::seek(std::uint64_t present) {
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
   wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn
+  adopted_at_ = std::chrono::steady_clock::now();
   return adopt_(session) ? ""
                          : "no session with the slave at " + address_ + ": the control loop did not take it";
+}
+
+/// The slave knows the session, and nothing comes of it: datagrams do not get through where RPC does.
+std::string SessionSeeker::unheard(const Present& present) const {
+  constexpr auto kBesides = std::chrono::seconds(2);
+  const std::chrono::duration<double> round_trip =
+      call_took_ + std::chrono::duration<double>(present.delay_s);
+  const bool due = std::chrono::steady_clock::now() - adopted_at_ > round_trip + kBesides;
+  if (present.session == 0 || std::isfinite(present.silence_s) || !due) return "";
+  return "RPC at " + address_ + " answers, but no datagram comes back from " + present.slave +
+         ": let UDP through the firewalls in both directions, and see that link.slave and link.slave_rpc "
+         "lead to the "
+         "same slave";
 }
 
 /// False: it is time to end.

@@ -4,6 +4,7 @@
 // the slave still knows is kept. After a failure it asks again, after 0.1 s at first and 2 s at last, until
 // it is ended. A robot that was taken from it is never taken back: it waits until that one returns it.
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -25,7 +26,9 @@ class SessionSeeker {
   /// What the loop knows.
   struct Present {
     std::uint64_t session = 0;  // 0: none
-    double silence_s = 0.0;     // since the slave was heard in it
+    double silence_s = 0.0;     // since the slave was heard in it; infinite: never
+    std::string slave{};        // where datagrams are sent to
+    double delay_s = 0.0;       // that is artificial, there and back: RPC knows nothing of it
   };
   using Look = std::function<Present()>;
   /// Hands a session to the loop; false: it did not take it.
@@ -40,8 +43,8 @@ class SessionSeeker {
   SessionSeeker(const SessionSeeker&) = delete;
   SessionSeeker& operator=(const SessionSeeker&) = delete;
 
-  /// Why there is no session: one sentence that names the slave's address and what to do. Empty: there is
-  /// one, or the first answer is awaited.
+  /// Why there is no session, or no datagram of it comes back: one sentence that names the slave's address
+  /// and what to do. Empty: there is one, or the first answer is awaited.
   [[nodiscard]] std::string trouble() const;
   /// Address of the master that has taken the robot from this one. Empty: it has it, or never had.
   [[nodiscard]] std::string taken_by() const;
@@ -50,6 +53,7 @@ class SessionSeeker {
   struct Rpc;
   void run();
   std::string seek(std::uint64_t present);
+  [[nodiscard]] std::string unheard(const Present& present) const;
   void give_back();
   bool wait(std::chrono::milliseconds time);
 
@@ -63,6 +67,9 @@ class SessionSeeker {
   bool take_;
   const double send_hz_;
   grpc::ClientContext* call_ = nullptr;  // under way
+  // Of this thread: when the session was adopted, and how long a call takes.
+  std::chrono::steady_clock::time_point adopted_at_{};
+  std::chrono::steady_clock::duration call_took_{};
   std::string trouble_;
   std::string taken_by_;
   std::thread thread_;

@@ -8,6 +8,7 @@
 #include <asio/ip/tcp.hpp>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -24,7 +25,7 @@ class FakeLoop {
  public:
   SessionSeeker::Present present() {
     const std::lock_guard lock(mutex_);
-    return {adopted_.empty() ? 0 : adopted_.back().number, silence_s_};
+    return {adopted_.empty() ? 0 : adopted_.back().number, silence_s_, "192.0.2.7:47001"};
   }
   bool adopt(const Session& session) {
     const std::lock_guard lock(mutex_);
@@ -35,6 +36,10 @@ class FakeLoop {
   void speak_again() {
     const std::lock_guard lock(mutex_);
     silence_s_ = 0.0;
+  }
+  void hear_nothing() {
+    const std::lock_guard lock(mutex_);
+    silence_s_ = std::numeric_limits<double>::infinity();
   }
   void fall_silent() {
     const std::lock_guard lock(mutex_);
@@ -144,6 +149,23 @@ TEST(SessionSeeker, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
   backend.refuse(std::nullopt);
   EXPECT_TRUE(
       eventually([&] { return search.loop.adopted().size() == 2 && search.seeker.taken_by().empty(); }));
+}
+
+TEST(SessionSeeker, SaysThatDatagramsDoNotComeBackThoughRpcAnswers) {
+  FakeBackend backend("slave");
+  RpcServer server("127.0.0.1:0", backend, "slave");
+  Search search(server.address());
+  ASSERT_TRUE(eventually([&] { return !search.loop.adopted().empty(); }));
+  EXPECT_EQ(search.seeker.trouble(), "");
+  search.loop.hear_nothing();
+  ASSERT_TRUE(eventually([&] {
+    const std::string said = search.seeker.trouble();
+    return said.starts_with("RPC at " + server.address() +
+                            " answers, but no datagram comes back from 192.0.2.7:47001") &&
+           said.find("firewall") != std::string::npos && said.find("link.slave") != std::string::npos;
+  })) << search.seeker.trouble();
+  search.loop.speak_again();
+  ASSERT_TRUE(eventually([&] { return search.seeker.trouble().empty(); }));
 }
 
 TEST(SessionSeeker, ForgetsItsTroubleWhenTheSlaveIsHeardAgain) {
