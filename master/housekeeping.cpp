@@ -8,6 +8,7 @@
 
 #include "common/io/adapter_channel.hpp"
 #include "common/io/status_fields.hpp"
+#include "master/console/words.hpp"
 
 namespace longreach {
 namespace {
@@ -46,9 +47,15 @@ void Chronicle::write(const MasterSnapshot& s, const std::string& trouble, const
   }
   const MasterView& now = s.view;
   if (now.state != last_.view.state) {
-    spdlog::info("state from={} to={} cause=\"{}\" engagement={}", to_string(last_.view.state),
-                 to_string(now.state), to_string(now.cause), now.engagement);
+    spdlog::info("state from={} to={} cause=\"{}\" engagement={}{}", to_string(last_.view.state),
+                 to_string(now.state), to_string(now.cause), now.engagement, because(now.cause));
   }
+  const bool came_and_went = now.holds != last_.view.holds && now.state == SafetyState::kEngaged;
+  if (came_and_went && last_.view.state == SafetyState::kEngaged)
+    spdlog::info("held holds={} cause=\"{}\" resumed=true", now.holds, to_string(now.last_hold));
+  if (now.refusal != HoldCause::kNone && now.refusal != last_.view.refusal)
+    spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.engagement, to_string(now.refusal),
+                 refusal_in_words(now));
   if (now.far_state != last_.view.far_state) spdlog::info("slave state={}", to_string(now.far_state));
   if (now.in_contact != last_.view.in_contact) {
     spdlog::info("contact now={} stiffness_n_per_m={:.0f}", now.in_contact, now.stiffness_n_per_m);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <exception>
+#include <sstream>
 #include <thread>
 
 #include "common/io/adapter_channel.hpp"
@@ -13,6 +14,7 @@
 #include "common/io/rpc_server.hpp"
 #include "common/io/stop_signal.hpp"
 #include "master/console/desk.hpp"
+#include "master/console/formatted.hpp"
 #include "master/console/summary.hpp"
 #include "master/devices/simulated_devices.hpp"
 #include "master/housekeeping.hpp"
@@ -94,9 +96,14 @@ std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shel
 }
 
 /// What the configuration means for the operator, each line after `before`.
-std::string notes_on(const DeviceConfig& device, const std::string& before) {
-  if (device.turns) return "";
-  return before + "the handle does not turn: the robot keeps its orientation, and no moment is rendered\n";
+std::string notes_on(const MasterConfig& config, const std::string& before) {
+  const double most_n_per_m = MasterNode(config).view().stiffness_max_n_per_m;
+  std::string text = before + "device " + config.device.name +
+                     formatted(": renders at most %.3g N/mm, ", 1e-3 * most_n_per_m) +
+                     formatted("workspace up to %.3g mm", 1e3 * config.device.delta.workspace_m) + "\n";
+  if (!config.device.turns)
+    text += before + "the handle does not turn: the robot keeps its orientation, and no moment is rendered\n";
+  return text;
 }
 
 /// What ranges cannot tell: whether the mechanisms close their loops.
@@ -108,8 +115,22 @@ void require_device(const DeviceConfig& device) {
   }
 }
 
+/// A file that nobody has chosen is not that of a real device.
+void log_device(const MasterConfig& config, bool chosen) {
+  std::istringstream notes(notes_on(config, ""));
+  for (std::string note; std::getline(notes, note);) spdlog::info("device note=\"{}\"", note);
+  if (config.device_adapter.address.empty()) return;
+  spdlog::info("device adapter={}", config.device_adapter.address);
+  if (!chosen)
+    spdlog::warn(
+        "device file=default because=\"device_file is not set: what is rendered relies on the damping, mass "
+        "and "
+        "encoders of {}\" do=\"set device_file to that of your device\"",
+        config.device.name);
+}
+
 int print_check(const std::vector<FileRead>& files, const proto::MasterConfig& config) {
-  const std::string notes = notes_on(to_struct(config).device, "# ");
+  const std::string notes = notes_on(to_struct(config), "# ");
   std::fputs((files_text(files, "# ", "\n") + notes + get_field(config, "", &config)).c_str(), stdout);
   return 0;
 }
@@ -133,6 +154,7 @@ int operate(const MasterOptions& options) {
   RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
+  log_device(plain, config.has_device_file());
   Housekeeping housekeeping({view_kind(options.view), options.seconds}, plain, shell, service);
   // The live view owns the terminal; it shows what the log would say.
   if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();
@@ -157,9 +179,12 @@ int operate(const MasterOptions& options) {
   std::optional<SessionSeeker> seeker(
       std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
       sent_hz(plain.link),
-      [&service]() -> SessionSeeker::Present {
+      [&service, &plain]() -> SessionSeeker::Present {
         const SideFigures side = service.snapshot().side;
-        return {side.session, side.link.silence_s};
+        // Both directions have the same, or the slave's is not known here.
+        const ImpairmentConfig& down = plain.link.impairment;
+        return {side.session, side.link.silence_s, plain.link.slave,
+                2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
       },
       [&service](const Session& session) { return service.adopt(session); });
   housekeeping.run(stop, *seeker);

@@ -63,6 +63,7 @@ struct MasterNode::State {
         period_s(1.0 / c.loop.rate_hz) {
     view.mode = c.mapping.mode;
     view.scale = c.mapping.scale;
+    view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
   }
 
   void decide(const MasterInput& input);
@@ -284,8 +285,13 @@ void MasterNode::State::publish_ages(const MasterInput& input) {
 }
 
 void MasterNode::State::publish(const Wrench& F) {
+  const bool left = view.state == SafetyState::kEngaged && safety.state() != SafetyState::kEngaged;
   view.state = safety.state();
   view.cause = safety.cause();
+  view.cause_is_far = safety.cause_is_far();
+  if (left) ++view.holds, view.last_hold = safety.cause();
+  view.refusal = safety.refusal();
+  view.refusal_is_far = safety.refusal_is_far();
   view.far_state = safety.far_state();
   view.engagement = safety.engagement();
   view.hand_missing = safety.hand_missing();
@@ -306,6 +312,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.surface_known = linear.contact.known();
   view.surface_m = surface.surface - surface.foot / mapping.scale();
   view.inward = surface.n_M;
+  view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
   view.spring_moment_nm =
       -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;

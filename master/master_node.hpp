@@ -48,7 +48,7 @@ struct MasterInput {
 /// Everything that eyes, status and log need to know, once a tick.
 struct MasterView {
   SafetyState state = SafetyState::kIdle;
-  HoldCause cause = HoldCause::kNone;
+  Reason cause{};
   SafetyState far_state = SafetyState::kIdle;
   std::uint32_t engagement = 0;
   bool hand_missing = false;  // safety.presence = HOLD, and no hand is on the handle: no engagement
@@ -70,9 +70,10 @@ struct MasterView {
   Vector3 spring_force_n = Vector3::Zero();  // the contact spring's part of it
   bool in_contact = false;                   // as reported
   bool surface_known = false;
-  double surface_m = 0.0;            // registered surface along the inward normal, from handle home, m
-  Vector3 inward = Vector3::Zero();  // unit, into the surface, M
-  double stiffness_n_per_m = 0.0;    // rendered now, along the inward normal
+  double surface_m = 0.0;              // registered surface along the inward normal, from handle home, m
+  Vector3 inward = Vector3::Zero();    // unit, into the surface, M
+  double stiffness_n_per_m = 0.0;      // rendered now, along the inward normal
+  double stiffness_max_n_per_m = 0.0;  // the most that is: of the device, or as configured
   Vector3 spring_moment_nm = Vector3::Zero();    // of a contact in rotation
   double rotational_stiffness_nm_per_rad = 0.0;  // rendered now, about the foremost axis
   double force_step_n = 0.0;                     // of the spring force, by the last report that was applied
@@ -92,6 +93,11 @@ struct MasterView {
   // Of the shown alone; a recording has them in its messages.
   bool silent = false;          // nothing has been heard for silence_s
   bool resumes = false;         // a hold ends by itself when its cause is over
+  bool cause_is_far = false;    // `cause` is the slave's
+  Reason refusal{};             // why the engagement that was asked for last is not granted
+  bool refusal_is_far = false;  // likewise
+  std::uint64_t holds = 0;      // so far: Engaged was left
+  Reason last_hold{};           // cause of the last of them
   double far_age_s = 0.0;       // since the newest telemetry came
   double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
 };

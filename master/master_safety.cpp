@@ -31,7 +31,9 @@ namespace {
 using State = SafetyState;
 using Cause = HoldCause;
 
-constexpr double kAnswer_s = 3.0;        // of a slave, besides the round trip
+constexpr double kAnswer_s = 3.0;     // of a slave, besides the round trip
+constexpr double kOverdue_s = 1.0;    // likewise: then the operator is told
+constexpr double kLongTrip_s = 10.0;  // as long as the round trip is not known: for a reason, for an answer
 constexpr double kUnknownTrip_s = 60.0;  // as long as the round trip is not known
 
 constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
@@ -74,6 +76,8 @@ void MasterSafety::on_report(const StiffnessReport& report) {
   far_state_ = report.state;
   far_cause_ = report.cause;
   far_engagement_ = report.engagement;
+  far_refused_ = report.refused;
+  far_refusal_ = report.refusal;
 }
 
 bool MasterSafety::step(const MasterSafetyInput& input) {
@@ -82,7 +86,10 @@ bool MasterSafety::step(const MasterSafetyInput& input) {
     return (rule.from & in(state_)) != 0 && (!rule.active || active()) && demanded(rule.demand, input);
   };
   const Rule* rule = std::ranges::find_if(kTable, applies);
+  const bool wanted = wants(input);
   const bool begun = rule != std::end(kTable) && enter(*rule, input);
+  if (wanted && !pending()) refusal_ = why_not(input), far_refuses_ = false;
+  explain(input);
   if (input.stop) request_ = Request::kStop;
   if (state_ == State::kHolding && active()) {
     const bool late = to_seconds(input.now - left_at_) > config_.resume_s;
@@ -98,7 +105,7 @@ void MasterSafety::observe(const MasterSafetyInput& in) {
   restarted_ = in.peer_restarts != peer_restarts_;
   peer_restarts_ = in.peer_restarts;
   if (restarted_) far_state_ = State::kObserving;
-  if (restarted_ || in.stalled_since) far_engagement_ = 0;
+  if (restarted_ || in.stalled_since) far_engagement_ = far_refused_ = 0;
   if (in.held) held_at_ = in.now;
   hand_missing_ = config_.presence == Presence::kHold && !in.held;
   let_go_ = hand_missing_ && to_seconds(in.now - held_at_) > config_.presence_s;
@@ -113,7 +120,7 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
     case Demand::kStop:
       return in.stop;
     case Demand::kEngage:
-      return engages(in);
+      return wants(in) && why_not(in) == Cause::kNone;
     case Demand::kSlaveStopped:
       return says(State::kStopped);
     case Demand::kSlaveFault:
@@ -148,12 +155,35 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
   return true;
 }
 
-bool MasterSafety::engages(const MasterSafetyInput& in) const {
+// Somebody asks for an engagement that is neither under way nor there.
+bool MasterSafety::wants(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
   const bool by_itself = config_.engage_at_start && !told_ && rests && !active();
-  const bool asked = in.engage && !pending() && state_ != State::kEngaged;
-  return (asked || by_itself) && in.last_heard && !stale_ && !hand_missing_ && !in.hand_stale && !in.taken &&
-         !in.stop && !in.stalled_since;
+  return (in.engage && !pending() && state_ != State::kEngaged) || by_itself;
+}
+
+// Why this side does not ask the slave for it.
+Reason MasterSafety::why_not(const MasterSafetyInput& in) const {
+  if (!in.device_ok) return Cause::kDeviceFault;
+  if (in.stop) return Cause::kOperator;
+  if (in.taken) return Cause::kTaken;
+  if (!in.last_heard || stale_) return Cause::kLinkSilent;
+  if (hand_missing_) return Cause::kHandleLetGo;
+  if (in.hand_stale) return Cause::kHandStale;
+  return in.stalled_since ? Cause::kStalled : Cause::kNone;
+}
+
+void MasterSafety::explain(const MasterSafetyInput& in) {
+  if (state_ == State::kEngaged || in.stop || in.hold) refusal_ = Reason{};
+  if (!pending()) return;
+  const bool overdue = to_seconds(in.now - asked_at_) > in.rtt_s.value_or(kLongTrip_s) + kOverdue_s;
+  if (far_refused_ == engagement_ || says(State::kHolding)) {
+    refusal_ = far_refused_ == engagement_ ? far_refusal_ : far_cause_;
+    far_refuses_ = true;
+  } else if (overdue) {
+    refusal_ = Cause::kUnanswered;
+    far_refuses_ = false;
+  }
 }
 
 std::optional<double> MasterSafety::answer_in_s(const MasterSafetyInput& in) const {
@@ -177,12 +207,12 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   const bool was_holding = state_ == State::kHolding;
   const bool false_hold = was_holding && cause_ != HoldCause::kHandleLetGo;
   if (rule.to == State::kFault) {
-    if (state_ != State::kFault) cause_ = rule.cause;
+    if (state_ != State::kFault) take_cause(rule);
   } else if (rule.demand == Demand::kEngage || rule.to == State::kEngaged) {
     cause_ = HoldCause::kNone;
   } else if (cause_ == HoldCause::kNone ||
              (rule.demand == Demand::kTaken && cause_ == HoldCause::kLinkSilent)) {
-    cause_ = rule.demand == Demand::kSlaveFault && far_cause_ != HoldCause::kNone ? far_cause_ : rule.cause;
+    take_cause(rule);
   }
   if (rule.to == State::kHolding && !was_holding) left_at_ = in.stalled_since.value_or(in.now);
   state_ = rule.to;
@@ -194,12 +224,25 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   return !std::exchange(confirmed_, true);
 }
 
+// What the slave says counts before what is said of it.
+void MasterSafety::take_cause(const Rule& rule) {
+  const bool its_own = rule.demand == Demand::kSlaveStopped || rule.demand == Demand::kSlaveFault ||
+                       rule.demand == Demand::kSlaveHolds ||
+                       (rule.demand == Demand::kUnanswered && says(State::kHolding));
+  far_is_cause_ = its_own && far_cause_ != HoldCause::kNone;
+  cause_ = far_is_cause_ ? far_cause_ : Reason(rule.cause);
+  if (rule.demand != Demand::kUnanswered || far_refused_ != engagement_) return;
+  far_is_cause_ = true;
+  cause_ = far_refusal_;
+}
+
 // A number greater than any that the slave may remember of another master.
 void MasterSafety::begin(const MasterSafetyInput& in) {
   engagement_ = std::max(engagement_, far_engagement_) + 1;
   asked_at_ = in.now;
   confirmed_ = false;
   told_ = told_ || in.engage;
+  if (in.engage) refusal_ = Reason{};
 }
 
 }  // namespace longreach

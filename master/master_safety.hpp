@@ -6,7 +6,7 @@
 //   any               the device has failed                         Fault      device fault          hold
 //   any but Fault     the operator asks for a stop                  Stopped    operator              stop
 //   any               the operator asks to engage, and may          Observing  -                     engage
-//   active            the slave says that it has stopped            Stopped    other side holds      hold
+//   active            the slave says that it has stopped            Stopped    as the slave says     hold
 //   active            the slave says that it has a fault            Holding    as the slave says     hold
 //   Engaged, Holding  another master has taken the robot            Holding    taken                 hold
 //   active            the slave began a new session                 Holding    other side restarted  hold
@@ -17,9 +17,9 @@
 //   active            silence > silence_s                           Holding    link silent           engage
 //   Engaged           the round trip rose > delay_rise_max_s        Holding    delay rose            hold
 //   Engaged           half of a second's ticks came late            Holding    overrun               hold
-//   Engaged           the slave says that it holds                  Holding    other side holds      engage
+//   Engaged           the slave says that it holds                  Holding    as the slave says     engage
 //   active            the slave says that it is engaged             Engaged    -                     engage
-//   active Observing  no answer for a round trip and 3 s            Observing  slave did not answer  hold
+//   active Observing  not granted for a round trip and 3 s          Observing  as refused, unanswered hold
 //   Idle              the slave is heard                            Observing  -                     hold
 //
 // Active: in Observing, Engaged or Holding, while an engagement is requested. A hold for longer than resume_s
@@ -30,7 +30,9 @@
 // forgets what the slave had said and takes no engagement. Round trip and late ticks: as
 // slave/slave_safety.hpp. What the slave says counts if it says it of this engagement's number. A stop is
 // requested in Fault, too, and until the next engagement. The cause is the first since Engaged, but that a
-// robot was taken explains a silence; a fault has its own.
+// robot was taken explains a silence; a fault has its own. An engagement that is asked for and not granted
+// has a reason: at once where this side does not ask the slave; else the slave's when it has come, and
+// without any `unanswered` 1 s after the round trip. It stays until another is asked for, or is granted.
 
 #include <cstdint>
 #include <optional>
@@ -72,7 +74,11 @@ class MasterSafety {
   bool step(const MasterSafetyInput& input);
 
   [[nodiscard]] SafetyState state() const { return state_; }
-  [[nodiscard]] HoldCause cause() const { return cause_; }
+  [[nodiscard]] const Reason& cause() const { return cause_; }
+  [[nodiscard]] bool cause_is_far() const { return far_is_cause_; }  // it is the slave's
+  /// Why the engagement that was asked for last is not granted; kNone: it is, or it is too early to say.
+  [[nodiscard]] const Reason& refusal() const { return refusal_; }
+  [[nodiscard]] bool refusal_is_far() const { return far_refuses_; }
   [[nodiscard]] SafetyState far_state() const { return far_state_; }
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }
   [[nodiscard]] Request request() const { return request_; }
@@ -92,7 +98,10 @@ class MasterSafety {
   void observe(const MasterSafetyInput& in);
   [[nodiscard]] bool active() const;
   [[nodiscard]] bool demanded(Demand demand, const MasterSafetyInput& in) const;
-  [[nodiscard]] bool engages(const MasterSafetyInput& in) const;
+  [[nodiscard]] bool wants(const MasterSafetyInput& in) const;
+  [[nodiscard]] Reason why_not(const MasterSafetyInput& in) const;
+  void explain(const MasterSafetyInput& in);
+  void take_cause(const Rule& rule);
   [[nodiscard]] bool says(SafetyState state) const;
   [[nodiscard]] bool unanswered(const MasterSafetyInput& in) const;
   void begin(const MasterSafetyInput& in);
@@ -100,12 +109,17 @@ class MasterSafety {
 
   MasterSafetyConfig config_;
   SafetyState state_ = SafetyState::kIdle;
-  HoldCause cause_ = HoldCause::kNone;
+  Reason cause_{};
+  bool far_is_cause_ = false;
+  Reason refusal_{};
+  bool far_refuses_ = false;
   Request request_ = Request::kHold;
   std::uint32_t engagement_ = 0;
   SafetyState far_state_ = SafetyState::kIdle;
-  HoldCause far_cause_ = HoldCause::kNone;
+  Reason far_cause_{};
   std::uint32_t far_engagement_ = 0;
+  std::uint32_t far_refused_ = 0;
+  Reason far_refusal_{};
   std::uint32_t peer_restarts_ = 0;
   bool restarted_ = false;  // in this tick
   bool stale_ = false;

@@ -13,6 +13,8 @@ using google::protobuf::util::MessageDifferencer;
 void add_view(proto::Status& out, const MasterView& view) {
   out.set_state(std::string(to_string(view.state)));
   out.set_cause(std::string(to_string(view.cause)));
+  if (view.refusal != HoldCause::kNone)
+    out.set_refusal((view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal));
   out.set_far_state(std::string(to_string(view.far_state)));
   out.set_engagement(view.engagement);
   out.set_mode(view.mode == MotionMode::kRate ? "rate" : "position");

@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(HandleState) == 112 && sizeof(OperatorRequests) == 32);
-static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 912);
+static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 1008);
 
 MasterTape::MasterTape(double rate_hz, Duration to_log_time)
     : Tape("master", to_log_time),
@@ -176,7 +176,7 @@ void write(const MasterOutput& output, recording::MasterOutput& out) {
 
 void write(const MasterView& v, recording::MasterView& out) {
   out.set_state(to_recorded<recording::State>(v.state));
-  out.set_cause(to_recorded<recording::Cause>(v.cause));
+  out.set_cause(to_recorded<recording::Cause>(v.cause.cause));
   out.set_far_state(to_recorded<recording::State>(v.far_state));
   out.set_engagement(v.engagement);
   out.set_mode(to_recorded<recording::Mode>(v.mode));

@@ -38,17 +38,22 @@ class CommandRight {
   }
   [[nodiscard]] bool commands() const { return commands_; }
 
-  /// May an engagement begin? `setpoint_rad`: of a robot that is commanded.
-  [[nodiscard]] bool may_begin(const RobotState& robot, const JointVector& setpoint_rad) const {
-    if (commands_) return (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
+  /// Why no engagement may begin; kNone: one may. `setpoint_rad`: of a robot that is commanded.
+  [[nodiscard]] Reason why_not(const RobotState& robot, const JointVector& setpoint_rad) const {
+    if (commands_) {
+      const bool there = (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
+      return there ? HoldCause::kNone : HoldCause::kRobotAstray;
+    }
     for (int i = 0; i < kMaxJoints; ++i) {
       const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
       if (j.kind == JointKind::kFixed) continue;
-      const double q = robot.joint_rad[i];
-      if (std::abs(robot.joint_rad_per_s[i]) > kStillShare * j.speed_max_rad_per_s) return false;
-      if (q < j.min_rad - kOutside || q > j.max_rad + kOutside) return false;
+      const double q = robot.joint_rad[i], speed = robot.joint_rad_per_s[i];
+      const double still = kStillShare * j.speed_max_rad_per_s;
+      if (std::abs(speed) > still) return {HoldCause::kRobotMoves, i + 1, speed, still};
+      if (q < j.min_rad - kOutside) return {HoldCause::kJointLimit, i + 1, q, j.min_rad};
+      if (q > j.max_rad + kOutside) return {HoldCause::kJointLimit, i + 1, q, j.max_rad};
     }
-    return true;
+    return {};
   }
 
  private:

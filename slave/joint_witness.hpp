@@ -11,35 +11,25 @@
 #include <optional>
 
 #include "common/core/time.hpp"
+#include "common/link/hold_cause.hpp"
 #include "slave/robot/robot_config.hpp"
 
 namespace longreach {
-
-enum class JointDoubt : std::uint8_t { kNone, kLeapt, kOutside, kTooFast };
-
-/// What is not believed of which joint.
-struct JointFinding {
-  JointDoubt doubt = JointDoubt::kNone;
-  int joint = 0;          // from 0
-  double rad = 0.0;       // as told
-  double from_rad = 0.0;  // where it was believed last
-};
 
 class JointWitness {
  public:
   explicit JointWitness(const RobotConfig& robot) : robot_(robot) {}
 
   /// `robot`: ok and finite. What is wrong with it, first of its joints.
-  JointFinding look(const RobotState& robot, Time now) {
+  Reason look(const RobotState& robot, Time now) {
     const Time measured = now - from_seconds(robot.age_s);
-    JointFinding found;
-    for (int i = 0; i < kMaxJoints && found.doubt == JointDoubt::kNone; ++i)
-      found = judge(i, robot, measured);
-    if (found.doubt == JointDoubt::kNone) {
+    Reason found;
+    for (int i = 0; i < kMaxJoints && found == HoldCause::kNone; ++i) found = judge(i, robot, measured);
+    if (found == HoldCause::kNone) {
       believed_ = Sample{robot.joint_rad, measured};
       leapt_ = false;
     }
-    leapt_ = leapt_ || found.doubt == JointDoubt::kLeapt;
+    leapt_ = leapt_ || found == HoldCause::kJointLeapt;
     return found;
   }
   /// The robot has failed: it may be moved meanwhile.
@@ -57,7 +47,7 @@ class JointWitness {
     Time at;
   };
 
-  [[nodiscard]] JointFinding judge(int i, const RobotState& robot, Time measured) const {
+  [[nodiscard]] Reason judge(int i, const RobotState& robot, Time measured) const {
     const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
     const double q = robot.joint_rad[i];
     if (j.kind == JointKind::kFixed) return {};
@@ -66,11 +56,12 @@ class JointWitness {
       const double apart_s = leapt_ ? 0.0 : std::max(0.0, to_seconds(measured - believed_->at));
       const double from = believed_->rad[i];
       if (std::abs(q - from) > kSwiftShare * j.speed_max_rad_per_s * (apart_s + kJitter_s) + kLeap)
-        return {JointDoubt::kLeapt, i, q, from};
+        return {HoldCause::kJointLeapt, i + 1, q, from};
     }
-    if (q < j.min_rad - kOutside || q > j.max_rad + kOutside) return {JointDoubt::kOutside, i, q, q};
+    if (q < j.min_rad - kOutside) return {HoldCause::kJointOutside, i + 1, q, j.min_rad};
+    if (q > j.max_rad + kOutside) return {HoldCause::kJointOutside, i + 1, q, j.max_rad};
     if (std::abs(robot.joint_rad_per_s[i]) > kSpeedShare * j.speed_max_rad_per_s + kSpeed)
-      return {JointDoubt::kTooFast, i, robot.joint_rad_per_s[i], q};
+      return {HoldCause::kJointTooFast, i + 1, robot.joint_rad_per_s[i], j.speed_max_rad_per_s};
     return {};
   }
 

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <exception>
 #include <thread>
 
@@ -31,8 +32,8 @@ class Chronicle {
   void write(const SlaveSnapshot& s) {
     const SlaveView& now = s.view;
     if (now.state != last_.view.state) {
-      spdlog::info("state from={} to={} cause=\"{}\" engagement={}", to_string(last_.view.state),
-                   to_string(now.state), to_string(now.cause), now.engagement);
+      spdlog::info("state from={} to={} cause=\"{}\" engagement={}{}", to_string(last_.view.state),
+                   to_string(now.state), to_string(now.cause), now.engagement, because(now.cause));
     }
     if (now.touch != last_.view.touch)
       spdlog::info("touch number={} sequence={:.2f}", now.touch, now.touch_sequence);
@@ -48,9 +49,9 @@ class Chronicle {
     const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
     if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
     if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);
-    const std::string robot = robot_trouble(s.view);
-    if (s.view.joints.doubt != last_.view.joints.doubt && !robot.empty())
-      spdlog::warn("robot trouble=\"{}\"", robot);
+    if (now.refused != 0 && now.refusal != last_.view.refusal)
+      spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.refused, to_string(now.refusal),
+                   with_remedy(now.refusal));
     trouble_ = trouble;
     last_ = s;
   }
@@ -77,6 +78,22 @@ void warn_of_singular_start(const SlaveConfig& config) {
       at.conditioning, kSingularBand);
 }
 
+/// What is real, and what of the scene is not there then.
+void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& files) {
+  const std::string& address = config.robot_adapter().address();
+  if (address.empty()) return;
+  spdlog::info(
+      "robot adapter={} scene={} scene_left_out=\"surfaces, materials and bodies: the robot is real\"",
+      address, config.scene().name());
+  const bool from_file = std::ranges::find(files, "robot_file", &FileRead::field) != files.end();
+  if (from_file && !config.has_robot_file())
+    spdlog::warn(
+        "robot file=default because=\"robot_file is not set: joints, limits and kinematics are those of {}\" "
+        "do=\"set "
+        "robot_file to that of your robot\"",
+        config.robot().name());
+}
+
 void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
                const RpcServer& rpc) {
   spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
@@ -84,6 +101,7 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
                config.scene().surface_size(), files_text(files, " ", ""));
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
+  log_adapter(config, files);
   warn_of_singular_start(to_struct(config));
   const NeedsConfig needed = needs(to_struct(config).scene);
   std::string left_out;

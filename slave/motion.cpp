@@ -51,6 +51,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   const LimiterOutput wanted =
       limiter_.step({stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go});
   clamps.tool_speed = wanted.tool_speed;
+  clamps.acceleration = wanted.acceleration;
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;
   no_relief_ = wanted.no_relief;
@@ -62,6 +63,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     conditioning_ = found.conditioning;
     if (plain && conditioning_ >= kSingularBand) home_rad_ = joints_.path_rad();
     clamps.joint_speed = limited.speed;
+    clamps.acceleration |= limited.acceleration;
     clamps.joint_position |= limited.position || found.at_joint_limit;
     clamps.unreachable |= found.status == InverseStatus::kNearest;
     clamps.singularity |= found.status == InverseStatus::kSingular || conditioning_ < kSingularBand;

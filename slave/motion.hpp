@@ -46,6 +46,10 @@ class SlaveMotion {
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
   /// The setpoint's tool, or at most 1 mm outside: an arm may rest at the edge.
   [[nodiscard]] bool in_workspace() const { return limiter_.within(X_WE_.p, 1e-3); }
+  /// How far it is outside.
+  [[nodiscard]] Reason outside() const {
+    return {HoldCause::kToolOutside, 0, (X_WE_.p - limiter_.centre_m()).norm(), command_.workspace_m};
+  }
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
   /// The tool would give way to a force that has not answered to that.

@@ -10,6 +10,7 @@
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
 #include "slave/force_doubt.hpp"
+#include "slave/joint_witness.hpp"
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
 #include "slave/robot_watch.hpp"
@@ -53,6 +54,7 @@ struct SlaveNode::State {
   void follow(const RobotState& robot);
   Clamps move(const std::optional<Pose>& X_WE_goal);
   bool decide(const SlaveInput& input);
+  [[nodiscard]] Reason unready(const RobotState& robot) const;
   void begin_engagement();
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
@@ -85,7 +87,6 @@ struct SlaveNode::State {
   SlaveView view;
 
   bool robot_ok = true;
-  bool robot_seen = false;
   RobotState robot_before{};  // its last sample that was a new one
   std::optional<Time> sampled_at{};
   ToolKinematics tool{};
@@ -95,8 +96,7 @@ struct SlaveNode::State {
   double scale = 1.0;   // k_scale as last sent
   bool let_go = false;  // likewise
   bool grip = false;    // likewise: a hold or a silence drops nothing
-  double played_sequence = 0.0;
-  double played_turn_sequence = 0.0;
+  double played_sequence = 0.0, played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
   HeldBack held_back{kHeldBackM}, turn_held_back{kHeldBackRad};
   std::uint64_t rejected_values = 0;
@@ -168,15 +168,13 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.last_heard = input.last_heard;
   in.peer_session_count = input.peer_session_count;
   in.taken = input.taken;
-  in.robot_ok = robot_ok;
-  in.robot_ready =
-      robot_ok && motion.in_workspace() && right.may_begin(input.robot, motion.joint_setpoint_rad());
+  if (!robot_ok) in.robot = view.unready;
+  if (robot_ok) in.unready = view.unready = unready(input.robot);
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
   in.sensor_fault = robot_ok && !sensor_ok;
   in.sensor_sign = doubt.wrong_sign();
   in.no_relief = motion.no_relief() || doubt.no_relief();
-  in.sensor_ready = sensor.ready();
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -194,18 +192,21 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
     in.request = command.request;
     in.echo_sent = received.echo_sent;
   }
-  view.robot_seen = robot_seen;
-  view.robot_ready = in.robot_ready;
   return safety.step(in);
+}
+
+Reason SlaveNode::State::unready(const RobotState& robot) const {
+  if (!motion.in_workspace()) return motion.outside();
+  const Reason why = right.why_not(robot, motion.joint_setpoint_rad());
+  return why != HoldCause::kNone || sensor.ready() ? why : Reason(HoldCause::kSensorZeroing);
 }
 
 void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
   if (!robot.ok) joints.forget();
-  robot_ok = robot.ok && finite(robot);
-  view.joints = robot_ok ? joints.look(robot, now) : JointFinding{};
-  robot_ok = robot_ok && view.joints.doubt == JointDoubt::kNone;
-  if (robot_ok && !robot_seen) sensor.zero();
-  robot_seen = robot_seen || robot_ok;
+  view.unready = robot.ok && finite(robot) ? joints.look(robot, now) : Reason(HoldCause::kRobotFault);
+  robot_ok = view.unready == HoldCause::kNone;
+  if (robot_ok && !view.robot_seen) sensor.zero();
+  view.robot_seen = view.robot_seen || robot_ok;
 }
 
 // From the second tick on: the setpoint before has been written, and this is what became of it.
@@ -373,6 +374,8 @@ void SlaveNode::State::book_held_back(const Clamps& clamps, double dt) {
 void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.state = safety.state();
   view.cause = safety.cause();
+  view.refused = safety.refused();
+  view.refusal = safety.refusal();
   view.engagement = safety.engagement();
   view.X_WE_anchor = X_WE_anchor;
   view.in_contact = contact.in_contact() || turn_contact.in_contact();

@@ -12,7 +12,6 @@
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
-#include "slave/joint_witness.hpp"
 #include "slave/limit_violations.hpp"
 #include "slave/robot/robot.hpp"
 #include "slave/slave_config.hpp"
@@ -39,7 +38,7 @@ struct SlaveInput {
 /// Everything that status, log and laboratory need to know, once a tick.
 struct SlaveView {
   SafetyState state = SafetyState::kIdle;
-  HoldCause cause = HoldCause::kNone;
+  Reason cause{};
   std::uint32_t engagement = 0;
   Pose X_WE{};         // measured
   Pose X_WE_anchor{};  // of this engagement
@@ -55,10 +54,11 @@ struct SlaveView {
   std::uint32_t touch = 0;
   double played_sequence = 0.0;
   double playout_delay_s = 0.0;
-  Clamps clamps{};                     // in this tick
-  JointFinding joints{};               // what is not believed of them
-  bool robot_seen = false;             // it has worked once
-  bool robot_ready = false;            // an engagement could begin: it rests within its limits
+  Clamps clamps{};            // in this tick
+  bool robot_seen = false;    // it has worked once
+  Reason unready{};           // why no engagement could begin with it or its sensor
+  std::uint32_t refused = 0;  // engagement that is asked for and not granted, and why; 0: none
+  Reason refusal{};
   std::uint64_t limit_violations = 0;  // ticks in which a limit was exceeded in spite of the clamps
   LimitViolations violations_by_limit{};
   std::uint64_t false_holds = 0;      // holds by silence that ended by themselves within resume_s

@@ -13,6 +13,7 @@ void merge(Clamps& all, const Clamps& one) {
   all.force_guard = all.force_guard || one.force_guard;
   all.singularity = all.singularity || one.singularity;
   all.unreachable = all.unreachable || one.unreachable;
+  all.acceleration = all.acceleration || one.acceleration;
 }
 
 // The goal may not run ahead of a tool that is held back: while it moves, that is told more often than by the
@@ -52,7 +53,8 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
                           const ContactAtPlace& rotation, SlaveOutput& output) {
   const ContactReport linear = report_of(translation), angular = report_of(rotation);
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
-                    view.cause != reported_.cause || changed(linear, reported_.translation) ||
+                    view.cause != reported_.cause || view.refused != reported_.refused ||
+                    view.refusal != reported_.refusal || changed(linear, reported_.translation) ||
                     changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
@@ -66,6 +68,8 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   reported_.engagement = view.engagement;
   reported_.state = view.state;
   reported_.cause = view.cause;
+  reported_.refused = view.refused;
+  reported_.refusal = view.refusal;
   reported_.translation = report_of(translation);
   reported_.rotation = report_of(rotation);
   reported_.reached_sequence = reached_sequence;

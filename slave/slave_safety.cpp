@@ -62,7 +62,7 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {in(State::kEngaged), Demand::kStale, State::kHolding, Cause::kLinkStale},
     {in(State::kEngaged), Demand::kDelayRose, State::kHolding, Cause::kDelayRose},
     {in(State::kEngaged), Demand::kOverrun, State::kHolding, Cause::kOverrun},
-    {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kOperator},
+    {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kPeerHolds},
     {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleLetGo},
     {in(State::kHolding), Demand::kGoOn, State::kEngaged, Cause::kNone},
     {in(State::kIdle), Demand::kHeard, State::kObserving, Cause::kNone},
@@ -74,9 +74,16 @@ bool SlaveSafety::step(const SlaveSafetyInput& input) {
     return (rule.from & in(state_)) != 0 && demanded(rule.demand, input);
   };
   const Rule* rule = std::ranges::find_if(kTable, applies);
-  if (demanded(Demand::kStop, input) && input.commanded) used_ = std::max(used_, input.engagement);
+  // What is asked for when a stop comes is stopped, too, in whatever state, and whether or not it is asked
+  // for in this very tick.
+  if (demanded(Demand::kStop, input))
+    used_ = std::max({used_, requested_, input.commanded ? input.engagement : 0});
   const bool changes = rule != std::end(kTable);
   if (changes) enter(*rule, input);
+  if (input.commanded) {
+    refusal_ = asks(input) ? why_not(input) : Reason{};
+    refused_ = refusal_ == Cause::kNone ? 0 : input.engagement;
+  }
   const double ahead_s = std::min(input.lag_s, 0.5 * gap_s(config_, input.send_hz));
   brakes_ = state_ == State::kEngaged && silent(input, -ahead_s);
   return changes && rule->demand == Demand::kEngagement;
@@ -85,7 +92,7 @@ bool SlaveSafety::step(const SlaveSafetyInput& input) {
 bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
   switch (demand) {
     case Demand::kRobotFault:
-      return !in.robot_ok;
+      return in.robot != Cause::kNone;
     case Demand::kSensorFault:
       return in.sensor_fault;
     case Demand::kSensorSign:
@@ -99,7 +106,7 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
     case Demand::kStop:
       return in.stop || (in.commanded && in.request == Request::kStop);
     case Demand::kEngagement:
-      return accepts(in);
+      return asks(in) && in.engagement > used_ && why_not(in) == Cause::kNone;
     case Demand::kTaken:
       return taken_;
     case Demand::kRestarted:
@@ -151,12 +158,24 @@ bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
   return !in.last_heard || to_seconds(in.now - *in.last_heard) > gap_s(config_, in.send_hz) + longer_s;
 }
 
-bool SlaveSafety::accepts(const SlaveSafetyInput& in) const {
-  if (!in.commanded || in.request != Request::kEngage || in.engagement <= used_ || !in.echo_sent ||
-      in.stalled_since)
-    return false;
-  return !in.stop && !silent(in) && !in.robot_restless && in.robot_ready && in.sensor_ready &&
-         to_seconds(in.now - *in.echo_sent) <= config_.age_max_s;
+bool SlaveSafety::asks(const SlaveSafetyInput& in) { return in.commanded && in.request == Request::kEngage; }
+
+// An engagement that is asked for; kNone: it is the present one, or may begin. One whose number is used up
+// was stopped before it began.
+Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
+  if (in.engagement <= used_) {
+    if (in.engagement == engagement_) return {};
+    return cause_ == Cause::kNone ? Reason(Cause::kOperator) : cause_;
+  }
+  if (in.robot != Cause::kNone) return in.robot;
+  if (in.sensor_fault) return Cause::kSensorFault;
+  if (in.stop) return Cause::kOperator;
+  if (in.robot_restless) return Cause::kRobotRestless;
+  if (in.unready != Cause::kNone) return in.unready;
+  if (in.stalled_since) return Cause::kStalled;
+  if (silent(in)) return Cause::kLinkSilent;
+  if (!in.echo_sent || to_seconds(in.now - *in.echo_sent) > config_.age_max_s) return Cause::kLinkStale;
+  return {};
 }
 
 void SlaveSafety::expire(const SlaveSafetyInput& in) {
@@ -178,7 +197,7 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
     restarted_ = taken_ = false;
     cause_ = HoldCause::kNone;
   } else if (rule.to == State::kFault) {
-    if (state_ != State::kFault) cause_ = rule.cause;
+    if (state_ != State::kFault) cause_ = rule.demand == Demand::kRobotFault ? in.robot : Reason(rule.cause);
   } else if (cause_ == HoldCause::kNone || rule.demand == Demand::kNoRelief) {
     cause_ = rule.cause;
   }

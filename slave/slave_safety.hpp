@@ -3,8 +3,8 @@
 // the first row that applies is taken, so the most severe demand wins:
 //
 //   state                      condition                                 next       cause
-//   any                        the robot is not ok                       Fault      robot fault
-//   any                        the force sensor says what no contact does Fault   force sensor fault
+//   any                        the robot is not ok                       Fault      robot fault, or which
+//   joint any                        the force sensor says what no contact does Fault   force sensor fault
 //   Engaged, Holding, Stopped  a force grows by what should relieve it   Fault    force sensor sign
 //   Holding, Stopped, Fault    the robot moves on, its setpoint does not Fault      robot does not rest
 //   Engaged, Holding, Stopped  the robot is not where its setpoints lead Fault      robot does not follow
@@ -19,7 +19,7 @@
 //   Engaged                    age > age_max_s                           Holding    link stale
 //   Engaged                    the round trip rose > delay_rise_max_s    Holding    delay rose
 //   Engaged                    half of a second's ticks came late        Holding    overrun
-//   Engaged                    a hold or another number is asked for     Holding    operator
+//   Engaged                    a hold or another number is asked for     Holding    peer holds
 //   Engaged                    no hand is on the handle                  Holding    handle let go
 //   Holding                    none of these, and it may end             Engaged    -
 //   Idle                       the master is heard                       Observing  -
@@ -28,16 +28,16 @@
 // A new engagement has a number greater than any used or stopped in this session of the master, comes
 // in a command that is fresh (silence and age) and echoes this slave, and finds a robot that rests within its
 // limits, a sensor that is zeroed, and nobody on this side who asks for a stop. It is the only way out of
-// Stopped and Fault. A hold may end by itself only if silence, a stall or a released handle was its cause,
-// within resume_s of the last tick that followed, and if nothing else asked for a hold meanwhile; the same
-// engagement then goes on. A tick that comes later than the gap timer after the one before obeys what lay
-// there meanwhile in one thing alone: a stop. The round trip, a median of half a second, is compared with its
-// least since the engagement (common/link/delay_watch); ticks are late as common/core/overrun_watch counts
-// them. Gap timer: gap_s, or of a master that sends f times a second max(0.1 s, 30/f). Setpoints come later
-// than the path that they smooth, so the path brakes that much before the gap timer ends, and the setpoint
-// when it does. Age = now - when this side had sent what the master last heard: no clocks are compared. The
-// cause is the first since Engaged; a fault has its own, the first of its kind, and so has a hold whose force
-// does not fall.
+// Stopped and Fault. One that is not granted has a reason, as long as it is asked for. A hold may end by
+// itself only if silence, a stall or a released handle was its cause, within resume_s of the last tick that
+// followed, and if nothing else asked for a hold meanwhile; the same engagement then goes on. A tick that
+// comes later than the gap timer after the one before obeys what lay there meanwhile in one thing alone: a
+// stop. The round trip, a median of half a second, is compared with its least since the engagement
+// (common/link/delay_watch); ticks are late as common/core/overrun_watch counts them. Gap timer: gap_s, or of
+// a master that sends f times a second max(0.1 s, 30/f). Setpoints come later than the path that they smooth,
+// so the path brakes that much before the gap timer ends, and the setpoint when it does. Age = now - when
+// this side had sent what the master last heard: no clocks are compared. The cause is the first since
+// Engaged; a fault has its own, the first of its kind, and so has a hold whose force does not fall.
 
 #include <cstdint>
 #include <optional>
@@ -54,14 +54,13 @@ struct SlaveSafetyInput {
   std::optional<Time> last_heard{};      // any valid datagram
   std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
   bool taken = false;                    // the newest of them by taking the robot from another master
-  bool robot_ok = true;                  // it says so and its joints are believed
-  bool robot_ready = true;               // an engagement may begin with it: command_right
+  Reason robot{};                        // why it is not ok: it says so, or which joint is not believed
+  Reason unready{};                      // why no engagement may begin with it or its sensor
   bool robot_restless = false;           // it moves on though its setpoint rests
   bool robot_astray = false;             // it is not where its setpoints lead
   bool sensor_fault = false;             // its force sensor says what no contact could do
   bool sensor_sign = false;              // the force grows along what should relieve it
   bool no_relief = false;                // the force does not answer to relief
-  bool sensor_ready = true;              // and is zeroed
   bool stop = false;                     // asked for on this side
   std::optional<Time> stalled_since{};   // the tick before, where it is longer ago than the gap timer
   bool delay_rose = false;               // the round trip, by more than delay_rise_max_s
@@ -86,7 +85,10 @@ class SlaveSafety {
   bool step(const SlaveSafetyInput& input);
 
   [[nodiscard]] SafetyState state() const { return state_; }
-  [[nodiscard]] HoldCause cause() const { return cause_; }
+  [[nodiscard]] const Reason& cause() const { return cause_; }
+  /// The engagement that is asked for and not granted, and why; 0: none.
+  [[nodiscard]] std::uint32_t refused() const { return refused_; }
+  [[nodiscard]] const Reason& refusal() const { return refusal_; }
   /// Engaged, and silence will end that within the setpoint's lag, half the gap timer at most.
   [[nodiscard]] bool brakes() const { return brakes_; }
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }  // followed now or last
@@ -99,7 +101,8 @@ class SlaveSafety {
 
   void observe(const SlaveSafetyInput& in);
   [[nodiscard]] bool demanded(Demand demand, const SlaveSafetyInput& in) const;
-  [[nodiscard]] bool accepts(const SlaveSafetyInput& in) const;
+  [[nodiscard]] static bool asks(const SlaveSafetyInput& in);
+  [[nodiscard]] Reason why_not(const SlaveSafetyInput& in) const;
   [[nodiscard]] bool goes_on(const SlaveSafetyInput& in) const;
   [[nodiscard]] bool silent(const SlaveSafetyInput& in, double longer_s = 0.0) const;
   void expire(const SlaveSafetyInput& in);
@@ -107,7 +110,9 @@ class SlaveSafety {
 
   SlaveSafetyConfig config_;
   SafetyState state_ = SafetyState::kIdle;
-  HoldCause cause_ = HoldCause::kNone;
+  Reason cause_{};
+  Reason refusal_{};
+  std::uint32_t refused_ = 0;
   std::uint32_t engagement_ = 0;
   std::uint32_t used_ = 0;  // greatest number accepted or stopped in this session of the peer
   std::uint32_t sessions_ = 0;

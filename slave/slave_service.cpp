@@ -34,24 +34,6 @@ std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
          " or more at the slave, or link.send_hz higher at the master";
 }
 
-std::string in_words(const JointFinding& found) {
-  const std::string joint = "joint " + std::to_string(found.joint + 1) + " of the robot ";
-  const auto number = [](double x) { return format_number(std::round(1e3 * x) / 1e3); };
-  switch (found.doubt) {
-    case JointDoubt::kNone:
-      break;
-    case JointDoubt::kLeapt:
-      return joint + "has leapt from " + number(found.from_rad) + " to " + number(found.rad) +
-             " rad (or m), as no joint can: look at its encoder, then start the robot's adapter again";
-    case JointDoubt::kOutside:
-      return joint + "is at " + number(found.rad) +
-             " rad (or m), beyond its limits: move it back by the robot's own means, then engage";
-    case JointDoubt::kTooFast:
-      return joint + "claims " + number(found.rad) + " rad/s (or m/s), as no joint can: look at its encoder";
-  }
-  return "";
-}
-
 /// limit_violations_LIMIT each, as limit_violations_joint_speed.
 void add_limits(proto::Status& out, const LimitViolations& violations) {
   for (std::size_t i = 0; i < violations.ticks.size(); ++i) {
@@ -64,13 +46,9 @@ void add_limits(proto::Status& out, const LimitViolations& violations) {
 }  // namespace
 
 std::string robot_trouble(const SlaveView& view) {
-  if (view.joints.doubt != JointDoubt::kNone) return in_words(view.joints);
   const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
-  if (idle && view.robot_seen && !view.robot_ready)
-    return "the robot moves, or stands beyond a limit of its joints or outside command.workspace_m: move it "
-           "back by "
-           "its own means; it can be engaged when it rests within them";
-  return "";
+  const bool known = view.robot_seen && view.unready != HoldCause::kSensorZeroing;
+  return idle && known ? with_remedy(view.unready) : "";
 }
 
 SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)

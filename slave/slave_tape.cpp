@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 1040 && sizeof(SlaveView) == 672);
+static_assert(sizeof(SlaveOutput) == 1088 && sizeof(SlaveView) == 736);
 
 SlaveTape::SlaveTape(double rate_hz, Duration to_log_time)
     : Tape("slave", to_log_time),
@@ -134,7 +134,7 @@ void write(const SlaveOutput& output, recording::SlaveOutput& out) {
 
 void write(const SlaveView& v, recording::SlaveView& out) {
   out.set_state(to_recorded<recording::State>(v.state));
-  out.set_cause(to_recorded<recording::Cause>(v.cause));
+  out.set_cause(to_recorded<recording::Cause>(v.cause.cause));
   out.set_engagement(v.engagement);
   write(v.X_WE, *out.mutable_tool());
   write(v.X_WE_anchor, *out.mutable_anchor());

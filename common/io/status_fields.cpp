@@ -24,52 +24,10 @@ std::string_view to_string(SafetyState state) {
   return "unknown";
 }
 
-std::string_view to_string(HoldCause cause) {
-  switch (cause) {
-    case HoldCause::kNone:
-      return "";
-    case HoldCause::kOperator:
-      return "operator";
-    case HoldCause::kLinkSilent:
-      return "link silent";
-    case HoldCause::kLinkStale:
-      return "link stale";
-    case HoldCause::kPeerRestarted:
-      return "other side restarted";
-    case HoldCause::kPeerHolds:
-      return "other side holds";
-    case HoldCause::kRobotFault:
-      return "robot fault";
-    case HoldCause::kDeviceFault:
-      return "device fault";
-    case HoldCause::kHandleLetGo:
-      return "handle let go";
-    case HoldCause::kTaken:
-      return "taken by another master";
-    case HoldCause::kRobotRestless:
-      return "robot does not rest";
-    case HoldCause::kRobotAstray:
-      return "robot does not follow";
-    case HoldCause::kUnanswered:
-      return "slave did not answer";
-    case HoldCause::kStalled:
-      return "this side stood still";
-    case HoldCause::kOverrun:
-      return "ticks late";
-    case HoldCause::kDelayRose:
-      return "link delay rose";
-    case HoldCause::kHandStale:
-      return "hand stale";
-    case HoldCause::kSensorFault:
-      return "force sensor implausible";
-    case HoldCause::kSensorSign:
-      return "sign or frame of the force sensor";
-    case HoldCause::kNoRelief:
-      return "force does not fall";
-    case HoldCause::kCount:
-      break;
-  }
-  return "unknown";
+std::string_view to_string(HoldCause cause) { return text_of(cause).name; }
+
+std::string because(const Reason& reason) {
+  return reason.joint == 0 ? "" : " because=\"" + sentence(reason) + "\"";
 }
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count) {

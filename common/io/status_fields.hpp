@@ -17,7 +17,8 @@
 namespace longreach {
 
 std::string_view to_string(SafetyState state);  // as in proto/control: Idle, Observing, ...
-std::string_view to_string(HoldCause cause);    // in words; empty for kNone
+std::string_view to_string(HoldCause cause);    // its name
+std::string because(const Reason& reason);      // of a joint: for a log line; else empty
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
 /// rejected, and rejected_REASON each.

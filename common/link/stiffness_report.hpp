@@ -6,37 +6,13 @@
 #include <array>
 #include <cstdint>
 
+#include "common/link/hold_cause.hpp"
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
 
 /// States of the safety machine; both sides show them.
 enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
-
-/// First cause of leaving Engaged.
-enum class HoldCause : std::uint8_t {
-  kNone,
-  kOperator,       // asked for by the operator
-  kLinkSilent,     // gap timer: nothing heard
-  kLinkStale,      // age bound: what the other side acts on is too old
-  kPeerRestarted,  // the other side began a new session
-  kPeerHolds,      // the other side holds or stopped
-  kRobotFault,
-  kDeviceFault,
-  kHandleLetGo,    // no hand on the handle
-  kTaken,          // another master has taken the robot
-  kRobotRestless,  // the robot moves where it should rest
-  kRobotAstray,    // the robot does not follow its setpoints
-  kUnanswered,     // the slave did not confirm an engagement
-  kStalled,        // this side stood still for longer than its gap timer
-  kOverrun,        // more than half of the ticks of a second came late
-  kDelayRose,      // the round trip exceeds its least since the engagement by more than the bound
-  kHandStale,      // the state of the hand is too old
-  kSensorFault,    // the force sensor says what no contact could do
-  kSensorSign,     // the force grows along the motion that should relieve it
-  kNoRelief,       // the force does not fall as the robot gives way
-  kCount
-};
 
 /// A surface that the tool presses on, or has pressed on: the tangent of its law at the depth where the hand
 /// works. Lengths in m and forces in N, or in rad and N m.
@@ -74,11 +50,14 @@ struct ContactReport {
 struct StiffnessReport {
   std::uint32_t engagement = 0;  // engagement that the slave follows or last followed
   SafetyState state = SafetyState::kIdle;
-  HoldCause cause = HoldCause::kNone;
+  Reason cause{};  // of the state
   ContactReport translation{};
   ContactReport rotation{};
   // Newest command whose goal the tool has reached.
   std::uint64_t reached_sequence = 0;
+  // The engagement that is asked for and not granted, and why; 0: none.
+  std::uint32_t refused = 0;
+  Reason refusal{};
 };
 
 }  // namespace longreach

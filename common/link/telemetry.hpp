@@ -20,6 +20,8 @@ struct Clamps {
   bool force_guard = false;
   bool singularity = false;
   bool unreachable = false;
+  bool acceleration =
+      false;  // of tool or joints: for figures; every change of motion meets it, so it is no warning
 };
 
 /// What may be thought of an estimate.

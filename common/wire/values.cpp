@@ -12,6 +12,7 @@ using Doubles = google::protobuf::RepeatedField<double>;
 using Floats = google::protobuf::RepeatedField<float>;
 
 constexpr double kEstimateMax = 1e30;    // keeps a float finite
+constexpr double kPlaceMax = 1e9;        // of a cause
 constexpr double kSequenceMax = 9e15;    // below 2^53: a fractional sequence still has its fraction's halves
 constexpr double kScaleRounding = 1e-9;  // steps of 0.05 do not add up exactly
 constexpr double kUnitTolerance = 1e-6;  // of a quaternion's norm
@@ -30,6 +31,30 @@ template <class Enum>
 bool read_enum(std::uint32_t value, Enum last, Enum& out) {
   out = static_cast<Enum>(value);
   return value <= static_cast<std::uint32_t>(last);
+}
+
+std::uint32_t number_of(HoldCause cause) { return static_cast<std::uint32_t>(cause); }
+
+/// Where it is; of a cause without a place nothing.
+void write(const Reason& reason, Floats& place) {
+  place.Clear();
+  if (reason.joint == 0 && reason.limit == 0.0) return;
+  place.Add(static_cast<float>(reason.joint));
+  for (const double x : {reason.value, reason.limit})
+    place.Add(static_cast<float>(std::clamp(x, -kPlaceMax, kPlaceMax)));
+}
+
+/// A cause with its place, or without one.
+bool read(std::uint32_t cause, const Floats& place, Reason& out) {
+  out = Reason{};
+  if (!read_enum(cause, kLastCause, out.cause)) return false;
+  if (place.empty()) return true;
+  if (place.size() != 3 || !all_within(place, kPlaceMax)) return false;
+  const auto joint = static_cast<double>(place.Get(0));
+  if (!within(joint, 0.0, kMaxJoints) || joint != std::floor(joint)) return false;
+  out = {out.cause, static_cast<int>(joint), static_cast<double>(place.Get(1)),
+         static_cast<double>(place.Get(2))};
+  return true;
 }
 
 template <class Field>
@@ -130,7 +155,7 @@ bool read(const proto::PoseXyzw& in, Pose& out) {
 
 std::uint32_t to_bits(const Clamps& c) {
   const bool flags[] = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,
-                        c.force_guard, c.singularity, c.unreachable};
+                        c.force_guard, c.singularity, c.unreachable,    c.acceleration};
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < std::size(flags); ++i) bits |= static_cast<std::uint32_t>(flags[i]) << i;
   return bits;
@@ -138,8 +163,8 @@ std::uint32_t to_bits(const Clamps& c) {
 
 bool read(std::uint32_t bits, Clamps& out) {
   const auto bit = [bits](int i) { return ((bits >> i) & 1u) != 0; };
-  out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6)};
-  return bits < 1u << 7;
+  out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7)};
+  return bits < 1u << 8;
 }
 
 // An estimator that knows nothing yet may have an infinite variance: that is "not valid", not a damaged
@@ -243,7 +268,11 @@ bool read(const proto::MotionCommand& in, MotionCommand& out) {
 void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_engagement(report.engagement);
   out.set_state(static_cast<std::uint32_t>(report.state));
-  out.set_cause(static_cast<std::uint32_t>(report.cause));
+  out.set_cause(number_of(report.cause));
+  write(report.cause, *out.mutable_cause_place());
+  out.set_refused(report.refused);
+  out.set_refusal(number_of(report.refusal));
+  write(report.refusal, *out.mutable_refusal_place());
   out.set_reached_sequence(report.reached_sequence);
   write(report.translation, *out.mutable_translation_lines(), *out.mutable_translation_places(),
         *out.mutable_translation_touches());
@@ -258,8 +287,10 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
 bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.engagement = in.engagement();
   out.reached_sequence = in.reached_sequence();
+  out.refused = in.refused();
   return read_enum(in.state(), SafetyState::kFault, out.state) &&
-         read_enum(in.cause(), HoldCause::kNoRelief, out.cause) &&
+         read(in.cause(), in.cause_place(), out.cause) &&
+         read(in.refusal(), in.refusal_place(), out.refusal) &&
          read(in.translation_lines(), in.translation_places(), in.translation_touches(), kGoalMaxM,
               out.translation) &&
          read(in.rotation_lines(), in.rotation_places(), in.rotation_touches(), kGoalMaxRad, out.rotation) &&
@@ -271,7 +302,7 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
 
 void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_state(static_cast<std::uint32_t>(telemetry.state));
-  out.set_cause(static_cast<std::uint32_t>(telemetry.cause));
+  out.set_cause(number_of(telemetry.cause));
   out.set_engagement(telemetry.engagement);
   write(telemetry.X_WE, *out.mutable_tool());
   write(telemetry.X_WE_goal, *out.mutable_goal());
@@ -292,7 +323,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
   const bool possible = read_enum(in.state(), SafetyState::kFault, out.state) &&
-                        read_enum(in.cause(), HoldCause::kNoRelief, out.cause) && read(in.tool(), out.X_WE) &&
+                        read_enum(in.cause(), kLastCause, out.cause) && read(in.tool(), out.X_WE) &&
                         read(in.goal(), out.X_WE_goal) && read(in, out.estimate) &&
                         read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;

@@ -1,9 +1,11 @@
 #include "deploy/cli/commands.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <iostream>
+#include <thread>
 #include <type_traits>
 
 #include "common/config/number_text.hpp"
@@ -97,8 +99,27 @@ ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   return ExitStatus::kDone;
 }
 
+/// Asks, and waits for what comes of it: at most a round trip and a second, after which the master has a
+/// reason.
 ExitStatus run_engage(const Options& options) {
-  print_done(options, SideClient(Side::kMaster, options).engage());
+  using std::chrono::steady_clock;
+  constexpr double kBesides_s = 2.0;
+  SideClient master(Side::kMaster, options);
+  const std::uint32_t before = master.status().engagement();
+  std::string done = master.engage();
+  const auto asked = steady_clock::now();
+  for (;; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+    const proto::Status status = master.status();
+    const std::chrono::duration<double> waited = steady_clock::now() - asked;
+    const bool late = waited.count() > status.link().rtt_s() + kBesides_s;
+    if (status.state() == "Engaged") done = "engaged";
+    if (status.state() == "Engaged" || (status.engagement() != before && status.state() != "Observing"))
+      break;
+    if (!late) continue;
+    if (status.refusal().empty()) break;
+    throw SideError(SideError::Kind::kRefused, "not engaged: " + status.refusal());
+  }
+  print_done(options, done);
   return ExitStatus::kDone;
 }
 

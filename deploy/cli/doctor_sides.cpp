@@ -99,6 +99,8 @@ Finding version_finding(const proto::Status& status) {
 Finding state_finding(const proto::Status& status) {
   std::string text = status.state() + (status.cause().empty() ? "" : " (" + status.cause() + ")");
   if (!status.trouble().empty()) return {FindingVerdict::kFailure, "session", text + "; " + status.trouble()};
+  if (!status.refusal().empty())
+    return {FindingVerdict::kFailure, "engagement", text + "; " + status.refusal()};
   if (status.side() == "slave")
     text += status.lease().empty() ? "; the robot is free"
                                    : "; the robot is with the master at " + status.lease();

@@ -245,9 +245,12 @@ std::string status_table(const BothReports& reports) {
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
-  for (const SideReport* report : {&reports.master, &reports.slave})
+  for (const SideReport* report : {&reports.master, &reports.slave}) {
     if (report->status && !report->status->trouble().empty())
       text += "The " + std::string(name_of(report->side)) + " says: " + report->status->trouble() + "\n";
+    if (report->status && !report->status->refusal().empty())
+      text += "Not engaged: " + report->status->refusal() + "\n";
+  }
   return text;
 }
 

@@ -9,11 +9,7 @@
 namespace longreach {
 namespace {
 
-bool is_machine(HoldCause cause) { return cause == HoldCause::kStalled || cause == HoldCause::kOverrun; }
-bool is_operator(HoldCause cause) {
-  return cause == HoldCause::kOperator || cause == HoldCause::kHandleLetGo || cause == HoldCause::kTaken;
-}
-bool is_silence(HoldCause cause) { return cause == HoldCause::kLinkSilent || cause == HoldCause::kLinkStale; }
+bool is_machine(HoldCause cause) { return text_of(cause).blame == HoldBlame::kMachine; }
 
 std::string machine_words(const HoldRecord& hold) {
   const bool here = is_machine(hold.cause);
@@ -26,20 +22,21 @@ std::string machine_words(const HoldRecord& hold) {
 std::string words_of(const HoldRecord& hold) {
   const std::string when = formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
   if (hold.blame == HoldBlame::kMachine) return when + machine_words(hold);
-  if (hold.blame == HoldBlame::kOperator) return when + "the operator stopped or let go";
-  std::string text = when + std::string(cause_in_words(hold.cause));
+  std::string text = when + sentence(hold.cause);
   if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause)
-    text += ", at the slave " + std::string(cause_in_words(hold.far_cause));
+    text += ", at the slave " + sentence(hold.far_cause);
   return text + (hold.blame == HoldBlame::kOutage ? ", as the link's profile has it" : "");
 }
 
 }  // namespace
 
 HoldBlame HoldLog::blame(const HoldRecord& hold) const {
-  if (is_machine(hold.cause) || is_machine(hold.far_cause)) return HoldBlame::kMachine;
-  if (is_operator(hold.cause) || is_operator(hold.far_cause)) return HoldBlame::kOperator;
-  if (outages_ && (is_silence(hold.cause) || is_silence(hold.far_cause))) return HoldBlame::kOutage;
-  return HoldBlame::kSystem;
+  const auto is = [&](HoldBlame which) {
+    return text_of(hold.cause).blame == which || text_of(hold.far_cause).blame == which;
+  };
+  if (is(HoldBlame::kMachine)) return HoldBlame::kMachine;
+  if (is(HoldBlame::kOperator)) return HoldBlame::kOperator;
+  return outages_ && is(HoldBlame::kOutage) ? HoldBlame::kOutage : HoldBlame::kSystem;
 }
 
 HoldRecord HoldLog::present() const {
@@ -59,13 +56,14 @@ void HoldLog::add(double seconds, const MasterView& view) {
   if (holds_ && !engaged) {
     if (view.cause != HoldCause::kNone && (hold_.cause == HoldCause::kNone || is_machine(view.cause)))
       hold_.cause = view.cause;
-    const HoldCause far = view.far_known ? view.far.cause : HoldCause::kNone;
+    const Reason far =
+        view.cause_is_far ? view.cause : Reason(view.far_known ? view.far.cause : HoldCause::kNone);
     if (far != HoldCause::kNone && (hold_.far_cause == HoldCause::kNone || is_machine(far)))
       hold_.far_cause = far;
   }
   if (holds_ && engaged) {
     const HoldRecord hold = present();
-    const std::uint64_t number = count();
+    const std::uint64_t number = count() - 1;
     if (number < kKept) kept_[number] = hold;
     ++counts_[static_cast<std::size_t>(hold.blame)];
     if (hold.blame == HoldBlame::kMachine) machine_s_ += hold.lasted_s;
@@ -75,7 +73,7 @@ void HoldLog::add(double seconds, const MasterView& view) {
 }
 
 std::uint64_t HoldLog::count() const {
-  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{holds_ ? 1U : 0U});
 }
 
 double HoldLog::machine_s() const {
@@ -83,10 +81,13 @@ double HoldLog::machine_s() const {
   return machine_s_ + (now ? present().lasted_s : 0.0);
 }
 
-std::vector<std::string> HoldLog::words() const {
-  std::vector<std::string> all;
-  for (std::size_t i = 0; i < std::min<std::size_t>(count(), kKept); ++i) all.push_back(words_of(kept_[i]));
-  if (holds_) all.push_back(words_of(present()));
+std::vector<HoldLog::Sentence> HoldLog::words() const {
+  std::vector<Sentence> all;
+  const auto add = [&](const HoldRecord& hold) {
+    all.push_back({words_of(hold), hold.blame == HoldBlame::kSystem});
+  };
+  for (std::size_t i = 0; i < std::min<std::size_t>(count() - (holds_ ? 1 : 0), kKept); ++i) add(kept_[i]);
+  if (holds_) add(present());
   return all;
 }
 

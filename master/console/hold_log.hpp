@@ -1,7 +1,7 @@
 #pragma once
-// The holds of a run: when, for how long, and what caused them. A hold that a busy machine caused (a control
-// loop that stalled or ran late) is not a fault of the system; neither is one by the operator, nor one by an
-// outage that the link's profile has. add() allocates nothing.
+// The holds, stops and faults of a run: when, for how long, and what caused them. The present one counts. A
+// hold that a busy machine caused (a control loop that stalled or ran late) is not a fault of the system;
+// neither is one by the operator, nor one by an outage that the link's profile has. add() allocates nothing.
 
 #include <array>
 #include <cstdint>
@@ -13,12 +13,10 @@
 
 namespace longreach {
 
-enum class HoldBlame : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
-
 struct HoldRecord {
   double began_s = 0.0, lasted_s = 0.0;
-  HoldCause cause = HoldCause::kNone;      // at the master
-  HoldCause far_cause = HoldCause::kNone;  // at the slave, as far as it was reported meanwhile
+  Reason cause{};      // at the master
+  Reason far_cause{};  // at the slave, as far as it was reported meanwhile
   HoldBlame blame = HoldBlame::kSystem;
 };
 
@@ -31,7 +29,7 @@ class HoldLog {
   void add(double seconds, const MasterView& view);
 
   [[nodiscard]] std::uint64_t count(HoldBlame blame) const {
-    return counts_[static_cast<std::size_t>(blame)];
+    return counts_[static_cast<std::size_t>(blame)] + (now() == blame ? 1 : 0);
   }
   [[nodiscard]] std::uint64_t count() const;
   /// Of the present hold; none: there is none.
@@ -40,8 +38,12 @@ class HoldLog {
   }
   /// Time of the holds that the machine caused, the present one included.
   [[nodiscard]] double machine_s() const;
-  /// A sentence for each of the first holds; one that has not ended is among them.
-  [[nodiscard]] std::vector<std::string> words() const;
+  /// A sentence for each of the first holds; the present one is among them.
+  struct Sentence {
+    std::string text;
+    bool fault = false;  // of the system
+  };
+  [[nodiscard]] std::vector<Sentence> words() const;
 
  private:
   static constexpr std::size_t kKept = 16;

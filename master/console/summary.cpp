@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "master/console/formatted.hpp"
+#include "master/console/words.hpp"
 
 namespace longreach {
 namespace {
@@ -33,7 +34,6 @@ RunCounters counters_of(const ConsoleSnapshot& last) {
   RunCounters counters;
   counters.late_ticks = last.late_ticks;
   counters.missed_ticks = last.missed_ticks;
-  counters.false_holds = last.view.false_holds;
   counters.rejected_values =
       last.view.rejected_values + last.rejected[static_cast<std::size_t>(Rejection::kValue)];
   counters.rejected_datagrams = std::accumulate(last.rejected.begin(), last.rejected.end(), std::uint64_t{0});
@@ -83,6 +83,7 @@ void RunSummary::add_contact(double seconds, const MasterView& view, std::option
     touched_at_s_ = seconds;
     fit_.begin_group();
   }
+  if (view.stiffness_clamped) cut_to_n_per_m_ = view.stiffness_max_n_per_m;
   const bool settled = touched_at_s_ && rtt_s && seconds >= *touched_at_s_ + *rtt_s + kSettleS;
   const bool clamped = view.force_clamped || view.stiffness_clamped;
   if (!settled || clamped || view.mode != MotionMode::kPosition) return;
@@ -113,8 +114,17 @@ Summary RunSummary::finish(const ConsoleSnapshot& last) const {
   summary.force_step_max_n = force_step_max_n_;
   summary.force_step_excess_n = force_step_excess_n_;
   summary.counters = counters_of(last);
+  if (last.view.refusal != HoldCause::kNone) summary.refusal = refusal_in_words(last.view);
   add_checks(summary);
   return summary;
+}
+
+std::string RunSummary::engaged_in_words(const Summary& s) const {
+  std::string text = formatted("engaged for %.1f of %.1f s (%.0f %%)", s.engaged_s, last_s_,
+                               last_s_ > 0.0 ? 100.0 * s.engaged_s / last_s_ : 0.0);
+  if (s.engaged_s > 0.0) return text;
+  if (s.refusal.empty()) return text + ": nobody has asked for it, or the slave was not received";
+  return text + ": " + s.refusal;
 }
 
 void RunSummary::add_checks(Summary& s) const {
@@ -122,9 +132,13 @@ void RunSummary::add_checks(Summary& s) const {
   checks.push_back(
       {s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
        s.rtt_s.has_value()});
-  checks.push_back({formatted("engaged for %.1f s", s.engaged_s), s.engaged_s > 0.0});
+  checks.push_back({engaged_in_words(s), s.engaged_s > 0.0});
   const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
-  if (both) {
+  if (cut_to_n_per_m_ > 0.0) {
+    std::string line = "the wall is stiffer than this device can render: ";
+    if (config_.wall_n_per_m) line += formatted("%.3f N/mm were ", 1e-3 * config_.ke * *config_.wall_n_per_m);
+    checks.push_back({line + formatted("cut to %.3f N/mm", 1e-3 * cut_to_n_per_m_), true, true});
+  } else if (both) {
     const double shown = *s.displayed_stiffness_n_per_m;
     const double estimated = *s.expected_stiffness_n_per_m;
     const double expected = config_.wall_n_per_m ? config_.ke * *config_.wall_n_per_m : estimated;
@@ -156,14 +170,11 @@ void RunSummary::add_checks(Summary& s) const {
 
 void RunSummary::add_holds(Summary& s) const {
   const std::uint64_t faults = holds_.count(HoldBlame::kSystem), all = holds_.count();
-  const std::uint64_t false_holds = s.counters.false_holds - std::min(s.counters.false_holds, all - faults);
-  const bool ok = faults == 0 && false_holds == 0;
   std::string text = count_text(all, "holds");
-  if (!ok)
-    text +=
-        formatted(", %llu of them a fault", static_cast<unsigned long long>(std::max(faults, false_holds)));
-  s.checks.push_back({text, ok});
-  for (std::string& words : holds_.words()) s.checks.push_back({std::move(words), true, true});
+  if (faults > 0) text += formatted(", %llu of them a fault", static_cast<unsigned long long>(faults));
+  s.checks.push_back({text, faults == 0});
+  for (HoldLog::Sentence& hold : holds_.words())
+    s.checks.push_back({std::move(hold.text), !hold.fault, true});
 }
 
 bool Summary::passed() const {

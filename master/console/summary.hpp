@@ -34,7 +34,6 @@ struct SummaryConfig {
 struct RunCounters {
   std::uint64_t late_ticks = 0;  // of both sides, late by over 100 ms
   std::uint64_t missed_ticks = 0;
-  std::uint64_t false_holds = 0;
   std::uint64_t rejected_values = 0;     // of messages that were otherwise good
   std::uint64_t rejected_datagrams = 0;  // of both sides, all reasons
   std::uint64_t limit_violations = 0;    // of the slave
@@ -49,6 +48,7 @@ struct SummaryCheck {
 struct Summary {
   std::optional<double> rtt_s{};  // median over the run
   double engaged_s = 0.0;         // time in Engaged
+  std::string refusal{};          // why the last engagement was not granted; empty: it was
   bool touched = false;
   std::optional<double> displayed_stiffness_n_per_m{};
   std::optional<double> expected_stiffness_n_per_m{};  // ke times the estimate, mean over the same samples
@@ -79,6 +79,7 @@ class RunSummary {
   void add_force_step(const MasterView& view);
   void add_checks(Summary& summary) const;
   void add_holds(Summary& summary) const;
+  [[nodiscard]] std::string engaged_in_words(const Summary& summary) const;
 
   SummaryConfig config_;
   Ring<double> rtt_s_;  // ten a second, the last hour
@@ -89,6 +90,8 @@ class RunSummary {
   LineFit fit_;
   double estimate_sum_n_per_m_ = 0.0;
   std::uint64_t estimates_ = 0;
+  double cut_to_n_per_m_ =
+      0.0;  // what the device can render, where that was less than the wall; 0: it was not
   double energy_min_j_ = 0.0;
   double energy_drawdown_j_ = 0.0;
   std::uint64_t reports_ = 0;

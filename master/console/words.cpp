@@ -23,6 +23,12 @@ std::string as_of(const ConsoleSnapshot& s) {
   return age_s && *age_s >= kNoticed_s ? formatted(" (%.1f s ago)", *age_s) : "";
 }
 
+/// By what can be seen: a limit that costs no more is not worth a warning.
+bool behind(const Telemetry& robot) {
+  constexpr double kBehind_m = 0.01;
+  return (robot.X_WE_goal.p - robot.X_WE.p).norm() > kBehind_m;
+}
+
 /// Which limit keeps the robot from following; empty: none does.
 std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
@@ -34,9 +40,7 @@ std::string held_back(const MasterView& view) {
   if (robot.unreachable)
     return "the goal is out of the robot's reach: it does not follow any further this way";
   if (robot.force_guard) return "the force guard lets the robot go no deeper";
-  // A limit of speed is met by every quick motion; it is told when the robot is behind by what can be seen.
-  constexpr double kBehind_m = 0.01;
-  if (!((view.far.X_WE_goal.p - view.far.X_WE.p).norm() > kBehind_m)) return "";
+  if (!behind(view.far)) return "";
   if (robot.singularity) return "near a singular pose the robot follows slowly";
   if (robot.joint_speed) return "a joint of the robot is at its speed limit: it follows late";
   if (robot.tool_speed) return "the robot is at its speed limit: it follows late";
@@ -61,6 +65,7 @@ std::string touching(const ConsoleSnapshot& s) {
 }
 
 std::string engaging(const ConsoleSnapshot& s) {
+  if (s.view.refusal != HoldCause::kNone) return "engaging, not granted yet: " + refusal_in_words(s.view);
   if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's answer";
   if (*s.view.answer_in_s < 0.05)
     return formatted("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
@@ -90,28 +95,23 @@ std::string following(const ConsoleSnapshot& s) {
 }
 
 std::string holding(const ConsoleSnapshot& s) {
-  const char* then = s.view.resumes ? "; it goes on by itself if that is over at once" : "; engage to go on";
-  switch (s.view.cause) {
-    case HoldCause::kLinkSilent:
-      if (s.view.silent)
-        return formatted("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
-               (s.view.resumes ? "" : "; engage when the link is back");
-      return formatted("holding: nothing came from the slave for %.1f s; the link is back: ",
-                       s.view.hold_silence_s) +
-             (s.view.resumes ? "it goes on by itself" : "engage to go on");
-    case HoldCause::kDelayRose:
-      if (!s.view.rtt_s || !s.view.rtt_least_s) break;
-      return formatted("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
-                       *s.view.rtt_least_s, *s.view.rtt_s);
-    case HoldCause::kHandleLetGo:
-      return s.view.hand_missing ? "holding: no hand is on the handle" : "holding: engage to go on";
-    case HoldCause::kNone:
-    case HoldCause::kOperator:
-      return "holding: engage to go on";
-    default:
-      break;
+  const MasterView& view = s.view;
+  if (view.cause == HoldCause::kNone || (view.cause == HoldCause::kHandleLetGo && !view.hand_missing))
+    return "holding: engage to go on";
+  const std::string begin = "holding: " + cause_in_words(view);
+  if (view.cause == HoldCause::kLinkSilent && !view.cause_is_far) {
+    if (view.silent)
+      return formatted("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
+             (view.resumes ? "" : "; engage when the link is back");
+    return formatted("holding: nothing came from the slave for %.1f s; the link is back: ",
+                     view.hold_silence_s) +
+           (view.resumes ? "it goes on by itself" : "engage to go on");
   }
-  return "holding: " + cause_in_words(s.view) + then;
+  if (view.resumes) return begin + "; it goes on by itself if that is over at once";
+  if (view.cause == HoldCause::kDelayRose && !view.cause_is_far && view.rtt_s && view.rtt_least_s)
+    return formatted("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
+                     *view.rtt_least_s, *view.rtt_s);
+  return begin + "; " + std::string(text_of(view.cause).remedy);
 }
 
 std::string observing(const ConsoleSnapshot& s) {
@@ -119,13 +119,14 @@ std::string observing(const ConsoleSnapshot& s) {
     return formatted("observing: nothing has come from the slave for %.1f s; engage when it is back",
                      s.link.silence_s);
   if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
+  if (s.view.refusal != HoldCause::kNone) return "observing: not engaged: " + refusal_in_words(s.view);
   if (s.view.far_state == SafetyState::kFault) {
-    const std::string why(s.view.far_known ? cause_in_words(s.view.far.cause) : "");
+    const std::string why = s.view.far_known ? sentence(s.view.far.cause) : "";
     return "observing: the slave has a fault" + (why.empty() ? "" : ", " + why) +
            "; engage when it is mended";
   }
   if (s.view.cause != HoldCause::kNone)
-    return "observing: " + cause_in_words(s.view) + "; engage to try again";
+    return "observing: " + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
   return "observing: the robot is at rest; engage to take it";
 }
 
@@ -137,39 +138,20 @@ std::string_view state_in_words(SafetyState state) {
   return name_of(state, kNames);
 }
 
-std::string_view cause_in_words(HoldCause cause) {
-  static constexpr std::array<std::string_view, static_cast<std::size_t>(HoldCause::kCount)> kNames = {
-      "",
-      "asked for by the operator",
-      "the link is silent",
-      "the news that the other side acts on is too old",
-      "the other side has restarted",
-      "the other side holds",
-      "the robot reports a fault",
-      "the haptic device reports a fault",
-      "no hand is on the handle",
-      "another master has taken the robot",
-      "the robot moves though it should rest",
-      "the robot does not follow",
-      "the slave did not answer",
-      "the computer of one side stood still",
-      "the computer of one side does not keep its rate",
-      "the delay of the link has risen",
-      "nothing new has come from the hand",
-      "the force sensor says what no contact could do",
-      "the force grows as the robot gives way: sign or frame of the force sensor?",
-      "the force does not fall as the robot gives way: does something come, is it carried, or stiffer than "
-      "command.guard_stiffness_n_per_m?"};
-  return name_of(cause, kNames);
+std::string cause_in_words(const MasterView& view) {
+  if (view.cause == HoldCause::kLinkSilent && !view.cause_is_far && !view.silent)
+    return "the link was silent";
+  if (!view.cause_is_far) return sentence(view.cause);
+  const bool lasts = view.far_state == SafetyState::kHolding || view.far_state == SafetyState::kStopped ||
+                     view.far_state == SafetyState::kFault || view.state == SafetyState::kObserving;
+  return (lasts ? "at the slave: " : "at the slave, over now: ") + sentence(view.cause);
 }
 
-std::string cause_in_words(const MasterView& view) {
-  if (view.cause == HoldCause::kLinkSilent && !view.silent) return "the link was silent";
-  if (view.cause == HoldCause::kPeerHolds && view.far_state == SafetyState::kEngaged)
-    return "the other side held";
-  if (view.cause == HoldCause::kRobotFault && view.far_state != SafetyState::kFault)
-    return "the robot reported a fault";
-  return std::string(cause_in_words(view.cause));
+std::string refusal_in_words(const MasterView& view) {
+  if (view.refusal == HoldCause::kUnanswered && view.far_state == SafetyState::kIdle)
+    return "the slave does not receive what this master sends; check the link in that direction, then engage "
+           "again";
+  return (view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal);
 }
 
 std::optional<double> age_of_news_s(const ConsoleSnapshot& s) {
@@ -182,17 +164,20 @@ std::string_view mode_in_words(MotionMode mode) { return mode == MotionMode::kRa
 std::vector<std::string> clamps_in_words(const MasterView& view) {
   std::vector<std::string> words;
   if (view.force_clamped) words.emplace_back("hand force: at its limit");
-  if (view.stiffness_clamped) words.emplace_back("stiffness: cut to what the device can render");
+  if (view.stiffness_clamped)
+    words.push_back(formatted("stiffness: cut to %.3g N/mm, the most that this device can render",
+                              1e-3 * view.stiffness_max_n_per_m));
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
   if (view.at_boundary) words.emplace_back("hand: at the edge of its space, move it back with the clutch");
   if (!view.far_known || view.silent) return words;  // what was clamped then
   const Clamps& robot = view.far.clamps;
-  if (robot.tool_speed) words.emplace_back("robot: at its tool speed limit, it will catch up");
-  if (robot.joint_speed) words.emplace_back("robot: a joint is at its speed limit");
+  const bool late = behind(view.far);
+  if (robot.tool_speed && late) words.emplace_back("robot: at its tool speed limit, it will catch up");
+  if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
   if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
   if (robot.workspace) words.emplace_back("robot: the goal is outside of the workspace");
   if (robot.force_guard) words.emplace_back("robot: the force guard lets it go no deeper");
-  if (robot.singularity) words.emplace_back("robot: slowed down near a singular pose");
+  if (robot.singularity && late) words.emplace_back("robot: slowed down near a singular pose");
   if (robot.unreachable) words.emplace_back("robot: the goal is out of reach");
   return words;
 }
@@ -210,9 +195,9 @@ std::string happening(const ConsoleSnapshot& s) {
       return holding(s);
     case SafetyState::kStopped:
     case SafetyState::kFault: {
-      std::string words = s.view.state == SafetyState::kStopped ? "stopped" : "fault";
-      if (s.view.cause != HoldCause::kNone) words += ": " + cause_in_words(s.view);
-      return words + "; engage to begin anew";
+      const std::string words = s.view.state == SafetyState::kStopped ? "stopped: " : "fault: ";
+      if (s.view.refusal != HoldCause::kNone) return words + "not engaged: " + refusal_in_words(s.view);
+      return words + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
     }
   }
   return "unknown state";

@@ -11,9 +11,10 @@
 namespace longreach {
 
 std::string_view state_in_words(SafetyState state);
-std::string_view cause_in_words(HoldCause cause);  // empty for kNone
-/// Likewise; in the past tense when what it says is over.
+/// The cause of the state, where it is the slave's, and whether that is over; empty for none.
 std::string cause_in_words(const MasterView& view);
+/// Why the engagement that was asked for is not granted, and what to do.
+std::string refusal_in_words(const MasterView& view);
 std::string_view mode_in_words(MotionMode mode);
 
 /// What is being clamped on either side now, and why; empty when nothing is.

@@ -224,6 +224,10 @@ double Renderer::stiffness(const HandPort& port) const {
   return config_.law == RenderingLaw::kNaive ? axis.reported : axis.spring.stiffness_n_per_m();
 }
 
+double Renderer::stiffness_max_n_per_m() const {
+  return translation_contact(config_, device_).spring.stiffness_max_n_per_m;
+}
+
 double Renderer::port_energy_j() const {
   return translation_.guard.port_energy_j() + rotation_.guard.port_energy_j();
 }

@@ -63,7 +63,8 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   const VectorStep about =
       pursue(angular, {config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
 
-  out.tool_speed = along.limited || about.limited;
+  out.tool_speed = along.fast || about.fast;
+  out.acceleration = along.hasty || about.hasty;
   out.force_guard = along.capped[0] || along.capped[2];
   out.workspace = out.workspace || along.capped[1];
   V_WE_ = {about.velocity, along.velocity};

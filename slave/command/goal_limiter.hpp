@@ -43,8 +43,9 @@ struct LimiterInput {
 };
 
 struct LimiterOutput {
-  Pose X_WE{};              // setpoint
-  bool tool_speed = false;  // speed or acceleration kept the setpoint from its goal
+  Pose X_WE{};                // setpoint
+  bool tool_speed = false;    // kept the setpoint from its goal
+  bool acceleration = false;  // likewise
   bool workspace = false;
   bool force_guard = false;
   bool no_relief = false;  // the tool would give way, but the force has not answered

@@ -140,7 +140,7 @@ JointsLimited JointLimiter::limit(JointVector& rad_per_s, const ToolBound& tool)
   const JointsShare room = share(rad_per_s, tool);
   rad_per_s *= room.least();
   const JointVector near = go_towards(rad_per_s), next = inside(near);
-  const JointsLimited limited{room.speed < 1.0 || near != rad_per_s, room.position < 1.0 || next != near};
+  const JointsLimited limited{room.speed < 1.0, room.position < 1.0 || next != near, near != rad_per_s};
   rad_per_s = next;
   if (limited.any() && share(next, tool).least() < kAll) {
     const JointVector braking = go_towards(JointVector::Zero());

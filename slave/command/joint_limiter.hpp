@@ -18,9 +18,10 @@ namespace longreach {
 
 /// What kept the path from the joints asked for.
 struct JointsLimited {
-  bool speed = false;  // or acceleration
+  bool speed = false;
   bool position = false;
-  [[nodiscard]] bool any() const { return speed || position; }
+  bool acceleration = false;
+  [[nodiscard]] bool any() const { return speed || position || acceleration; }
 };
 
 /// What the tool may do, with the arm's Jacobian J. As it is made: anything.

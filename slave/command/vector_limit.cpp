@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kBrakingShare = 0.8;
 constexpr double kFull = 1.0 + 1e-9;     // of the speed, with its rounding
+constexpr double kAtLimit = 0.99;        // likewise: so fast is as fast as allowed
 constexpr double kGoalRounding = 1e-14;  // of a pose in metres and radians: so near a goal is reached
 
 // Brakes along the cap first and spends what acceleration is left on the rest: both moves end inside the
@@ -42,9 +43,8 @@ VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
   const double speed = braking_speed(distance, kBrakingShare * limits.acceleration, limits.dt);
   Vector3 wanted = p.goal_velocity;
   if (distance > kGoalRounding) wanted += gap * (speed / distance);
-  const Vector3 clamped = clamp_norm(wanted, limits.speed);
-  result.limited = clamped != wanted;
-  wanted = clamped;
+  const bool fast = wanted.stableNorm() > limits.speed;
+  wanted = clamp_norm(wanted, limits.speed);
 
   const VelocityCap* worst = nullptr;
   double worst_excess = 0.0;
@@ -64,13 +64,14 @@ VectorStep pursue(const VectorPursuit& p, const VectorLimits& limits) {
   }
   const double reach = limits.acceleration * limits.dt;
   const Vector3 change = wanted - p.velocity;
-  result.limited = result.limited || change.stableNorm() > reach;
   result.velocity =
       worst ? brake_for(*worst, p.velocity, wanted, limits) : p.velocity + clamp_norm(change, reach);
   // Backing out while the rest of the motion has yet to end. From within the ball its nearest place is no
   // further.
   if (p.velocity.stableNorm() <= kFull * limits.speed)
     result.velocity = clamp_norm(result.velocity, limits.speed);
+  result.fast = fast && result.velocity.stableNorm() >= kAtLimit * limits.speed;
+  result.hasty = !result.fast && (fast || change.stableNorm() > reach);
   return result;
 }
 

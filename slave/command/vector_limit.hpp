@@ -38,7 +38,8 @@ struct VectorPursuit {
 
 struct VectorStep {
   Vector3 velocity = Vector3::Zero();  // for this step; changed by at most acceleration * dt
-  bool limited = false;                // speed or acceleration was in the way
+  bool fast = false;                   // at the limit of speed, and more was wanted
+  bool hasty = false;                  // the limit of acceleration was in the way
   std::array<bool, 3> capped{};        // which cap was
 };
 

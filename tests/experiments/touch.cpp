@@ -43,6 +43,7 @@ struct Watch {
   double rtt_s = 0.0;
   double estimate_sd = 1.0;  // of the slave's estimate, relative, when last in contact while probing
   std::uint64_t reports = 0;
+  bool cut = false;  // the wall is stiffer than the device can render
   ScriptPhase phase = ScriptPhase::kWaiting;
 };
 
@@ -97,6 +98,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   if (w.first_touch_s < 0.0) return;
   if (m.state != SafetyState::kEngaged) w.unsettled_s = lab.now_s();
   // Another tangent of a curved law begins elsewhere.
+  w.cut = w.cut || m.stiffness_clamped;
   const double true_n_per_m = ke * lab.arm().material_stiffness(lab.rendered_at_m());
   const bool other = m.stiffness_n_per_m != w.rendered_n_per_m || true_n_per_m != w.true_n_per_m;
   if (m.state != SafetyState::kEngaged || other) {
@@ -128,6 +130,8 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"displayed_span_s", w.displayed_span_s, "s"},
           {"rendered_stiffness_n_per_m", m.stiffness_n_per_m, "N/m"},
           {"rendered_stiffness_error", rendered_error, ""},
+          {"stiffness_max_n_per_m", m.stiffness_max_n_per_m, "N/m"},
+          {"stiffness_cut", w.cut ? 1.0 : 0.0, ""},
           {"estimate_sd", w.estimate_sd, ""},
           {"wall_registration_error_m", w.registration_m < 0.0 ? 1.0 : w.registration_m, "m"},
           {"port_energy_min_j", m.port_energy_min_j, "J"},

@@ -265,6 +265,25 @@ TEST_F(Oracle, SeesEnergyComeOutAfterALieOnlyFromAPortThatRested) {
   EXPECT_TRUE(broken("I23"));
 }
 
+TEST_F(Oracle, SeesThatNothingSaysWhyAnEngagementIsNotGrantedOrWhatIsNotSo) {
+  const double late_s = scenario_.round_trip_s + 1.1;
+  const int ticks = static_cast<int>(late_s / moment_.period_s);
+  run(ticks, [](Moment& m, int i) { m.engage_asked = i == 0; });
+  EXPECT_TRUE(broken("I33"));
+  const auto shows = [&](HoldCause reason, double beyond_m) {
+    invariants_ = all_invariants(scenario_);
+    moment_.X_WE.p.x() += beyond_m;
+    run(ticks, [&](Moment& m, int i) {
+      m.engage_asked = i == 0;
+      m.reason = reason;
+    });
+    moment_.X_WE.p.x() -= beyond_m;
+    return broken("I33");
+  };
+  EXPECT_TRUE(shows(HoldCause::kToolOutside, 0.0)) << "it is not";
+  EXPECT_FALSE(shows(HoldCause::kToolOutside, 2.0 * scenario_.slave.command.workspace_m));
+}
+
 TEST_F(Oracle, SeesAPictureOfWhatWasNot) {
   run(1, [](Moment& m, int) { m.seen = Telemetry{.X_WE = Pose{{1.0, 2.0, 3.0}}}; });
   EXPECT_TRUE(broken("I25"));

@@ -118,7 +118,8 @@ struct Drive {
     judge.see(motion.joint_setpoint_rad(), worst);
     const Pose& X = motion.X_WE();
     outcome.off_m = std::max(outcome.off_m, off_the_way(tour, X.p));
-    if (goal && !(hindered || c.singularity || c.tool_speed || c.joint_speed || c.workspace)) {
+    const bool slow = c.tool_speed || c.joint_speed || c.acceleration;
+    if (goal && !(hindered || c.singularity || slow || c.workspace)) {
       outcome.silent_m = std::max(outcome.silent_m, (X.p - goal->p).norm());
       outcome.silent_rad = std::max(outcome.silent_rad, log_rotation(X.q * goal->q.conjugate()).norm());
     }

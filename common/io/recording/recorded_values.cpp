@@ -3,8 +3,8 @@
 namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
-              sizeof(StiffnessReport) == 496);
-static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 7 && sizeof(Telemetry) == 416);
+              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 552);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 8 && sizeof(Telemetry) == 416);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {
@@ -97,10 +97,28 @@ MotionCommand read(const recording::MotionCommand& in) {
           read(in.rotation_rad())};
 }
 
+void write(const Reason& reason, recording::Place& out) {
+  out.set_joint(reason.joint);
+  out.set_value(reason.value);
+  out.set_limit(reason.limit);
+}
+
+namespace {
+
+Reason read(recording::Cause cause, const recording::Place& place) {
+  return {read_enum(cause, kLastCause), static_cast<int>(place.joint()), place.value(), place.limit()};
+}
+
+}  // namespace
+
 void write(const StiffnessReport& report, recording::StiffnessReport& out) {
   out.set_engagement(report.engagement);
   out.set_state(to_recorded<recording::State>(report.state));
-  out.set_cause(to_recorded<recording::Cause>(report.cause));
+  out.set_cause(to_recorded<recording::Cause>(report.cause.cause));
+  write(report.cause, *out.mutable_cause_place());
+  out.set_refused(report.refused);
+  out.set_refusal(to_recorded<recording::Cause>(report.refusal.cause));
+  write(report.refusal, *out.mutable_refusal_place());
   write(report.translation, *out.mutable_translation());
   write(report.rotation, *out.mutable_rotation());
   out.set_reached_sequence(report.reached_sequence);
@@ -109,10 +127,12 @@ void write(const StiffnessReport& report, recording::StiffnessReport& out) {
 StiffnessReport read(const recording::StiffnessReport& in) {
   return {in.engagement(),
           read_enum(in.state(), SafetyState::kFault),
-          read_enum(in.cause(), HoldCause::kNoRelief),
+          read(in.cause(), in.cause_place()),
           read(in.translation()),
           read(in.rotation()),
-          in.reached_sequence()};
+          in.reached_sequence(),
+          in.refused(),
+          read(in.refusal(), in.refusal_place())};
 }
 
 void write(const ContactEstimate& e, recording::ContactEstimate& out) {
@@ -163,11 +183,12 @@ void write(const Clamps& c, recording::Clamps& out) {
   out.set_force_guard(c.force_guard);
   out.set_singularity(c.singularity);
   out.set_unreachable(c.unreachable);
+  out.set_acceleration(c.acceleration);
 }
 
 Clamps read(const recording::Clamps& in) {
   return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),
-          in.force_guard(), in.singularity(), in.unreachable()};
+          in.force_guard(), in.singularity(), in.unreachable(),    in.acceleration()};
 }
 
 void write(const Telemetry& t, recording::Telemetry& out) {
@@ -193,7 +214,7 @@ void write(const Telemetry& t, recording::Telemetry& out) {
 Telemetry read(const recording::Telemetry& in) {
   Telemetry t;
   t.state = read_enum(in.state(), SafetyState::kFault);
-  t.cause = read_enum(in.cause(), HoldCause::kNoRelief);
+  t.cause = read_enum(in.cause(), kLastCause);
   t.engagement = in.engagement();
   t.X_WE = read(in.tool());
   t.X_WE_goal = read(in.goal());

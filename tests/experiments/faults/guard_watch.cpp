@@ -3,17 +3,11 @@
 namespace longreach {
 namespace {
 
-constexpr std::array kCauses = {
-    "none",        "operator",     "link silent",   "link stale", "other side restarted", "other side holds",
-    "robot fault", "device fault", "handle let go", "taken",      "robot restless",       "robot astray",
-    "unanswered",  "stalled",      "overrun",       "delay rose", "hand stale",           "sensor fault",
-    "sensor sign", "no relief"};
-static_assert(kCauses.size() == static_cast<std::size_t>(HoldCause::kCount));
 constexpr std::array kClamps = {"tool speed",  "joint speed", "joint position", "workspace",
                                 "force guard", "singularity", "unreachable"};
 
 std::string cause_name(const char* side, HoldCause cause) {
-  return std::string(side) + ": " + kCauses[static_cast<std::size_t>(cause)];
+  return std::string(side) + ": " + std::string(text_of(cause).name);
 }
 
 }  // namespace
@@ -21,12 +15,12 @@ std::string cause_name(const char* side, HoldCause cause) {
 std::vector<std::string> guard_names() {
   std::vector<std::string> all;
   for (const HoldCause cause :
-       {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kPeerRestarted, HoldCause::kRobotFault,
-        HoldCause::kHandleLetGo, HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled,
-        HoldCause::kOverrun, HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign,
-        HoldCause::kNoRelief})
+       {HoldCause::kOperator, HoldCause::kPeerHolds, HoldCause::kLinkSilent, HoldCause::kPeerRestarted,
+        HoldCause::kRobotFault, HoldCause::kJointLeapt, HoldCause::kJointOutside, HoldCause::kHandleLetGo,
+        HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled, HoldCause::kOverrun,
+        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief})
     all.push_back(cause_name("slave", cause));
-  for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kPeerHolds,
+  for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose,
                                 HoldCause::kDeviceFault, HoldCause::kHandleLetGo})
     all.push_back(cause_name("master", cause));
   for (const char* clamp : kClamps) all.push_back(std::string("clamp: ") + clamp);

@@ -54,8 +54,10 @@ struct Moment {
   double rendered_from_m = 0.0;            // where its surface lies
   bool felt = false;                       // with some force
   SafetyState shown = SafetyState::kIdle;  // to the operator
-  std::uint32_t engaged_in = 0;            // number of the master's engagement
-  std::optional<Telemetry> seen{};         // newest telemetry that the master was given, if it came now
+  Reason reason{};  // likewise: why it does not follow, or an engagement is not granted
+  bool reason_is_far = false;
+  std::uint32_t engaged_in = 0;     // number of the master's engagement
+  std::optional<Telemetry> seen{};  // newest telemetry that the master was given, if it came now
 
   // The wire and the rules.
   std::uint64_t datagrams = 0;                // that left in this tick

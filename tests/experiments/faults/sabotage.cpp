@@ -43,6 +43,7 @@ void Saboteur::answer(SlaveOutput& out) {
   }
   if (what_ == Sabotage::kCauseWrong && out.report && out.report->state == SafetyState::kHolding)
     out.report->cause = HoldCause::kTaken;
+  if (what_ == Sabotage::kRefusalUnreported && out.report) out.report->refused = 0;
   if (what_ == Sabotage::kContactUnreported && out.report)
     out.report->translation = out.report->rotation = {};
   constexpr double kEarly = 100.0;  // commands

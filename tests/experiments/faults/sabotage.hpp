@@ -25,6 +25,7 @@ enum class Sabotage : std::uint8_t {
   kHandPushed,         // by ten times what was rendered
   kCauseWrong,         // each hold is said to be another master's
   kContactUnreported,  // nor what holds the robot back
+  kRefusalUnreported,  // why an engagement is not granted is not told
   kTouchedEarly,       // surfaces are reported nearer than they are, and as touched for ever
   kCount
 };
@@ -47,6 +48,7 @@ constexpr std::array<SabotageFacts, static_cast<std::size_t>(Sabotage::kCount)> 
     {"hand pushed", "I22"},
     {"cause wrong", "I30", "half-open-up"},
     {"contact unreported", "I31"},
+    {"refusal unreported", "I33", "joints-jump"},
     {"touched early", "I32"},
 }};
 

@@ -259,7 +259,11 @@ void World::finish() {
   moment_.F_E_W = arm.true_wrench();
   moment_.x_MH = lab_.devices().delta().position_m();
   moment_.q_MH = lab_.devices().spherical().orientation();
-  moment_.shown = lab_.master().state;
+  const MasterView& master = lab_.master();
+  moment_.shown = master.state;
+  const bool refused = master.refusal != HoldCause::kNone;
+  moment_.reason = refused ? master.refusal : master.cause;
+  moment_.reason_is_far = refused ? master.refusal_is_far : master.cause_is_far;
   moment_.engaged_in = lab_.master().engagement;
   moment_.rendered_n_per_m = lab_.master().stiffness_n_per_m;
   moment_.rendered_along = lab_.master().inward;

@@ -37,6 +37,13 @@ TEST(StatusTable, ShowsQuantitiesWithTheirUnitsAndLeavesOutWhatNobodyKnows) {
   EXPECT_EQ(table.find("stiffness"), std::string::npos) << table;
 }
 
+TEST(StatusTable, SaysWhyAnEngagementIsNotGranted) {
+  BothReports both = reports();
+  both.master.status->set_refusal("at the slave: joint 5 stands beyond its limit");
+  EXPECT_NE(status_table(both).find("Not engaged: at the slave: joint 5 stands beyond its limit\n"),
+            std::string::npos);
+}
+
 TEST(StatusTable, ShowsOnlyCountersThatAreNotZero) {
   const std::string table = status_table(reports());
   EXPECT_NE(table.find("rejected_replay"), std::string::npos);

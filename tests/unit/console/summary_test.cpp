@@ -123,7 +123,6 @@ TEST(Summary, JudgesAForceStepAgainstTheForceOfItsMoment) {
 TEST(Summary, FailsForEachCounter) {
   const RunSummary run = probing(script());
   const std::vector<std::function<void(ConsoleSnapshot&)>> breaks = {
-      [](ConsoleSnapshot& s) { s.view.false_holds = 1; },
       [](ConsoleSnapshot& s) { s.view.rejected_values = 1; },
       [](ConsoleSnapshot& s) { s.rejected[static_cast<std::size_t>(Rejection::kValue)] = 1; },
       [](ConsoleSnapshot& s) { s.view.far.limit_violations = 1; },
@@ -169,6 +168,53 @@ TEST(Summary, AttributesAHoldThatABusyMachineCaused) {
   EXPECT_FALSE(hold(HoldCause::kPeerHolds, HoldCause::kRobotFault).passed());
 }
 
+TEST(Summary, FailsForARunThatEndsInAFaultAndSaysWhatItIs) {
+  const auto fault = [](double t, MasterView& view) {
+    if (t < 6.0) return;
+    view.state = SafetyState::kHolding;
+    view.far_state = SafetyState::kFault;
+    view.cause = {HoldCause::kJointOutside, 5, 30.0, 2.094};
+    view.cause_is_far = true;
+  };
+  const Summary summary = probing(script(), fault).finish({});
+  EXPECT_FALSE(summary.passed());
+  const std::string text = summary.text();
+  EXPECT_NE(text.find("1 holds, 1 of them a fault"), std::string::npos) << text;
+  EXPECT_NE(text.find("joint 5 of the robot is at 30 rad (or m), beyond its limit of 2.094"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("FAIL  held at"), std::string::npos) << text;
+  EXPECT_NE(text.find(" s ("), std::string::npos) << "the share of the time engaged\n" << text;
+}
+
+// As the slave says of every hold that the master asks for.
+TEST(Summary, TheMastersOwnHoldIsNotTheOperators) {
+  const auto rose = [](double t, MasterView& view) {
+    if (t < 2.0 || t > 3.5) return;
+    view.state = SafetyState::kHolding;
+    view.cause = HoldCause::kDelayRose;
+    view.far.cause = HoldCause::kPeerHolds;
+  };
+  EXPECT_FALSE(probing(script(), rose).finish({}).passed());
+}
+
+TEST(Summary, SaysWhyTheRobotWasNeverEngaged) {
+  RunSummary run({});
+  MasterView view;
+  view.state = SafetyState::kObserving;
+  for (int tick = 0; tick < 100; ++tick) run.add(0.1 * tick, view, 0.03);
+  ConsoleSnapshot last;
+  last.view.refusal = {HoldCause::kJointLimit, 5, 2.15, 2.094};
+  last.view.refusal_is_far = true;
+  const std::string text = run.finish(last).text();
+  EXPECT_NE(
+      text.find(
+          "engaged for 0.0 of 9.9 s (0 %): at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond "
+          "its limit of 2.094; move it back"),
+      std::string::npos)
+      << text;
+}
+
 TEST(Summary, ForgivesAnOutageThatTheProfileHas) {
   SummaryConfig config = script();
   const auto silent = [](double t, MasterView& view) {
@@ -177,6 +223,21 @@ TEST(Summary, ForgivesAnOutageThatTheProfileHas) {
   EXPECT_FALSE(probing(config, silent).finish({}).passed());
   config.outages = true;
   EXPECT_TRUE(probing(config, silent).finish({}).passed());
+}
+
+TEST(Summary, NamesAWallThatIsStifferThanTheDeviceCanRender) {
+  SummaryConfig config = script();
+  config.wall_n_per_m = 5000.0;
+  const auto cut = [](double t, MasterView& view) {
+    view.stiffness_clamped = t >= kTouchS;
+    view.stiffness_max_n_per_m = 1444.0;
+  };
+  const Summary summary = probing(config, cut).finish({});
+  EXPECT_TRUE(summary.passed()) << summary.text();
+  EXPECT_NE(summary.text().find(
+                "warn  the wall is stiffer than this device can render: 5.000 N/mm were cut to 1.444 N/mm"),
+            std::string::npos)
+      << summary.text();
 }
 
 TEST(Summary, AsksAPersonForNoContact) {

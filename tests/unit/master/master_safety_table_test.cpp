@@ -107,8 +107,8 @@ constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone, Request:
                                            {State::kEngaged, Cause::kNone, Request::kEngage},
                                            {State::kHolding, Cause::kLinkSilent, Request::kEngage},
                                            {State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
-                                           {State::kHolding, Cause::kPeerHolds, Request::kEngage},
-                                           {State::kHolding, Cause::kPeerHolds, Request::kHold},
+                                           {State::kHolding, Cause::kLinkSilent, Request::kEngage},
+                                           {State::kHolding, Cause::kLinkSilent, Request::kHold},
                                            {State::kStopped, Cause::kOperator, Request::kStop},
                                            {State::kFault, Cause::kDeviceFault, Request::kHold}}};
 
@@ -151,7 +151,7 @@ Expected expected(Start start, const Tick& t) {
   if (t.restarted && says == Slave::kSaysNothing) says = Slave::kOfAnotherNumber;
   if (t.stalled) says = Slave::kOfAnotherNumber;  // likewise; what comes counts from the next tick on
   if (asked && says == Slave::kStopped && !t.restarted)
-    return {State::kStopped, holding ? at.cause : Cause::kPeerHolds, Request::kHold};
+    return {State::kStopped, holding ? at.cause : Cause::kOperator, Request::kHold};
   if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kRobotAstray, Request::kHold);
   if (t.taken && (holding || at.state == State::kEngaged)) {
     const bool explains = !holding || at.cause == Cause::kLinkSilent;
@@ -166,7 +166,7 @@ Expected expected(Start start, const Tick& t) {
   if (at.state == State::kEngaged && t.rose) return hold(Cause::kDelayRose, Request::kHold);
   if (at.state == State::kEngaged && t.overrun) return hold(Cause::kOverrun, Request::kHold);
   if (at.state == State::kEngaged && says == Slave::kHolding)
-    return hold(Cause::kPeerHolds, Request::kEngage);
+    return hold(Cause::kLinkSilent, Request::kEngage);
   const bool said_engaged = start == Start::kEngaged || start == Start::kSilence || start == Start::kLetGo;
   if (asked && (says == Slave::kEngaged || (says == Slave::kSaysNothing && said_engaged)))
     return {State::kEngaged, Cause::kNone, Request::kEngage, start == Start::kAsking};
@@ -329,7 +329,8 @@ TEST(MasterSafetyTable, ARequestThatTheSlaveHasTakenAndHoldsInLapsesWhenItCannot
   EXPECT_EQ(m.safety.request(), Request::kEngage) << "it may go on by itself";
   for (int i = 0; i < 20; ++i) m.hear();
   EXPECT_EQ(m.safety.request(), Request::kHold);
-  EXPECT_EQ(m.safety.cause(), Cause::kUnanswered);
+  EXPECT_EQ(m.safety.cause(), Cause::kDelayRose);
+  EXPECT_TRUE(m.safety.cause_is_far());
   m.in.engage = true;
   m.hear();
   EXPECT_EQ(m.safety.engagement(), 2U);

@@ -116,7 +116,8 @@ TEST(MasterSafety, FollowsTheSlaveIntoItsHoldAndOutOfIt) {
   d.slave_says(SafetyState::kHolding, HoldCause::kLinkSilent);
   d.tick(1.1);
   EXPECT_EQ(d.safety.state(), SafetyState::kHolding);
-  EXPECT_EQ(d.safety.cause(), HoldCause::kPeerHolds);
+  EXPECT_EQ(d.safety.cause(), HoldCause::kLinkSilent);
+  EXPECT_TRUE(d.safety.cause_is_far());
   d.slave_says(SafetyState::kEngaged);
   d.tick(1.2);
   EXPECT_EQ(d.safety.state(), SafetyState::kEngaged);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -87,7 +89,14 @@ ContactReport sample_contact(Numbers& n) {
 }
 
 StiffnessReport sample_report(Numbers& n) {
-  return {9, SafetyState::kFault, HoldCause::kNoRelief, sample_contact(n), sample_contact(n), ~0ULL};
+  return {9,
+          SafetyState::kFault,
+          {HoldCause::kJointOutside, 5, 30.1, 2.094},
+          sample_contact(n),
+          sample_contact(n),
+          ~0ULL,
+          10,
+          {HoldCause::kToolOutside, 0, 0.7, 0.5}};
 }
 
 Telemetry sample_telemetry(Numbers& n) {
@@ -233,6 +242,17 @@ TEST(RecordedValues, RefuseWhatNoStructCanHold) {
   recording::MotionCommand command;
   command.set_mode(static_cast<recording::Mode>(7));
   EXPECT_THROW((void)read(command), RecordingError);
+}
+
+TEST(RecordedValues, CausesHaveTheNumbersAndNamesOfTheTable) {
+  const auto* recorded = recording::Cause_descriptor();
+  ASSERT_EQ(recorded->value_count(), static_cast<int>(HoldCause::kCount));
+  for (int i = 1; i < recorded->value_count(); ++i) {
+    std::string name = recorded->value(i)->name();
+    for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    EXPECT_EQ(recorded->value(i)->number(), i);
+    EXPECT_EQ(name, text_of(static_cast<HoldCause>(i)).name);
+  }
 }
 
 }  // namespace

@@ -54,11 +54,11 @@ TEST(CommandRight, AnEngagementOfARobotThatIsCommandedNeedsItAtItsSetpoint) {
   RobotState robot;
   robot.joint_rad = test::start_joints();
   JointVector setpoint = test::start_joints();
-  EXPECT_TRUE(r.right.may_begin(robot, setpoint));
+  EXPECT_EQ(r.right.why_not(robot, setpoint), HoldCause::kNone);
   setpoint[3] -= 0.049;
-  EXPECT_TRUE(r.right.may_begin(robot, setpoint));
+  EXPECT_EQ(r.right.why_not(robot, setpoint), HoldCause::kNone);
   setpoint[3] -= 0.002;
-  EXPECT_FALSE(r.right.may_begin(robot, setpoint));
+  EXPECT_NE(r.right.why_not(robot, setpoint), HoldCause::kNone);
 }
 
 TEST(CommandRight, AnEngagementOfARobotAtRestNeedsItStillAndWithinItsLimits) {
@@ -69,20 +69,20 @@ TEST(CommandRight, AnEngagementOfARobotAtRestNeedsItStillAndWithinItsLimits) {
     const JointConfig& j = arm.joint[static_cast<std::size_t>(i)];
     RobotState robot;
     robot.joint_rad = test::start_joints();
-    EXPECT_TRUE(r.right.may_begin(robot, elsewhere)) << "an old setpoint does not matter";
+    EXPECT_EQ(r.right.why_not(robot, elsewhere), HoldCause::kNone) << "an old setpoint does not matter";
     for (const double way : {-1.0, 1.0}) {
       robot.joint_rad_per_s[i] = way * 0.019 * j.speed_max_rad_per_s;
-      EXPECT_TRUE(r.right.may_begin(robot, elsewhere)) << i;
+      EXPECT_EQ(r.right.why_not(robot, elsewhere), HoldCause::kNone) << i;
       robot.joint_rad_per_s[i] = way * 0.021 * j.speed_max_rad_per_s;
-      EXPECT_FALSE(r.right.may_begin(robot, elsewhere)) << i;
+      EXPECT_NE(r.right.why_not(robot, elsewhere), HoldCause::kNone) << i;
     }
     robot.joint_rad_per_s[i] = 0.0;
     robot.joint_rad[i] = j.max_rad + 0.9e-3;
-    EXPECT_TRUE(r.right.may_begin(robot, elsewhere)) << i;
+    EXPECT_EQ(r.right.why_not(robot, elsewhere), HoldCause::kNone) << i;
     robot.joint_rad[i] = j.max_rad + 1.1e-3;
-    EXPECT_FALSE(r.right.may_begin(robot, elsewhere)) << i;
+    EXPECT_NE(r.right.why_not(robot, elsewhere), HoldCause::kNone) << i;
     robot.joint_rad[i] = j.min_rad - 1.1e-3;
-    EXPECT_FALSE(r.right.may_begin(robot, elsewhere)) << i;
+    EXPECT_NE(r.right.why_not(robot, elsewhere), HoldCause::kNone) << i;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(CommandRight, AFixedJointMayBeToldAnything) {
   robot.joint_rad = test::start_joints();
   robot.joint_rad[2] = 100.0;
   robot.joint_rad_per_s[2] = 100.0;
-  EXPECT_TRUE(right.may_begin(robot, robot.joint_rad));
+  EXPECT_EQ(right.why_not(robot, robot.joint_rad), HoldCause::kNone);
 }
 
 }  // namespace

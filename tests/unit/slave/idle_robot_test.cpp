@@ -84,7 +84,7 @@ TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
     loop.command.engagement = 1;
     loop.command.request = Request::kEngage;
     loop.run(0.4);
-    const bool waited = !loop.node.engaged() && !loop.view().robot_ready;
+    const bool waited = !loop.node.engaged() && loop.view().unready != HoldCause::kNone;
     loop.lie = {};
     loop.run(0.1);
     return waited && loop.node.engaged();
@@ -103,7 +103,10 @@ TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
     loop.command.request = Request::kEngage;
     loop.run(0.5);
     EXPECT_EQ(loop.view().state, SafetyState::kObserving) << joint;
-    EXPECT_FALSE(loop.view().robot_ready) << joint;
+    const HoldCause why = joint == 4 ? HoldCause::kJointLimit : HoldCause::kToolOutside;
+    EXPECT_EQ(loop.view().unready, why) << joint;
+    EXPECT_EQ(loop.view().refused, 1U);
+    EXPECT_EQ(loop.view().refusal, why);
   }
 }
 
@@ -111,12 +114,14 @@ TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
   struct Lie {
     const char* what;
     std::function<void(RobotState&)> tell;
+    HoldCause cause = HoldCause::kJointLeapt;
   };
-  const Lie lies[] = {{"leap", [](RobotState& robot) { robot.joint_rad[1] += 0.3; }},
-                      {"all", [](RobotState& robot) { robot.joint_rad.array() += 1.0; }},
-                      {"huge", [](RobotState& robot) { robot.joint_rad[0] = 1e300; }},
-                      {"speed", [](RobotState& robot) { robot.joint_rad_per_s[0] = 1e9; }},
-                      {"beyond", [](RobotState& robot) { robot.joint_rad[4] = -1.7; }}};
+  const Lie lies[] = {
+      {"leap", [](RobotState& robot) { robot.joint_rad[1] += 0.3; }},
+      {"all", [](RobotState& robot) { robot.joint_rad.array() += 1.0; }},
+      {"huge", [](RobotState& robot) { robot.joint_rad[0] = 1e300; }},
+      {"speed", [](RobotState& robot) { robot.joint_rad_per_s[0] = 1e9; }, HoldCause::kJointTooFast},
+      {"beyond", [](RobotState& robot) { robot.joint_rad[4] = -1.7; }}};
   for (const Lie& lie : lies) {
     Loop loop(test::wall_config(5.0, 1000.0));
     loop.engage();
@@ -133,7 +138,7 @@ TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
       before = *loop.out.joint_setpoint_rad;
     }
     EXPECT_EQ(loop.view().state, SafetyState::kFault) << lie.what;
-    EXPECT_EQ(loop.view().cause, HoldCause::kRobotFault) << lie.what;
+    EXPECT_EQ(loop.view().cause, lie.cause) << lie.what;
     // Braking from 0.1 m/s, by the slowest of the joints.
     EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << lie.what;
     loop.command.position_m.setZero();

@@ -13,9 +13,9 @@ struct Witnessed {
   Time now{std::chrono::seconds(10)};
 
   Witnessed() { robot.joint_rad = test::start_joints(); }
-  JointDoubt after(double seconds) {
+  HoldCause after(double seconds) {
     now += from_seconds(seconds);
-    return witness.look(robot, now).doubt;
+    return witness.look(robot, now);
   }
 };
 
@@ -24,65 +24,65 @@ TEST(JointWitness, BelievesWhatAJointCanDo) {
   for (int i = 0; i < 2000; ++i) {
     w.robot.joint_rad[5] += 0.6e-3;
     w.robot.joint_rad_per_s[5] = 0.6;
-    ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+    ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   }
   // As much in 0.1 s, in which nothing came, or came late.
   w.robot.joint_rad[5] += 0.06;
-  EXPECT_EQ(w.after(0.1), JointDoubt::kNone);
+  EXPECT_EQ(w.after(0.1), HoldCause::kNone);
 }
 
 TEST(JointWitness, ALeapIsDoubtedUntilItIsTakenBack) {
   Witnessed w;
-  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.3;
-  const JointFinding found = w.witness.look(w.robot, w.now + std::chrono::milliseconds(1));
-  EXPECT_EQ(found.doubt, JointDoubt::kLeapt);
-  EXPECT_EQ(found.joint, 1);
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(w.after(1.0), JointDoubt::kLeapt);
+  const Reason found = w.witness.look(w.robot, w.now + std::chrono::milliseconds(1));
+  EXPECT_EQ(found, HoldCause::kJointLeapt);
+  EXPECT_EQ(found.joint, 2);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(w.after(1.0), HoldCause::kJointLeapt);
   w.robot.joint_rad[1] -= 0.3;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }
 
 TEST(JointWitness, ARobotThatRestedForLongLeapsAllTheSame) {
   Witnessed w;
-  for (int i = 0; i < 10'000; ++i) ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  for (int i = 0; i < 10'000; ++i) ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.1;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kLeapt);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kJointLeapt);
 }
 
 TEST(JointWitness, WhatIsOldIsNoNewSample) {
   Witnessed w;
-  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   // The same sample for 0.2 s, then what the joint did meanwhile.
   for (int i = 1; i <= 200; ++i) {
     w.robot.age_s = 1e-3 * i;
-    ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+    ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   }
   w.robot.age_s = 0.0;
   w.robot.joint_rad[1] += 0.25 * 0.2;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }
 
 TEST(JointWitness, ARobotThatHasFailedMayBeElsewhereWhenItWorksAgain) {
   Witnessed w;
-  ASSERT_EQ(w.after(1e-3), JointDoubt::kNone);
+  ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.3;
-  ASSERT_EQ(w.after(1e-3), JointDoubt::kLeapt);
+  ASSERT_EQ(w.after(1e-3), HoldCause::kJointLeapt);
   w.witness.forget();
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }
 
 TEST(JointWitness, DoubtsWhatIsBeyondLimitsOfPositionAndSpeed) {
   Witnessed w;
   w.robot.joint_rad[4] = 1.4 + 0.09;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[4] = 1.4 + 0.11;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kOutside);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kJointOutside);
   w.robot.joint_rad[4] = 1.4 + 0.09;
   w.robot.joint_rad_per_s[4] = -1e9;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kTooFast);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kJointTooFast);
   w.robot.joint_rad_per_s[4] = -0.6;
-  EXPECT_EQ(w.after(1e-3), JointDoubt::kNone);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }
 
 TEST(JointWitness, LimitsHoldBothWaysForEachJoint) {
@@ -93,14 +93,14 @@ TEST(JointWitness, LimitsHoldBothWaysForEachJoint) {
       Witnessed w;
       w.robot.joint_rad[i] = rad;
       const bool outside = rad < j.min_rad - 0.1 || rad > j.max_rad + 0.1;
-      EXPECT_EQ(w.after(1e-3), outside ? JointDoubt::kOutside : JointDoubt::kNone) << i << ' ' << rad;
+      EXPECT_EQ(w.after(1e-3), outside ? HoldCause::kJointOutside : HoldCause::kNone) << i << ' ' << rad;
     }
     for (const double way : {-1.0, 1.0}) {
       Witnessed w;
       w.robot.joint_rad_per_s[i] = way * (10.0 * j.speed_max_rad_per_s + 0.09);
-      EXPECT_EQ(w.after(1e-3), JointDoubt::kNone) << i;
+      EXPECT_EQ(w.after(1e-3), HoldCause::kNone) << i;
       w.robot.joint_rad_per_s[i] = way * (10.0 * j.speed_max_rad_per_s + 0.11);
-      EXPECT_EQ(w.after(1e-3), JointDoubt::kTooFast) << i;
+      EXPECT_EQ(w.after(1e-3), HoldCause::kJointTooFast) << i;
     }
   }
 }
@@ -114,7 +114,7 @@ TEST(JointWitness, AFixedJointMayBeToldAnything) {
   for (int i = 0; i < 3; ++i) {
     robot.joint_rad[2] = 50.0 * i;
     robot.joint_rad_per_s[2] = 1e6;
-    EXPECT_EQ(witness.look(robot, Time{std::chrono::seconds(i)}).doubt, JointDoubt::kNone) << i;
+    EXPECT_EQ(witness.look(robot, Time{std::chrono::seconds(i)}), HoldCause::kNone) << i;
   }
 }
 

@@ -97,9 +97,9 @@ Machine machine_at(Start start) {
   if (start == Start::kOperator) m.say(Request::kHold, 1);
   if (start == Start::kStopped) m.say(Request::kStop, 1);
   if (start == Start::kFault) {
-    m.in.robot_ok = false;
+    m.in.robot = Cause::kRobotFault;
     m.safety.step(m.in);
-    m.in.robot_ok = true;
+    m.in.robot = {};
   }
   if (start == Start::kLetGo || start == Start::kOperator || start == Start::kStopped ||
       start == Start::kFault)
@@ -119,7 +119,7 @@ constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone},
                                            {State::kHolding, Cause::kLinkSilent},
                                            {State::kHolding, Cause::kStalled},
                                            {State::kHolding, Cause::kHandleLetGo},
-                                           {State::kHolding, Cause::kOperator},
+                                           {State::kHolding, Cause::kPeerHolds},
                                            {State::kHolding, Cause::kLinkSilent},
                                            {State::kStopped, Cause::kOperator},
                                            {State::kFault, Cause::kRobotFault}}};
@@ -173,7 +173,7 @@ Expected expected(Start start, const Tick& t) {
     if (f.stale) return to_hold(Cause::kLinkStale);
     if (t.rose) return to_hold(Cause::kDelayRose);
     if (t.overrun) return to_hold(Cause::kOverrun);
-    if (!f.asks_same && !f.asks_let_go) return to_hold(Cause::kOperator);
+    if (!f.asks_same && !f.asks_let_go) return to_hold(Cause::kPeerHolds);
     if (f.asks_let_go) return to_hold(Cause::kHandleLetGo);
   }
   const bool passing = start == Start::kSilence || start == Start::kStall || start == Start::kLetGo;
@@ -223,7 +223,7 @@ std::string name(Start start, const Tick& t) {
 
 bool apply(Machine& m, const Tick& t) {
   SlaveSafetyInput& in = m.in;
-  in.robot_ok = !t.robot_fault;
+  in.robot = t.robot_fault ? Cause::kRobotFault : Cause::kNone;
   in.robot_restless = t.restless;
   in.robot_astray = t.astray;
   in.sensor_fault = t.sensor_fault;

@@ -49,10 +49,10 @@ Drill engaged() {
 TEST(SlaveSafety, ARobotThatIsNotReadyIsNotEngaged) {
   Drill d;
   d.ask(Request::kHold, 0);
-  d.in.robot_ready = false;
+  d.in.unready = HoldCause::kJointLimit;
   EXPECT_FALSE(d.ask(Request::kEngage, 1));
   EXPECT_EQ(d.state(), SafetyState::kObserving);
-  d.in.robot_ready = true;
+  d.in.unready = {};
   EXPECT_TRUE(d.ask(Request::kEngage, 1));
 }
 
@@ -105,7 +105,7 @@ TEST(SlaveSafety, HoldsWithTheCauseOfEachDemand) {
     Drill d = engaged();
     d.ask(Request::kHold, 1);
     EXPECT_EQ(d.state(), SafetyState::kHolding);
-    EXPECT_EQ(d.safety.cause(), HoldCause::kOperator);
+    EXPECT_EQ(d.safety.cause(), HoldCause::kPeerHolds) << "the master's reason is its own";
   }
   {
     Drill d = engaged();
@@ -160,6 +160,25 @@ TEST(SlaveSafety, AHoldOfTheOperatorDoesNotEndByItself) {
   EXPECT_TRUE(d.ask(Request::kEngage, 2));
 }
 
+// The commands come a few hundred times a second, the ticks a thousand.
+TEST(SlaveSafety, AStopBetweenTwoCommandsEndsWhatIsAskedForInEveryState) {
+  for (const bool fault : {false, true}) {
+    Drill d = engaged();
+    if (fault) d.in.robot = HoldCause::kJointLeapt;
+    if (!fault) d.in.unready = HoldCause::kRobotMoves;
+    EXPECT_FALSE(d.ask(Request::kEngage, 2)) << "asked for, and not granted";
+    d.in.commanded = false;
+    d.in.stop = true;
+    d.safety.step(d.in);
+    d.in.stop = false;
+    d.in.robot = d.in.unready = {};
+    EXPECT_FALSE(d.ask(Request::kEngage, 2)) << "fault " << fault;
+    EXPECT_NE(d.state(), SafetyState::kEngaged);
+    EXPECT_EQ(d.safety.refused(), 2U);
+    EXPECT_TRUE(d.ask(Request::kEngage, 3));
+  }
+}
+
 TEST(SlaveSafety, AStopIsLatchedUntilANewNumber) {
   Drill d = engaged();
   d.ask(Request::kStop, 1);
@@ -186,13 +205,13 @@ TEST(SlaveSafety, AStopOnThisSideWinsOverANewEngagement) {
 
 TEST(SlaveSafety, ARobotFaultWinsOverEverythingAndIsLatched) {
   Drill d = engaged();
-  d.in.robot_ok = false;
+  d.in.robot = HoldCause::kRobotFault;
   d.in.stop = true;
   EXPECT_FALSE(d.ask(Request::kEngage, 2));
   EXPECT_EQ(d.state(), SafetyState::kFault);
   EXPECT_EQ(d.safety.cause(), HoldCause::kRobotFault);
   d.in.stop = false;
-  d.in.robot_ok = true;
+  d.in.robot = {};
   d.ask(Request::kHold, 1);
   d.tick(100);
   EXPECT_EQ(d.state(), SafetyState::kFault);

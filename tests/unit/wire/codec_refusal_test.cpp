@@ -73,7 +73,7 @@ int refuses_in_every_field(Wire wire) {
 TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
-  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 36);
+  EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 39);
   EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 40);
 }
 
@@ -120,7 +120,7 @@ TEST(Codec, RefusesUnknownEnumerators) {
   report.set_cause(static_cast<std::uint32_t>(HoldCause::kCount));
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   auto telemetry = wire_of<proto::Telemetry>(samples::telemetry());
-  telemetry.set_clamps(1u << 7);
+  telemetry.set_clamps(1u << 8);
   EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
   telemetry.set_clamps(0);
   for (const std::uint32_t verdicts : {3u, 3u << 6, 1u << 8}) {

@@ -55,7 +55,12 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
   EXPECT_EQ(out.engagement, 5u);
   EXPECT_EQ(out.state, SafetyState::kEngaged);
   EXPECT_EQ(out.cause, HoldCause::kOperator);
+  EXPECT_EQ(out.cause.joint, 0);
   EXPECT_EQ(out.reached_sequence, 1230u);
+  EXPECT_EQ(out.refused, 6u);
+  EXPECT_EQ(out.refusal, Reason(HoldCause::kJointLimit, 5, 0.0, 0.0));
+  EXPECT_EQ(out.refusal.value, 2.125);
+  EXPECT_EQ(out.refusal.limit, 2.0);
   for (const auto& [got, sent] : {std::pair(out.translation, in.translation), {out.rotation, in.rotation}}) {
     EXPECT_EQ(got.place, sent.place);
     EXPECT_EQ(got.held_back, sent.held_back);

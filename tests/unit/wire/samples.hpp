@@ -62,7 +62,14 @@ inline ContactReport contact(double scale) {
 }
 
 inline StiffnessReport report() {
-  return {5, SafetyState::kEngaged, HoldCause::kOperator, contact(1000.0), contact(0.25), 1230};
+  return {5,
+          SafetyState::kEngaged,
+          HoldCause::kOperator,
+          contact(1000.0),
+          contact(0.25),
+          1230,
+          6,
+          {HoldCause::kJointLimit, 5, 2.125, 2.0}};
 }
 
 inline Telemetry telemetry() {
@@ -111,14 +118,21 @@ inline StiffnessReport extreme_report() {
                      .touch_sequence = 9e15,
                      .touch = std::numeric_limits<std::uint32_t>::max() / 4,
                      .pressed = true};
-  return {std::numeric_limits<std::uint32_t>::max(), SafetyState::kFault, HoldCause::kNoRelief, c, c,
-          std::numeric_limits<std::uint64_t>::max()};
+  const Reason far{kLastCause, kMaxJoints, -1e300, 1e300};
+  return {std::numeric_limits<std::uint32_t>::max(),
+          SafetyState::kFault,
+          far,
+          c,
+          c,
+          std::numeric_limits<std::uint64_t>::max(),
+          std::numeric_limits<std::uint32_t>::max(),
+          far};
 }
 
 inline Telemetry extreme_telemetry() {
   Telemetry t = telemetry();
   t.state = SafetyState::kFault;
-  t.cause = HoldCause::kNoRelief;
+  t.cause = kLastCause;
   t.engagement = std::numeric_limits<std::uint32_t>::max();
   const double big = std::numeric_limits<double>::max();
   t.estimate = {-big, big, -big, big, -big, big, true};
@@ -127,7 +141,7 @@ inline Telemetry extreme_telemetry() {
   t.estimate.lambda_verdict = t.estimate.n_verdict = Verdict::kNotIdentifiable;
   t.joint_rad.fill(-1e9);
   t.F_E_W = {Vector3::Constant(1e12), Vector3::Constant(-1e12)};
-  t.clamps = {true, true, true, true, true, true, true};
+  t.clamps = {true, true, true, true, true, true, true, true};
   t.up_loss = 1.0;
   t.up_jitter_s = t.playout_delay_s = 1e8;
   t.rejected = t.limit_violations = t.late_ticks = std::numeric_limits<std::uint64_t>::max();

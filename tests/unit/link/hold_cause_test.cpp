@@ -1,0 +1,60 @@
+// The one table of causes: complete, without doubles, and the guide's.
+#include "common/link/hold_cause.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace longreach {
+namespace {
+
+std::vector<HoldCause> all_causes() {
+  std::vector<HoldCause> all;
+  for (int i = 1; i < static_cast<int>(HoldCause::kCount); ++i) all.push_back(static_cast<HoldCause>(i));
+  return all;
+}
+
+TEST(HoldCauses, EachHasItsOwnNameAndSentenceAndARemedy) {
+  std::set<std::string_view> seen;
+  for (const HoldCause cause : all_causes()) {
+    const CauseText& text = text_of(cause);
+    EXPECT_TRUE(seen.insert(text.name).second) << text.name;
+    EXPECT_TRUE(seen.insert(text.sentence).second) << text.sentence;
+    EXPECT_FALSE(text.name.empty() || text.sentence.empty() || text.remedy.empty()) << text.name;
+    EXPECT_NE(text.name, "unknown");
+  }
+  EXPECT_EQ(text_of(HoldCause::kNone).name, "");
+  EXPECT_EQ(with_remedy(HoldCause::kNone), "");
+  EXPECT_EQ(text_of(HoldCause::kCount).name, "unknown");
+  EXPECT_EQ(text_of(static_cast<HoldCause>(200)).name, "unknown");
+}
+
+TEST(HoldCauses, ThePlaceIsInTheSentence) {
+  EXPECT_EQ(sentence({HoldCause::kJointLimit, 5, 2.15, 2.0944}),
+            "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094");
+  EXPECT_EQ(sentence({HoldCause::kJointLeapt, 3, 1.5, 0.25}),
+            "joint 3 of the robot has leapt from 0.25 to 1.5 rad (or m), as no joint can");
+  EXPECT_EQ(sentence({HoldCause::kToolOutside, 0, 0.612, 0.5}),
+            "the tool is 0.612 m from the centre of its workspace, whose radius is 0.5 m");
+  for (const HoldCause cause : all_causes()) {
+    EXPECT_NE(sentence({cause, 2, 1e300, -1e300}).find("joint 2"), std::string::npos) << text_of(cause).name;
+    EXPECT_EQ(sentence(cause), text_of(cause).sentence);
+  }
+}
+
+TEST(HoldCauses, TheGuideHasTheTable) {
+  std::ifstream file(LONGREACH_GUIDE "/operating.md");
+  std::stringstream guide;
+  guide << file.rdbuf();
+  for (const HoldCause cause : all_causes()) {
+    const CauseText& text = text_of(cause);
+    const std::string row = "| " + std::string(text.name) + " | " + std::string(text.sentence) + " | " +
+                            std::string(text.remedy) + " |\n";
+    EXPECT_NE(guide.str().find(row), std::string::npos) << "operating.md needs: " << row;
+  }
+}
+
+}  // namespace
+}  // namespace longreach
