@@ -241,7 +241,7 @@ class ToldWhy : public Invariant {
   }
 
  private:
-  static constexpr double kReason_s = 1.01, kSent_s = 0.05;
+  static constexpr double kReason_s = 1.1, kSent_s = 0.05;
   Circumstances there_;
   double round_trip_s_;
   bool asks_ = false;
