@@ -75,7 +75,7 @@ TEST(MasterNode, SendsAtItsRateWithSequencesFromOne) {
 struct Turned {
   double goal_rad = 0.0, moment_nm = 0.0;
 };
-Turned turned(bool turns, MotionMode mode) {
+Turned turned(bool turns, MotionMode mode, double behind_rad = 0.0) {
   MasterConfig config;
   config.device.turns = turns;
   config.mapping.mode = mode;
@@ -89,6 +89,8 @@ Turned turned(bool turns, MotionMode mode) {
     StiffnessReport r = b.engaged_report();
     r.rotation.surfaces[0] = {
         .normal = -Vector3::UnitZ(), .stiffness = 2.0, .touch_sequence = 1.0, .touch = 1, .pressed = true};
+    if (behind_rad > 0.0) r.rotation.surfaces[0].touch_sequence = 0.0;
+    r.rotation.surfaces[0].offset = behind_rad;
     const MasterOutput out = b.tick(i % 100 == 50 ? &r : nullptr);
     most.goal_rad = std::max(most.goal_rad, b.node.view().goal_rad.norm());
     most.moment_nm = std::max(most.moment_nm, out.F_H_M.moment.norm());
@@ -105,6 +107,9 @@ TEST(MasterNode, KeepsTheOrientationForADeviceThatTurnsNothing) {
     EXPECT_EQ(cannot.goal_rad, 0.0);
     EXPECT_EQ(cannot.moment_nm, 0.0);
   }
+  // An engagement that begins behind a stop.
+  EXPECT_GT(turned(true, MotionMode::kPosition, 0.1).moment_nm, 0.01);
+  EXPECT_EQ(turned(false, MotionMode::kPosition, 0.1).moment_nm, 0.0);
   MasterConfig config;
   config.device.turns = false;
   Bench b(config);
