@@ -85,14 +85,15 @@ class Circumstances {
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
     if (beyond(m)) beyond_s_ = m.t_s;
     if ((m.X_WE.p - centre_m_).norm() > workspace_m_) outside_s_ = m.t_s;
-    if (m.report_came) report_s_ = m.t_s;
-    if (m.t_s - report_s_ > kQuiet_s) unheard_s_ = m.t_s;
+    if (m.report_came || m.seen) news_s_ = m.t_s;
+    if (m.t_s - news_s_ > kQuiet_s) unheard_s_ = m.t_s;
     if (!m.handle.ok) handle_s_ = m.t_s;
     remember_delay(m);
   }
 
-  /// Whether what `cause` says was there lately.
-  [[nodiscard]] bool had(const Moment& m, HoldCause cause) const {
+  enum class At : std::uint8_t { kSlave, kMaster };
+  /// Whether what `cause` says of a side was there lately.
+  [[nodiscard]] bool had(const Moment& m, HoldCause cause, At at) const {
     const double recent_s = recent_s_ + m.slave_gap_s;  // it may have slept through it
     const auto lately = [&](double s) { return m.t_s - s < recent_s; };
     const auto spoilt = [&](Spoils what) { return m.since(what) < recent_s; };
@@ -105,7 +106,7 @@ class Circumstances {
       case HoldCause::kPeerHolds:
         return lately(held_s_);
       case HoldCause::kLinkSilent:
-        return lately(silent_s_) || lately(unheard_s_);
+        return lately(silent_s_) || (at == At::kMaster && lately(unheard_s_));
       case HoldCause::kLinkStale:
       case HoldCause::kDelayRose:
         return lately(rose_s_) || spoilt(Spoils::kLink) || lately(slept_s_) || spoilt(Spoils::kMasterTime);
@@ -173,7 +174,7 @@ class Circumstances {
   double workspace_m_, zero_s_;
   double up_s_ = 1e9, down_s_ = 1e9, least_up_s_ = 1e9, least_down_s_ = 1e9;
   double rose_s_ = -1e9, silent_s_ = -1e9, asked_s_ = -1e9, held_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9,
-         master_slept_s_ = -1e9, pressed_s_ = -1e9, beyond_s_ = -1e9, outside_s_ = -1e9, report_s_ = -1e9,
+         master_slept_s_ = -1e9, pressed_s_ = -1e9, beyond_s_ = -1e9, outside_s_ = -1e9, news_s_ = -1e9,
          unheard_s_ = -1e9, handle_s_ = -1e9;
 };
 
@@ -190,7 +191,7 @@ class TrueCause : public Invariant {
     state_ = m.claimed;
     const bool stands =
         state_ == SafetyState::kHolding || state_ == SafetyState::kStopped || state_ == SafetyState::kFault;
-    if (stands && began) that(m, there_.had(m, cause_), words());
+    if (stands && began) that(m, there_.had(m, cause_, Circumstances::At::kSlave), words());
   }
 
  private:
@@ -237,7 +238,8 @@ class ToldWhy : public Invariant {
     if (m.reason == HoldCause::kNone || m.reason == shown_) return;
     shown_ = m.reason;
     words_ = "the reason that is shown was not there: " + std::string(text_of(m.reason).name);
-    that(m, there_.had(m, m.reason), words_.c_str());
+    using At = Circumstances::At;
+    that(m, there_.had(m, m.reason, m.reason_is_far ? At::kSlave : At::kMaster), words_.c_str());
   }
 
  private:
