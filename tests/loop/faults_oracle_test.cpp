@@ -266,7 +266,7 @@ TEST_F(Oracle, SeesEnergyComeOutAfterALieOnlyFromAPortThatRested) {
 }
 
 TEST_F(Oracle, SeesThatNothingSaysWhyAnEngagementIsNotGrantedOrWhatIsNotSo) {
-  const double late_s = scenario_.round_trip_s + 1.1;
+  const double late_s = scenario_.round_trip_s + 1.3;
   const int ticks = static_cast<int>(late_s / moment_.period_s);
   run(ticks, [](Moment& m, int i) { m.engage_asked = i == 0; });
   EXPECT_TRUE(broken("I33"));
