@@ -80,6 +80,7 @@ void HandPoll::poll() {
   }
   const std::lock_guard lock(seeing_);
   seen_.show_keys = state.show_keys;
+  seen_.notice = keyboard_->notice();
   seen_.quit = seen_.quit || state.quit;
   seen_.trouble = pad_ ? pad_->trouble() : keyboard_->trouble();
   if (pad_) seen_.pad_keys = pad_->key_line();

@@ -21,6 +21,7 @@ class HandPoll {
     bool show_keys = false;
     bool quit = false;  // latched
     std::string pad_keys;
+    std::string notice;   // what the person at the keyboard should know
     std::string trouble;  // why there is nothing in the hand, and what to do
   };
 

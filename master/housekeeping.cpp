@@ -68,6 +68,11 @@ void Chronicle::write(const MasterSnapshot& s, const std::string& trouble, const
   last_ = s;
 }
 
+void Chronicle::write_notice(const std::string& notice) {
+  if (notice != notice_ && !notice.empty()) spdlog::warn("keyboard notice=\"{}\"", notice);
+  notice_ = notice;
+}
+
 Housekeeping::Housekeeping(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
                            MasterService& service)
     : options_(options),
@@ -88,12 +93,14 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
     std::string trouble = seeker.trouble();
     if (trouble.empty()) trouble = hand_trouble(s);
     service_.put_trouble(trouble, seeker.taken_by());
+    const HandPoll::Seen hand = hand_->seen();
     chronicle_.write(s, seeker.trouble(), hand_trouble(s));
+    chronicle_.write_notice(hand.notice);
     ConsoleSnapshot shown = picture(s, config_);
     shown.trouble = trouble;
     shown.seconds = seconds();
     if (options_.seconds) shown.seconds_left = length_s() - shown.seconds;
-    const HandPoll::Seen hand = hand_->seen();
+    shown.notice = hand.notice;
     shown.show_keys = hand.show_keys;
     shown.pad_keys = hand.pad_keys;
     quit_ = hand.quit;

@@ -25,10 +25,11 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config);
 class Chronicle {
  public:
   void write(const MasterSnapshot& s, const std::string& trouble, const std::string& hand_trouble);
+  void write_notice(const std::string& notice);
 
  private:
   MasterSnapshot last_{};
-  std::string trouble_, hand_trouble_;
+  std::string trouble_, hand_trouble_, notice_;
 };
 
 /// The simulated operator engages again after a hold that the machine or an outage of the link's profile

@@ -49,7 +49,8 @@ bool put(int fd, std::string_view text);
 void bound_standard_error();
 
 /// A program may be started without input and outputs (`<&-`): opens /dev/null in their places, lest a socket
-/// or a file takes one and is read as keys or written as text.
+/// or a file takes one and is read as keys or written as text. Runs by itself at the start of a program that
+/// links this file, before shared libraries open descriptors.
 void fill_standard_streams();
 
 }  // namespace longreach

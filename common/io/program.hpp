@@ -155,7 +155,6 @@ int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
     put(STDERR_FILENO, app.get_name() + ": " + e.what() + "\n");
     return status;
   };
-  fill_standard_streams();
   bound_standard_error();
   refuse_empty_values(app);
   try {

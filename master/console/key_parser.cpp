@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <utility>
 
 namespace longreach {
 namespace {
 
 constexpr char kEscape = '\x1b', kBell = '\a', kCancel = '\x18', kSubstitute = '\x1a';
-constexpr std::size_t kBodyMax = 16;  // no key that we know has more
+constexpr int kPausePolls = 5, kQuietPolls = 50;  // 0.1 s and 1 s
+constexpr std::size_t kBodyMax = 16;              // no key that we know has more
 constexpr std::string_view kPasteEnd = "\x1b[201~";
 
 Key move(int axis, int sign, bool large) { return {KeyAction::kMove, axis, sign, large}; }
@@ -91,31 +91,68 @@ bool between(char c, int low, int high) {
   return byte >= low && byte <= high;
 }
 
-/// Bytes that follow the first one of a character in UTF-8.
-int continuation(char c) { return between(c, 0xf0, 0xff) ? 3 : between(c, 0xe0, 0xef) ? 2 : 1; }
+/// Bytes that follow the first one of a character in UTF-8 (RFC 3629); 0: `c` begins no such character.
+int continuation(char c) {
+  return between(c, 0xf0, 0xf4) ? 3 : between(c, 0xe0, 0xef) ? 2 : between(c, 0xc2, 0xdf) ? 1 : 0;
+}
 
 }  // namespace
 
 std::vector<Key> KeyParser::feed(std::string_view bytes) {
+  if (!bytes.empty()) idle_polls_ = 0;
   std::vector<Key> keys;
   for (const char c : bytes) {
-    if (const auto key = take(c)) keys.push_back(*key);
+    if (const auto key = next(c)) keys.push_back(*key);
   }
   return keys;
 }
 
+void KeyParser::tick() {
+  ++idle_polls_;
+  if (in_text()) ++text_polls_;
+  if (idle_polls_ == kPausePolls) pause();
+  if (idle_polls_ == kQuietPolls) quiet();
+}
+
 void KeyParser::pause() {
-  left_ = 0;
   if (state_ == State::kEscape) state_ = State::kPaused;
   if (state_ == State::kIntermediate || state_ == State::kMouse) state_ = State::kGround;
+  // The key Esc ends a paste that has lost its end; a short one may be split behind the escape of its end.
+  if (state_ == State::kPaste && overdue() && body_.ends_with(kEscape)) state_ = State::kPaused;
+}
+
+void KeyParser::quiet() {
+  if (!in_text() || (overdue() && stopped_)) *this = {};
+}
+
+void KeyParser::begin_text(State state) {
+  state_ = state;
+  text_polls_ = 0;
+  stopped_ = false;
+  body_.clear();
+}
+
+/// A control of eight bits (C1) is ESC and a letter in one. A continuation byte of UTF-8 is none, but C2 and
+/// one of 80 to 9F is the same control in UTF-8.
+std::optional<Key> KeyParser::next(char c) {
+  if (state_ == State::kMouse) {  // its bytes are numbers
+    if (--mouse_left_ == 0) state_ = State::kGround;
+    return std::nullopt;
+  }
+  const bool continues = character_left_ > 0 && between(c, 0x80, 0xbf);
+  if (!continues) lead_ = c;
+  character_left_ = continues ? character_left_ - 1 : continuation(c);
+  if (!between(c, 0x80, 0x9f) || (continues && lead_ != '\xc2')) return take(c);
+  take(kEscape);
+  return take(static_cast<char>(static_cast<unsigned char>(c) - 0x40));
 }
 
 std::optional<Key> KeyParser::take(char c) {
-  if (paste_) {
+  if (state_ == State::kPaste) {
     body_ += c;
     if (body_.size() > kPasteEnd.size()) body_.erase(0, 1);
-    paste_ = body_ != kPasteEnd;
-    return std::nullopt;
+    if (body_ == kPasteEnd) state_ = State::kGround;
+    return stop_in_text(c);
   }
   if (c == kEscape) {
     alt_ = state_ == State::kEscape;
@@ -142,25 +179,27 @@ std::optional<Key> KeyParser::take(char c) {
       return control(c);
     case State::kString:
       if (c == kBell) state_ = State::kGround;
-      return std::nullopt;
+      return stop_in_text(c);
     case State::kIntermediate:
       if (!between(c, ' ', '/')) state_ = State::kGround;
       return std::nullopt;
-    case State::kMouse:
-      if (--left_ == 0) state_ = State::kGround;
-      return std::nullopt;
     case State::kFunction:
       state_ = State::kGround;
+      return std::nullopt;
+    case State::kMouse:
+    case State::kPaste:
+      return std::nullopt;  // taken above
   }
   return std::nullopt;
 }
 
+std::optional<Key> KeyParser::stop_in_text(char c) {
+  stopped_ = overdue() && (c == 'x' || c == 'X');
+  return stopped_ ? letter(c) : std::nullopt;
+}
+
 std::optional<Key> KeyParser::ground(char c) {
-  if (std::exchange(left_, std::max(left_ - 1, 0)) > 0 && between(c, 0x80, 0xbf)) return std::nullopt;
-  left_ = between(c, 0xc0, 0xff) ? continuation(c) : 0;
   alt_ = false;
-  // The controls of eight bits are ESC and a letter in one.
-  if (between(c, 0x80, 0x9f)) introduce(static_cast<char>(static_cast<unsigned char>(c) - 0x40));
   return between(c, 0x80, 0xff) ? std::nullopt : letter(c);
 }
 
@@ -168,10 +207,9 @@ std::optional<Key> KeyParser::ground(char c) {
 void KeyParser::introduce(char c) {
   body_.clear();
   state_ = State::kGround;
-  if (between(c, 0xc0, 0xff)) left_ = continuation(c);
   if (c == '[') state_ = State::kControl;
   if (c == 'O') state_ = State::kSingle;
-  if (std::string_view("PX]^_").find(c) != std::string_view::npos) state_ = State::kString;
+  if (std::string_view("PX]^_").find(c) != std::string_view::npos) begin_text(State::kString);
   if (between(c, ' ', '/')) state_ = State::kIntermediate;
 }
 
@@ -192,11 +230,10 @@ std::optional<Key> KeyParser::control(char c) {
   state_ = State::kGround;
   if (between(c, 0x7f, 0xff)) return ground(c);  // nor is this; it ends it
   if (whole && c == '~' && body_ == "200") {
-    paste_ = true;
-    body_.clear();
+    begin_text(State::kPaste);
   } else if (whole && c == 'M' && body_.empty()) {
     state_ = State::kMouse;
-    left_ = 3;
+    mouse_left_ = 3;
   } else if (!alt_ && (whole || !between(c, 'a', 'd'))) {
     return sequence(body_, c);
   }

@@ -13,8 +13,8 @@
 namespace longreach {
 namespace {
 
-constexpr int kPausePolls = 5, kResetPolls = 50;
-constexpr int kReadsMax = 16;  // a poll, so that a flood of input cannot keep it
+constexpr int kRatePolls = 100;  // 2 s
+constexpr int kReadsMax = 16;    // a poll, so that a flood of input cannot keep it
 
 /// Input, its end or an error: read() tells which.
 bool readable(int fd) {
@@ -57,6 +57,11 @@ KeyboardState Keyboard::poll(MotionMode mode) {
     set_raw();
     read_all(mode);
   }
+  // A terminal reports no release of a key, and in rate mode a deflection drives the robot without end.
+  if (++idle_polls_ >= kRatePolls && mode == MotionMode::kRate && !state_.target_m.isZero(0.0)) {
+    state_.target_m.setZero();
+    let_go_ = true;
+  }
   if (trouble_.empty()) return state_;
   state_.target_m.setZero();
   state_.requests.clutch = false;
@@ -65,20 +70,30 @@ KeyboardState Keyboard::poll(MotionMode mode) {
 
 void Keyboard::read_all(MotionMode mode) {
   std::array<char, 256> bytes{};
-  // Counted, since a thread that was late has not looked yet.
-  if (++idle_polls_ == kPausePolls) parser_.pause();
-  if (idle_polls_ == kResetPolls) parser_.reset();
+  parser_.tick();
   for (int i = 0; i < kReadsMax && readable(fd_); ++i) {
     const ssize_t n = ::read(fd_, bytes.data(), bytes.size());
     if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (n == 0) return end(raw_ ? "its terminal was closed" : "end of input");
     if (n < 0) return end(std::strerror(errno));
     used_ = true;
-    idle_polls_ = 0;
+    if (!parser_.overdue()) {
+      idle_polls_ = 0;
+      let_go_ = false;
+    }
     for (const Key& key : parser_.feed({bytes.data(), static_cast<std::size_t>(n)})) {
       apply(key, config_, mode, state_);
     }
   }
+}
+
+std::string_view Keyboard::notice() const {
+  if (!trouble_.empty()) return "";
+  if (parser_.overdue())
+    return "a paste or a control string at the keyboard has no end: of its keys only x (stop) acts; press "
+           "Esc";
+  if (let_go_) return "no key came for 2 s in rate mode: the hand went home; Enter held keeps it where it is";
+  return "";
 }
 
 void Keyboard::end(const std::string& why) {

@@ -5,8 +5,10 @@
 // A keyboard that has ended (end of file, closed terminal, read error) or whose terminal belongs to another
 // program (the master is in the background) is a hand that has let go: the target is home, nothing is
 // requested any more, and trouble() says why. One in the background is read again when it is brought back.
+// In rate mode a hand of which no key came for 2 s goes home.
 
 #include <string>
+#include <string_view>
 
 #include "master/console/key_parser.hpp"
 
@@ -26,6 +28,8 @@ class Keyboard {
 
   /// Why there is no keyboard now, and what to do; empty: it is read.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
+  /// What the person at the keyboard should know now, and what to do; empty: nothing.
+  [[nodiscard]] std::string_view notice() const;
 
  private:
   void set_raw();
@@ -39,7 +43,8 @@ class Keyboard {
   bool used_ = false;  // something has been read
   std::string trouble_;
   KeyParser parser_;
-  int idle_polls_ = 0;  // since something was read
+  int idle_polls_ = 0;   // since a key was read
+  bool let_go_ = false;  // for want of keys
   KeyboardState state_{};
 };
 

@@ -51,7 +51,8 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 std::string_view key_line() {
   return "w s / up down: x   a d / left right: y   r f / page up down: z   shift: large step   space: let go "
          "  "
-         "m: mode   + -: scale   c: clutch   g: gripper loaded   e: engage   x: stop   q: quit   ?: keys";
+         "m: mode (rate: 2 s after the last key the hand goes home)   + -: scale   c: clutch   g: gripper "
+         "loaded   e: engage   x: stop   q: quit   ?: keys";
 }
 
 }  // namespace longreach

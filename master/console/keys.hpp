@@ -3,7 +3,7 @@
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
 // the large step; space: let go, home; m mode; + - scale; c clutch; g gripper with or without load; e engage;
-// x stop; q quit; ? keys.
+// x stop; q quit; ? keys. Other keys, as Enter, only keep the hand where it is in rate mode.
 
 #include <string_view>
 

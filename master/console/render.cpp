@@ -203,6 +203,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.whole(clock_line(s), Tone::kDim);
   page.whole("");
   page.wrapped(happening(s), tone_of(s.view.state));
+  if (!s.notice.empty()) page.wrapped(s.notice, Tone::kWarn);
   page.whole("");
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
@@ -244,6 +245,7 @@ std::string render_line(const ConsoleSnapshot& s) {
 std::string render_event(const ConsoleSnapshot& s) {
   const std::string begin = text("%6.1f s  ", s.seconds);
   std::string lines, rest = std::string(state_in_words(s.view.state)) + ": " + happening(s);
+  if (!s.notice.empty()) rest += "; " + s.notice;
   const std::size_t room = kPlainColumns - std::min(begin.size(), kPlainColumns / 2);
   while (rest.size() > room) {
     const std::size_t space = rest.rfind(' ', room);

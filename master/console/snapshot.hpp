@@ -20,6 +20,7 @@ struct ConsoleSnapshot {
   RejectionCounts rejected{};            // datagrams dropped on this side, by reason
   std::string operator_phase{};          // what the operator is doing, in words; empty: not known
   std::string trouble{};                 // why there is no session with the slave, in words; empty: there is
+  std::string notice{};                  // of the keyboard; empty: none
   double seconds = 0.0;                  // since the start
   std::optional<double> seconds_left{};  // none: runs until it is ended
   double force_max_n = 15.0;             // full length of the force bars

@@ -100,7 +100,10 @@ TEST_F(Blocked, ATerminalThatNobodyReadsLeavesTheKeysAsTheyAre) {
   ASSERT_TRUE(eventually([&] { return terminal.full(); })) << outputs();
   ASSERT_TRUE(both_engaged()) << outputs();
   terminal.type("WWWW");
-  ASSERT_TRUE(tool_moves()) << outputs();
+  {
+    const HeldKey held(terminal.outer);
+    ASSERT_TRUE(tool_moves()) << outputs();
+  }
   terminal.type("x");
   EXPECT_TRUE(comes_to(master_, "Stopped")) << outputs();
   EXPECT_TRUE(comes_to(slave_, "Stopped")) << outputs();
@@ -118,6 +121,7 @@ TEST_F(Blocked, AHandThatNobodyAsksAnyMoreIsAHoldAndStaysOne) {
   start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master(keyboard("none"), {terminal.inner, -1, -1});
   ASSERT_TRUE(both_engaged()) << outputs();
+  const HeldKey held(terminal.outer);
   terminal.type("WWWW");
   ASSERT_TRUE(tool_moves()) << outputs();
   {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/process/station.hpp"
+#include "tests/process/terminal.hpp"
 #include "tests/unit/drivers/fake_daemon.hpp"
 
 namespace longreach {
@@ -76,18 +77,28 @@ class Keys : public Hands {
     ASSERT_TRUE(engaged()) << outputs();
     const double began_m = tool_x();
     ASSERT_EQ(::write(typist, "WWWWW", 5), 5);
+    const HeldKey held(typist);
     ASSERT_TRUE(eventually([&] { return tool_x() > began_m + 0.01; })) << outputs();
+  }
+  void start_anew(const std::vector<std::string>& master, int in) {
+    master_program_.reset();
+    slave_program_.reset();
+    start_slave();
+    start_master(master, {.in = in});
   }
   void expect_rest(const std::string& why) {
     ASSERT_TRUE(says(*master_program_, why)) << outputs();
     ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; })) << outputs();
     EXPECT_NE(master_.engage().find(why), std::string::npos);
+    EXPECT_TRUE(rests()) << outputs();
+  }
+  bool rests() {
     double last_m = tool_x();
-    EXPECT_TRUE(eventually([&] {
+    return eventually([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       const double now_m = tool_x();
       return std::abs(now_m - std::exchange(last_m, now_m)) < 1e-6;
-    })) << outputs();
+    });
   }
 };
 
@@ -110,12 +121,53 @@ TEST_F(Keys, AClosedTerminalIsAHandThatLetsGo) {
   ::close(inner);
 }
 
-TEST_F(Keys, WithoutInputAtTheStartAreSaidToBeMissing) {
+// A terminal reports no release of a key; what feeds a pipe may be suspended.
+TEST_F(Keys, ThatComeNoMoreInRateModeLeaveTheRobotAtRest) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+  move(ends[0], ends[1]);
+  ASSERT_TRUE(says(*master_program_, "the hand went home")) << outputs();
+  ASSERT_TRUE(rests()) << outputs();
+  EXPECT_EQ(master_.state(), "Engaged");
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST_F(Keys, StopWithinTextThatATerminalNeverEnds) {
+  for (const std::string text : {"\x1b]11;rgb:ee", "\x1b[200~hello", "\x9d"}) {
+    const Terminal terminal;
+    start_anew({"--operator", "keyboard", "--engage"}, terminal.inner);
+    ASSERT_TRUE(engaged()) << outputs();
+    terminal.type(text);
+    EXPECT_TRUE(eventually([&] {
+      terminal.type("x");
+      return master_.state() == "Stopped";
+    })) << testing::PrintToString(text)
+        << outputs();
+  }
+}
+
+TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
+  const Terminal terminal;
   start_slave();
-  start_master({"--operator", "keyboard", "--engage"});  // its input is /dev/null
-  ASSERT_TRUE(says(*master_program_, "no keyboard is there (end of input)")) << outputs();
-  EXPECT_TRUE(
-      eventually([this] { return master_.engage().find("no keyboard is there") != std::string::npos; }));
+  start_master({"--operator", "keyboard", "--mode", "position"}, {.in = terminal.inner});
+  ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
+  terminal.type("\x1b[200~hello ");
+  ASSERT_TRUE(says(*master_program_, "a paste or a control string at the keyboard has no end")) << outputs();
+  terminal.type("e m W q\n\x1b[201~");
+  terminal.type("m");
+  ASSERT_TRUE(eventually([this] { return master_.status()->mode() != "position"; })) << outputs();
+  EXPECT_EQ(master_.state(), "Observing");
+  EXPECT_TRUE(master_program_->running());
+}
+
+TEST_F(Keys, WithoutInputAtTheStartAreSaidToBeMissing) {
+  for (const int in : {-1, Streams::kClosed}) {  // -1: /dev/null
+    start_anew({"--operator", "keyboard", "--engage"}, in);
+    ASSERT_TRUE(says(*master_program_, "no keyboard is there (end of input)")) << outputs();
+    EXPECT_TRUE(
+        eventually([this] { return master_.engage().find("no keyboard is there") != std::string::npos; }));
+  }
 }
 
 }  // namespace

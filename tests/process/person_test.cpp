@@ -70,6 +70,7 @@ class Person : public Station {
 
 TEST_F(Person, HoldsOutAgainstAWallAndTheRetreatIsAnswered) {
   start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "rate");
+  const HeldKey held(terminal_.outer);
   terminal_.type("WWWWWWWW");
   ASSERT_TRUE(eventually([this] {
     const auto now = slave_.status();
@@ -96,6 +97,7 @@ TEST_F(Person, MovesFreelyInFrontOfAWallThatIsKnown) {
   terminal_.type("m");
   ASSERT_TRUE(eventually([this] { return master_.status()->mode() == "rate"; })) << outputs();
   const double from_m = tool_x_m();
+  const HeldKey held(terminal_.outer);
   terminal_.type("WWW");
   EXPECT_TRUE(eventually([&] { return tool_x_m() > from_m + 5e-3; }, std::chrono::seconds(10))) << outputs();
 }
@@ -131,6 +133,7 @@ TEST_F(Person, MovesAndWaitsAtTheMoonAndFeelsTheWall) {
 
 TEST_F(Person, FeelsAWallInRateMode) {
   start({"--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "rate");
+  const HeldKey held(terminal_.outer);
   terminal_.type("WWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
   EXPECT_TRUE(feels_contact()) << outputs();

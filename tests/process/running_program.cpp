@@ -30,6 +30,7 @@ namespace {
   ::dup2(streams.in < 0 ? null : streams.in, STDIN_FILENO);
   ::dup2(streams.out < 0 ? output : streams.out, STDOUT_FILENO);
   ::dup2(streams.err < 0 ? output : streams.err, STDERR_FILENO);
+  if (streams.in == Streams::kClosed) ::close(STDIN_FILENO);
   ::execv(arguments[0], arguments);
   _exit(127);
 }

@@ -14,6 +14,7 @@ namespace longreach {
 
 /// Descriptors that a program gets; -1: nothing to read, and output that is kept.
 struct Streams {
+  static constexpr int kClosed = -2;  // of `in`: as by `<&-`
   int in = -1, out = -1, err = -1;
 };
 

@@ -5,8 +5,11 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 namespace longreach {
 
@@ -32,6 +35,30 @@ struct Terminal {
     pollfd room{inner, POLLOUT, 0};
     return ::poll(&room, 1, 0) == 0;
   }
+};
+
+/// A key without a meaning of its own that is held down, so that in rate mode the hand stays where it is.
+class HeldKey {
+ public:
+  explicit HeldKey(int fd) : fd_(fd) {}
+  ~HeldKey() {
+    released_ = true;
+    thread_.join();
+  }
+  HeldKey(const HeldKey&) = delete;
+  HeldKey& operator=(const HeldKey&) = delete;
+
+ private:
+  void repeat() {
+    while (!released_) {
+      (void)!::write(fd_, "\n", 1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+
+  int fd_;
+  std::atomic<bool> released_{false};
+  std::thread thread_{[this] { repeat(); }};
 };
 
 }  // namespace longreach

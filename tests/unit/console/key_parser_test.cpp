@@ -214,18 +214,123 @@ TEST(KeyParser, TakesNoPartOfAnUnknownSequence) {
   }
 }
 
+/// Lets polls pass in which nothing comes.
+void wait(KeyParser& parser, int polls) {
+  for (int i = 0; i < polls; ++i) parser.tick();
+}
+
+constexpr int kPausePolls = 5, kSecondPolls = 50;
+
 TEST(KeyParser, TakesEveryKeyAfterALoneEscape) {
   KeyParser parser;
   EXPECT_TRUE(parser.feed("\x1b").empty());
-  parser.pause();
+  wait(parser, kPausePolls);
   EXPECT_EQ(parser.feed("x"), std::vector<Key>{{KeyAction::kStop}});
   EXPECT_TRUE(parser.feed("\x1b").empty());
-  parser.pause();
+  wait(parser, kPausePolls);
   EXPECT_EQ(parser.feed("\x1b[A"), std::vector<Key>{moved(0, 1)});
   // A slow link has split it.
   EXPECT_TRUE(parser.feed("\x1b").empty());
-  parser.pause();
+  wait(parser, kPausePolls);
   EXPECT_EQ(parser.feed("[A"), std::vector<Key>{moved(0, 1)});
+}
+
+TEST(KeyParser, EndsControlsOfEightBits) {
+  for (const std::string bytes : {"\x9d"
+                                  "11;rgb:ee/ff/cc\x9c",
+                                  "\x9d"
+                                  "11;rgb:ee/ff/cc\a",
+                                  "\x90>|weqx\x9c", "\x98weqx\x9c",
+                                  "\x9b"
+                                  "200~e q W\x9b"
+                                  "201~",
+                                  "\x9b"
+                                  "200~e q W\x1b[201~",
+                                  "\xc2\x9b"
+                                  "200~e q W\xc2\x9b"
+                                  "201~",
+                                  "\x9c"}) {
+    EXPECT_EQ(keys_of(bytes + "e"), std::vector<Key>{{KeyAction::kEngage}}) << testing::PrintToString(bytes);
+  }
+}
+
+// Letters whose encoding ends with 9B, 9C or 9D, also behind a pause of the link.
+TEST(KeyParser, TakesNoByteOfACharacterForAControl) {
+  for (const std::string character : {"\xc3\x9b", "\xc3\x9d", "\xe2\x80\x9c", "\xf0\x9f\x9b\x90"}) {
+    EXPECT_EQ(keys_of(character + "e"), std::vector<Key>{{KeyAction::kEngage}});
+    EXPECT_EQ(keys_of("\x1b]0;" + character + "we\a"), std::vector<Key>{});
+    EXPECT_EQ(keys_of("\x1b[200~" + character + "201~we\x1b[201~"), std::vector<Key>{});
+    KeyParser parser;
+    for (const char byte : character) {
+      parser.feed({&byte, 1});
+      wait(parser, 2 * kPausePolls);
+    }
+    EXPECT_EQ(parser.feed("e"), std::vector<Key>{{KeyAction::kEngage}});
+  }
+}
+
+const std::vector<std::string>& texts_without_end() {
+  static const std::vector<std::string> texts = {"\x1b]11;rgb:ee",
+                                                 "\x1bP>|",
+                                                 "\x1bX",
+                                                 "\x1b^",
+                                                 "\x1b_G",
+                                                 "\x9d",
+                                                 "\x90",
+                                                 "\x98",
+                                                 "\xc2\x9d",
+                                                 "\x9b"
+                                                 "200~",
+                                                 "\x1b[200~hello"};
+  return texts;
+}
+
+TEST(KeyParser, TakesARepeatedStopWithinTextWithoutEnd) {
+  for (const std::string& text : texts_without_end()) {
+    for (const int every_polls : {1, 3, 12, 30}) {
+      KeyParser parser;
+      parser.feed(text);
+      int polls = 0;
+      std::vector<Key> keys;
+      for (; keys.empty() && polls < 500; polls += every_polls) {
+        wait(parser, every_polls);
+        keys = parser.feed("x");
+      }
+      EXPECT_EQ(keys, std::vector<Key>{{KeyAction::kStop}}) << testing::PrintToString(text);
+      EXPECT_LE(polls, kSecondPolls + 2 * every_polls) << testing::PrintToString(text);
+    }
+  }
+}
+
+TEST(KeyParser, TakesNothingButAStopOfTextThatStalls) {
+  for (const std::string& text : texts_without_end()) {
+    for (const int stall_polls : {10, 65, 300, 5000}) {
+      KeyParser parser;
+      parser.feed(text);
+      for (int i = 0; i < 3; ++i) {
+        wait(parser, stall_polls);
+        EXPECT_EQ(parser.feed("e m W q\n wsadrf"), std::vector<Key>{}) << testing::PrintToString(text);
+      }
+      wait(parser, stall_polls);
+      parser.feed("\x1b[201~\x1b\\");
+      EXPECT_EQ(parser.feed("e"), std::vector<Key>{{KeyAction::kEngage}}) << testing::PrintToString(text);
+    }
+  }
+}
+
+TEST(KeyParser, IsFreedFromTextWithoutEndByEscapeOrAStop) {
+  for (const std::string key : {"\x1b", "x"}) {
+    for (const std::string& text : texts_without_end()) {
+      KeyParser parser;
+      parser.feed(text);
+      wait(parser, kSecondPolls + 1);
+      EXPECT_TRUE(parser.overdue());
+      parser.feed(key);
+      wait(parser, kSecondPolls);
+      EXPECT_FALSE(parser.overdue());
+      EXPECT_EQ(parser.feed("e"), std::vector<Key>{{KeyAction::kEngage}}) << testing::PrintToString(text);
+    }
+  }
 }
 
 TEST(KeyParser, TakesEveryStopAfterAnyBytesAndASecond) {
@@ -235,7 +340,7 @@ TEST(KeyParser, TakesEveryStopAfterAnyBytesAndASecond) {
     std::string noise = round % 2 == 0 ? "\x1b" : "";
     for (int i = 0; i < 64; ++i) noise += static_cast<char>(random.next() & 0xff);
     parser.feed(noise);
-    parser.reset();
+    wait(parser, kSecondPolls + 1);
     EXPECT_EQ(parser.feed("x"), std::vector<Key>{{KeyAction::kStop}}) << "round " << round;
   }
 }

@@ -95,6 +95,48 @@ TEST(Keyboard, ReadsKeysAtOnceAndWithoutEcho) {
   EXPECT_EQ(pty.mode().c_lflag & (ICANON | ECHO), 0u);
 }
 
+/// The last of so many polls, 50 a second, at which `keys` are typed at every `every`-th.
+KeyboardState polled(Keyboard& keyboard, const Pty& pty, MotionMode mode, int polls,
+                     std::string_view keys = "", int every = 50) {
+  KeyboardState state;
+  for (int i = 1; i <= polls; ++i) {
+    if (!keys.empty() && i % every == 0)
+      EXPECT_EQ(::write(pty.outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+    state = keyboard.poll(mode);
+  }
+  return state;
+}
+
+TEST(Keyboard, GoesHomeInRateModeTwoSecondsAfterTheLastKey) {
+  const Pty pty;
+  Keyboard keyboard({}, pty.inner);
+  ASSERT_EQ(::write(pty.outer, "WW", 2), 2);
+  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 100).target_m.x(), 0.01);
+  EXPECT_EQ(keyboard.notice(), "");
+  EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());
+  EXPECT_NE(keyboard.notice().find("the hand went home"), std::string_view::npos);
+  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 1, "W", 1).target_m.x(), 0.005);
+  EXPECT_EQ(keyboard.notice(), "");
+}
+
+TEST(Keyboard, StaysWhereItIsWhileAnyKeyComesAndInPositionMode) {
+  const Pty pty;
+  Keyboard keyboard({}, pty.inner);
+  ASSERT_EQ(::write(pty.outer, "WW", 2), 2);
+  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 1000, "\n").target_m.x(), 0.01);
+  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kPosition, 1000).target_m.x(), 0.01);
+  EXPECT_EQ(keyboard.notice(), "");
+}
+
+TEST(Keyboard, ReportsTextWithoutEndWhichKeepsNoHandOut) {
+  const Pty pty;
+  Keyboard keyboard({}, pty.inner);
+  ASSERT_EQ(::write(pty.outer, "WW\x1b[200~hello", 13), 13);
+  EXPECT_EQ(polled(keyboard, pty, MotionMode::kRate, 160, "we", 10).target_m, Vector3::Zero());
+  EXPECT_NE(keyboard.notice().find("only x (stop) acts; press Esc"), std::string_view::npos);
+  EXPECT_TRUE(polled(keyboard, pty, MotionMode::kRate, 1, "x", 1).requests.stop);
+}
+
 TEST(Keyboard, GivesTheTerminalBack) {
   const Pty pty;
   const termios before = pty.mode();
