@@ -111,7 +111,7 @@ TEST(Keyboard, GoesHomeInRateModeTwoSecondsAfterTheLastKey) {
   const Pty pty;
   Keyboard keyboard({}, pty.inner);
   ASSERT_EQ(::write(pty.outer, "WW", 2), 2);
-  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 100).target_m.x(), 0.01);
+  EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 99).target_m.x(), 0.01);
   EXPECT_EQ(keyboard.notice(), "");
   EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());
   EXPECT_NE(keyboard.notice().find("the hand went home"), std::string_view::npos);
