@@ -86,6 +86,12 @@ ExitStatus list(const Options& options, const RecordCommand& command) {
   return ExitStatus::kDone;
 }
 
+std::string formatted_cut(double last_s) {
+  char text[80];
+  std::snprintf(text, sizeof text, " is cut: what came after t_s = %.1f is lost", last_s);
+  return text;
+}
+
 /// All files that are exported together: t_s of every table counts from the first message of them.
 ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   std::vector<std::filesystem::path> files;
@@ -100,8 +106,7 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
     if (figures.messages > 0) zero_ns = std::min(zero_ns, figures.first_ns);
   }
   std::uint64_t tables = 0, rows = 0;
-  bool whole = true;
-  std::string folders, skipped;
+  std::string folders, skipped, lost;
   for (const auto& file : files) {
     const std::filesystem::path folder =
         command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
@@ -109,15 +114,15 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
     const CsvExport written = export_csv(file, folder, zero_ns);
     for (const auto& table : written.tables) rows += table.rows;
     tables += written.tables.size();
-    whole = whole && written.whole;
+    for (const std::string& what : written.damaged)
+      lost += "; " + file.string() + " is damaged, left out: " + what;
+    if (!written.whole) lost += "; " + file.string() + formatted_cut(written.last_s);
     for (const std::string& topic : written.skipped) skipped += (skipped.empty() ? "" : ", ") + topic;
     if (folders.find(folder.string()) == std::string::npos)
       folders += (folders.empty() ? "" : " and ") + folder.string();
   }
-  print_done(options,
-             std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " + folders +
-                 (skipped.empty() ? "" : "; not protobuf, left out: " + skipped) +
-                 (whole ? "" : "; the recording is cut: what came after its last whole part is lost"));
+  print_done(options, std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " +
+                          folders + (skipped.empty() ? "" : "; not protobuf, left out: " + skipped) + lost);
   return ExitStatus::kDone;
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -16,7 +18,9 @@
 #include "common/config/config.hpp"
 #include "common/io/recording/mcap_reader.hpp"
 #include "common/io/recording/mcap_writer.hpp"
+#include "common/io/recording/quiet_protobuf.hpp"
 #include "common/io/recording/recording_error.hpp"
+#include "common/link/header.hpp"
 #include "proto/recording.pb.h"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/laboratory.hpp"
@@ -243,6 +247,33 @@ TEST_F(Replay, FollowsARecordingThatWasCut) {
   }
   std::ostringstream out, err;
   EXPECT_EQ(replay({file("cut").string()}, out, err), 0) << err.str();
+  std::array<char, 80> expected{};
+  std::snprintf(expected.data(), expected.size(), "cut.mcap was cut: what came after %.1f s is lost",
+                replayed.last_s);
+  EXPECT_GT(replayed.last_s, 4.0);
+  EXPECT_NE(out.str().find(expected.data()), std::string::npos) << out.str();
+}
+
+TEST_F(Replay, NamesTheFileOfAMessageThatCannotBeRead) {
+  {
+    RecordingFile damaged(file("damaged"));
+    McapWriter writer(damaged, "test");
+    writer.add_metadata("longreach", {{"wire", std::to_string(kWireVersion)}});
+    const auto configs = writer.add_channel("/master/config", *recording::Config::descriptor());
+    recording::Config config;
+    config.set_text("\xff");  // not UTF-8
+    const QuietProtobuf quiet;
+    writer.write(configs, 1, config);
+    writer.finish();
+  }
+  std::ostringstream out, err;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(replay({file("damaged").string()}, out, err), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(err.str().find("damaged.mcap is damaged: a message does not follow the schema "
+                           "longreach.recording.Config"),
+            std::string::npos)
+      << err.str();
 }
 
 TEST_F(Replay, RefusesWhatIsNoRecording) {

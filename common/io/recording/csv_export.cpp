@@ -17,6 +17,7 @@
 #include <string>
 
 #include "common/io/recording/mcap_reader.hpp"
+#include "common/io/recording/quiet_protobuf.hpp"
 #include "common/io/recording/recording_error.hpp"
 
 namespace longreach {
@@ -128,21 +129,26 @@ struct FirstError : google::protobuf::DescriptorPool::ErrorCollector {
   std::string text;
 };
 
+/// Of a topic whose messages cannot be read.
+struct SchemaError : RecordingError {
+  using RecordingError::RecordingError;
+};
+
 /// The type of a topic, from the descriptors in the file, and its table.
 class Table {
  public:
   Table(const McapSchema& schema, const std::filesystem::path& file) : table_{file} {
     google::protobuf::FileDescriptorSet files;
     if (!files.ParseFromString(schema.descriptors))
-      throw RecordingError("the schema " + schema.name + " is not of protobuf");
+      throw SchemaError("the schema " + schema.name + " cannot be read");
     std::set<std::string> names;
     for (const auto& one : files.file()) {  // in any order, and perhaps twice
       if (names.insert(one.name()).second) (void)files_.Add(one);
     }
     const auto* type = pool_.FindMessageTypeByName(schema.name);
     if (type == nullptr)
-      throw RecordingError("the schema " + schema.name + " cannot be used: " +
-                           (error_.text.empty() ? "it does not describe its type" : error_.text));
+      throw SchemaError("the schema " + schema.name + " cannot be used: " +
+                        (error_.text.empty() ? "it does not describe its type" : error_.text));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
@@ -155,9 +161,12 @@ class Table {
     out_ << '\n';
   }
 
+  /// Counts a message that does not follow the schema.
   void add(const McapMessage& message, std::uint64_t first_ns) {
-    if (!message_->ParseFromArray(message.bytes.data(), static_cast<int>(message.bytes.size())))
-      throw RecordingError("a message of " + message.channel->topic + " does not follow its schema");
+    if (!message_->ParsePartialFromArray(message.bytes.data(), static_cast<int>(message.bytes.size()))) {
+      ++bad_;
+      return;
+    }
     const auto since_ns = static_cast<std::int64_t>(message.log_time_ns - first_ns);
     out_ << number_text(1e-9 * static_cast<double>(since_ns)) << ',' << message.log_time_ns;
     for (const Column& column : columns_) out_ << ',' << cell(*message_, column);
@@ -171,6 +180,8 @@ class Table {
     if (!out_) fail();
     return table_;
   }
+  [[nodiscard]] bool empty() const { return table_.rows == 0; }
+  [[nodiscard]] std::uint64_t bad() const { return bad_; }
   /// Removes what was written.
   void undo() {
     std::error_code ignored;
@@ -194,6 +205,7 @@ class Table {
   std::vector<Column> columns_;
   std::ofstream out_;
   bool made_ = false;
+  std::uint64_t bad_ = 0;
   CsvTable table_;
 };
 
@@ -205,6 +217,35 @@ std::string file_name(const std::string& topic) {
   return name.empty() ? "topic" : name.substr(0, kLengthMax);
 }
 
+/// Made with the first file in it; removed again with what was made above it, where nothing lies there.
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
+  const std::filesystem::path& make() {
+    std::error_code error;
+    for (auto one = path_; !one.empty() && !std::filesystem::exists(one, error); one = one.parent_path())
+      made_.push_back(one);
+    std::filesystem::create_directories(path_, error);
+    if (error) throw RecordingError("cannot make the folder " + path_.string() + ": " + error.message());
+    return path_;
+  }
+  void undo() {
+    std::error_code ignored;
+    for (const auto& one : made_) std::filesystem::remove(one, ignored);
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
+
+/// Why a channel is no table; empty: it is one.
+std::string not_protobuf(const McapChannel& channel, const McapSchema* schema) {
+  if (channel.encoding != "protobuf") return channel.encoding.empty() ? "no encoding" : channel.encoding;
+  if (schema == nullptr) return "no schema";
+  return schema->encoding == "protobuf" ? "" : "its schema is of " + schema->encoding;
+}
+
 /// The tables of one recording.
 class Tables {
  public:
@@ -214,27 +255,44 @@ class Tables {
   void add(const McapMessage& message, std::uint64_t zero_ns) {
     const McapChannel& channel = *message.channel;
     const auto schema = reader_.schemas().find(channel.schema);
-    if (schema == reader_.schemas().end() || schema->second.encoding != "protobuf" ||
-        channel.encoding != "protobuf") {
-      const bool none = schema == reader_.schemas().end();
-      skipped_.insert(channel.topic + (none ? " (no schema)" : " (" + channel.encoding + ")"));
+    const bool has_schema = schema != reader_.schemas().end();
+    const std::string other = not_protobuf(channel, has_schema ? &schema->second : nullptr);
+    if (!other.empty()) {
+      skipped_.insert(channel.topic + " (" + other + ")");
       return;
     }
+    if (damaged_.contains(channel.id)) return;
     auto& table = tables_[channel.id];
-    if (!table) table = std::make_unique<Table>(schema->second, free_name(channel.topic));
+    try {
+      if (!table) table = std::make_unique<Table>(schema->second, free_name(channel.topic));
+    } catch (const SchemaError& e) {
+      damaged_[channel.id] = channel.topic + ", as " + e.what();
+      return;
+    }
     table->add(message, zero_ns);
   }
 
   CsvExport finish() {
     CsvExport out;
     out.skipped.assign(skipped_.begin(), skipped_.end());
-    for (const auto& [channel, table] : tables_) out.tables.push_back(table->finish());
+    for (const auto& [channel, why] : damaged_) out.damaged.push_back(why);
+    for (const auto& [channel, table] : tables_) {
+      if (!table) continue;
+      if (table->bad() > 0)
+        out.damaged.push_back(std::to_string(table->bad()) + (table->bad() == 1 ? " message" : " messages") +
+                              " of " + reader_.channels().at(channel).topic + " against the schema");
+      const CsvTable written = table->finish();
+      if (table->empty()) table->undo();
+      if (!table->empty()) out.tables.push_back(written);
+    }
+    if (out.tables.empty()) folder_.undo();
     return out;
   }
   void undo() {
     for (const auto& [channel, table] : tables_) {
       if (table) table->undo();
     }
+    folder_.undo();
   }
 
  private:
@@ -243,14 +301,21 @@ class Tables {
     const std::string name = file_name(topic);
     std::string free = name;
     for (int i = 2; !names_.insert(free).second; ++i) free = name + "_" + std::to_string(i);
-    return folder_ / (free + ".csv");
+    return folder_.make() / (free + ".csv");
   }
 
   const McapReader& reader_;
-  std::filesystem::path folder_;
+  Folder folder_;
+  std::map<std::uint16_t, std::string> damaged_;  // why
   std::map<std::uint16_t, std::unique_ptr<Table>> tables_;
   std::set<std::string> names_, skipped_;
 };
+
+std::string listed(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
 
 }  // namespace
 
@@ -261,20 +326,24 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
   if (!message)
     throw RecordingError(recording.string() + (reader.whole() ? " holds no messages" : " is cut") +
                          ": there is nothing to export");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw RecordingError("cannot make the folder " + folder.string() + ": " + error.message());
+  const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);
   try {
-    for (; message; message = reader.next()) tables.add(*message, first_ns);
+    std::uint64_t last_ns = first_ns;
+    for (; message; message = reader.next()) {
+      tables.add(*message, first_ns);
+      last_ns = std::max(last_ns, message->log_time_ns);
+    }
     CsvExport out = tables.finish();
     out.whole = reader.whole();
+    out.last_s = 1e-9 * static_cast<double>(last_ns - first_ns);
     if (!out.tables.empty()) return out;
-    std::string topics;
-    for (const std::string& topic : out.skipped) topics += (topics.empty() ? "" : ", ") + topic;
+    if (!out.damaged.empty())
+      throw RecordingError(recording.string() +
+                           " is damaged, nothing of it can be exported: " + listed(out.damaged));
     throw RecordingError(recording.string() + " has no messages of protobuf, which alone are exported, but " +
-                         topics);
+                         listed(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();
     throw;

@@ -17,13 +17,15 @@ struct CsvTable {
 struct CsvExport {
   std::vector<CsvTable> tables;
   std::vector<std::string> skipped{};  // topics that are not protobuf, with the reason
+  std::vector<std::string> damaged{};  // what was left out: topics and messages that cannot be read
+  double last_s = 0.0;                 // t_s of the last message
   bool whole = false;                  // false: the recording is cut, or still being written
 };
 
 /// Into `folder`, which is made: TOPIC.csv each, '/' as '_'. First columns: t_s since `zero_ns` (0: the first
 /// message of the recording), log_time_ns (Unix time, the same for every recording). What is absent is an
-/// empty cell, a repeated field a text. Nothing is overwritten. Throws RecordingError, and then no table is
-/// left; before anything is made for a recording without a whole message.
+/// empty cell, a repeated field a text. Nothing is overwritten. Throws RecordingError, and then no table and
+/// no folder that was made for one is left.
 CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder,
                      std::uint64_t zero_ns = 0);
 

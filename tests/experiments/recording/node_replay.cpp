@@ -13,7 +13,7 @@ namespace {
 template <class Message>
 void parse(std::string_view bytes, Message& out) {
   if (!out.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-    throw RecordingError("a message is no " + out.GetTypeName());
+    throw RecordingError("a message does not follow the schema " + out.GetTypeName());
 }
 
 template <class Message>

@@ -1,5 +1,6 @@
 #include "tests/experiments/recording/replay.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ostream>
@@ -7,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "common/io/recording/build_name.hpp"
 #include "common/io/recording/mcap_reader.hpp"
+#include "common/io/recording/quiet_protobuf.hpp"
 #include "common/io/recording/recording_error.hpp"
 #include "common/link/header.hpp"
 #include "tests/experiments/recording/node_replay.hpp"
@@ -73,11 +75,15 @@ FileReplay replay_file(const std::filesystem::path& file) {
   MasterReplay master;
   SlaveReplay slave;
   bool has_master = false, has_slave = false;
+  std::uint64_t began_ns = 0, last_ns = 0;
+  const QuietProtobuf quiet;
   try {
-    bool first = true;
+    std::optional<std::uint64_t> first_ns;
     while (const auto message = reader.next()) {
-      if (first) refuse_other_wire(reader, file);  // the facts come before all messages
-      first = false;
+      if (!first_ns) refuse_other_wire(reader, file);  // the facts come before all messages
+      first_ns = first_ns.value_or(message->log_time_ns);
+      last_ns = std::max({last_ns, *first_ns, message->log_time_ns});
+      began_ns = *first_ns;
       if (const auto name = name_in(message->channel->topic, "master"); !name.empty()) {
         has_master = true;
         master.take(name, message->bytes);
@@ -88,8 +94,12 @@ FileReplay replay_file(const std::filesystem::path& file) {
     }
   } catch (const ConfigError& e) {
     throw RecordingError(file.string() + ": " + e.what());
+  } catch (const RecordingError& e) {
+    if (std::string_view(e.what()).starts_with(file.string())) throw;
+    throw RecordingError(file.string() + " is damaged: " + e.what());
   }
   FileReplay out;
+  out.last_s = 1e-9 * static_cast<double>(last_ns - began_ns);
   out.whole = reader.whole();
   out.commit = fact(reader, "commit");
   if (has_master) out.sides.push_back(master.result());
@@ -121,7 +131,7 @@ int replay(const std::vector<std::string>& files, std::ostream& out, std::ostrea
       const int status = judge(side, spent_s, out);
       if (status == kDifferent || worst == kSame) worst = status;
     }
-    if (!result.whole) out << file << " was cut: its last second may be missing\n";
+    if (!result.whole) out << file << line(" was cut: what came after %.1f s is lost\n", result.last_s);
   }
   return worst;
 }

@@ -34,8 +34,9 @@ struct SideReplay {
 
 struct FileReplay {
   std::vector<SideReplay> sides;
-  bool whole = false;  // the file was ended properly
-  std::string commit;  // that recorded it
+  bool whole = false;   // the file was ended properly
+  double last_s = 0.0;  // of its last message, since its first
+  std::string commit;   // that recorded it
 };
 
 /// Throws RecordingError for a file that cannot be read.

@@ -165,10 +165,64 @@ TEST(CsvExport, LeavesOutTopicsThatAreNotProtobuf) {
   } catch (const RecordingError& e) {
     EXPECT_EQ(std::string(e.what()),
               (folder.path() / "json.mcap").string() +
-                  " has no messages of protobuf, which alone are exported, but /json (no "
-                  "schema)");
+                  " has no messages of protobuf, which alone are exported, but /json (json)");
   }
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "json"));
+}
+
+/// A recording with one channel of that schema and these messages.
+void write_foreign(const std::filesystem::path& path, const std::string& descriptors,
+                   const std::vector<std::string>& messages) {
+  const std::string magic = "\x89MCAP0\r\n", id("\1\0", 2);
+  std::ofstream file(path, std::ios::binary);
+  file << magic << mcap_record(1, text_field("") + text_field(""))
+       << mcap_record(
+              3, id + text_field("longreach.proto.Scene") + text_field("protobuf") + text_field(descriptors))
+       << mcap_record(4, id + id + text_field("/ft") + text_field("protobuf") + std::string(4, '\0'));
+  for (const std::string& message : messages) file << mcap_record(5, id + std::string(20, '\1') + message);
+  file << mcap_record(15, std::string(4, '\0')) << magic;
+}
+
+std::string scene_descriptors() {
+  google::protobuf::FileDescriptorSet files;
+  proto::Scene::descriptor()->file()->CopyTo(files.add_file());
+  google::protobuf::FileOptions::descriptor()->file()->CopyTo(files.add_file());
+  return files.SerializeAsString();
+}
+
+TEST(CsvExport, KeepsTheGoodRowsBesideMessagesThatCannotBeRead) {
+  const TemporaryFolder folder;
+  proto::Scene scene;
+  scene.set_name("good");
+  const std::string good = scene.SerializeAsString();
+  write_foreign(folder.path() / "a.mcap", scene_descriptors(), {good, "\x0a\x7f", good});
+  const CsvExport written = export_csv(folder.path() / "a.mcap", folder.path() / "t");
+  ASSERT_EQ(written.tables.size(), 1u);
+  EXPECT_EQ(written.tables[0].rows, 2u);
+  EXPECT_EQ(written.damaged, std::vector<std::string>{"1 message of /ft against the schema"});
+}
+
+TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.mcap").string();
+  std::string not_utf8 = scene_descriptors();
+  not_utf8[not_utf8.find("Scene")] = '\xff';
+  for (const auto& [descriptors, why] :
+       {std::pair{std::string("\x0a\x7f"), "/ft, as the schema longreach.proto.Scene cannot be read"},
+        std::pair{not_utf8, "/ft, as the schema longreach.proto.Scene cannot be used: "},
+        std::pair{scene_descriptors(), "1 message of /ft against the schema"}}) {
+    write_foreign(file, descriptors, {"\x0a\x7f"});
+    testing::internal::CaptureStderr();
+    try {
+      (void)export_csv(file, folder.path() / "new" / "t");
+      FAIL();
+    } catch (const RecordingError& e) {
+      EXPECT_EQ(std::string(e.what()).find(file + " is damaged, nothing of it can be exported: " + why), 0u)
+          << e.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
+  }
 }
 
 TEST(CsvExport, GivesTheReasonWhyATableCannotBeWritten) {
@@ -186,7 +240,7 @@ TEST(CsvExport, GivesTheReasonWhyATableCannotBeWritten) {
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   EXPECT_EQ(why, "cannot write " + (folder.path() / "t/slave_link.csv").string() + ": File too large");
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "t"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "t"));
 }
 
 TEST(Recordings, AreFoundByTheirNamesToo) {
@@ -217,7 +271,9 @@ TEST(CsvExport, TellsOfACutRecordingAndMakesNothingOfOneWithoutAMessage) {
   write_sample(folder.path() / "a.mcap");
   const std::string bytes = read_all(folder.path() / "a.mcap");
   std::ofstream(folder.path() / "cut.mcap", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
-  EXPECT_FALSE(export_csv(folder.path() / "cut.mcap", folder.path() / "cut").whole);
+  const CsvExport cut = export_csv(folder.path() / "cut.mcap", folder.path() / "cut");
+  EXPECT_FALSE(cut.whole);
+  EXPECT_DOUBLE_EQ(cut.last_s, 2.5);
   std::ofstream(folder.path() / "head.mcap", std::ios::binary) << bytes.substr(0, 40);
   EXPECT_THROW((void)export_csv(folder.path() / "head.mcap", folder.path() / "head"), RecordingError);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "head"));
