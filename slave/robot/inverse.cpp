@@ -114,6 +114,19 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
   return false;
 }
 
+// A singular pose has solutions without end, and the closed form gives some of them: one beside the joints
+// themselves is preferred. Elsewhere that is the one that is chosen already, but for rounding.
+bool Inverse::stay(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
+  constexpr double kThere = 1e-6, kNearer = 0.25;
+  const Refinement refinement(kinematics(), goal);
+  Placed beside = refinement.at(near_rad);
+  if (beside.miss > kThere || !refinement.improve(beside) || !inside(beside.joint_rad, 0.0) ||
+      !(cost(beside.joint_rad, near_rad) < kNearer * cost(placed.joint_rad, near_rad)))
+    return false;
+  placed = beside;
+  return true;
+}
+
 InverseResult Inverse::report(const Placed& placed, double enough_m) const {
   const double length = kinematics().motion_length_m();
   InverseResult result;
@@ -169,7 +182,10 @@ InverseResult Inverse::solve(const Pose& X_WE_goal, const JointVector& near_rad,
   const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
   if (cartesian_) return slide(goal, start);
   Placed placed;
-  if (closed_.applies() && choose(goal, near_rad, placed)) return report(placed, tolerance.residual_m);
+  if (closed_.applies() && choose(goal, near_rad, placed)) {
+    (void)stay(goal, start, placed);
+    return report(placed, tolerance.residual_m);
+  }
   const InverseResult found = iterate(goal, start, tolerance);
   const bool thorough = tolerance.restarts_max > 0;
   if (found.status != InverseStatus::kNearest || !thorough ||

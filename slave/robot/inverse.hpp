@@ -79,6 +79,7 @@ class Inverse {
 
  private:
   [[nodiscard]] bool choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
+  [[nodiscard]] bool stay(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
   [[nodiscard]] bool inside(const JointVector& joint_rad, double slack_rad) const;
   [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
   [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;

@@ -65,6 +65,27 @@ TEST(Inverse, TakesTheBranchOfTheMeasuredJoints) {
   }
 }
 
+// A wrist singularity has solutions without end; which of them the closed form gives depends on rounding,
+// which grows with the height of the base.
+TEST(Inverse, StaysAtASolutionBesideASingularPose) {
+  for (const double height_m : {0.0, 0.13, 1.0, 4.0, 30.0}) {
+    for (const double wrist : {0.0, kPi, -kPi}) {
+      for (const double off_rad : {0.0, 1e-9}) {
+        RobotConfig robot = ur10();
+        robot.joint[0].d_m = height_m;
+        const Inverse inverse(robot);
+        JointVector q;
+        q << 1.0, -2.0, 2.0, -1.0, wrist, 0.0;
+        const Pose goal = inverse.kinematics().forward(q);
+        const JointVector near = q + JointVector::Constant(off_rad);
+        const InverseResult result = inverse.solve(goal, near, {1e-12, 100, 200});
+        EXPECT_EQ(result.status, InverseStatus::kSingular);
+        EXPECT_LT((result.joint_rad - q).cwiseAbs().maxCoeff(), 1e-7) << height_m << " m, " << wrist;
+      }
+    }
+  }
+}
+
 TEST(Inverse, ShiftsAnAngleByATurnToStayWithinTheLimits) {
   RobotConfig robot = ur10();
   const JointVector q = ordinary();
