@@ -1,6 +1,7 @@
 #include "common/config/utf8.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace longreach {
 
@@ -31,6 +32,25 @@ bool is_utf8(std::string_view text) {
     text.remove_prefix(length);
   }
   return true;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto first = static_cast<std::uint8_t>(text.front());
+    const bool control = first < 0x20 || first == 0x7f ||
+                         (length == 2 && first == 0xC2 && static_cast<std::uint8_t>(text[1]) < 0xA0);
+    if (length > 0 && !control) {
+      out += text.substr(0, length);
+      text.remove_prefix(length);
+      continue;
+    }
+    out += {'\\', 'x', kHex[first >> 4U], kHex[first & 0xFU]};
+    text.remove_prefix(1);
+  }
+  return out;
 }
 
 }  // namespace longreach

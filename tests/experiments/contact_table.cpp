@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "common/config/number_text.hpp"
+#include "common/config/utf8.hpp"
 #include "tests/experiments/solve_json.hpp"
 
 namespace longreach {
@@ -63,6 +65,12 @@ std::string unquoted(const std::string& text) {
   return outside;
 }
 
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 std::string unit_names(const Quantity& quantity) {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i)
@@ -83,12 +91,41 @@ std::optional<double> number(std::string text) {
   return value;
 }
 
+/// Why a cell is no number, and what to do.
+std::string advice(char key, const std::string& cell) {
+  for (const char* missing : {"", "na", "nan", "null", "none"}) {
+    if (lower(cell) != missing) continue;
+    return "; leave out the lines that lack a value (R: na.omit, MATLAB: rmmissing, pandas: dropna)";
+  }
+  const auto digits_only = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  if (cell.find_first_of(",.'") != std::string::npos &&
+      std::ranges::count_if(cell, digits_only) +
+              std::ranges::count_if(
+                  cell,
+                  [](char c) { return std::string_view("+-.,' ").find(c) != std::string_view::npos; }) ==
+          static_cast<std::ptrdiff_t>(cell.size()))
+    return "; write numbers without thousands separators";
+  if (key == 't' && cell.find(':') != std::string::npos) return "; write times as seconds since any instant";
+  return "";
+}
+
+/// A head that is no table; only where one begins.
+void refuse_heads(const std::string& line) {
+  if (line.starts_with("LabVIEW Measurement"))
+    throw BadRequest(
+        "this is the head of a LabVIEW measurement file; delete all lines up to the last "
+        "***End_of_Header***, and name the columns t, x and f (X_Value is t)");
+  if (line.starts_with("["))
+    throw BadRequest("a JSON array is not read; write one object a line, as `jq -c .[]` does");
+}
+
 void refuse_other_encodings(const std::string& line) {
   if (line.find('\0') != std::string::npos || line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF"))
     throw BadRequest("the text is UTF-16; save it as UTF-8");
   const auto cr = line.find('\r');
   if (cr != std::string::npos && cr + 1 != line.size())
     throw BadRequest("lines end with CR alone; save the file with LF or CR LF");
+  if (!is_utf8(line)) throw BadRequest("the text is not UTF-8: \"" + trimmed(line) + "\"; save it as UTF-8");
 }
 
 void set(ContactRow& row, char key, double value) {
@@ -101,22 +138,27 @@ void set(ContactRow& row, char key, double value) {
 }  // namespace
 
 ContactTable::Column ContactTable::column(const std::string& name) {
-  constexpr const char* kBetween = " \t,_[(/";
+  constexpr const char* kBetween = " \t,_[(/.";
   const auto end = std::min(name.find_first_of(kBetween), name.size());
   std::string quantity_name = name.substr(0, end), unit = name.substr(end);
-  std::ranges::transform(quantity_name, quantity_name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  quantity_name = lower(quantity_name);
   unit.erase(0, unit.find_first_not_of(kBetween));
   take(unit, "in ");
-  unit.erase(unit.find_last_not_of(" \t])") + 1);
+  unit.erase(unit.find_last_not_of(" \t])_.") + 1);
+  // What MATLAB and R write for "m/s".
+  std::string fraction = unit;
+  std::ranges::replace_if(
+      fraction, [](char c) { return c == '_' || c == '.'; }, '/');
   for (const Quantity& quantity : quantities()) {
     if (std::ranges::find(quantity.names, quantity_name) == quantity.names.end()) continue;
     if (unit.empty()) return {quantity.key, name, 1.0};
     for (const Unit& known : quantity.units) {
-      if (unit != known.name) continue;
+      if (unit != known.name && fraction != known.name) continue;
       if (quantity.key == 't') time_has_unit_ = true;
+      if (quantity.key == 'x') x_has_unit_ = true;
       return {quantity.key, name, known.si};
     }
+    if (lower(name) == "x_value") return {' ', name, 1.0};  // LabVIEW's time
     throw BadRequest("the unit \"" + unit + "\" of \"" + name + "\" is unknown; give " +
                      unit_names(quantity));
   }
@@ -168,19 +210,30 @@ void ContactTable::header(std::string line) {
   }
   if (std::ranges::all_of(names, [](const std::string& name) { return number(name).has_value(); }))
     throw BadRequest("the first line must name the columns, as in t,x,f");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const char key = columns[i].key;
-    if (key == ' ' && !names[i].empty())
-      throw BadRequest(
-          "unknown column \"" + names[i] +
-          "\"; the header may have t, x, v and f (time, penetration, speed, force), with units as in "
-          "\"x [mm]\"");
-    if (key != ' ' && has(key) > 1) throw BadRequest("column \"" + std::string(1, key) + "\" is there twice");
+  require_known(columns);
+  for (const Column& one : columns) {
+    if (one.key != ' ' && has(one.key) > 1)
+      throw BadRequest("column \"" + std::string(1, one.key) + "\" is there twice");
   }
   for (const char key : {'t', 'x', 'f'}) {
     if (has(key) == 0) throw BadRequest("column \"" + std::string(1, key) + "\" is missing");
   }
   columns_ = std::move(columns);
+}
+
+/// Names all that are not.
+void ContactTable::require_known(const std::vector<Column>& columns) {
+  std::string unknown;
+  int count = 0;
+  for (const Column& one : columns) {
+    if (one.key != ' ' || one.name.empty()) continue;
+    unknown += (count++ > 0 ? ", \"" : "\"") + one.name + "\"";
+    if (lower(one.name) == "x_value") unknown += " (LabVIEW's time: name it t)";
+  }
+  if (count == 0) return;
+  throw BadRequest((count == 1 ? "unknown column " : "unknown columns ") + unknown +
+                   "; remove what is none of t, x, v and f (time, penetration, speed, force), and name "
+                   "these so, with units as in \"x [mm]\"");
 }
 
 /// A line of units below the names.
@@ -219,14 +272,19 @@ ContactRow ContactTable::from_csv(const std::vector<std::string>& values) const 
                      " columns" +
                      (values.size() == 2 * columns_.size() && *separator_ == ','
                           ? "; with decimal commas separate the columns by semicolons or tabs"
+                      : values.size() == columns_.size() + 1 && rows_ == 0
+                          ? "; name all columns (R: write.table with row.names = FALSE)"
                           : ""));
   ContactRow row;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Column& at = columns_[i];
     if (at.key == ' ' && values[i].empty()) continue;
     const auto value = number(values[i]);
-    if (!value) throw BadRequest("\"" + at.name + "\" must be a number, not \"" + values[i] + "\"");
-    if (!std::isfinite(*value)) throw BadRequest("\"" + at.name + "\" is not a finite number");
+    if (!value)
+      throw BadRequest("\"" + at.name + "\" must be a number, not \"" + values[i] + "\"" +
+                       advice(at.key, values[i]));
+    if (!std::isfinite(*value))
+      throw BadRequest("\"" + at.name + "\" is not a finite number" + advice(at.key, values[i]));
     set(row, at.key, at.unit * *value);
   }
   return row;
@@ -239,6 +297,7 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
   const bool begun = json_ || !columns_.empty();
   if (!begun && trimmed(line).front() == '{') json_ = true;
   if (!json_ && !begun) {
+    refuse_heads(trimmed(line));
     header(line);
     return std::nullopt;
   }
@@ -253,7 +312,10 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
     if (rows_ == 0 && take_units(values)) return std::nullopt;
     row = from_csv(values);
   }
-  if (rows_ > 0 && !(row.t_s > last_t_s_)) throw BadRequest("\"t\" does not rise");
+  if (rows_ > 0 && !(row.t_s > last_t_s_))
+    throw BadRequest("\"t\" does not rise: " + format_number(row.t_s) + " s after " +
+                     format_number(last_t_s_) +
+                     " s; sort the lines by t, and leave out those of the same time");
   if (rows_ > 0 && row.v_m_per_s.has_value() != has_v_)
     throw BadRequest(has_v_ ? "key \"v\" is missing, which the lines before have"
                             : "\"v\" is there, which the lines before do not have");

@@ -4,9 +4,10 @@
 //   separator   comma, semicolon, tab, bar or spaces, found in the header; a line `sep=;` is obeyed
 //   cells       may be quoted; a decimal comma is read where it cannot be a separator; `+0.1`, `1E-3`
 //   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
-//               in `x [mm]`, `t (ms)`, `f_kN`, or in a line below; without one s, m, m/s and N
+//               in `x [mm]`, `t (ms)`, `f_kN`, or in a line below; without one s, m, m/s and N; also as
+//               MATLAB and R make names of them: `x_mm_`, `v..m.s.`
 //   around it   a byte order mark, CR LF, empty lines and cells behind the last, comments that begin with #
-// Not read: UTF-16, thousands separators, cells over several lines.
+// Not read: UTF-16, thousands separators, cells over several lines, heads of LabVIEW.
 
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ class ContactTable {
 
   /// Whether the recording names the unit of t.
   [[nodiscard]] bool time_has_unit() const { return time_has_unit_; }
+  /// Likewise of x.
+  [[nodiscard]] bool x_has_unit() const { return x_has_unit_; }
 
  private:
   struct Column {
@@ -38,6 +41,7 @@ class ContactTable {
 
   [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;
   void header(std::string line);
+  static void require_known(const std::vector<Column>& columns);
   Column column(const std::string& name);
   bool take_units(const std::vector<std::string>& values);
   ContactRow from_csv(const std::vector<std::string>& values) const;
@@ -48,7 +52,7 @@ class ContactTable {
   bool json_ = false;
   std::size_t lines_ = 0, rows_ = 0;
   bool has_v_ = false;
-  bool time_has_unit_ = false;
+  bool time_has_unit_ = false, x_has_unit_ = false;
   double last_t_s_ = 0.0;
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <ostream>
 
+#include "common/config/utf8.hpp"
 #include "slave/estimation/watched_identifier.hpp"
 #include "tests/experiments/contact_convention.hpp"
 #include "tests/experiments/contact_table.hpp"
@@ -116,7 +117,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
   std::string line;
   double t_s = 0.0;
   const auto refuse = [&errors](const std::string& why) {
-    errors << "longreach-lab: " << why << '\n';
+    errors << "longreach-lab: " << printable(why) << '\n';
     return 2;
   };
   for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -135,7 +136,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
     out << answer << '\n' << std::flush;
   }
   try {
-    convention.require_signs();
+    convention.require(table.x_has_unit());
   } catch (const BadRequest& e) {
     return refuse(e.what());
   }

@@ -2,8 +2,9 @@
 // `longreach-lab solve identify`: stiffness, k, λ and n of a contact from anybody's recording. Input: JSON
 // objects, one a line, or CSV with a header (contact_table): t (s, rising), x (penetration in m; <= 0 is free
 // space), f (N, positive when pushing) and, in all lines or in none, v (m/s; without it, from x by central
-// differences, so the answers lag by one line). A press that is counted negative, or time in another unit
-// than its name says, is refused (contact_convention). One answer a line:
+// differences, so the answers lag by one line). What does not keep to the convention, as a press that is
+// counted negative or x in mm without that unit, is refused (contact_convention); most of it after the last
+// line. One answer a line:
 //   {"t", "k", "lambda", "n", "stiffness", "secant", "sd": {of each}, "verdict"}
 // stiffness is the tangent at the present depth, secant the elastic force over the depth, both N/m. null: not
 // yet a fit, or not identifiable. verdict: "not yet", "identified", "not identifiable", or which of them is

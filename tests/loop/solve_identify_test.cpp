@@ -115,7 +115,7 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,2\n0.1,1,soft\n", "line 3: \"f\" must be a number, not \"soft\""},
       {"t,x,f\n0,1,2\n0.1,1\n", "line 3: 2 values for 3 columns"},
       {"t,x,f\n0,1,nan\n", "line 2: \"f\" is not a finite number"},
-      {"t,y,f\n", "line 1: unknown column \"y\"; the header may have t, x, v and f"},
+      {"t,y,f\n", "line 1: unknown column \"y\"; remove what is none of t, x, v and f"},
       {"t,x [inch],f\n", "line 1: the unit \"inch\" of \"x [inch]\" is unknown; give m, mm or um"},
       {"0,0.1,3\n", "line 1: the first line must name the columns, as in t,x,f"},
       {"t,x,f\n0,1,0,2,0,3\n", "line 2: 6 values for 3 columns; with decimal commas separate the columns by"},
@@ -131,6 +131,26 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 1, \"x\": 1, \"f\": 2, \"v\": 0}\n",
        "line 2: \"v\" is there, which the lines before do not have"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\nt,x,f\n", "line 2: not JSON"},
+      {"LabVIEW Measurement\t\n", "delete all lines up to the last ***End_of_Header***"},
+      {"X_Value\tx\tf\tComment\n",
+       "line 1: unknown columns \"X_Value\" (LabVIEW's time: name it t), \"Comment\"; remove what is none "
+       "of"},
+      {"t,x,f,temp,run\n", "line 1: unknown columns \"temp\", \"run\"; remove what is none of t, x, v and f"},
+      {"\"t\" \"x\" \"f\"\n\"1\" 0 1 2\n",
+       "line 2: 4 values for 3 columns; name all columns (R: write.table"},
+      {"t,x,f\n0,1,NA\n", "\"f\" must be a number, not \"NA\"; leave out the lines that lack a value"},
+      {"t,x,f\n0,1,\n", "\"f\" must be a number, not \"\"; leave out the lines that lack a value"},
+      {"t,x,f\n0,1,NaN\n", "\"f\" is not a finite number; leave out the lines that lack a value"},
+      {"t;x;f\n0;1;-2.000,5\n", "not \"-2.000,5\"; write numbers without thousands separators"},
+      {"t,x,f\n0,1,\"2,000.5\"\n", "not \"2,000.5\"; write numbers without thousands separators"},
+      {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times as seconds since any instant"},
+      {"t,x,f\n0.5,1,2\n0.5,1,2\n",
+       "line 3: \"t\" does not rise: 0.5 s after 0.5 s; sort the lines by t, and leave out those of"},
+      {"[{\"t\": 0, \"x\": 1, \"f\": 2},\n", "line 1: a JSON array is not read; write one object a line"},
+      {"t [s];x [\xb5m];f [N]\r\n", "line 1: the text is not UTF-8: \"t [s];x [\\xb5m];f [N]\"; save it as"},
+      {"t,x,f\n0,\x1b[2J,3\n", "line 2: \"x\" must be a number, not \"\\x1b[2J\""},
+      {"", "no samples; give a header as t,x,f and lines of numbers below it"},
+      {"t,x,f\n", "no samples; give a header as t,x,f and lines of numbers below it"},
   };
   for (const auto& [input, reason] : cases) {
     const Result r = run(input);
@@ -264,9 +284,60 @@ TEST(SolveIdentify, DetectsWrongUnitsOfTimeAndWrongSigns) {
             0);
 }
 
-TEST(SolveIdentify, TakesNothingForNothing) {
-  EXPECT_EQ(run("").status, 0);
-  EXPECT_EQ(run("t,x,f\n").lines.size(), 0u);
+/// The record with x and f of the sample, and v where that is true.
+std::string altered(const std::string& names, bool with_v, double by_x, double plus_x_m, double by_v,
+                    double plus_f_n) {
+  std::ostringstream out;
+  out << names << "\n";
+  double t = 0.0;
+  for (const PenetrationSample& s : record()) {
+    out << digits(t) << "," << digits(by_x * s.x_m + plus_x_m);
+    if (with_v) out << "," << digits(by_v * s.v_m_per_s);
+    out << "," << digits(s.force_n + plus_f_n) << "\n";
+    t += 1e-3;
+  }
+  return out.str();
+}
+
+TEST(SolveIdentify, DetectsLengthsSpeedsForcesAndSurfacesOfAnotherKind) {
+  const std::pair<std::string, const char*> cases[] = {
+      {altered("t,x,f", false, 1e3, 0, 0, 0), "so it looks like mm; name it \"x [mm]\", or \"x [m]\""},
+      {altered("t,x,f", false, 1e6, 0, 0, 0), "so it looks like um; name it \"x [um]\""},
+      {altered("t,x,f", false, 1, 0.3, 0, 0), "the force begins at x = 0.30"},
+      {altered("t,x,f", false, 1, -0.004, 0, 0), "the force begins at x = -0.00"},
+      {altered("t,x,f", false, 1, 0, 0, 2), "f is 2 N in free space (x <= 0); subtract that from f"},
+      {altered("t,x,v,f", true, 1, 0, -1, 0), "\"v\" falls where \"x\" grows; change the sign of v"},
+      {altered("t,x,v,f", true, 1, 0, 1e3, 0), "\"v\" is 1e+03 times the growth of \"x\"; give the units"}};
+  for (const auto& [input, words] : cases) {
+    const Result r = run(input);
+    EXPECT_EQ(r.status, 2) << words;
+    EXPECT_NE(r.errors.find(words), std::string::npos) << words << " but " << r.errors;
+  }
+  EXPECT_EQ(run(altered("t,x [m],v,f", true, 1e3, 0, 1e3, 0)).status, 0) << "as it says";
+}
+
+// A press that keeps to the convention is never refused, whatever it presses on and however it does.
+TEST(SolveIdentify, RefusesNoContactThatKeepsToTheConvention) {
+  for (const double n : {1.0, 1.5, 2.5}) {
+    for (const double k : {1e3, 1e5, 1e7}) {
+      for (const auto excitation :
+           {test::Excitation::kProbe, test::Excitation::kTouchCycles, test::Excitation::kSine}) {
+        const test::ContactCell cell{k, n, 0.15, 0.05, excitation};
+        Random random(1);
+        const Result r =
+            run(text(test::with_noise(test::exact_record(cell), cell.noise_n, random), Format::kCsv, true));
+        EXPECT_EQ(r.status, 0) << r.errors << " k " << k << " n " << n;
+      }
+    }
+  }
+}
+
+TEST(SolveIdentify, TakesNamesAsMatlabAndRMakeThem) {
+  for (const char* names : {"t_s_,x_m_,v_m_s_,f_N_", "t..s.,x..m.,v..m.s.,f..N."}) {
+    const Result r = run(altered(names, true, 1, 0, 1, 0));
+    EXPECT_EQ(r.status, 0) << r.errors;
+    EXPECT_NEAR(r.lines.back()["n"], 1.5, 0.01);
+  }
 }
 
 }  // namespace

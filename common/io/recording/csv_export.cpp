@@ -16,6 +16,7 @@
 #include <set>
 #include <string>
 
+#include "common/config/utf8.hpp"
 #include "common/io/recording/mcap_reader.hpp"
 #include "common/io/recording/quiet_protobuf.hpp"
 #include "common/io/recording/recording_error.hpp"
@@ -148,7 +149,7 @@ class Table {
     const auto* type = pool_.FindMessageTypeByName(schema.name);
     if (type == nullptr)
       throw SchemaError("the schema " + schema.name + " cannot be used: " +
-                        (error_.text.empty() ? "it does not describe its type" : error_.text));
+                        (error_.text.empty() ? "it does not describe its type" : printable(error_.text)));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
