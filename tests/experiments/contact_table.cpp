@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "common/config/nearest_name.hpp"
 #include "common/config/number_text.hpp"
 #include "common/config/utf8.hpp"
 #include "tests/experiments/solve_json.hpp"
@@ -65,12 +66,6 @@ std::string unquoted(const std::string& text) {
   return outside;
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::string unit_names(const Quantity& quantity) {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i)
@@ -94,7 +89,7 @@ std::optional<double> number(std::string text) {
 /// Why a cell is no number, and what to do.
 std::string advice(char key, const std::string& cell) {
   for (const char* missing : {"", "na", "nan", "null", "none"}) {
-    if (lower(cell) != missing) continue;
+    if (lower_case(cell) != missing) continue;
     return "; leave out the lines that lack a value (R: na.omit, MATLAB: rmmissing, pandas: dropna)";
   }
   const auto digits_only = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
@@ -141,7 +136,7 @@ ContactTable::Column ContactTable::column(const std::string& name) {
   constexpr const char* kBetween = " \t,_[(/.";
   const auto end = std::min(name.find_first_of(kBetween), name.size());
   std::string quantity_name = name.substr(0, end), unit = name.substr(end);
-  quantity_name = lower(quantity_name);
+  quantity_name = lower_case(quantity_name);
   unit.erase(0, unit.find_first_not_of(kBetween));
   take(unit, "in ");
   unit.erase(unit.find_last_not_of(" \t])_.") + 1);
@@ -158,7 +153,7 @@ ContactTable::Column ContactTable::column(const std::string& name) {
       if (quantity.key == 'x') x_has_unit_ = true;
       return {quantity.key, name, known.si};
     }
-    if (lower(name) == "x_value") return {' ', name, 1.0};  // LabVIEW's time
+    if (lower_case(name) == "x_value") return {' ', name, 1.0};  // LabVIEW's time
     throw BadRequest("the unit \"" + unit + "\" of \"" + name + "\" is unknown; give " +
                      unit_names(quantity));
   }
@@ -228,7 +223,7 @@ void ContactTable::require_known(const std::vector<Column>& columns) {
   for (const Column& one : columns) {
     if (one.key != ' ' || one.name.empty()) continue;
     unknown += (count++ > 0 ? ", \"" : "\"") + one.name + "\"";
-    if (lower(one.name) == "x_value") unknown += " (LabVIEW's time: name it t)";
+    if (lower_case(one.name) == "x_value") unknown += " (LabVIEW's time: name it t)";
   }
   if (count == 0) return;
   throw BadRequest((count == 1 ? "unknown column " : "unknown columns ") + unknown +

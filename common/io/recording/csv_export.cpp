@@ -312,7 +312,7 @@ class Tables {
   std::set<std::string> names_, skipped_;
 };
 
-std::string listed(const std::vector<std::string>& texts) {
+std::string comma_separated(const std::vector<std::string>& texts) {
   std::string out;
   for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + text;
   return out;
@@ -342,9 +342,9 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
     if (!out.tables.empty()) return out;
     if (!out.damaged.empty())
       throw RecordingError(recording.string() +
-                           " is damaged, nothing of it can be exported: " + listed(out.damaged));
+                           " is damaged, nothing of it can be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() + " has no messages of protobuf, which alone are exported, but " +
-                         listed(out.skipped));
+                         comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();
     throw;
