@@ -6,15 +6,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kNormalMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
-constexpr double kSamePlaceM = 0.003;   // the surface that was met before is met again
+constexpr double kDirectionMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
+constexpr double kSamePlaceM = 0.003;      // the surface that was met before is met again
 constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
 constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
 constexpr double kSlideM = 1e-3;          // along the surface: its place is another one
 constexpr double kRefined = 0.1;          // rad, by which a normal becomes better known
 constexpr double kSharpestM = 2e-3;       // radius of curvature
-constexpr double kUsual = 10.0;           // times the touch threshold, a hand presses with
+constexpr double kUsualPress = 10.0;      // times the touch threshold, a hand presses with
 constexpr double kGoalAtM = 1e-3;         // of a goal that lies at the surface
 constexpr double kValidSd = 0.5;          // fraction
 
@@ -94,7 +94,7 @@ void Surface::identify(const Press& press) {
   changes_ = answer_.changes;
   const double present_m = inward_m_ - answer_.surface.value;
   // A depth at which the guard holds the tool is not the operator's choice.
-  const double usual_m = identifier_.told().depth_of(kUsual * scale_ * sensing_.touch_n);
+  const double usual_m = identifier_.told().depth_of(kUsualPress * scale_ * sensing_.touch_n);
   ContactAnswer told = identifier_.told().answer_at(working_.depth_m(usual_m));
   // Rather than to extrapolate far, the nearest depth that was visited.
   if (told.valid && !well_known(told))
@@ -133,7 +133,7 @@ Vector3 Surface::Direction::believed(const Vector3& n, const Vector3& tool, bool
 }
 
 void Surface::turn(const Vector3& force_n, double dt) {
-  sum_n_ = std::exp(-dt / kNormalMemoryS) * sum_n_ + force_n;
+  sum_n_ = std::exp(-dt / kDirectionMemoryS) * sum_n_ + force_n;
   normal_ = sum_n_.stableNormalized();
 }
 
