@@ -129,6 +129,7 @@ void Renderer::reset(const HandleState& handle) {
   began_j_ = port_energy_j();
   for (HandPort* port : {&translation_, &rotation_}) {
     port->contact.reset();
+    port->tank.empty();  // what is in it may come from the store of the engagement before
     port->guard.reset();
     port->guard.open();
     port->stored_j = 0.0;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace longreach {
 namespace {
 
@@ -79,6 +81,28 @@ TEST(Renderer, AHandThatIsStoppedLoadsNoSpringAndLeaksNothing) {
   const double then_j = renderer.port_energy_j();
   push_to(601, 700);
   EXPECT_EQ(renderer.port_energy_j(), then_j);
+}
+
+/// A hand that is held goes to and fro against friction: what it loses fills the tank.
+TEST(Renderer, ANewEngagementBeginsWithItsStoreAndEmptyTanks) {
+  Renderer renderer(RenderingConfig{}, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  RendererInput in;
+  in.live = true;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  for (int i = 1; i <= 2000; ++i) {
+    in.handle.p_MH.x() = 0.03 * std::sin(6.0e-3 * i);
+    in.handle.q_MH = Eigen::AngleAxisd(0.3 * std::sin(6.0e-3 * i), Vector3::UnitY());
+    mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+    (void)renderer.step(in, mapping);
+  }
+  EXPECT_GT(renderer.translation().tank.level_j(), 1e-3);
+  EXPECT_GT(renderer.rotation().tank.level_j(), 1e-4);
+  renderer.reset(in.handle);
+  EXPECT_EQ(renderer.translation().tank.level_j(), 0.0);
+  EXPECT_EQ(renderer.rotation().tank.level_j(), 0.0);
+  EXPECT_EQ(renderer.store_j(), RenderingConfig{}.store_j);
 }
 
 }  // namespace
