@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "tests/experiments/faults/kind.hpp"
+#include "tests/experiments/faults/trial.hpp"
 #include "tests/experiments/faults/twin.hpp"
+#include "tests/experiments/faults/world.hpp"
 #include "tests/experiments/on_all_cores.hpp"
 #include "tests/property/campaign.hpp"
 
@@ -80,6 +82,54 @@ TEST(Faults, ShrinkingLeavesWhatMatters) {
   const Schedule least = shrink(schedule, both);
   EXPECT_EQ(least.faults.size(), 2U);
   EXPECT_LT(least.end_s, 8.0);
+}
+
+/// Whether something came later than this link ever brings it; in this tick.
+bool came_late(const Moment& m, double round_trip_s) {
+  constexpr double kLate_s = 0.5;
+  const Right& right = m.ghost->right();
+  const bool up = right.heard_s == m.t_s && m.t_s - right.sent_s > round_trip_s + kLate_s;
+  return up || (m.report_came && m.report_age_s > round_trip_s + kLate_s);
+}
+
+// What is sent when a delay has ended queues behind what was sent before: the link is as late as before.
+TEST(Faults, ADelayOfTheLinkLastsUntilTheLastThatItDelayedHasCome) {
+  constexpr std::uint64_t kSeed = 9000149;
+  const Scenario scenario = draw_scenario(kSeed);
+  for (const char* kind : {"delayed-up", "delayed-down", "delay-creeps"}) {
+    const Fault fault{kind, 4.0, 4.0, 0.9, 1};
+    World world(scenario, {kSeed, 60.0, 60.0, {fault}}, Sabotage::kNone);
+    double late_s = 0.0;
+    while (world.moment().t_s < 30.0) {
+      const Moment& m = world.step();
+      if (!came_late(m, scenario.round_trip_s)) continue;
+      late_s = m.t_s;
+      // A narrow link takes its time for what comes at once.
+      ASSERT_LE(m.since(Spoils::kLink), 0.5) << kind << " at " << m.t_s << " s";
+    }
+    EXPECT_GT(late_s, fault.start_s + fault.duration_s + 2.0) << kind << " does not outlast itself";
+    EXPECT_GT(world.moment().since(Spoils::kLink), 3.0) << kind << " has no end";
+  }
+}
+
+// The answer to an engagement that is asked for behind a crept delay is not due yet.
+TEST(Faults, AnEngagementBehindACreptDelayIsNoOmissionOfTheMaster) {
+  const Trial trial =
+      run_trial(parse_schedule("seed 9000149\nfaults_end_s 31.888864558169942\nend_s 24.432\n"
+                               "fault delay-creeps start_s 13.762078910393797 duration_s 5.967485942286477 "
+                               "size 0.9376851986042755 seed 12361378352514603005\n"));
+  for (const Breach& v : trial.violations)
+    ADD_FAILURE() << v.invariant << " at " << v.t_s << " s: " << v.words;
+}
+
+// What a tank holds may have come from the store of the engagement before, which is full again.
+TEST(Faults, AnEngagementThatFollowsAnotherReturnsItsOwnStoreAlone) {
+  const Trial trial =
+      run_trial(parse_schedule("seed 9000279\nfaults_end_s 23.70492561170356\nend_s 3.182\n"
+                               "fault joints-jump start_s 2.140010931692327 duration_s 0.000581588960771315 "
+                               "size 0.27942626644292545 seed 15030468188859180653\n"));
+  for (const Breach& v : trial.violations)
+    ADD_FAILURE() << v.invariant << " at " << v.t_s << " s: " << v.words;
 }
 
 TEST(Faults, ThereAreFortyKinds) {

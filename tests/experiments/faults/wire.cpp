@@ -17,6 +17,7 @@ void WireWay::take(double now_s, Bytes datagram) {
     return;
   }
   const double due_s = std::max(now_s + meddling.delay_s, line_.empty() ? 0.0 : line_.back().due_s);
+  if (due_s > now_s) kept_until_s_ = due_s;
   if (meddling.swapped && !swapped_) {
     swapped_ = std::move(datagram);
     return;
@@ -43,6 +44,7 @@ void WireWay::release() {
   for (Bytes& datagram : held_) arrive(std::move(datagram));
   line_.clear();
   held_.clear();
+  kept_until_s_ = -1e9;
 }
 
 void WireWay::arrive(Bytes datagram) {

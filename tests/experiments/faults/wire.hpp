@@ -42,6 +42,9 @@ class WireWay {
   void pass(double now_s);
   /// All that is kept comes at once: nothing goes wrong any more.
   void release();
+  /// Something that was sent comes later than the link would bring it, which outlasts what has delayed it:
+  /// what is sent afterwards queues behind it.
+  [[nodiscard]] bool keeps_back(double now_s) const { return now_s < kept_until_s_ || !held_.empty(); }
   /// The side reads its socket, not more at a time than it reads.
   template <class Read>
   void empty(Read&& read) {
@@ -73,7 +76,8 @@ class WireWay {
   std::vector<Bytes> socket_;
   std::vector<Bytes> heard_;
   std::optional<Bytes> swapped_;
-  double release_s_ = 0.0;  // of what is held
+  double release_s_ = 0.0;      // of what is held
+  double kept_until_s_ = -1e9;  // due time of the last that was delayed
   std::uint64_t oversized_ = 0;
 };
 

@@ -108,9 +108,13 @@ void World::act() {
   for (double& s : moment_.spoilt_s) s += lab_.period_s();
   for (Running& running : running_) {
     if (running.kind->act != nullptr) running.kind->act(*this, running.active);
-    for (unsigned left = running.kind->spoils; left != 0; left &= left - 1)
-      moment_.spoilt_s[static_cast<std::size_t>(std::countr_zero(left))] = 0.0;
+    for (unsigned left = running.kind->spoils; left != 0; left &= left - 1) spoil(left);
   }
+  if (up_.keeps_back(moment_.t_s) || down_.keeps_back(moment_.t_s)) spoil(only(Spoils::kLink));
+}
+
+void World::spoil(unsigned first) {
+  moment_.spoilt_s[static_cast<std::size_t>(std::countr_zero(first))] = 0.0;
 }
 
 void World::apply_levels() {

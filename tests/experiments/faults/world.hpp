@@ -75,6 +75,8 @@ class World : public Meddler {
   };
   void begin_faults(double now_s);
   void act();
+  /// The first of these is as it should not be, in this tick.
+  void spoil(unsigned first);
   void apply_levels();
   void end_faults();
   void on_wire(MemoryChannelPair& wire);
