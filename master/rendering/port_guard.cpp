@@ -33,17 +33,17 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
       out -= std::min(config_.freed_damping, 0.4 * config_.handle_mass / dt_s) * in.rate;
     }
     // Only the rise is limited: a force that falls gives no energy away.
-    const Vector3 rise = out - f_last_;
+    const Vector3 rise = out - f_given_;
     const double most = config_.slew_per_s * dt_s;
-    if (out.squaredNorm() > f_last_.squaredNorm() && norm(rise) > most) {
-      out = f_last_ + clamp_norm(rise, most);
+    if (out.squaredNorm() > f_given_.squaredNorm() && norm(rise) > most) {
+      out = f_given_ + clamp_norm(rise, most);
       clamped_ = true;
     }
     clamped_ = clamped_ || norm(out) > config_.force_max;
     out = clamp_norm(out, config_.force_max);
   }
   if (!out.allFinite()) out.setZero();
-  return f_last_ = out;
+  return f_given_ = f_last_ = out;
 }
 
 }  // namespace longreach

@@ -37,6 +37,7 @@ class PortGuard {
  public:
   explicit PortGuard(const PortGuardConfig& config) : config_(config) {}
   void configure(const PortGuardConfig& config) { config_ = config; }
+  /// No energy has come in and none is owed. The next force rises from the one that the hand has.
   void reset();
   void open() { gain_ = 1.0; }  // after reset, when every spring is at rest
 
@@ -69,7 +70,8 @@ class PortGuard {
   static constexpr double kFreed_s = 0.6;
 
   PortGuardConfig config_;
-  Vector3 f_last_ = Vector3::Zero();
+  Vector3 f_last_ = Vector3::Zero();   // whose work is booked
+  Vector3 f_given_ = Vector3::Zero();  // that the hand has
   double port_energy_j_ = 0.0;
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;

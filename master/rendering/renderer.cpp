@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace longreach {
 namespace {
@@ -127,6 +128,7 @@ void Renderer::reset(const HandleState& handle) {
   q_last_ = handle.q_MH;
   store_.fill(config_.store_j);
   began_j_ = port_energy_j();
+  begins_ = true;
   for (HandPort* port : {&translation_, &rotation_}) {
     port->contact.reset();
     port->tank.empty();  // what is in it may come from the store of the engagement before
@@ -204,6 +206,11 @@ Vector3 Renderer::refill_drag(const RendererInput& input) const {
 
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   let_down(input);
+  if (std::exchange(begins_, false)) {
+    // The device's own springs may be stretched already: the hand does not owe what they hold.
+    translation_.stored_j = input.translation.stored_j;
+    rotation_.stored_j = input.rotation.stored_j;
+  }
   Wrench resistance;
   if (input.handle.held) {
     resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m(),

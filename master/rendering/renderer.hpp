@@ -131,6 +131,7 @@ class Renderer {
   double began_j_ = 0.0, port_energy_min_j_ = 0.0;  // at the engagement; since one began
   MotionMode mode_ = MotionMode::kPosition;
   bool clutched_ = false, live_ = false;  // in the last tick
+  bool begins_ = false;                   // an engagement, with the next step
 };
 
 }  // namespace longreach

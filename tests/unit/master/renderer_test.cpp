@@ -105,5 +105,27 @@ TEST(Renderer, ANewEngagementBeginsWithItsStoreAndEmptyTanks) {
   EXPECT_EQ(renderer.store_j(), RenderingConfig{}.store_j);
 }
 
+/// The edge pushes back with 8 N as the engagement begins, and the hand gives way.
+TEST(Renderer, AnEngagementThatBeginsAtTheDevicesEdgeOwesNothingAndStartsFromItsForce) {
+  Renderer renderer(RenderingConfig{}, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  RendererInput in;
+  constexpr double kEdge_n_per_m = 2000.0, kSpeed_m_per_s = 0.2;
+  Vector3 before = Vector3::Zero();
+  for (int i = 0; i < 40; ++i) {
+    const double over_m = 1e-3 * kSpeed_m_per_s * (20 - std::abs(20 - i));
+    in.handle.p_MH.x() = 0.07 + over_m;
+    in.handle.velocity_m_per_s = {i < 20 ? kSpeed_m_per_s : -kSpeed_m_per_s, 0.0, 0.0};
+    in.translation.force = {-kEdge_n_per_m * over_m, 0.0, 0.0};
+    in.translation.stored_j = 0.5 * kEdge_n_per_m * over_m * over_m;
+    if (i == 20) mapping.reset(in.handle), renderer.reset(in.handle), in.live = true;
+    mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+    const Vector3 force = renderer.step(in, mapping).force;
+    EXPECT_LT((force - before).norm(), 1.5) << "tick " << i;
+    before = force;
+  }
+  EXPECT_LT(renderer.translation().guard.deficit_max_j(), 2e-3);
+}
+
 }  // namespace
 }  // namespace longreach
