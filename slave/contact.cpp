@@ -11,6 +11,7 @@ constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has l
 constexpr std::size_t kBefore = 64;   // samples before the touch that are kept
 constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured otherwise
 constexpr double kAcross = 0.5;    // sine, 30 degrees: of another surface's force with those that are pressed
+constexpr double kUnknown = 3.0;   // sd of the normal: as much of the force may be across it by that alone
 constexpr double kFriction = 0.6;  // the greatest coefficient of friction
 constexpr double kStickM = 5e-4;   // by which friction is at its greatest
 constexpr double kGrown = 1.5;     // of what is no friction, though as small, as the way doubles
@@ -92,7 +93,7 @@ void SlaveContact::press(const ContactInput& input) {
       if (!s.pressed()) continue;
       if (turning_) s.turn(reading_.filtered_n, input.dt);
       const Vector3 outward = reading_.filtered_n.stableNormalized();
-      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded});
+      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s});
     }
   }
   look_aside(input);
@@ -114,7 +115,8 @@ void SlaveContact::press_several(const ContactInput& input) {
       s.release();
       continue;
     }
-    s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded});
+    s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded,
+             input.news_age_s});
     if (!surfaces_[foremost_].pressed() || filtered_n[at] > filtered_n[static_cast<Eigen::Index>(foremost_)])
       foremost_ = i;
   }
@@ -163,7 +165,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
     borne_n += std::abs(share);
   }
   const double across_n = across.stableNorm();
-  if (across_n < kOnsetShare * sensing_.touch_n) {
+  if (across_n < kOnsetShare * sensing_.touch_n + kUnknown * surfaces_[foremost_].normal_sd() * borne_n) {
     aside_ = {input.p_WE};
     for (Surface& s : surfaces_) s.mark();
     return;

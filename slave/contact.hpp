@@ -26,6 +26,7 @@ struct ContactInput {
   double dt = 0.0;                    // s
   bool guarded = false;               // the force guard held the tool in the last step
   double doubt_n = 0.0;               // what of the force may be none
+  double news_age_s = 0.0;            // of what the operator knew of this side when the goal was commanded
 };
 
 /// For a contact by rotation: places are rotation vectors, N are N m, m are rad.

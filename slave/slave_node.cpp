@@ -59,7 +59,7 @@ struct SlaveNode::State {
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
   void look(const RobotState& robot, Time now);
-  void feel(double dt);
+  void feel(Time now, double dt);
   [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
   [[nodiscard]] ContactForce pressed() const;
   void book_reached();
@@ -136,7 +136,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   if (!s.time.stalled_since()) s.take_goals(input.commands);
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
-  if (s.robot_ok && s.sensor_ok) s.feel(dt);
+  if (s.robot_ok && s.sensor_ok) s.feel(input.now, dt);
   const Clamps clamps = s.right.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
@@ -312,26 +312,24 @@ bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
   return witness.felt(view.F_E_W.force, moved, sensor.doubt_n());
 }
 
-void SlaveNode::State::feel(double dt) {
+void SlaveNode::State::feel(Time now, double dt) {
   const bool engaged = safety.state() == SafetyState::kEngaged;
   const bool follows = engaged || safety.state() == SafetyState::kHolding;
   if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
+  const double news_age_s = safety.news_age_s(now) + playout.delay_s();
   if (needs.contact) {
     contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
-                  view.clamps.force_guard, sensor.doubt_n()});
+                  view.clamps.force_guard, sensor.doubt_n(), news_age_s});
     doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(), safety.state());
   }
   if (needs.rotation) {
     const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
     turn_contact.step({turn, V_WE.angular, view.F_E_W.moment, follows ? played_turn_sequence : 0.0, scale, dt,
-                       false, sensor.doubt_nm()});
+                       false, sensor.doubt_nm(), news_age_s});
   }
   // Between engagements the zero is renewed.
-  if (engaged || contact.in_contact() || turn_contact.in_contact()) {
-    sensor.abandon();
-  } else if (!sensor.zeroing()) {
-    sensor.zero();
-  }
+  if (engaged || contact.in_contact() || turn_contact.in_contact()) return sensor.abandon();
+  if (!sensor.zeroing()) sensor.zero();
 }
 
 // What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its

@@ -1,6 +1,7 @@
 #include "slave/slave_safety.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace longreach {
 
@@ -206,6 +207,10 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
     expired_ = false;
   }
   state_ = rule.to;
+}
+
+double SlaveSafety::news_age_s(Time now) const {
+  return echo_sent_ ? to_seconds(now - *echo_sent_) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace longreach

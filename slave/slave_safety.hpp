@@ -94,6 +94,9 @@ class SlaveSafety {
   [[nodiscard]] std::uint32_t engagement() const { return engagement_; }  // followed now or last
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
 
+  /// Age of what the master knew of this side when it sent its newest command, s; infinite: not known.
+  [[nodiscard]] double news_age_s(Time now) const;
+
  private:
   enum class Demand : std::uint8_t;
   struct Rule;

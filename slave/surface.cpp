@@ -11,10 +11,12 @@ constexpr double kSamePlaceM = 0.003;      // the surface that was met before is
 constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
 constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
+constexpr double kReplacedSd = 3.0;       // sd: the surface is not where it was at the touch before
 constexpr double kSlideM = 1e-3;          // along the surface: its place is another one
 constexpr double kRefined = 0.1;          // rad, by which a normal becomes better known
 constexpr double kSharpestM = 2e-3;       // radius of curvature
 constexpr double kUsualPress = 10.0;      // times the touch threshold, a hand presses with
+constexpr double kLocal = 2.0;            // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;         // of a goal that lies at the surface
 constexpr double kValidSd = 0.5;          // fraction
 
@@ -51,9 +53,12 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   touch_ = touch.number;
   sum_n_ = touch.force_n;
   normal_ = touch.force_n.stableNormalized();
+  normal_variance_n2_ = sensing_.force_noise_n * sensing_.force_noise_n;
   identifier_.begin();
+  local_.begin();
   if (!again) working_.begin();
   told_.begin(again);
+  local_told_ = {};
   answer_ = {};
   tool_m_ = touch.p_WE;
   inward_m_ = marked_m_ = 0.0;
@@ -65,15 +70,17 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     const double x_m = -normal_.dot(at.p_WE - tool_m_);
     if (x_m >= first_m) identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
-  placed_sd_m_ = 0.0;
+  if (!again) placed_sd_m_ = told_s_ = 0.0;
+  touched_anew_ = again;
   pushes_ = told_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
   scale_ = touch.scale;
   played_at_touch_ = touch.played_sequence;
   touch_sequence_ = 0.0;
 }
 
-// What the tool goes against the force is depth, so that neither a slide along the surface nor its curvature
-// counts as that, which a mean direction would have a long lever for.
+// What the tool goes against the force is depth, so that neither a slide along
+// the surface nor its curvature counts as that, which a mean direction would
+// have a long lever for.
 void Surface::press(const Press& press) {
   const Vector3 outward = pushes_.believed(press.outward, press.p_WE, known_);
   const double out_m = outward.dot(press.p_WE - tool_m_);
@@ -85,6 +92,9 @@ void Surface::press(const Press& press) {
   speed_m_per_s_ = -outward.dot(press.v_WE);
   identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, outward.dot(press.force_n)},
                    press.dt);
+  if (possible)
+    local_.step({inward_m_, speed_m_per_s_, outward.dot(press.force_n)}, surface_m_,
+                kLocal * estimator_.depth_memory_s, press.dt);
   identify(press);
 }
 
@@ -93,22 +103,32 @@ void Surface::identify(const Press& press) {
   if (answer_.changes != changes_) working_.begin();
   changes_ = answer_.changes;
   const double present_m = inward_m_ - answer_.surface.value;
-  // A depth at which the guard holds the tool is not the operator's choice.
-  const double usual_m = identifier_.told().depth_of(kUsualPress * scale_ * sensing_.touch_n);
-  ContactAnswer told = identifier_.told().answer_at(working_.depth_m(usual_m));
+  // A depth that the operator has gone to before feeling the surface, or at
+  // which the guard holds the tool, is not the operator's choice.
+  const double usual_m = this->usual_m();
+  bool elsewhere = false;
+  if (told_.stiffness_n_per_m() > 0.0) told_s_ += press.dt;
+  const bool chosen = told_s_ > press.news_age_s && !press.guarded;
+  if (well_known(answer_) && (chosen || changes_ > 0))
+    elsewhere = working_.follow(usual_m, present_m, answer_.n.value, estimator_.depth_memory_s, press.dt);
+  const bool fits = identifier_.told().law_fits();
+  if (!fits) elsewhere = beside(answer_.surface.value);
+  double asked_m = working_.depth_m(usual_m);
+  ContactAnswer told = fits ? identifier_.told().answer_at(asked_m) : local_told_;
   // Rather than to extrapolate far, the nearest depth that was visited.
-  if (told.valid && !well_known(told))
+  if (fits && told.valid && !well_known(told))
     told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
-  if (well_known(told) && (!press.guarded || changes_ > 0))
-    working_.follow(usual_m, present_m, answer_.n.value, estimator_.depth_memory_s, press.dt);
-  const bool anew = told_.step(told, told_normal_.believed(normal_, tool_m_, known_));
-  if (anew) told_at_m_ = tool_m_ + (inward_m_ - answer_.surface.value - told_.depth_m()) * normal_;
+  // What is told of another contact does not count.
+  if (!fits || told_changes_ != changes_) asked_m = told.depth_m;
+  const bool anew = tell(told, asked_m, elsewhere);
   if (!well_known(answer_)) return;
   known_ = true;
   known_normal_ = normal_;
   surface_m_ = answer_.surface.value;
   known_point_m_ = point();
-  if (anew || placed_sd_m_ <= 0.0 || answer_.surface.sd < 0.5 * placed_sd_m_ ||
+  const double moved_m = std::abs(normal_.dot(known_point_m_ - place_m_));
+  const bool elsewhere_now = touched_anew_ && moved_m > kReplacedSd * answer_.surface.sd;
+  if (anew || placed_sd_m_ <= 0.0 || answer_.surface.sd < 0.5 * placed_sd_m_ || elsewhere_now ||
       across_m(placed_at_m_) > kSlideM)
     place();
   constexpr double kTwice = 2.0, kMost = 0.1, kRounding = 1.05, kSd = 3.0;
@@ -116,15 +136,41 @@ void Surface::identify(const Press& press) {
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
 }
 
+double Surface::usual_m() const {
+  return identifier_.told().depth_of(kUsualPress * scale_ * sensing_.touch_n);
+}
+
+bool Surface::tell(const ContactAnswer& answer, double asked_m, bool elsewhere) {
+  if (!told_.step(answer, told_normal_.believed(normal_, tool_m_, known_), asked_m, elsewhere)) return false;
+  told_changes_ = changes_;
+  told_at_m_ = tool_m_ + (inward_m_ - answer.surface.value - told_.depth_m()) * normal_;
+  return true;
+}
+
+/// Where no law fits, the line by the samples alone, held until the mean depth
+/// has gone elsewhere. True when it is another one.
+bool Surface::beside(double surface_m) {
+  const ContactAnswer now = local_.answer(surface_m);
+  if (!now.valid) return false;
+  const double off = std::abs(now.stiffness.value / std::max(local_told_.stiffness.value, 1e-12) - 1.0);
+  if (local_told_.valid && off < estimator_.deadband) return false;
+  local_told_ = now;
+  local_told_.k = local_told_.n = {1.0, 0.0, Verdict::kNoPowerLaw};
+  return true;
+}
+
 void Surface::place() {
   place_m_ = known_point_m_;
   placed_at_m_ = tool_m_;
   placed_sd_m_ = answer_.surface.sd;
+  touched_anew_ = false;
+  told_.place(identifier_.told().law_fits() ? identifier_.told().answer_at(told_.depth_m()) : local_told_);
 }
 
 double Surface::across_m(const Vector3& from) const { return Vector3(tool_m_ - from).cross(normal_).norm(); }
 
-// A force that turns more than a tool can have slid round an edge is not the surface's: the sensor's zero.
+// A force that turns more than a tool can have slid round an edge is not the
+// surface's: the sensor's zero.
 Vector3 Surface::Direction::believed(const Vector3& n, const Vector3& tool, bool known) {
   const double way_m = Vector3(tool - at_m).cross(normal).norm();
   if (known && normal.cross(n).norm() > kRefined + way_m / kSharpestM) return normal;
@@ -133,12 +179,23 @@ Vector3 Surface::Direction::believed(const Vector3& n, const Vector3& tool, bool
 }
 
 void Surface::turn(const Vector3& force_n, double dt) {
-  sum_n_ = std::exp(-dt / kDirectionMemoryS) * sum_n_ + force_n;
+  const double kept = std::exp(-dt / kDirectionMemoryS);
+  sum_n_ = kept * sum_n_ + force_n;
+  normal_variance_n2_ = kept * kept * normal_variance_n2_ + sensing_.force_noise_n * sensing_.force_noise_n;
   normal_ = sum_n_.stableNormalized();
+}
+
+double Surface::normal_sd() const {
+  const double sum_n = sum_n_.stableNorm();
+  return sum_n > 0.0 ? std::sqrt(normal_variance_n2_) / sum_n : 1.0;
 }
 
 void Surface::release() {
   pressed_ = false;
+  const double usual_m = this->usual_m();
+  working_.leave(usual_m);
+  const double asked_m = working_.depth_m(usual_m);
+  tell(identifier_.told().answer_at(asked_m), asked_m, true);
   there_ = known_ && told_.stiffness_n_per_m() > 0.0;
   normal_ = known_normal_;
   answer_ = {};
@@ -176,7 +233,12 @@ std::optional<double> Surface::foreseen_n() const {
 
 ContactEstimate Surface::estimate() const {
   ContactEstimate result;
-  const ContactAnswer& a = answer_;
+  ContactAnswer a = answer_;
+  if (!identifier_.told().law_fits() && local_told_.valid) {
+    a.stiffness = local_told_.stiffness;
+    a.secant = local_told_.secant;
+    a.depth_m = local_told_.depth_m;
+  }
   result.valid = pressed_ && a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
   if (!result.valid) return result;
   result.stiffness_n_per_m = a.stiffness.value;

@@ -12,6 +12,7 @@
 #include "common/link/playout.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
+#include "slave/estimation/local_tangent.hpp"
 #include "slave/estimation/reported_tangent.hpp"
 #include "slave/estimation/watched_identifier.hpp"
 #include "slave/estimation/working_depth.hpp"
@@ -44,6 +45,7 @@ struct Press {
   Vector3 force_n = Vector3::Zero();   // of this surface
   double dt = 0.0;                     // s
   bool guarded = false;                // the force guard held the tool in the last step
+  double news_age_s = 0.0;             // of what the operator knew when the goal was commanded
 };
 
 class Surface {
@@ -77,6 +79,8 @@ class Surface {
   [[nodiscard]] bool there() const { return there_; }
   [[nodiscard]] bool pressed() const { return pressed_; }
   [[nodiscard]] const Vector3& normal() const { return normal_; }
+  /// That it is known to, rad.
+  [[nodiscard]] double normal_sd() const;
   [[nodiscard]] std::uint32_t touch() const { return touch_; }
   [[nodiscard]] double touch_sequence() const { return touch_sequence_; }
   [[nodiscard]] double depth_m() const;  // below the surface
@@ -103,6 +107,11 @@ class Surface {
   };
 
   void identify(const Press& press);
+  /// Depth of the force that a hand usually presses with.
+  [[nodiscard]] double usual_m() const;
+  /// For this depth; `elsewhere`: another one than so far. True if what is told has changed.
+  bool tell(const ContactAnswer& answer, double asked_m, bool elsewhere);
+  bool beside(double surface_m);
   /// What is known of its place is told from now on.
   void place();
   /// How far the tool has gone along the surface.
@@ -115,7 +124,10 @@ class Surface {
   EstimatorConfig estimator_;
   WatchedIdentifier identifier_;
   WorkingDepth working_;
-  std::uint32_t changes_ = 0;  // of the contact, that were found
+  LocalTangent local_;
+  ContactAnswer local_told_{};      // of that, held
+  std::uint32_t changes_ = 0;       // of the contact, that were found
+  std::uint32_t told_changes_ = 0;  // likewise, when it was told
   ReportedTangent told_;
   Vector3 told_at_m_ = Vector3::Zero();
   ContactAnswer answer_{};
@@ -123,12 +135,15 @@ class Surface {
   bool there_ = false, pressed_ = false;
   bool known_ = false;  // place and law: a touch at the same place goes on with them
   Vector3 normal_ = Vector3::Zero(), sum_n_ = Vector3::Zero();
+  double normal_variance_n2_ = 0.0;  // of the sum
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   double proof_m_ = 0.0;
   // As told; held, since a force of the sensor's own looks like a surface that moves.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();  // with the tool there
   Direction pushes_{}, told_normal_{};
-  double placed_sd_m_ = 0.0;          // that it was known to; 0: not in this touch
+  double placed_sd_m_ = 0.0;          // that it was known to; 0: not yet
+  double told_s_ = 0.0;               // since the surface was told
+  bool touched_anew_ = false;         // it was placed in a touch before
   Vector3 tool_m_ = Vector3::Zero();  // now, or when it was left
   double inward_m_ = 0.0;             // its way against the force since the touch
   double marked_m_ = 0.0;             // that at the mark

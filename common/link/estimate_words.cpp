@@ -24,6 +24,7 @@ std::string judged(Verdict verdict, const std::string& known, const std::string&
     case Verdict::kNotYet:
       return name + " not yet known";
     case Verdict::kNotIdentifiable:
+    case Verdict::kNoPowerLaw:
       break;
   }
   return name + " cannot be told";
@@ -39,6 +40,7 @@ std::string stiffness_in_words(const ContactEstimate& e, std::string_view unit) 
 
 std::string law_in_words(const ContactEstimate& e) {
   if (!e.valid) return "";
+  if (e.n_verdict == Verdict::kNoPowerLaw) return "no power law fits";
   const std::string n =
       "n " + number(e.n, 3) + (e.n_sd < kGivenSd ? " as given" : " within " + number(e.n_sd, 2));
   const std::string lambda =

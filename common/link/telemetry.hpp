@@ -25,7 +25,8 @@ struct Clamps {
 };
 
 /// What may be thought of an estimate.
-enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable };
+/// kNoPowerLaw: the contact is none; the stiffness is then that of the force over the depth that was probed.
+enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable, kNoPowerLaw };
 
 /// The estimator's present answer.
 struct ContactEstimate {

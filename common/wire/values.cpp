@@ -222,7 +222,7 @@ bool read(const proto::Telemetry& in, ContactEstimate& e) {
   e.correlation = static_cast<double>(sd[3]);
   std::uint32_t bits = in.verdicts();
   for (Verdict* v : {&e.stiffness_verdict, &e.k_verdict, &e.lambda_verdict, &e.n_verdict}) {
-    if (!read_enum(bits & 3u, Verdict::kNotIdentifiable, *v)) return false;
+    if (!read_enum(bits & 3u, Verdict::kNoPowerLaw, *v)) return false;
     bits >>= 2;
   }
   return bits == 0;

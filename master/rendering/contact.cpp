@@ -77,8 +77,14 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
 
 std::optional<Vector3> Contact::goal_of(const ReportedSurface& s, const GoalHistory& history) const {
   std::optional<Vector3> goal = history.newest();
-  if (!config_.by_arrival)
-    goal = s.touch_sequence > 0.0 ? history.at(s.touch_sequence) : Vector3(s.offset * s.normal);
+  if (!config_.by_arrival && s.touch_sequence > 0.0) {
+    goal = history.at(s.touch_sequence);
+  } else if (!config_.by_arrival) {
+    // The surface's place nearest to the hand, since a spring under force keeps its direction: where this has
+    // turned since, a place far from the hand would move the surface under it.
+    const Vector3 hand = goal.value_or(Vector3::Zero());
+    goal = hand + (s.offset - s.normal.dot(hand)) * s.normal;
+  }
   if (goal) *goal -= s.foot * s.normal;
   return goal;
 }

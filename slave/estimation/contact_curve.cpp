@@ -10,7 +10,7 @@ namespace {
 constexpr double kCurvePriorN = 1.5, kCurvePriorNSd = 0.5;
 constexpr double kGivenNSd = 1e-6;
 constexpr double kCurvePriorASd = 2.5;  // s/m
-constexpr double kLowestN = 0.5, kHighestN = 3.5;
+constexpr double kLowestN = 1.0, kHighestN = 3.0;
 constexpr double kStepN = 0.5;      // at most
 constexpr double kStepDepth = 0.5;  // of the depth, at most
 constexpr double kFarthest = 1e3;   // depth, over the way that was seen
@@ -25,6 +25,7 @@ constexpr double kPlaced = 0.2;  // of the depth, sd of the surface: until then 
 // A bin behind the surface, with what the law makes of its place.
 struct DepthRow {
   double w, v, vv, f, fv;
+  double dv;         // Σ w (x - mean) v: else a tool that slows down on its way in looks like damping
   double g;          // ξⁿ
   double h;          // ξᵐ
   double log_xi;     // ln ξ
@@ -45,7 +46,7 @@ Rows behind(const DepthBins& bins, double x0, double n, double reference_m, bool
     const double log_xi = std::log(depth / reference_m);
     const double g = std::exp(n * log_xi);
     rows.row[static_cast<std::size_t>(rows.count++)] = {
-        b.w, b.v, b.vv, b.f, b.fv, g, kelvin_voigt ? 1.0 : g, log_xi, 1.0 / depth};
+        b.w, b.v, b.vv, b.f, b.fv, b.xv - b.x / b.w * b.v, g, kelvin_voigt ? 1.0 : g, log_xi, 1.0 / depth};
   }
   return rows;
 }
@@ -82,7 +83,7 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
   for (int i = 0; i < rows.count; ++i) {
     const DepthRow& r = rows.row[static_cast<std::size_t>(i)];
     S0 += r.w * r.g * r.g;
-    S1 += r.v * r.g * r.h;
+    S1 += r.g * r.h * (r.v + place.n * r.per_depth * r.dv);
     S2 += r.vv * r.h * r.h;
     R0 += r.f * r.g;
     R1 += r.fv * r.h;
@@ -91,8 +92,10 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
   const double ridge =
       variance / (c * c * kCurvePriorASd * kCurvePriorASd + std::numeric_limits<double>::min());
   const double determinant = S0 * (S2 + ridge) - S1 * S1;
-  const double c0 = (R0 * (S2 + ridge) - R1 * S1) / determinant;
-  const double c1 = (R1 * S0 - R0 * S1) / determinant;
+  // No material gives energy back.
+  const double free_c1 = (R1 * S0 - R0 * S1) / determinant;
+  const double c1 = std::max(free_c1, 0.0);
+  const double c0 = free_c1 < 0.0 ? c : (R0 * (S2 + ridge) - R1 * S1) / determinant;
   if (!(determinant > 0.0) || !(c0 > 0.0) || !std::isfinite(c1)) return result;
   result.c0 = c0;
   result.c1 = c1;
@@ -108,8 +111,9 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
     const double slope = -place.n * r.per_depth;
     const double u[4] = {r.g, 0.0, r.g * c0 * r.log_xi, r.g * c0 * slope};
     const double w[4] = {0.0, r.h, d * r.log_xi, d * slope};
-    const double miss_1 = r.f - r.g * c0 * r.w - r.h * c1 * r.v;    // Σ (F - model)
-    const double miss_v = r.fv - r.g * c0 * r.v - r.h * c1 * r.vv;  // Σ (F - model) v
+    const double g_slope = place.n * r.per_depth * r.g, h_slope = law_.kelvin_voigt ? 0.0 : g_slope;
+    const double miss_1 = r.f - r.g * c0 * r.w - c1 * (r.h * r.v + h_slope * r.dv);    // Σ (F - model)
+    const double miss_v = r.fv - c0 * (r.g * r.v + g_slope * r.dv) - r.h * c1 * r.vv;  // Σ (F - model) v
     for (int p = 0; p < 4; ++p) {
       for (int q = p; q < 4; ++q) {
         A(p, q) += u[p] * u[q] * r.w + (u[p] * w[q] + w[p] * u[q]) * r.v + w[p] * w[q] * r.vv;
@@ -186,11 +190,16 @@ void ContactCurve::refresh(double force_variance_n2) {
                               cross.transpose() * now.information.topLeftCorner<2, 2>().inverse() * cross;
     Eigen::Matrix2d damped = H;
     damped.diagonal() *= 1.0 + damping_;
-    const Eigen::Vector2d step = damped.inverse() * now.slope;
+    Eigen::Vector2d step = damped.inverse() * now.slope;
+    const double n_next = place_.n + step[0];
+    if (n_next < kLowestN || n_next > kHighestN) {  // as far as that, and the surface by itself
+      step[0] = std::clamp(n_next, kLowestN, kHighestN) - place_.n;
+      step[1] = (now.slope[1] - H(1, 0) * step[0]) / damped(1, 1);
+    }
     if (!step.allFinite()) break;
     const double depth = deepest_m_ - place_.x0;
     Place next;
-    next.n = std::clamp(place_.n + std::clamp(step[0], -kStepN, kStepN), kLowestN, kHighestN);
+    next.n = place_.n + std::clamp(step[0], -kStepN, kStepN);
     next.x0 = std::max(place_.x0 + std::clamp(step[1], -2.0 * depth, kStepDepth * depth),
                        deepest_m_ - kFarthest * (deepest_m_ - shallowest_m_));
     const Fitted trial = fitted(next, variance);
@@ -222,7 +231,7 @@ void ContactCurve::publish(const Fitted& now, double variance) {
   fit_.n = now.place.n;
   fit_.a_s_per_m = a;
   fit_.kelvin_voigt = law_.kelvin_voigt;
-  fit_.covariance = variance * J * inner * J.transpose();
+  fit_.covariance = bins_.variance_share() * variance * J * inner * J.transpose();
   fit_.valid = fit_.covariance.allFinite() && (fit_.covariance.diagonal().array() >= 0.0).all();
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // The samples of a contact in bounded room, for a fit that has to try other surfaces and exponents: sums over
-// narrow bins of the position. A bin stands at the mean of its samples, so what is lost is the curvature
-// within a bin: at n = 1.5 and 64 bins 1e-4 of the force at the greatest depth. The bins double their width,
-// two becoming one, when a sample lies outside. Weights grow by 1/forgetting a sample.
+// narrow bins of the position. A bin stands at the mean of its samples and knows how the speed changed with
+// the place in it, so what is lost is the curvature within a bin: at n = 1.5 and 64 bins 1e-4 of the force at
+// the greatest depth. The bins double their width, two becoming one, when a sample lies outside. Weights grow
+// by 1/forgetting a sample.
 
 #include <array>
 #include <cmath>
@@ -18,6 +19,7 @@ struct DepthBin {
   double vv = 0.0;  // Σ w v²
   double f = 0.0;   // Σ w F
   double fv = 0.0;  // Σ w F v
+  double xv = 0.0;  // Σ w x v
 
   void add(const DepthBin& b) {
     w += b.w;
@@ -26,6 +28,7 @@ struct DepthBin {
     vv += b.vv;
     f += b.f;
     fv += b.fv;
+    xv += b.xv;
   }
   void scale(double by) {
     w *= by;
@@ -34,6 +37,7 @@ struct DepthBin {
     vv *= by;
     f *= by;
     fv *= by;
+    xv *= by;
   }
 };
 
@@ -54,12 +58,17 @@ class DepthBins {
       weight_ = 1.0;
     }
     const double w = weight_, wv = w * s.v_m_per_s;
+    sum_ = forgetting * sum_ + 1.0;
+    square_sum_ = forgetting * forgetting * square_sum_ + 1.0;
     const auto i = static_cast<std::size_t>((s.x_m - first_m_) / width_m_);
     bins_[std::min<std::size_t>(i, kBins - 1)].add(
-        {w, w * s.x_m, wv, wv * s.v_m_per_s, w * s.force_n, wv * s.force_n});
+        {w, w * s.x_m, wv, wv * s.v_m_per_s, w * s.force_n, wv * s.force_n, wv * s.x_m});
   }
   [[nodiscard]] const std::array<DepthBin, kBins>& bins() const { return bins_; }
   [[nodiscard]] double weight() const { return weight_; }  // of the last sample
+  /// Σ w²/Σ w over that of the last sample: the variance of what is fitted, over that of samples that weigh
+  /// alike.
+  [[nodiscard]] double variance_share() const { return sum_ > 0.0 ? square_sum_ / sum_ : 1.0; }
 
  private:
   static constexpr double kFirstWidthM = 1e-9;
@@ -83,6 +92,7 @@ class DepthBins {
   double first_m_ = 0.0;
   double width_m_ = 0.0;  // 0: no sample yet
   double weight_ = 1.0;
+  double sum_ = 0.0, square_sum_ = 0.0;  // of the weights and their squares, over that of the last
 };
 
 }  // namespace longreach

@@ -23,6 +23,8 @@ constexpr double kDriftFloor = 0.25;  // of the force at the reference: shallowe
 constexpr double kClipSd = 10.0, kClipShare = 0.5;  // of one innovation: a single one is no change
 constexpr double kSlowTouch = 0.01;                 // a v at the fastest: this, with an sd of this
 constexpr int kEnoughSamples = 1000;                // samples that should have told everything
+constexpr double kJudgedResiduals = 500.0;
+constexpr double kMisfitVariance = 1.5, kMisfit = 0.01;  // of the noise; of the force at the reference
 constexpr double kPositionShare = 0.1;
 constexpr double kShareSd = 0.05, kExponentSd = 0.05, kDampingShareSd = 0.2;
 constexpr double kSecantSd = 0.0155;  // 3 of them within 5 %, and some room
@@ -192,10 +194,23 @@ void Identifier::step(const PenetrationSample& sample, double dt) {
     innovation = std::visit([&](auto& e) { return e.step(sample, variance_n2_); }, estimator_);
     samples_ = std::min(samples_ + 1, kEnoughSamples);
   }
-  if (settled_ && std::isfinite(innovation)) watch(innovation, sample.force_n - innovation);
+  if (settled_ && std::isfinite(innovation)) watch(sample, innovation);
 }
 
-void Identifier::watch(double innovation_n, double foreseen_n) {
+// Of the force that the fit foresees, by what is not known of its parameters.
+double Identifier::foreseen_variance(const PenetrationSample& s) const {
+  const ContactFit& f = fit();
+  const double depth_m = s.x_m - f.surface_m;
+  if (!(depth_m > 0.0)) return 0.0;
+  const double log_depth = std::log(depth_m / f.reference_m), elastic = f.force_n * std::exp(f.n * log_depth);
+  const double speed = f.kelvin_voigt ? 0.0 : f.a_s_per_m * s.v_m_per_s, force = elastic * (1.0 + speed);
+  const double by_a = (f.kelvin_voigt ? f.force_n : elastic) * s.v_m_per_s;
+  const Eigen::Vector4d h(force, force * log_depth, by_a, -f.n * force / depth_m);
+  return std::max(h.dot(f.covariance * h), 0.0);
+}
+
+void Identifier::watch(const PenetrationSample& sample, double innovation_n) {
+  const double foreseen_n = sample.force_n - innovation_n;
   const double variance = variance_n2_;
   const double force = std::max(std::abs(foreseen_n), kDriftFloor * fit().force_n);
   const double square = innovation_n * innovation_n;
@@ -207,12 +222,22 @@ void Identifier::watch(double innovation_n, double foreseen_n) {
   drift_n_ += (std::clamp(innovation_n, -clip, clip) - drift_n_) / kDriftSamples;
   const bool far =
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * variance && std::abs(drift_n_) > kDriftShare * force;
-  if (far && config_.kind == EstimatorKind::kMaximumLikelihood && settled()) renew();
+  if (far && config_.kind == EstimatorKind::kMaximumLikelihood && settled() &&
+      drift_n_ * drift_n_ > kDriftSd * kDriftSd * foreseen_variance(sample))
+    renew();
 }
 
 void Identifier::renew() {
   ++changes_;
   restart();
+}
+
+// What the fit leaves, against the noise that the samples show, and against what is felt.
+bool Identifier::law_fits() const {
+  if (config_.kind != EstimatorKind::kMaximumLikelihood || residuals_ < kJudgedResiduals) return true;
+  const double noise = std::max(config_.force_noise_n * config_.force_noise_n, force_noise_.variance());
+  const double felt = kMisfit * fit().force_n;
+  return residual_squares_ / residuals_ < kMisfitVariance * noise + felt * felt;
 }
 
 ContactAnswer Identifier::answer() {
@@ -273,6 +298,7 @@ ContactAnswer Identifier::answer_at(double depth_m) const {
   judge(a.lambda, kDampingShareSd * std::abs(a.lambda.value), early);
   judge(a.n, kExponentSd, early);
   judge(a.surface, kShareSd * depth_m, early);
+  if (!biased && !law_fits()) a.k.verdict = a.lambda.verdict = a.n.verdict = Verdict::kNoPowerLaw;
   judge(a.secant, kSecantSd * a.secant.value, early);
   judge(a.stiffness, kShareSd * a.stiffness.value, early);
   a.valid = std::isfinite(a.k.value) && std::isfinite(a.k.sd) && std::isfinite(a.lambda.sd) &&
@@ -297,6 +323,8 @@ std::string_view text_of(Verdict verdict) {
       return "identified";
     case Verdict::kNotIdentifiable:
       return "not identifiable";
+    case Verdict::kNoPowerLaw:
+      return "no power law fits";
   }
   return "";
 }

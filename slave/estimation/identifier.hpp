@@ -82,6 +82,8 @@ class Identifier {
   [[nodiscard]] ContactAnswer answer();
   /// The same of another depth, > 0.
   [[nodiscard]] ContactAnswer answer_at(double depth_m) const;
+  /// False where the force is off the law by more than its noise: no power law fits. MAXIMUM_LIKELIHOOD only.
+  [[nodiscard]] bool law_fits() const;
   /// The depth nearest to `depth_m` that the samples of the fit have seen.
   [[nodiscard]] double visited(double depth_m) const;
   /// Depth at which the elastic force is `force_n` > 0; 0 without a fit.
@@ -98,7 +100,8 @@ class Identifier {
   [[nodiscard]] double position_sd() const;
   bool still(double x_m);
   [[nodiscard]] bool settled() const;  // the force at the present depth is known to 5 %
-  void watch(double innovation_n, double foreseen_n);
+  [[nodiscard]] double foreseen_variance(const PenetrationSample& sample) const;
+  void watch(const PenetrationSample& sample, double innovation_n);
   void restart();
 
   IdentifierConfig config_;

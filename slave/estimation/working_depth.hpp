@@ -1,7 +1,8 @@
 #pragma once
-// The depth that the stiffness is told for: that of a usual force at first, so that the value does not chase
-// every movement, then where the hand works, the mean of about the last `memory_s`. It is held until the
-// tangent there is off the law's force at the mean by over a fifth of that.
+// The depth that the stiffness is reported for: where the hand works. At first that of a usual force, so that
+// the value does not follow the way in. Then the mean depth of about the last `memory_s`, held until the
+// tangent there is over 8 % off, unless the hand swings about the depth that is held. Of a hand that swings,
+// the mean of a whole swing, and of one that rests, what that mean has come to, each held until 2 % off.
 
 #include <algorithm>
 #include <cmath>
@@ -10,25 +11,71 @@ namespace longreach {
 
 class WorkingDepth {
  public:
-  void begin() { mean_m_ = told_m_ = 0.0; }
+  void begin() { *this = WorkingDepth(); }
+  /// The tool has left, and may come again. Deeper than usual is nothing to begin with: a line from there is
+  /// felt too late, and a spring that grows in the hand takes energy that is not there.
+  void leave(double usual_m) {
+    const double held_m = std::min(held_m_, usual_m);
+    begin();
+    held_m_ = held_m;
+  }
 
   /// `usual_m`: depth of the usual force.
-  [[nodiscard]] double depth_m(double usual_m) const { return told_m_ > 0.0 ? told_m_ : usual_m; }
+  [[nodiscard]] double depth_m(double usual_m) const { return held_m_ > 0.0 ? held_m_ : usual_m; }
 
-  /// While the contact is known, with this exponent. `present_m`: depth now; `memory_s` > 0.
-  void follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
-    const double held_m = depth_m(usual_m);
-    if (mean_m_ <= 0.0) mean_m_ = held_m;
-    mean_m_ -= std::expm1(-dt / memory_s) * (std::max(present_m, 0.0) - mean_m_);
-    const double depth = mean_m_ / held_m, force = std::pow(depth, exponent);
-    const double off = std::abs(1.0 + exponent * (depth - 1.0) - force);
-    if (off > kOff * force && mean_m_ > 0.0) told_m_ = mean_m_;
+  /// While the contact is known, with this exponent. `present_m`: depth now; `memory_s` > 0. Returns true
+  /// when another depth is held from now on.
+  bool follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
+    const double held_m = depth_m(usual_m), now_m = std::max(present_m, 0.0);
+    if (!begun_) mean_m_ = now_m;
+    begun_ = true;
+    const double share = -std::expm1(-dt / memory_s), from_mean_m = now_m - mean_m_;
+    mean_m_ += share * from_mean_m;
+    variance_m2_ += share * (from_mean_m * from_mean_m - variance_m2_);
+    held_s_ += dt;
+    const double swing_m = kSwing * std::sqrt(variance_m2_);
+    const auto off = [&](double depth) { return std::abs(std::pow(depth / held_m, exponent - 1.0) - 1.0); };
+    if (const double swung_m = swing(now_m, swing_m, dt); swung_m > 0.0 && off(swung_m) > kSlightlyOff)
+      return hold(swung_m);
+    const bool there = std::abs(from_mean_m) < kThere * mean_m_;
+    const bool within = std::abs(mean_m_ - held_m) < swing_m;
+    if (there && held_s_ > memory_s && !within && off(mean_m_) > kOff) return hold(mean_m_);
+    const bool rests = swing_s_ > kRests * memory_s && held_s_ > memory_s;
+    return rests && off(mean_m_) > kSlightlyOff && hold(mean_m_);
   }
 
  private:
-  static constexpr double kOff = 0.2;
-  double mean_m_ = 0.0;  // 0: none yet
-  double told_m_ = 0.0;  // gone to instead of the usual force's; 0: none
+  static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
+  static constexpr double kRests = 2.5;  // times the memory
+  static constexpr double kSwing = 0.5;  // of the depth's sd about its mean
+  static constexpr double kThere = 0.3;  // of the mean depth: else the tool only passes
+
+  bool hold(double depth_m) {
+    if (!(depth_m > 0.0)) return false;
+    held_m_ = depth_m;
+    held_s_ = 0.0;
+    return true;
+  }
+
+  /// The mean depth of a swing that ends now, upwards through the mean; else 0.
+  double swing(double now_m, double swing_m, double dt) {
+    swing_sum_ += now_m * dt;
+    swing_s_ += dt;
+    if (now_m < mean_m_ - swing_m) below_ = true;
+    if (!below_ || now_m < mean_m_ + swing_m) return 0.0;
+    const double depth_m = whole_ ? swing_sum_ / swing_s_ : 0.0;
+    whole_ = true;
+    below_ = false;
+    swing_sum_ = swing_s_ = 0.0;
+    return depth_m;
+  }
+
+  bool begun_ = false;
+  double held_m_ = 0.0;  // gone to instead of the usual force's; 0: none
+  double held_s_ = 0.0;  // since then
+  double mean_m_ = 0.0, variance_m2_ = 0.0;
+  bool below_ = false, whole_ = false;      // the swing has been below the mean; it began at one's end
+  double swing_sum_ = 0.0, swing_s_ = 0.0;  // m s and s, since it began
 };
 
 }  // namespace longreach

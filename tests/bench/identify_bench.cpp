@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "slave/estimation/identifier.hpp"
+#include "slave/estimation/watched_identifier.hpp"
 #include "tests/property/contact_record.hpp"
 
 namespace longreach {
@@ -39,6 +39,26 @@ void Identify(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
 }
 BENCHMARK(Identify)->DenseRange(0, 4);
+
+/// As the slave does it: the surface is not known, and in each tick the answer at the depth where the hand
+/// works is asked for.
+void SlavesOwnPath(benchmark::State& state) {
+  constexpr double kWorking_m = 1e-3;
+  const test::Samples samples = record();
+  const EstimatorKind kind = kEstimatorKinds[state.range(0)];
+  state.SetLabel(std::string(name_of(kind)));
+  for (auto _ : state) {
+    WatchedIdentifier identifier({.kind = kind, .force_noise_n = 0.05, .surface_known = false});
+    identifier.begin();
+    for (const PenetrationSample& s : samples) {
+      identifier.step(s, 1e-3);
+      benchmark::DoNotOptimize(identifier.answer());
+      benchmark::DoNotOptimize(identifier.told().answer_at(kWorking_m));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
+}
+BENCHMARK(SlavesOwnPath)->DenseRange(0, 4);
 
 }  // namespace
 }  // namespace longreach

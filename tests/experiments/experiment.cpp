@@ -156,6 +156,13 @@ const std::vector<Experiment> kExperiments = {
      "{impacts} impacts; restitution right in {discrete_gradient_right} % by the discrete gradient (error "
      "{discrete_gradient_error_max}), {rk4_right} % by Runge-Kutta, {semi_implicit_euler_right} % by "
      "semi-implicit Euler"},
+    {"unknown-contact", "Materials that nobody described, drawn from a seed: is what the hand feels right?",
+     run_unknown_contact, unknown_contact_plots, "",
+     "{right} of {cells} within 5 % in slope and 10 % in mean force, worst {slope_error_max*100} and "
+     "{force_error_max*100} %; the error is within 3 sd in {covered}, the sd {sd_over_bound_median} times "
+     "the "
+     "Cramér-Rao bound; of {outside_cells} that no power law describes {outside_tangent_within_15_percent} "
+     "within 15 %"},
     {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
      run_material_steps, material_steps_plots, "",
      "fixed exponent: {layers_fixed_exponent_followed} of {layers_fixed_exponent_changes} layers told within "

@@ -125,6 +125,8 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run);
 std::vector<Plot> sensor_faults_plots();
 std::vector<Metric> run_impact(const ExperimentRun& run);
 std::vector<Plot> impact_plots();
+std::vector<Metric> run_unknown_contact(const ExperimentRun& run);
+std::vector<Plot> unknown_contact_plots();
 std::vector<Metric> run_material_steps(const ExperimentRun& run);
 std::vector<Plot> material_steps_plots();
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run);

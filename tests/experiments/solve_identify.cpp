@@ -59,7 +59,8 @@ std::string verdict(const ContactAnswer& answer) {
   if (!answer.valid || answer.secant.verdict == Verdict::kNotYet)
     return std::string(text_of(Verdict::kNotYet));
   std::string text;
-  for (const Verdict group : {Verdict::kIdentified, Verdict::kNotYet, Verdict::kNotIdentifiable}) {
+  for (const Verdict group :
+       {Verdict::kIdentified, Verdict::kNotYet, Verdict::kNotIdentifiable, Verdict::kNoPowerLaw}) {
     std::string names;
     std::size_t count = 0;
     for (const Named& n : kNamed) {
@@ -77,7 +78,8 @@ Json to_json(const ContactAnswer& answer) {
   Json values, sd;
   for (const Named& n : kNamed) {
     const Identified& p = answer.*n.value;
-    const bool told = answer.valid && p.verdict != Verdict::kNotIdentifiable;
+    const bool told =
+        answer.valid && p.verdict != Verdict::kNotIdentifiable && p.verdict != Verdict::kNoPowerLaw;
     values[n.name] = told ? Json(p.value) : Json(nullptr);
     sd[n.name] = answer.valid ? Json(p.sd) : Json(nullptr);
   }

@@ -2,8 +2,9 @@
 // probes.
 //
 // Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
-// the normal, over samples above 0.2 N and not clamped, from RTT + 1 s after the first touch on, and again
-// after each hold and each other tangent, which leave the wall at another place of the handle (own
+// the normal, over samples above 0.2 N and not clamped, from the second touch on, when the wall is known
+// before the hand is there (of one that is learnt late, the store pays a part: experiment `person`), and
+// from RTT + 1 s on after each hold. Each other tangent leaves the wall at another place of the handle (own
 // intercept). Its reference is the slope of a spring with ke times the material's true stiffness (tangent) at
 // the place that the slave reported it for, over the same samples.
 
@@ -34,6 +35,7 @@ struct Watch {
   double rendered_n_per_m = 0.0, true_n_per_m = 0.0;
   double displayed_span_s = 0.0;
   double first_touch_s = -1.0;
+  bool again = false;         // it is the second touch, or a later one
   double unsettled_s = -1.0;  // when the hand was last in a hold
   double force_step_max_n = 0.0;
   double force_step_excess_n = 0.0;  // over max(0.1 N, 5 % of the force)
@@ -94,6 +96,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
     if (lab.slave().in_contact && e.stiffness_n_per_m > 0.0)
       w.estimate_sd = e.stiffness_sd_n_per_m / e.stiffness_n_per_m;
   }
+  if (phase == ScriptPhase::kPress && w.phase == ScriptPhase::kReturn) w.again = true;
   w.phase = phase;
   if (w.first_touch_s < 0.0) return;
   if (m.state != SafetyState::kEngaged) w.unsettled_s = lab.now_s();
@@ -107,7 +110,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   }
   w.rendered_n_per_m = m.stiffness_n_per_m;
   w.true_n_per_m = true_n_per_m;
-  if (lab.now_s() < std::max(w.first_touch_s, w.unsettled_s) + w.rtt_s + 1.0) return;
+  if (!w.again || lab.now_s() < std::max(w.first_touch_s, w.unsettled_s) + w.rtt_s + 1.0) return;
   if (spring_n > kSpringLeast_n && !m.force_clamped && m.mode == MotionMode::kPosition) {
     const double in_m = m.inward.dot(m.p_MH);
     w.displayed.add(in_m, spring_n);

@@ -168,10 +168,10 @@ ContactEstimate read(const recording::ContactEstimate& in) {
   e.lambda_sd = in.lambda_sd();
   e.n_sd = in.n_sd();
   e.correlation = in.correlation();
-  e.stiffness_verdict = read_enum(in.stiffness_verdict(), Verdict::kNotIdentifiable);
-  e.k_verdict = read_enum(in.k_verdict(), Verdict::kNotIdentifiable);
-  e.lambda_verdict = read_enum(in.lambda_verdict(), Verdict::kNotIdentifiable);
-  e.n_verdict = read_enum(in.n_verdict(), Verdict::kNotIdentifiable);
+  e.stiffness_verdict = read_enum(in.stiffness_verdict(), Verdict::kNoPowerLaw);
+  e.k_verdict = read_enum(in.k_verdict(), Verdict::kNoPowerLaw);
+  e.lambda_verdict = read_enum(in.lambda_verdict(), Verdict::kNoPowerLaw);
+  e.n_verdict = read_enum(in.n_verdict(), Verdict::kNoPowerLaw);
   return e;
 }
 

@@ -118,6 +118,7 @@ double honesty(const EstimatorConfig& config, double n, double a_sd, int ticks) 
 TEST(SlaveContact, ItsStandardDeviationIsHonest) {
   for (const double n : {1.0, 1.5}) {
     EstimatorConfig given;
+    given.kind = EstimatorKind::kFixedExponent;
     given.exponent = n;
     for (const EstimatorConfig& config : {given, free_exponent()}) {
       for (const double a_sd : {3.0, 10.0}) {
@@ -126,7 +127,9 @@ TEST(SlaveContact, ItsStandardDeviationIsHonest) {
           const double rms = honesty(config, n, a_sd, ticks);
           const std::string what = std::string(name_of(config.kind)) + " n " + std::to_string(n) + " a " +
                                    std::to_string(a_sd) + " after " + std::to_string(ticks);
-          EXPECT_GT(rms, 0.5) << what;
+          // No exponent is below 1: a free one errs to one side there.
+          const bool bounded = n == 1.0 && config.kind == EstimatorKind::kMaximumLikelihood;
+          EXPECT_GT(rms, bounded ? 0.4 : 0.5) << what;
           EXPECT_LT(rms, 2.0) << what;
           RecordProperty(what, std::to_string(rms));
         }
@@ -341,37 +344,6 @@ TEST(SlaveContact, IdentifiesAnewWithAnotherEstimatorFromNowOn) {
     ASSERT_TRUE(contact.foremost().estimate().valid) << name_of(kind);
     EXPECT_NEAR(contact.foremost().estimate().stiffness_n_per_m, 1000.0, 50.0) << name_of(kind);
   }
-}
-
-TEST(ReportedTangent, AppearsWhenKnownHoldsAndIsCorrectedOnce) {
-  ReportedTangent reported(EstimatorConfig{});
-  Vector3 normal = Vector3::UnitX();
-  const auto step = [&](double stiffness_n_per_m, double fraction) {
-    ContactAnswer answer;
-    answer.valid = true;
-    answer.stiffness = {stiffness_n_per_m, fraction * stiffness_n_per_m};
-    return reported.step(answer, normal);
-  };
-  EXPECT_FALSE(step(1000, 0.04));
-  EXPECT_TRUE(step(1000, 0.025));
-  EXPECT_FALSE(step(1070, 0.02));   // within the dead band
-  EXPECT_FALSE(step(1085, 0.029));  // within 3 sd
-  EXPECT_FALSE(step(1015, 0.004));  // well known, but less than 2 % off
-  EXPECT_TRUE(step(1030, 0.004));   // the one correction
-  EXPECT_FALSE(step(1060, 0.004));
-  EXPECT_TRUE(step(1150, 0.004));  // more than the dead band
-  EXPECT_FALSE(step(3000, 0.16));  // hardly known
-  EXPECT_FALSE(step(1600, 0.06));  // nearly surely wrong
-  EXPECT_TRUE(step(3000, 0.09));   // what was told is wrong, surely
-  EXPECT_TRUE(step(1150, 0.01));
-  EXPECT_EQ(reported.stiffness_n_per_m(), 1150.0);
-  reported.begin(true);
-  normal = exp_rotation(0.01 * Vector3::UnitZ()) * normal;
-  EXPECT_FALSE(step(1150, 0.004));  // a direction that is 1.4 % off in the norm
-  normal = exp_rotation(0.01 * Vector3::UnitZ()) * normal;
-  EXPECT_TRUE(step(1150, 0.004));  // 2.8 %
-  reported.begin(false);
-  EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
 }
 
 }  // namespace

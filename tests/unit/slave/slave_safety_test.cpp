@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace longreach {
 namespace {
 
@@ -67,6 +69,17 @@ TEST(SlaveSafety, IsIdleUntilTheMasterIsHeardAndAgainWhenItHasGone) {
   d.silent = true;
   d.tick(1200);
   EXPECT_EQ(d.state(), SafetyState::kIdle);
+}
+
+TEST(SlaveSafety, SaysHowOldTheNewsIsThatTheOperatorHas) {
+  Drill d;
+  d.age_s = -1.0;  // no echo
+  d.tick();
+  EXPECT_TRUE(std::isinf(d.safety.news_age_s(d.in.now)));
+  d.age_s = 2.6;
+  d.tick();
+  EXPECT_NEAR(d.safety.news_age_s(d.in.now), 2.6, 1e-9);
+  EXPECT_NEAR(d.safety.news_age_s(d.in.now + milliseconds(50)), 2.65, 1e-9);
 }
 
 TEST(SlaveSafety, EngagesOnlyForAMasterThatHasHeardIt) {

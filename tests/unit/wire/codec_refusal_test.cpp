@@ -123,10 +123,8 @@ TEST(Codec, RefusesUnknownEnumerators) {
   telemetry.set_clamps(1u << 8);
   EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
   telemetry.set_clamps(0);
-  for (const std::uint32_t verdicts : {3u, 3u << 6, 1u << 8}) {
-    telemetry.set_verdicts(verdicts);
-    EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue) << verdicts;
-  }
+  telemetry.set_verdicts(1u << 8);
+  EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
 }
 
 TEST(Codec, RefusesACommandWithoutOrWithTwoGoals) {
