@@ -90,11 +90,13 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
     holds_.add(seconds(), s.view);
     if (scripted(config_) && config_.safety.engage_at_start && resumption_.step(seconds(), s.view, holds_))
       (void)service_.request({.engage = true});
+    const std::string in_hand = hand_trouble(s);
+    note(in_hand);
     std::string trouble = seeker.trouble();
-    if (trouble.empty()) trouble = hand_trouble(s);
+    if (trouble.empty()) trouble = in_hand;
     service_.put_trouble(trouble, seeker.taken_by());
     const HandPoll::Seen hand = hand_->seen();
-    chronicle_.write(s, seeker.trouble(), hand_trouble(s));
+    chronicle_.write(s, seeker.trouble(), in_hand);
     chronicle_.write_notice(hand.notice);
     ConsoleSnapshot shown = picture(s, config_);
     shown.trouble = trouble;
@@ -108,6 +110,12 @@ void Housekeeping::run(const std::atomic<bool>& stop, const SessionSeeker& seeke
   }
   view_.close();
   hand_.reset();
+}
+
+void Housekeeping::note(const std::string& hand) {
+  constexpr std::size_t kKept = 64;
+  if (hand != hand_said_ && !hand.empty() && troubles_.size() < kKept) troubles_.push_back({seconds(), hand});
+  hand_said_ = hand;
 }
 
 double Housekeeping::length_s() const {

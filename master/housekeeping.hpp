@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/io/real_time_loop.hpp"
 #include "common/io/service_watch.hpp"
@@ -58,12 +59,15 @@ class Housekeeping {
   [[nodiscard]] bool live() const { return view_.live(); }
   /// Returns when `stop`, the person at the keys or the length of the run says so.
   void run(const std::atomic<bool>& stop, const SessionSeeker& seeker);
+  /// Why there was nothing in the hand, the first of the run; for its summary.
+  [[nodiscard]] const std::vector<HandTrouble>& hand_troubles() const { return troubles_; }
 
  private:
   [[nodiscard]] double seconds() const { return to_seconds(monotonic_now() - began_); }
   /// Holds that this machine caused extend it, to twice its length at most.
   [[nodiscard]] double length_s() const;
   [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const;
+  void note(const std::string& hand);
 
   RunOptions options_;
   const MasterConfig& config_;
@@ -73,6 +77,8 @@ class Housekeeping {
   Chronicle chronicle_;
   ServiceWatch watch_;
   HoldLog holds_;
+  std::vector<HandTrouble> troubles_;
+  std::string hand_said_;  // the last one, empty when it was over
   Resumption resumption_{};
   Time began_ = monotonic_now();
   bool quit_ = false;

@@ -75,8 +75,8 @@ SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_
 
 /// The verdict counts for a run that was given its length; one that ends by a signal has just ended.
 int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
-          const MasterConfig& config) {
-  const Summary result = summary.finish(picture(last, config));
+          const MasterConfig& config, const std::vector<HandTrouble>& hand) {
+  const Summary result = summary.finish(picture(last, config), hand);
   if (options.view != "none") put(STDOUT_FILENO, result.text());
   const LoopFigures& loop = last.side.loop;
   spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
@@ -193,7 +193,7 @@ int operate(const MasterOptions& options) {
   seeker.reset();
   rpc.stop();
   if (failure) std::rethrow_exception(failure);
-  return judge(options, summary, service.snapshot(), plain);
+  return judge(options, summary, service.snapshot(), plain, housekeeping.hand_troubles());
 }
 
 }  // namespace

@@ -20,10 +20,6 @@ using google::protobuf::Message;
 using google::protobuf::TextFormat;
 namespace fs = std::filesystem;
 
-// Of a file; a thousand times the longest one that ships. With the files that it names the whole may be
-// longer.
-constexpr std::size_t kMaxBytes = 1 << 20;
-
 // Keeps the first error; what follows it is mostly its consequence.
 class FirstError : public google::protobuf::io::ErrorCollector {
  public:
@@ -79,10 +75,7 @@ std::string place_in_file(const fs::path& file, const Message& message, const Fi
 }
 
 void load_text_file(const fs::path& file, Message& message) {
-  const std::string text = read_user_file(file);
-  if (text.size() > kMaxBytes)
-    throw ConfigError(file.string() + ": is longer than 1 MiB; no configuration is");
-  load_text(file.string(), text, message);
+  load_text(file.string(), read_user_file(file), message);
 }
 
 void load_text(const std::string& name, const std::string& whole, Message& message) {

@@ -1,6 +1,7 @@
 #include "master/console/hold_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "master/console/formatted.hpp"
@@ -19,11 +20,24 @@ std::string machine_words(const HoldRecord& hold) {
   return text + "stalled: this machine is busy";
 }
 
-std::string words_of(const HoldRecord& hold) {
+/// The trouble of the hand that a fault of the device began with; empty: none.
+std::string hand_words(const HoldRecord& hold, const std::vector<HandTrouble>& hand) {
+  constexpr double kApartS = 0.5;  // the hand is asked beside the loop
+  if (hold.cause != HoldCause::kDeviceFault || hand.empty()) return "";
+  const auto apart_s = [&](const HandTrouble& trouble) { return std::fabs(trouble.began_s - hold.began_s); };
+  const auto nearest = std::min_element(
+      hand.begin(), hand.end(), [&](const auto& a, const auto& b) { return apart_s(a) < apart_s(b); });
+  return apart_s(*nearest) < kApartS ? nearest->text : "";
+}
+
+std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& hand) {
   const std::string when = formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
   if (hold.blame == HoldBlame::kMachine) return when + machine_words(hold);
-  std::string text = when + sentence(hold.cause);
-  if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause)
+  const std::string trouble = hand_words(hold, hand);
+  std::string text = when + (trouble.empty() ? sentence(hold.cause) : trouble);
+  // That the slave holds with the master goes without saying.
+  const bool follows = hold.far_cause == HoldCause::kPeerHolds && hold.cause != HoldCause::kNone;
+  if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause && !follows)
     text += ", at the slave " + sentence(hold.far_cause);
   return text + (hold.blame == HoldBlame::kOutage ? ", as the link's profile has it" : "");
 }
@@ -81,10 +95,10 @@ double HoldLog::machine_s() const {
   return machine_s_ + (now ? present().lasted_s : 0.0);
 }
 
-std::vector<HoldLog::Sentence> HoldLog::words() const {
+std::vector<HoldLog::Sentence> HoldLog::words(const std::vector<HandTrouble>& hand) const {
   std::vector<Sentence> all;
   const auto add = [&](const HoldRecord& hold) {
-    all.push_back({words_of(hold), hold.blame == HoldBlame::kSystem});
+    all.push_back({words_of(hold, hand), hold.blame == HoldBlame::kSystem});
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(count() - (holds_ ? 1 : 0), kKept); ++i) add(kept_[i]);
   if (holds_) add(present());

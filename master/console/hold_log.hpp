@@ -20,6 +20,12 @@ struct HoldRecord {
   HoldBlame blame = HoldBlame::kSystem;
 };
 
+/// Why there was nothing in the hand from then on, and what to do, in words.
+struct HandTrouble {
+  double began_s = 0.0;
+  std::string text;
+};
+
 class HoldLog {
  public:
   /// `outages`: the link's profile has some.
@@ -43,7 +49,8 @@ class HoldLog {
     std::string text;
     bool fault = false;  // of the system
   };
-  [[nodiscard]] std::vector<Sentence> words() const;
+  /// `hand`: of the run, by time. A fault of the device that begins with one of them is told in its words.
+  [[nodiscard]] std::vector<Sentence> words(const std::vector<HandTrouble>& hand = {}) const;
 
  private:
   static constexpr std::size_t kKept = 16;

@@ -95,7 +95,7 @@ void RunSummary::add_contact(double seconds, const MasterView& view, std::option
   ++estimates_;
 }
 
-Summary RunSummary::finish(const ConsoleSnapshot& last) const {
+Summary RunSummary::finish(const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand) const {
   Summary summary;
   if (!rtt_s_.empty()) {
     std::vector<double> values;
@@ -114,8 +114,11 @@ Summary RunSummary::finish(const ConsoleSnapshot& last) const {
   summary.force_step_max_n = force_step_max_n_;
   summary.force_step_excess_n = force_step_excess_n_;
   summary.counters = counters_of(last);
-  if (last.view.refusal != HoldCause::kNone) summary.refusal = refusal_in_words(last.view);
-  add_checks(summary);
+  if (last.view.refusal != HoldCause::kNone) {
+    const bool of_the_hand = last.view.refusal == HoldCause::kDeviceFault && !hand.empty();
+    summary.refusal = of_the_hand ? hand.back().text : refusal_in_words(last.view);
+  }
+  add_checks(summary, hand);
   return summary;
 }
 
@@ -127,7 +130,7 @@ std::string RunSummary::engaged_in_words(const Summary& s) const {
   return text + ": " + s.refusal;
 }
 
-void RunSummary::add_checks(Summary& s) const {
+void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) const {
   std::vector<SummaryCheck>& checks = s.checks;
   checks.push_back(
       {s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
@@ -161,19 +164,19 @@ void RunSummary::add_checks(Summary& s) const {
   std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
   if (n.late_ticks > 0) late += ": this machine is busy";
   checks.push_back({late, true, n.late_ticks > 0});
-  add_holds(s);
+  add_holds(s, hand);
   checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
   std::string limits = count_text(n.limit_violations, "limit violations");
   if (n.limit_violations > 0) limits += ": which ones is in the slave's log and in longreach status";
   checks.push_back({limits, n.limit_violations == 0});
 }
 
-void RunSummary::add_holds(Summary& s) const {
+void RunSummary::add_holds(Summary& s, const std::vector<HandTrouble>& hand) const {
   const std::uint64_t faults = holds_.count(HoldBlame::kSystem), all = holds_.count();
   std::string text = count_text(all, "holds");
   if (faults > 0) text += formatted(", %llu of them a fault", static_cast<unsigned long long>(faults));
   s.checks.push_back({text, faults == 0});
-  for (HoldLog::Sentence& hold : holds_.words())
+  for (HoldLog::Sentence& hold : holds_.words(hand))
     s.checks.push_back({std::move(hold.text), !hold.fault, true});
 }
 

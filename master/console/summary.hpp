@@ -71,14 +71,14 @@ class RunSummary {
 
   /// Books a moment of the run; `seconds` since the start must not fall.
   void add(double seconds, const MasterView& view, std::optional<double> rtt_s);
-  /// `last`: the final picture, for the counters.
-  [[nodiscard]] Summary finish(const ConsoleSnapshot& last) const;
+  /// `last`: the final picture, for the counters. `hand`: why there was nothing in the hand, by time.
+  [[nodiscard]] Summary finish(const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand = {}) const;
 
  private:
   void add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s);
   void add_force_step(const MasterView& view);
-  void add_checks(Summary& summary) const;
-  void add_holds(Summary& summary) const;
+  void add_checks(Summary& summary, const std::vector<HandTrouble>& hand) const;
+  void add_holds(Summary& summary, const std::vector<HandTrouble>& hand) const;
   [[nodiscard]] std::string engaged_in_words(const Summary& summary) const;
 
   SummaryConfig config_;

@@ -158,17 +158,21 @@ addEventListener('load', () => setTimeout(begin_picture, 0));
 
 let rate_ms = 0;
 let drawn_ms = 0;
+let took_ms = 0; // of the last picture
 
 function draw(now_ms) {
   requestAnimationFrame(draw);
-  if (!dirty || !frame || now_ms - drawn_ms < (picture?.pause_ms ?? 0)) return;
+  // At least half of the time is for the feed and the controls, however large the scene is.
+  if (!dirty || !frame || now_ms - drawn_ms < Math.max(picture?.pause_ms ?? 0, 2 * took_ms)) return;
   dirty = false;
   drawn_ms = now_ms;
   const pose = ghost();
   const old = away !== null || !(frame.link.silence_s >= 0 && frame.link.silence_s < SILENT_S);
+  const begun_ms = performance.now();
   picture?.show(frame, pose, old);
   show_age(old);
   picture?.draw();
+  took_ms = performance.now() - begun_ms;
   plots.draw(now_ms);
   panel.show(frame, hand);
   if (away) panel.banner(away.state, away.why, '');

@@ -49,8 +49,13 @@ export class Panel {
     write('holder', (mine ? 'yours' : holder === 'other' ? 'another page has it' : 'you look on') + pages);
   }
 
+  /** Told with every connection. */
   links(names) {
-    by_id('link').append(...names.map((name) => new Option(name, name)));
+    const link = by_id('link');
+    const chosen = link.value;
+    link.length = 1; // "as started"
+    link.append(...names.map((name) => new Option(name, name)));
+    link.value = names.includes(chosen) ? chosen : '';
   }
 
   show(frame, hand) {

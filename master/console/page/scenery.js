@@ -10,6 +10,7 @@ import { rotation, vector } from './kinematics.js';
 const UP = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
 const WALL_M = 0.3;
+const EDGES_MAX = 500; // boxes with edges: each is drawn a second time for them
 
 const from_start = (part, numbers, start) => {
   const p = vector(numbers);
@@ -119,7 +120,8 @@ export class Scenery {
         transparent: kind === 'plane', opacity: kind === 'plane' ? 0.35 : 1 });
       const body = SHAPES[kind](surface[kind], start, material, colors);
       this.bodies.push({ ...body, material, plain, solid: kind !== 'plane', touched: false });
-      if (kind === 'box') body.mesh.add(new LineSegments(new EdgesGeometry(body.mesh.geometry), new LineBasicMaterial({ color: colors.line })));
+      if (kind === 'box' && scene.surface.length <= EDGES_MAX)
+        body.mesh.add(new LineSegments(new EdgesGeometry(body.mesh.geometry), new LineBasicMaterial({ color: colors.line })));
       this.group.add(body.mesh);
     }
     if (scene.path?.waypoint?.length > 1) {

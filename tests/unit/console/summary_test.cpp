@@ -187,6 +187,34 @@ TEST(Summary, FailsForARunThatEndsInAFaultAndSaysWhatItIs) {
   EXPECT_NE(text.find(" s ("), std::string::npos) << "the share of the time engaged\n" << text;
 }
 
+// As a keyboard whose input ends in the middle of a run, and one that was never there.
+TEST(Summary, NamesWhatTheHandLost) {
+  const auto gone = [](double t, MasterView& view) {
+    if (t < 6.0) return;
+    view.state = SafetyState::kFault;
+    view.cause = HoldCause::kDeviceFault;
+    view.far_state = SafetyState::kHolding;
+    view.far.cause = HoldCause::kPeerHolds;
+  };
+  const RunSummary run = probing(script(), gone);
+  const std::string text =
+      run.finish({}, {{2.0, "another time"}, {6.02, "the keyboard has ended; start"}}).text();
+  EXPECT_NE(text.find("FAIL  held at 6.0 s for 24.0 s: the keyboard has ended; start\n"), std::string::npos)
+      << text;
+  EXPECT_NE(run.finish({}, {{2.0, "another time"}}).text().find(": the haptic device reports a fault\n"),
+            std::string::npos)
+      << "a trouble of another time, and no echo of the slave's";
+
+  RunSummary never({});
+  MasterView view;
+  view.state = SafetyState::kFault;
+  for (int tick = 0; tick < 100; ++tick) never.add(0.1 * tick, view, 0.03);
+  ConsoleSnapshot last;
+  last.view.refusal = HoldCause::kDeviceFault;
+  const std::string why = never.finish(last, {{0.0, "no keyboard is there"}}).text();
+  EXPECT_NE(why.find("(0 %): no keyboard is there\n"), std::string::npos) << why;
+}
+
 // As the slave says of every hold that the master asks for.
 TEST(Summary, TheMastersOwnHoldIsNotTheOperators) {
   const auto rose = [](double t, MasterView& view) {
