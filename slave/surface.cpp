@@ -100,9 +100,13 @@ void Surface::press(const Press& press) {
 
 void Surface::identify(const Press& press) {
   answer_ = identifier_.answer();
-  if (answer_.changes != changes_) working_.begin();
-  changes_ = answer_.changes;
   const double present_m = inward_m_ - answer_.surface.value;
+  if (answer_.changes != changes_) settled_ = false;
+  changes_ = answer_.changes;
+  if (!settled_ && well_known(answer_)) {
+    working_.begin_at(present_m);
+    settled_ = true;
+  }
   // A depth that the operator has gone to before feeling the surface, or at
   // which the guard holds the tool, is not the operator's choice.
   const double usual_m = this->usual_m();

@@ -128,6 +128,7 @@ class Surface {
   ContactAnswer local_told_{};      // of that, held
   std::uint32_t changes_ = 0;       // of the contact, that were found
   std::uint32_t told_changes_ = 0;  // likewise, when it was told
+  bool settled_ = true;             // the depth that is asked for is one of the contact since then
   ReportedTangent told_;
   Vector3 told_at_m_ = Vector3::Zero();
   ContactAnswer answer_{};

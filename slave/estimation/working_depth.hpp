@@ -12,6 +12,11 @@ namespace longreach {
 class WorkingDepth {
  public:
   void begin() { *this = WorkingDepth(); }
+  /// Of a contact that has become another one under the hand: the hand is there.
+  void begin_at(double present_m) {
+    begin();
+    held_m_ = std::max(present_m, 0.0);
+  }
   /// The tool has left, and may come again. Deeper than usual is nothing to begin with: a line from there is
   /// felt too late, and a spring that grows in the hand takes energy that is not there.
   void leave(double usual_m) {

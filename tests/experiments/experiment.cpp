@@ -165,12 +165,13 @@ const std::vector<Experiment> kExperiments = {
      "within 15 %"},
     {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
      run_material_steps, material_steps_plots, "",
-     "fixed exponent: {layers_fixed_exponent_followed} of {layers_fixed_exponent_changes} layers told within "
-     "{layers_fixed_exponent_slowest_s} s and {layers_fixed_exponent_farthest_m*1e3} mm, the hard tile "
-     "within "
-     "{soft_to_hard_fixed_exponent_slowest_s} s, the soft one within {hard_to_soft_fixed_exponent_slowest_s} "
-     "s, "
-     "pressed"},
+     "{layers_maximum_likelihood_followed} of {layers_maximum_likelihood_changes} layers told within "
+     "{layers_maximum_likelihood_slowest_s} s and {layers_maximum_likelihood_farthest_m*1e3} mm, the hard "
+     "tile "
+     "within {soft_to_hard_maximum_likelihood_slowest_s} s, the soft one within "
+     "{hard_to_soft_maximum_likelihood_slowest_s} s, pressed; with the exponent given within "
+     "{layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
+     "{hard_to_soft_fixed_exponent_slowest_s} s"},
     {"docking",
      "A free-floating spacecraft is grasped, dragged and docked across the link; three "
      "mistakes.",

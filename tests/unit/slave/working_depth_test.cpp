@@ -90,5 +90,13 @@ TEST(LocalTangent, SaysNothingOfADepthThatDoesNotChange) {
   EXPECT_FALSE(local.answer(0.0).valid);
 }
 
+TEST(WorkingDepth, OfAContactThatHasChangedUnderTheHandBeginsWhereTheHandIs) {
+  WorkingDepth depth;
+  depth.begin_at(7e-3);
+  EXPECT_EQ(depth.depth_m(2e-3), 7e-3);
+  depth.begin_at(-1e-3);  // in front of it
+  EXPECT_EQ(depth.depth_m(2e-3), 2e-3);
+}
+
 }  // namespace
 }  // namespace longreach
