@@ -25,6 +25,8 @@ class ContactConvention {
   void step(const ContactRow& row, bool time_has_unit);
   /// After the last row. Throws solve_json::BadRequest, which says what to change.
   void require(bool x_has_unit) const;
+  /// Some sample is behind the surface.
+  [[nodiscard]] bool touches() const { return inside_.n > 0.0; }
 
  private:
   /// Of x and f on one side of the surface.

@@ -277,7 +277,8 @@ ContactRow ContactTable::from_csv(const std::vector<std::string>& values) const 
     const auto value = number(values[i]);
     if (!value)
       throw BadRequest("\"" + at.name + "\" must be a number, not \"" + values[i] + "\"" +
-                       advice(at.key, values[i]));
+                       (values[i] == at.name ? "; a second table begins here, give each a file of its own"
+                                             : advice(at.key, values[i])));
     if (!std::isfinite(*value))
       throw BadRequest("\"" + at.name + "\" is not a finite number" + advice(at.key, values[i]));
     set(row, at.key, at.unit * *value);

@@ -142,6 +142,10 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
   } catch (const BadRequest& e) {
     return refuse(e.what());
   }
+  if (!convention.touches())
+    errors << "longreach-lab: no sample has \"x\" above 0, so nothing is touched; x is the penetration, 0 "
+              "and below "
+              "in free space\n";
   for (std::size_t i = 0; options.estimator == "all" && i < chosen.size(); ++i) {
     Json answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};
     answer.update(to_json(identifiers[i].answer()));

@@ -317,6 +317,18 @@ TEST(SolveIdentify, DetectsLengthsSpeedsForcesAndSurfacesOfAnotherKind) {
 }
 
 // A press that keeps to the convention is never refused, whatever it presses on and however it does.
+TEST(SolveIdentify, SaysThatNothingIsTouchedAndThatASecondTableBegins) {
+  const Result free = run("t,x,f\n0,-0.003,0.01\n0.001,-0.002,-0.01\n");
+  EXPECT_EQ(free.status, 0);
+  EXPECT_NE(free.errors.find("no sample has \"x\" above 0, so nothing is touched"), std::string::npos)
+      << free.errors;
+  const Result twice = run("t,x,f\n0,0.001,1\n0.001,0.002,2\nt,x,f\n0,0.001,1\n");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_NE(twice.errors.find("line 4: \"t\" must be a number, not \"t\"; a second table begins here"),
+            std::string::npos)
+      << twice.errors;
+}
+
 TEST(SolveIdentify, RefusesNoContactThatKeepsToTheConvention) {
   for (const double n : {1.0, 1.5, 2.5}) {
     for (const double k : {1e3, 1e5, 1e7}) {
