@@ -122,6 +122,27 @@ TEST(Faults, AnEngagementBehindACreptDelayIsNoOmissionOfTheMaster) {
     ADD_FAILURE() << v.invariant << " at " << v.t_s << " s: " << v.words;
 }
 
+// Of 256 kbit/s, while a stranger repeats what was sent: what is asked for and its answer queue behind that.
+TEST(Faults, AnEngagementOnALinkThatAStrangerFillsIsNoOmissionOfTheMaster) {
+  const Trial trial = run_trial(parse_schedule(
+      "seed 8000409\nfaults_end_s 14.000474281258532\nend_s 13.518\n"
+      "fault joints-leave-range start_s 3.829664667149587 duration_s 1.4254549290209775 size "
+      "0.9606856169490771 "
+      "seed 7025826231083212113\n"
+      "fault forged start_s 6.880243162656146 duration_s 0.0024213431859560043 size 0.3343071340093223 seed "
+      "11467227054087048050\n"
+      "fault joints-leave-range start_s 7.911228602751622 duration_s 0.006126361479799384 size "
+      "0.39843014973580104 seed 7306964946838407933\n"
+      "fault joints-leave-range start_s 8.112788922156206 duration_s 0.11021367574189697 size "
+      "0.7931062406504255 seed 5299426581314997696\n"
+      "fault handle-quaternion start_s 10.047730425108828 duration_s 0.5523934599273883 size "
+      "0.606429833911236 seed 15530837050071475440\n"
+      "fault replayed start_s 10.932274669677525 duration_s 2.2417321011888616 size 0.9354425230032104 seed "
+      "10374408325512986436\n"));
+  for (const Breach& v : trial.violations)
+    ADD_FAILURE() << v.invariant << " at " << v.t_s << " s: " << v.words;
+}
+
 // What a tank holds may have come from the store of the engagement before, which is full again.
 TEST(Faults, AnEngagementThatFollowsAnotherReturnsItsOwnStoreAlone) {
   const Trial trial =

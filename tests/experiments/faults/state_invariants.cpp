@@ -227,8 +227,13 @@ class ToldWhy : public Invariant {
     number_ = number;
     // What is asked for comes later, or is not heard of, where the way is disturbed.
     const double way_s = kRecent_s + 2.0 * round_trip_s_;
-    const bool disturbed = m.since(Spoils::kLink) < way_s || m.since(Spoils::kMasterTime) < way_s ||
-                           m.since(Spoils::kSlaveTime) < way_s || m.since(Spoils::kLease) < way_s;
+    // A narrow link on which a stranger sends as well is late by what queues there.
+    const Right& right = m.ghost->right();
+    const double late_s = round_trip_s_ + kLate_s;
+    if (right.heard_s - right.sent_s > late_s || (m.report_came && m.report_age_s > late_s)) late_s_ = m.t_s;
+    const bool disturbed = m.t_s - late_s_ < way_s || m.since(Spoils::kLink) < way_s ||
+                           m.since(Spoils::kMasterTime) < way_s || m.since(Spoils::kSlaveTime) < way_s ||
+                           m.since(Spoils::kLease) < way_s;
     if (disturbed) asked_s_ = std::max(asked_s_, m.t_s);
     // Asking again may begin anew, which the next command shows.
     const bool anew = m.t_s - last_ask_s_ < kSent_s;
@@ -243,12 +248,12 @@ class ToldWhy : public Invariant {
   }
 
  private:
-  static constexpr double kReason_s = 1.1, kSent_s = 0.05;
+  static constexpr double kReason_s = 1.1, kSent_s = 0.05, kLate_s = 0.1;
   Circumstances there_;
   double round_trip_s_;
   bool asks_ = false;
   std::uint32_t number_ = 0;
-  double asked_s_ = 0.0, last_ask_s_ = -1e9;
+  double asked_s_ = 0.0, last_ask_s_ = -1e9, late_s_ = -1e9;
   HoldCause shown_ = HoldCause::kNone;
   std::string words_;
 };
