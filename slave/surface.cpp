@@ -19,6 +19,7 @@ constexpr double kUsualPress = 10.0;      // times the touch threshold, a hand p
 constexpr double kLocal = 2.0;            // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;         // of a goal that lies at the surface
 constexpr double kValidSd = 0.5;          // fraction
+constexpr double kBeforeM = 5e-3;         // deeper than the tool has gone; that twice
 
 WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
   return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
@@ -63,6 +64,8 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   tool_m_ = touch.p_WE;
   inward_m_ = marked_m_ = 0.0;
   surface_m_ = -normal_.dot((known_ ? known_point_m_ : touch.onset) - tool_m_);
+  least_m_ = std::min(surface_m_, 0.0);
+  most_m_ = 0.0;
   // As far in front of the onset as the tool is behind it.
   const double first_m = -2.0 * normal_.dot(touch.onset - tool_m_);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -87,6 +90,8 @@ void Surface::press(const Press& press) {
   const bool possible = std::abs(out_m) < kStepMaxM;
   if (possible) {
     inward_m_ -= out_m;
+    least_m_ = std::min(least_m_, inward_m_);
+    most_m_ = std::max(most_m_, inward_m_);
     tool_m_ = press.p_WE;
   }
   speed_m_per_s_ = -outward.dot(press.v_WE);
@@ -116,12 +121,13 @@ void Surface::identify(const Press& press) {
   if (well_known(answer_) && (chosen || changes_ > 0))
     elsewhere = working_.follow(usual_m, present_m, answer_.n.value, estimator_.depth_memory_s, press.dt);
   const bool fits = identifier_.told().law_fits();
-  if (!fits) elsewhere = beside(answer_.surface.value);
+  if (!fits) elsewhere = beside(possible(answer_.surface.value) ? answer_.surface.value : least_m_);
   double asked_m = working_.depth_m(usual_m);
   ContactAnswer told = fits ? identifier_.told().answer_at(asked_m) : local_told_;
   // Rather than to extrapolate far, the nearest depth that was visited.
   if (fits && told.valid && !well_known(told))
     told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
+  if (!possible(told.surface.value)) told.valid = false;
   // What is told of another contact does not count.
   if (!fits || told_changes_ != changes_) asked_m = told.depth_m;
   const bool anew = tell(told, asked_m, elsewhere);
@@ -211,8 +217,14 @@ void Surface::move_origin(const Vector3& by) {
     *place -= by;
 }
 
+/// Noise and a change of the material may leave a fit without a sample in front of the surface, and so with a
+/// surface anywhere.
+bool Surface::possible(double surface_m) const {
+  return inward_m_ - surface_m < kBeforeM + 2.0 * (most_m_ - least_m_);
+}
+
 bool Surface::well_known(const ContactAnswer& a) const {
-  return a.valid && a.k.value > 0.0 && a.n.value > 0.0 &&
+  return a.valid && possible(a.surface.value) && a.k.value > 0.0 && a.n.value > 0.0 &&
          a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
 }
 

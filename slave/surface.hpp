@@ -116,6 +116,7 @@ class Surface {
   void place();
   /// How far the tool has gone along the surface.
   [[nodiscard]] double across_m(const Vector3& from) const;
+  [[nodiscard]] bool possible(double surface_m) const;
   [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
   /// Of the surface, beneath the tool, in W.
   [[nodiscard]] Vector3 point() const { return tool_m_ + (inward_m_ - surface_m_) * normal_; }
@@ -142,13 +143,14 @@ class Surface {
   // As told; held, since a force of the sensor's own looks like a surface that moves.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();  // with the tool there
   Direction pushes_{}, told_normal_{};
-  double placed_sd_m_ = 0.0;          // that it was known to; 0: not yet
-  double told_s_ = 0.0;               // since the surface was told
-  bool touched_anew_ = false;         // it was placed in a touch before
-  Vector3 tool_m_ = Vector3::Zero();  // now, or when it was left
-  double inward_m_ = 0.0;             // its way against the force since the touch
-  double marked_m_ = 0.0;             // that at the mark
-  double surface_m_ = 0.0;            // where the surface is on that way
+  double placed_sd_m_ = 0.0;             // that it was known to; 0: not yet
+  double told_s_ = 0.0;                  // since the surface was told
+  bool touched_anew_ = false;            // it was placed in a touch before
+  Vector3 tool_m_ = Vector3::Zero();     // now, or when it was left
+  double inward_m_ = 0.0;                // its way against the force since the touch
+  double marked_m_ = 0.0;                // that at the mark
+  double least_m_ = 0.0, most_m_ = 0.0;  // of it, in this touch
+  double surface_m_ = 0.0;               // where the surface is on that way
   double scale_ = 1.0;
   double played_at_touch_ = 0.0;
   double touch_sequence_ = 0.0;
