@@ -4,7 +4,10 @@
 // common/link/impairment, which it checks. Ends on SIGTERM, SIGINT or SIGHUP and says what it did.
 //
 // Not here: jitter, reordering, rate. A packet waits at least the delay, and longer by as much as this
-// program is scheduled late. What is on its way when it ends is lost.
+// program is scheduled late: it asks for the priority that the programs at its ends have, since beside a busy
+// machine it would be silent for longer than they forgive. What is on its way when it ends is lost.
+
+#include <sched.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -53,6 +56,8 @@ int main(int argc, char** argv) {
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGHUP, &action, nullptr);
+  const sched_param priority{.sched_priority = 50};
+  sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
   try {
     if (hosts.empty())
       serve(std::make_unique<longreach::PacketQueue>(config, queue));
