@@ -173,7 +173,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
   const double way_m = -across.dot(input.p_WE - aside_.p_WE) / across_n;
   if (way_m <= 0.0) return;
   turning_ = false;
-  if (across_n <= sensing_.touch_n + input.doubt_n || across_n < kAcross * rest.stableNorm()) return;
+  if (across_n <= reading_.touch_n || across_n < kAcross * rest.stableNorm()) return;
   const double share = across_n / borne_n;
   const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);
   if (share > kFriction || (judged && further && share > kGrown * aside_.share)) {

@@ -8,11 +8,15 @@ namespace {
 
 // An edge may be slid over. Noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad.
 constexpr double kNormalMemoryS = 2.0;
+constexpr double kNoiseMemoryS = 0.02;
+constexpr double kOutlier = 5.0;  // of the usual sd: what a spike counts at most after it
+constexpr double kTouchSds = 8.0, kReleaseSds = 4.0;
 
 }  // namespace
 
 ContactReading ContactDetector::step(const Vector3& force_n, double dt, double doubt_n) {
   const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  const double noise_n = this->noise_n(force_n, dt);
   const Vector3 next = filtered_n_ + share * (force_n - filtered_n_);
   if (next.allFinite()) {
     filtered_n_ = next;
@@ -24,8 +28,9 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
   const double force = filtered_n_.stableNorm();
   const bool before = in_contact_;
   // Released below the touch threshold even if the configuration has them the wrong way round.
-  in_contact_ =
-      before ? force >= std::min(config_.release_n, config_.touch_n) : force > config_.touch_n + doubt_n;
+  reading.touch_n = std::max(config_.touch_n + doubt_n, kTouchSds * noise_n);
+  const double release_n = std::max(std::min(config_.release_n, config_.touch_n), kReleaseSds * noise_n);
+  in_contact_ = before ? force >= release_n : force > reading.touch_n;
   reading.in_contact = in_contact_;
   reading.began = in_contact_ && !before;
   reading.ended = before && !in_contact_;
@@ -35,6 +40,24 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
     reading.normal = sum_n_.stableNormalized();
   }
   return reading;
+}
+
+// E[|Δ³f|²] = 60 σ² of white noise σ an axis; the filter leaves its share a / (2 - a) of the variance.
+double ContactDetector::noise_n(const Vector3& force_n, double dt) {
+  if (!force_n.allFinite()) return 0.0;
+  const Vector3 difference = force_n - 3.0 * last_n_[0] + 3.0 * last_n_[1] - last_n_[2];
+  last_n_ = {force_n, last_n_[0], last_n_[1]};
+  if (samples_ < 3) {
+    ++samples_;
+    return 0.0;
+  }
+  const double now = difference.stableNorm() / std::sqrt(60.0);
+  const double usual =
+      std::max({std::sqrt(variance_n2_), config_.force_noise_n, config_.touch_n / kTouchSds});
+  const double counted = std::min(now, kOutlier * usual);
+  variance_n2_ -= std::expm1(-dt / kNoiseMemoryS) * (counted * counted - variance_n2_);
+  const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  return std::max(now, std::sqrt(variance_n2_)) * std::sqrt(share / (2.0 - share));
 }
 
 }  // namespace longreach

@@ -1,10 +1,13 @@
 #pragma once
 // Is the tool in contact, and in which direction does the contact push?
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact begins when |f̄| > touch, ends when |f̄| < release
+// A sensor that becomes noisy makes neither: touch is at least 8, release 4 standard deviations of f̄ along an
+// axis, from the third differences of the last 20 ms (difference_noise.hpp says what they see).
 //   n = Σ w f̄ / |Σ w f̄| over the contact, its last 2 s: the direction of the force on the tool (outward
 //   normal of a frictionless wall)
 // A sample that is not finite is left out and counted.
 
+#include <array>
 #include <cstdint>
 
 #include "common/spatial/spatial.hpp"
@@ -17,6 +20,7 @@ struct ContactReading {
   bool began = false;                    // in this step
   bool ended = false;                    // in this step
   Vector3 filtered_n = Vector3::Zero();  // N, in the frame of the input
+  double touch_n = 0.0;                  // what makes a contact now, N
   Vector3 normal = Vector3::Zero();      // unit, while in contact; else zero
 };
 
@@ -32,7 +36,13 @@ class ContactDetector {
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
+  /// Standard deviation of f̄ along an axis, N.
+  double noise_n(const Vector3& force_n, double dt);
+
   SensingConfig config_;
+  std::array<Vector3, 3> last_n_{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  int samples_ = 0;
+  double variance_n2_ = 0.0;  // of f along an axis
   Vector3 filtered_n_ = Vector3::Zero();
   Vector3 sum_n_ = Vector3::Zero();
   bool in_contact_ = false;

@@ -153,6 +153,16 @@ TEST(Faults, AnEngagementThatFollowsAnotherReturnsItsOwnStoreAlone) {
       "size 0.27942626644292545 seed 15030468188859180653\n");
 }
 
+// A sensor that is noisy for 70 ms while the hand presses lightly is no corner of surfaces that stay.
+TEST(Faults, ASensorThatBecomesNoisyMakesNoSurface) {
+  expect_no_violation(
+      "seed 8000396\nfaults_end_s 32.31451261677095\nend_s 24.660000000000004\n"
+      "fault sensor-noisy start_s 13.691836719267393 duration_s 0.06934845798952666 size 0.5695334487226067 "
+      "seed 6557934335145559184\n"
+      "fault slave-frozen start_s 16.393904167219887 duration_s 0.7624031600940836 size 0.35221361871602597 "
+      "seed 14084627291538519210\n");
+}
+
 TEST(Faults, ThereAreFortyKinds) {
   EXPECT_GE(fault_kinds().size(), 40U);
   std::vector<std::string_view> names;

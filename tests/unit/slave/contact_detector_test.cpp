@@ -57,6 +57,50 @@ TEST(ContactDetector, NoiseAloneIsNoContact) {
   }
 }
 
+Vector3 drawn(Random& random, double sd) {
+  return {sd * random.normal(), sd * random.normal(), sd * random.normal()};
+}
+
+// Its first samples may be as those of a stiff wall: then the touch is over at once.
+TEST(ContactDetector, ASensorThatBecomesTwentyTimesAsNoisyMakesNoContact) {
+  ContactDetector detector(SensingConfig{});
+  Random random(6);
+  int touched = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const int at = i % 2000;  // noisy from 1000 on
+    const ContactReading r = detector.step(drawn(random, at >= 1000 ? 1.0 : 0.05), kDt);
+    touched += r.began;
+    ASSERT_FALSE(r.began && (at < 1000 || at > 1010)) << "tick " << i;
+    ASSERT_FALSE(r.in_contact && (at < 1000 || at > 1030)) << "tick " << i;
+  }
+  EXPECT_LE(touched, 5) << "of 100";
+}
+
+TEST(ContactDetector, FindsAContactInSuchNoiseAndALightOneSoonAfterIt) {
+  ContactDetector detector(SensingConfig{});
+  Random random(7);
+  const auto ticks_to_touch = [&](const Vector3& force, double sd) {
+    for (int i = 1; i <= 1000; ++i)
+      if (detector.step(force + drawn(random, sd), kDt).in_contact) return i;
+    return 1001;
+  };
+  for (int i = 0; i < 500; ++i) (void)detector.step(drawn(random, 1.0), kDt);
+  EXPECT_LE(ticks_to_touch(Vector3(-4.0, 0, 0), 1.0), 50);
+  for (int i = 0; i < 500; ++i) (void)detector.step(drawn(random, 1.0), kDt);
+  EXPECT_LE(ticks_to_touch(Vector3(-0.4, 0, 0), 0.05), 200);
+}
+
+TEST(ContactDetector, ASpikeDoesNotDeafenIt) {
+  for (const double spike : {10.0, 1e3, 1e300}) {
+    ContactDetector detector(SensingConfig{});
+    Random random(8);
+    for (int i = 0; i < 500; ++i) (void)detector.step(drawn(random, 0.05), kDt);
+    (void)detector.step(Vector3(spike, 0, 0), kDt);
+    for (int i = 0; i < 5; ++i) (void)detector.step(Vector3::Zero(), kDt);
+    EXPECT_LT(detector.step(Vector3::Zero(), kDt).touch_n, 2.0 * SensingConfig{}.touch_n) << spike;
+  }
+}
+
 TEST(ContactDetector, AveragesTheNormalOverTheContact) {
   ContactDetector detector(SensingConfig{});
   Random random(6);
