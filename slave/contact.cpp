@@ -8,7 +8,7 @@ namespace longreach {
 namespace {
 
 constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
-constexpr std::size_t kBefore = 64;   // samples before the touch that are kept
+constexpr std::size_t kBefore = 256;  // samples before the touch that are kept: a slow one takes so long
 constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured otherwise
 constexpr double kAcross = 0.5;    // sine, 30 degrees: of another surface's force with those that are pressed
 constexpr double kUnknown = 3.0;   // sd of the normal: as much of the force may be across it by that alone

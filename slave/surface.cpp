@@ -7,6 +7,8 @@ namespace longreach {
 namespace {
 
 constexpr double kDirectionMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
+constexpr std::size_t kLast = 64;          // samples before the touch that count in any case
+constexpr double kStraight = 1.33;         // squared, way over its depth: 30 degrees
 constexpr double kSamePlaceM = 0.003;      // the surface that was met before is met again
 constexpr double kSameNormal = 0.9;
 constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
@@ -70,8 +72,12 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   const double first_m = -2.0 * normal_.dot(touch.onset - tool_m_);
   for (std::size_t i = 0; i < before.size(); ++i) {
     const TouchSample& at = before[i];
-    const double x_m = -normal_.dot(at.p_WE - tool_m_);
-    if (x_m >= first_m) identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
+    const Vector3 way_m = tool_m_ - at.p_WE;
+    const double x_m = normal_.dot(way_m);
+    // A normal that is known roughly makes a depth of what the tool went across.
+    const bool across = before.size() - i > kLast && way_m.squaredNorm() > kStraight * x_m * x_m;
+    if (x_m >= first_m && !across)
+      identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
   if (!again) placed_sd_m_ = told_s_ = 0.0;
   touched_anew_ = again;

@@ -50,9 +50,6 @@ static_assert(same(Registration::kTouch, proto::Rendering::TOUCH) &&
               same(Registration::kArrival, proto::Rendering::ARRIVAL) &&
               proto::Rendering::Registration_ARRAYSIZE == 2);
 static_assert(same(EstimatorKind::kFixedExponent, proto::Estimator::FIXED_EXPONENT) &&
-              same(EstimatorKind::kTwoStage, proto::Estimator::TWO_STAGE) &&
-              same(EstimatorKind::kLogLinear, proto::Estimator::LOG_LINEAR) &&
-              same(EstimatorKind::kKelvinVoigt, proto::Estimator::KELVIN_VOIGT) &&
               same(EstimatorKind::kMaximumLikelihood, proto::Estimator::MAXIMUM_LIKELIHOOD) &&
               proto::Estimator::Kind_ARRAYSIZE == 5);
 static_assert(same(Presence::kIgnore, proto::MasterSafety::IGNORE) &&

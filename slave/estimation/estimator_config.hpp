@@ -5,13 +5,7 @@
 
 namespace longreach {
 
-enum class EstimatorKind : std::uint8_t {
-  kFixedExponent = 0,
-  kTwoStage = 1,
-  kLogLinear = 2,
-  kKelvinVoigt = 3,
-  kMaximumLikelihood = 4
-};
+enum class EstimatorKind : std::uint8_t { kFixedExponent = 0, kMaximumLikelihood = 4 };
 
 struct EstimatorConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;

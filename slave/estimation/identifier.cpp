@@ -1,7 +1,6 @@
 #include "slave/estimation/identifier.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace longreach {
@@ -29,9 +28,6 @@ constexpr double kPositionShare = 0.1;
 constexpr double kShareSd = 0.05, kExponentSd = 0.05, kDampingShareSd = 0.2;
 constexpr double kSecantSd = 0.0155;  // 3 of them within 5 %, and some room
 constexpr double kContactMinS = 0.05;
-
-constexpr std::array<std::string_view, 5> kNames{"fixed-exponent", "two-stage", "log-linear", "kelvin-voigt",
-                                                 "maximum-likelihood"};
 
 bool usable(const PenetrationSample& s) {  // false for NaN
   return std::abs(s.x_m) <= kDepthMaxM && std::abs(s.v_m_per_s) <= kSpeedMax &&
@@ -73,39 +69,14 @@ ContactFit slow_touch(const ContactFit& f, double speed_max) {
 
 }  // namespace
 
-Identifier::Identifier(const IdentifierConfig& config)
-    : config_(config), estimator_(config.surface_known ? behind_known(config) : behind_unknown(config)) {}
+Identifier::Identifier(const IdentifierConfig& config) : config_(config), estimator_(estimator_of(config)) {}
 
-Identifier::Estimator Identifier::behind_known(const IdentifierConfig& c) {
-  switch (c.kind) {
-    case EstimatorKind::kFixedExponent:
-      return FixedExponent(c.exponent, c.forgetting);
-    case EstimatorKind::kTwoStage:
-      return TwoStage();
-    case EstimatorKind::kLogLinear:
-      return LogLinear(c.forgetting);
-    case EstimatorKind::kKelvinVoigt:
-      return KelvinVoigt(c.forgetting);
-    case EstimatorKind::kMaximumLikelihood:
-      break;
-  }
+Identifier::Held Identifier::estimator_of(const IdentifierConfig& c) {
+  if (c.make != nullptr) return BroughtEstimator(c.make(c));
+  const double exponent = c.kind == EstimatorKind::kFixedExponent ? c.exponent : 0.0;
+  if (!c.surface_known) return ContactCurve({exponent, c.forgetting, false});
+  if (exponent > 0.0) return FixedExponent(exponent, c.forgetting);
   return MaximumLikelihood(c.forgetting);
-}
-
-Identifier::Estimator Identifier::behind_unknown(const IdentifierConfig& c) {
-  switch (c.kind) {
-    case EstimatorKind::kFixedExponent:
-      return ContactCurve({c.exponent, c.forgetting, false});
-    case EstimatorKind::kTwoStage:
-      return BehindSurface<TwoStage>(TwoStage(), c.forgetting);
-    case EstimatorKind::kLogLinear:
-      return BehindSurface<LogLinear>(LogLinear(c.forgetting), c.forgetting);
-    case EstimatorKind::kKelvinVoigt:
-      return ContactCurve({1.0, c.forgetting, true});
-    case EstimatorKind::kMaximumLikelihood:
-      break;
-  }
-  return ContactCurve({0.0, c.forgetting, false});
 }
 
 void Identifier::begin() {
@@ -222,7 +193,7 @@ void Identifier::watch(const PenetrationSample& sample, double innovation_n) {
   drift_n_ += (std::clamp(innovation_n, -clip, clip) - drift_n_) / kDriftSamples;
   const bool far =
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * variance && std::abs(drift_n_) > kDriftShare * force;
-  if (far && config_.kind == EstimatorKind::kMaximumLikelihood && settled() &&
+  if (far && config_.by_likelihood() && settled() &&
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * foreseen_variance(sample))
     renew();
 }
@@ -234,7 +205,7 @@ void Identifier::renew() {
 
 // What the fit leaves, against the noise that the samples show, and against what is felt.
 bool Identifier::law_fits() const {
-  if (config_.kind != EstimatorKind::kMaximumLikelihood || residuals_ < kJudgedResiduals) return true;
+  if (!config_.by_likelihood() || residuals_ < kJudgedResiduals) return true;
   const double noise = std::max(config_.force_noise_n * config_.force_noise_n, force_noise_.variance());
   const double felt = kMisfit * fit().force_n;
   return residual_squares_ / residuals_ < kMisfitVariance * noise + felt * felt;
@@ -306,14 +277,9 @@ ContactAnswer Identifier::answer_at(double depth_m) const {
   return a.valid ? a : ContactAnswer{};
 }
 
-bool parse(std::string_view name, EstimatorKind& kind) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return false;
-  kind = static_cast<EstimatorKind>(found - kNames.begin());
-  return true;
+std::string_view name_of(EstimatorKind kind) {
+  return kind == EstimatorKind::kFixedExponent ? "fixed-exponent" : "maximum-likelihood";
 }
-
-std::string_view name_of(EstimatorKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
 std::string_view text_of(Verdict verdict) {
   switch (verdict) {

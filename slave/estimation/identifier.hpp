@@ -1,8 +1,8 @@
 #pragma once
-// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with any of the estimators of this folder, and says
-// what it may be trusted in. The surface is known, or identified with the rest; then positions count from any
-// fixed point, samples from before the touch belong to it, and all depths are those behind the surface as
-// known now. What the estimators share:
+// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with an estimator of this folder, or one that is
+// brought (estimator.hpp), and says what it may be trusted in. The surface is known, or identified with the
+// rest; then positions count from any fixed point, samples from before the touch belong to it, and all depths
+// are those behind the surface as known now. What the estimators share:
 //   noise: of the force as given, or from differences of the samples; then from the residuals.
 //   hold: resolution, bias and drift repeat themselves in each sample of a still hold, so only 25 samples
 //   within 0.05 % of a depth, or 3 sd of the position, count: nothing winds up, however long it lasts.
@@ -21,20 +21,16 @@
 #include <variant>
 
 #include "common/link/telemetry.hpp"
-#include "slave/estimation/behind_surface.hpp"
 #include "slave/estimation/contact_curve.hpp"
 #include "slave/estimation/difference_noise.hpp"
+#include "slave/estimation/estimator.hpp"
 #include "slave/estimation/estimator_config.hpp"
 #include "slave/estimation/fixed_exponent.hpp"
-#include "slave/estimation/kelvin_voigt.hpp"
-#include "slave/estimation/log_linear.hpp"
 #include "slave/estimation/maximum_likelihood.hpp"
-#include "slave/estimation/two_stage.hpp"
 
 namespace longreach {
 
-inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponent, EstimatorKind::kTwoStage,
-                                                    EstimatorKind::kLogLinear, EstimatorKind::kKelvinVoigt,
+inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponent,
                                                     EstimatorKind::kMaximumLikelihood};
 
 struct IdentifierConfig {
@@ -44,6 +40,12 @@ struct IdentifierConfig {
   double force_noise_n = 0.0;     // sd; 0: from the samples
   double position_noise_m = 0.0;  // sd; 0: from the samples
   bool surface_known = true;      // positions count from it
+  /// Makes an estimator in place of `kind`'s.
+  std::unique_ptr<Estimator> (*make)(const IdentifierConfig&) = nullptr;
+
+  [[nodiscard]] bool by_likelihood() const {
+    return kind == EstimatorKind::kMaximumLikelihood && make == nullptr;
+  }
 };
 
 struct Identified {
@@ -91,10 +93,8 @@ class Identifier {
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
-  using Estimator = std::variant<FixedExponent, TwoStage, LogLinear, KelvinVoigt, MaximumLikelihood,
-                                 ContactCurve, BehindSurface<TwoStage>, BehindSurface<LogLinear>>;
-  static Estimator behind_known(const IdentifierConfig& config);
-  static Estimator behind_unknown(const IdentifierConfig& config);
+  using Held = std::variant<FixedExponent, MaximumLikelihood, ContactCurve, BroughtEstimator>;
+  static Held estimator_of(const IdentifierConfig& config);
   [[nodiscard]] const ContactFit& fit() const;
   [[nodiscard]] double force_variance() const;
   [[nodiscard]] double position_sd() const;
@@ -105,7 +105,7 @@ class Identifier {
   void restart();
 
   IdentifierConfig config_;
-  Estimator estimator_;
+  Held estimator_;
   DifferenceNoise force_noise_;
   DifferenceNoise position_noise_;
   PenetrationSample last_{};  // in contact
@@ -126,8 +126,7 @@ class Identifier {
   std::uint64_t ignored_ = 0;
 };
 
-/// "maximum-likelihood" and so on; false for any other name.
-bool parse(std::string_view name, EstimatorKind& kind);
+/// "maximum-likelihood" and so on.
 std::string_view name_of(EstimatorKind kind);
 std::string_view text_of(Verdict verdict);
 

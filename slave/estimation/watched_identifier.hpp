@@ -11,9 +11,7 @@ namespace longreach {
 class WatchedIdentifier {
  public:
   explicit WatchedIdentifier(const IdentifierConfig& config)
-      : judges_itself_(config.kind == EstimatorKind::kMaximumLikelihood),
-        told_(config),
-        judge_(by_likelihood(config)) {}
+      : judges_itself_(config.by_likelihood()), told_(config), judge_(by_likelihood(config)) {}
 
   void begin() {
     told_.begin();
@@ -32,6 +30,7 @@ class WatchedIdentifier {
  private:
   static IdentifierConfig by_likelihood(IdentifierConfig config) {
     config.kind = EstimatorKind::kMaximumLikelihood;
+    config.make = nullptr;
     return config;
   }
 

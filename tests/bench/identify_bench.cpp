@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "slave/estimation/watched_identifier.hpp"
+#include "tests/experiments/estimators/methods.hpp"
 #include "tests/property/contact_record.hpp"
 
 namespace longreach {
@@ -29,10 +30,10 @@ BENCHMARK(MaximumLikelihoodAlone);
 /// With noise, hold, change and verdict.
 void Identify(benchmark::State& state) {
   const test::Samples samples = record();
-  const EstimatorKind kind = kEstimatorKinds[state.range(0)];
-  state.SetLabel(std::string(name_of(kind)));
+  const Method method = kAllMethods[state.range(0)];
+  state.SetLabel(std::string(name_of(method)));
   for (auto _ : state) {
-    Identifier identifier({.kind = kind});
+    Identifier identifier(by(method));
     for (const PenetrationSample& s : samples) identifier.step(s, 1e-3);
     benchmark::DoNotOptimize(identifier.answer());
   }
@@ -45,10 +46,10 @@ BENCHMARK(Identify)->DenseRange(0, 4);
 void SlavesOwnPath(benchmark::State& state) {
   constexpr double kWorking_m = 1e-3;
   const test::Samples samples = record();
-  const EstimatorKind kind = kEstimatorKinds[state.range(0)];
-  state.SetLabel(std::string(name_of(kind)));
+  const Method method = kAllMethods[state.range(0)];
+  state.SetLabel(std::string(name_of(method)));
   for (auto _ : state) {
-    WatchedIdentifier identifier({.kind = kind, .force_noise_n = 0.05, .surface_known = false});
+    WatchedIdentifier identifier(by(method, {.force_noise_n = 0.05, .surface_known = false}));
     identifier.begin();
     for (const PenetrationSample& s : samples) {
       identifier.step(s, 1e-3);

@@ -8,6 +8,7 @@
 #include "slave/estimation/watched_identifier.hpp"
 #include "tests/experiments/contact_convention.hpp"
 #include "tests/experiments/contact_table.hpp"
+#include "tests/experiments/estimators/methods.hpp"
 #include "tests/experiments/solve_json.hpp"
 
 namespace longreach {
@@ -88,31 +89,28 @@ Json to_json(const ContactAnswer& answer) {
   return values;
 }
 
-std::vector<EstimatorKind> kinds(const std::string& estimator) {
-  EstimatorKind kind{};
-  if (parse(estimator, kind)) return {kind};
-  std::vector<EstimatorKind> all;
-  for (const std::string& name : identify_estimators())
-    if (parse(name, kind)) all.push_back(kind);
-  return all;
+std::vector<Method> methods(const std::string& estimator) {
+  if (const auto method = method_of(estimator)) return {*method};
+  return {std::begin(kAllMethods), std::end(kAllMethods)};
 }
 
 }  // namespace
 
 std::vector<std::string> identify_estimators() {
   std::vector<std::string> names;
-  for (const EstimatorKind kind : kEstimatorKinds) names.emplace_back(name_of(kind));
+  for (const Method method : kAllMethods) names.emplace_back(name_of(method));
   names.emplace_back("all");
   return names;
 }
 
 int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostream& out,
                    std::ostream& errors) {
-  const std::vector<EstimatorKind> chosen = kinds(options.estimator);
+  const std::vector<Method> chosen = methods(options.estimator);
   std::vector<WatchedIdentifier> identifiers;
-  for (const EstimatorKind kind : chosen)
-    identifiers.emplace_back(
-        IdentifierConfig{kind, options.exponent, 1.0, options.force_noise_n, options.position_noise_m});
+  for (const Method method : chosen)
+    identifiers.emplace_back(by(method, {.exponent = options.exponent,
+                                         .force_noise_n = options.force_noise_n,
+                                         .position_noise_m = options.position_noise_m}));
   ContactTable table;
   ContactConvention convention;
   Feed feed;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "slave/estimation/identifier.hpp"
+#include "tests/experiments/estimators/methods.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/trace.hpp"
 #include "tests/property/contact_batch.hpp"
@@ -19,7 +19,7 @@ using test::ContactCell;
 using test::Excitation;
 
 constexpr int kRecords = 20;
-constexpr std::size_t kMethods = std::size(kEstimatorKinds) + 1;  // and the batch fit
+constexpr std::size_t kMethods = std::size(kAllMethods) + 1;  // and the batch fit
 constexpr double kExponents[] = {1.0, 1.5, 2.0};
 constexpr double kNoises[] = {0.01, 0.05, 0.25};
 constexpr int kFirstDecade = 2, kLastDecade = 7;
@@ -37,11 +37,11 @@ Errors errors(const ContactCell& cell, double k, double lambda, double n) {
           lambda / cell.lambda() - 1.0};
 }
 
-Errors online(EstimatorKind kind, const ContactCell& cell, const test::Samples& record) {
-  Identifier identifier({.kind = kind, .exponent = 1.5});
+Errors online(Method method, const ContactCell& cell, const test::Samples& record) {
+  Identifier identifier(by(method, {.exponent = 1.5}));
   for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
   const ContactAnswer a = identifier.answer();
-  const double n = kind == EstimatorKind::kKelvinVoigt ? 1.0 : a.n.value;
+  const double n = method == Method::kKelvinVoigt ? 1.0 : a.n.value;
   return a.valid ? errors(cell, a.k.value, a.lambda.value, n) : Errors{1.0, 1.0, 1.0};
 }
 
@@ -60,7 +60,7 @@ CellResult study(const ContactCell& cell, Random random) {
     const test::ContactBatch batch = test::batch_fit(cell, record);
     for (std::size_t m = 0; m < kMethods; ++m) {
       const Errors e = m + 1 == kMethods ? errors(cell, batch.k, batch.lambda, batch.n)
-                                         : online(kEstimatorKinds[m], cell, record);
+                                         : online(kAllMethods[m], cell, record);
       for (std::size_t p = 0; p < e.size(); ++p) result.rms[m][p] += e[p] * e[p] / kRecords;
     }
   }
@@ -70,7 +70,7 @@ CellResult study(const ContactCell& cell, Random random) {
 }
 
 std::string metric_name(std::size_t method) {
-  std::string name = method + 1 == kMethods ? "batch" : std::string(name_of(kEstimatorKinds[method]));
+  std::string name = method + 1 == kMethods ? "batch" : std::string(name_of(kAllMethods[method]));
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
 }
@@ -83,7 +83,7 @@ struct Summary {
 
   void add(const ContactCell& cell, const CellResult& result) {
     constexpr double kIdentifiable[] = {0.05, 0.05, 0.2};
-    const std::size_t best = static_cast<std::size_t>(EstimatorKind::kMaximumLikelihood);
+    const std::size_t best = static_cast<std::size_t>(Method::kMaximumLikelihood);
     for (std::size_t m = 0; m < kMethods && cell.noise_n == kShownNoise; ++m)
       stiffness_worst[m] = std::max(stiffness_worst[m], result.rms[m][1]);
     for (std::size_t p = 0; p < ratio_worst.size(); ++p) {

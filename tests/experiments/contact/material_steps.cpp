@@ -191,8 +191,7 @@ void tell(const std::string& name, const Outcome& o, std::vector<Metric>& metric
 void write(const ExperimentRun& run, const std::string& name, const std::vector<Outcome>& outcomes) {
   Trace trace(run.out, name,
               {"t_s", "beside_m", "depth_m", "tool_force_n", "hand_force_n", "true_n_per_m",
-               "rendered_n_per_m", "fixed_exponent_n_per_m", "two_stage_n_per_m", "log_linear_n_per_m",
-               "kelvin_voigt_n_per_m", "maximum_likelihood_n_per_m"});
+               "rendered_n_per_m", "fixed_exponent_n_per_m", "maximum_likelihood_n_per_m"});
   std::size_t rows = outcomes.front().rows.size();
   for (const Outcome& o : outcomes) rows = std::min(rows, o.rows.size());
   const Outcome& first = outcomes.front();
@@ -201,8 +200,7 @@ void write(const ExperimentRun& run, const std::string& name, const std::vector<
     const Row& r = first.rows[i];
     const auto reported = [&](std::size_t kind) { return positive(outcomes[kind].rows[i].reported_n_per_m); };
     trace.row({r.t_s, r.beside_m, r.depth_m, r.tool_n, r.hand_n, positive(r.true_n_per_m),
-               positive(r.rendered_n_per_m), reported(0), reported(1), reported(2), reported(3),
-               reported(4)});
+               positive(r.rendered_n_per_m), reported(0), reported(1)});
   }
   trace.close();
 }
@@ -217,9 +215,6 @@ Plot plot_of(const std::string& name, const std::string& title, const Panel& pla
           .panels = {{"stiffness (N/mm)",
                       {{"true_n_per_m", "true (fixed exponent)", 1e-3},
                        {"fixed_exponent_n_per_m", "fixed exponent", 1e-3},
-                       {"two_stage_n_per_m", "two-stage", 1e-3},
-                       {"log_linear_n_per_m", "log-linear", 1e-3},
-                       {"kelvin_voigt_n_per_m", "Kelvin-Voigt", 1e-3},
                        {"maximum_likelihood_n_per_m", "maximum likelihood", 1e-3}},
                       "set logscale y"},
                      {"force (N)", {{"tool_force_n", "tool"}, {"hand_force_n", "hand"}}, "unset logscale y"},

@@ -3,9 +3,9 @@
 //
 // Judged over the last two cycles of the probing: the slope of the contact force at the hand over the
 // handle's way, and its mean, against those of the material at the handle's own depth. Uncertainty: of the
-// reported stiffness, at the place that it was reported for, against the Cramér-Rao bound of all samples of
-// that touch with k, λ, n and surface unknown. Materials outside the Hunt-Crossley family are judged by the
-// tangent alone.
+// reported stiffness, at the place that it was reported for, against the Cramér-Rao bound of all samples
+// behind the surface with k, λ, n and surface unknown. Materials outside the Hunt-Crossley family are judged
+// by the tangent alone.
 
 #include "tests/experiments/contact/unknown_contact.hpp"
 
@@ -151,7 +151,7 @@ class Press {
     if (!behind_ && depth_m > 0.0) ++result_.presses;
     behind_ = behind_ ? depth_m > -kLeft_m : depth_m > 0.0;
     const SlaveView& s = lab_.slave();
-    if (s.touch != touch_ || !s.in_contact) bound_.begin();
+    if (depth_m <= 0.0) bound_.begin();
     if (s.touch != touch_) ++result_.contacts;
     touch_ = s.touch;
     bound_.add(depth_m, speed);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "slave/estimation/identifier.hpp"
+#include "tests/experiments/estimators/methods.hpp"
 #include "tests/experiments/trade/cost.hpp"
 #include "tests/experiments/trade/trade.hpp"
 #include "tests/property/contact_batch.hpp"
@@ -22,14 +22,12 @@ struct Way {
 };
 
 const Way kWays[] = {
-    {"fixed_exponent", {.kind = EstimatorKind::kFixedExponent, .exponent = 1.5}},
-    {"fixed_exponent_1",
-     {.kind = EstimatorKind::kFixedExponent, .exponent = 1.0, .surface_known = false},
-     true},
-    {"two_stage", {.kind = EstimatorKind::kTwoStage}},
-    {"log_linear", {.kind = EstimatorKind::kLogLinear}},
-    {"kelvin_voigt", {.kind = EstimatorKind::kKelvinVoigt}},
-    {"maximum_likelihood", {.kind = EstimatorKind::kMaximumLikelihood}},
+    {"fixed_exponent", by(Method::kFixedExponent, {.exponent = 1.5})},
+    {"fixed_exponent_1", by(Method::kFixedExponent, {.exponent = 1.0, .surface_known = false}), true},
+    {"two_stage", by(Method::kTwoStage)},
+    {"log_linear", by(Method::kLogLinear)},
+    {"kelvin_voigt", by(Method::kKelvinVoigt)},
+    {"maximum_likelihood", by(Method::kMaximumLikelihood)},
 };
 
 double tangent(double k, double n, double x) { return k * n * std::pow(x, n - 1.0); }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "tests/experiments/estimators/methods.hpp"
 #include "tests/property/contact_record.hpp"
 #include "tests/unit/allocations.hpp"
 
@@ -21,10 +22,10 @@ void feed(Identifier& identifier, const std::vector<PenetrationSample>& record) 
   for (const PenetrationSample& sample : record) identifier.step(sample, kDt);
 }
 
-ContactAnswer identified(const ContactCell& cell, EstimatorKind kind = EstimatorKind::kMaximumLikelihood,
+ContactAnswer identified(const ContactCell& cell, Method method = Method::kMaximumLikelihood,
                          double seconds = 2.0, double exponent = 1.5) {
   Random random(7);
-  Identifier identifier({kind, exponent, 1.0, cell.noise_n, 0.0});
+  Identifier identifier(by(method, {.exponent = exponent, .force_noise_n = cell.noise_n}));
   feed(identifier, with_noise(test::exact_record(cell, seconds), cell.noise_n, random));
   return identifier.answer();
 }
@@ -36,8 +37,8 @@ void expect_finite(const ContactAnswer& a) {
   }
 }
 
-class EachEstimator : public ::testing::TestWithParam<EstimatorKind> {};
-INSTANTIATE_TEST_SUITE_P(Kind, EachEstimator, ::testing::ValuesIn(kEstimatorKinds), [](const auto& kind) {
+class EachEstimator : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Kind, EachEstimator, ::testing::ValuesIn(kAllMethods), [](const auto& kind) {
   std::string name(name_of(kind.param));
   std::erase(name, '-');
   return name;
@@ -51,7 +52,7 @@ TEST_P(EachEstimator, IsFiniteWhereForcesOfATouchAreNotPositive) {
     return s.x_m > 0.0 && s.force_n <= 0.0;
   });
   ASSERT_GT(below, 20);
-  Identifier identifier({GetParam(), 1.5, 1.0, 0.0, 0.0});
+  Identifier identifier(by(GetParam(), {.exponent = 1.5}));
   feed(identifier, record);
   const ContactAnswer a = identifier.answer();
   ASSERT_TRUE(a.valid);
@@ -63,7 +64,7 @@ TEST_P(EachEstimator, IsUnchangedByAnHourOfStillHoldWithQuantisedSensors) {
   const auto quantised = [](double value, double unit) { return std::round(value / unit) * unit; };
   const ContactCell cell{1e5, 1.5, 0.15, 0.05, Excitation::kProbe};
   Random random(5);
-  Identifier identifier({GetParam(), 1.5, 0.9998, 0.0, 0.0});
+  Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
   auto record = with_noise(test::exact_record(cell), cell.noise_n, random);
   for (PenetrationSample& s : record) {
     s.x_m = quantised(s.x_m, 1e-6);
@@ -84,7 +85,7 @@ TEST_P(EachEstimator, IsUnchangedByAnHourOfStillHoldWithQuantisedSensors) {
 }
 
 TEST_P(EachEstimator, AllocatesNothing) {
-  Identifier identifier({GetParam(), 1.5, 0.9998, 0.0, 0.0});
+  Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
   const auto record = test::exact_record({});
   test::count_allocations(true);
   feed(identifier, record);
@@ -96,7 +97,7 @@ TEST_P(EachEstimator, AllocatesNothing) {
 
 TEST_P(EachEstimator, IgnoresAndCountsWhatIsNotPhysical) {
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
-  Identifier clean({GetParam()}), dirty({GetParam()});
+  Identifier clean(by(GetParam())), dirty(by(GetParam()));
   Random random(9);
   for (const PenetrationSample& s : with_noise(test::exact_record({}), 0.05, random)) {
     clean.step(s, kDt);
@@ -115,7 +116,7 @@ TEST_P(EachEstimator, IgnoresAndCountsWhatIsNotPhysical) {
 TEST_P(EachEstimator, SurvivesTheExtremes) {
   for (const double x : {5e-324, 1e-300, 1e-12, 1e-9, 1e5}) {
     for (const double f : {0.0, -1.0, 5e-324, 1e-9, 1e9}) {
-      Identifier identifier({GetParam(), 1.5, 0.9998, 0.0, 0.0});
+      Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
       for (int i = 0; i < 300; ++i) {
         identifier.step({x * (1.0 + 0.01 * i), 1e-9 * i, f}, kDt);
         expect_finite(identifier.answer());
@@ -238,28 +239,28 @@ TEST(MaximumLikelihood, FindsNoChangeWhereThereIsNone) {
 
 TEST(FixedExponent, IsExactWithTheRightOneAndAThirdOffWithOneATenthBeside) {
   const ContactCell cell{800.0, 1.5, 0.15, 1e-6, Excitation::kProbe};
-  EXPECT_NEAR(identified(cell, EstimatorKind::kFixedExponent).k.value, 800.0, 0.01);
-  const double off = identified(cell, EstimatorKind::kFixedExponent, 2.0, 1.4).k.value / 800.0;
+  EXPECT_NEAR(identified(cell, Method::kFixedExponent).k.value, 800.0, 0.01);
+  const double off = identified(cell, Method::kFixedExponent, 2.0, 1.4).k.value / 800.0;
   EXPECT_LT(off, 0.8);  // FACTS: 33 % at depths of some 10 mm
   EXPECT_GT(off, 0.5);
 }
 
 TEST(TwoStage, ConvergesWithinSevenSeconds) {
   const ContactCell cell{800.0, 1.5, 0.15, 1e-6, Excitation::kSine};
-  const ContactAnswer a = identified(cell, EstimatorKind::kTwoStage, 7.0);
+  const ContactAnswer a = identified(cell, Method::kTwoStage, 7.0);
   EXPECT_NEAR(a.k.value, 800.0, 8.0);
   EXPECT_NEAR(a.n.value, 1.5, 0.005);
 }
 
 TEST(LogLinear, IsBiasedByDamping) {
   ContactCell cell{800.0, 1.5, 0.15, 1e-6, Excitation::kProbe};
-  EXPECT_NEAR(identified(cell, EstimatorKind::kLogLinear).k.value / 800.0, 1.0, 0.02);
+  EXPECT_NEAR(identified(cell, Method::kLogLinear).k.value / 800.0, 1.0, 0.02);
   cell.a = 3.0;
-  EXPECT_GT(std::abs(identified(cell, EstimatorKind::kLogLinear).k.value / 800.0 - 1.0), 0.04);
+  EXPECT_GT(std::abs(identified(cell, Method::kLogLinear).k.value / 800.0 - 1.0), 0.04);
 }
 
 TEST(KelvinVoigt, IsExactForASpringAndADamper) {
-  Identifier identifier({EstimatorKind::kKelvinVoigt});
+  Identifier identifier(by(Method::kKelvinVoigt));
   for (const PenetrationSample& s : test::exact_record({}))
     identifier.step({s.x_m, s.v_m_per_s, 500.0 * s.x_m + 3.0 * s.v_m_per_s}, kDt);
   EXPECT_NEAR(identifier.answer().k.value, 500.0, 1e-6);
@@ -268,13 +269,8 @@ TEST(KelvinVoigt, IsExactForASpringAndADamper) {
 }
 
 TEST(Identifier, KnowsItsEstimatorsByName) {
-  for (const EstimatorKind kind : kEstimatorKinds) {
-    EstimatorKind found{};
-    EXPECT_TRUE(parse(name_of(kind), found));
-    EXPECT_EQ(found, kind);
-  }
-  EstimatorKind found{};
-  EXPECT_FALSE(parse("kalman", found));
+  for (const Method method : kAllMethods) EXPECT_EQ(method_of(name_of(method)), method);
+  EXPECT_FALSE(method_of("kalman"));
 }
 
 }  // namespace
