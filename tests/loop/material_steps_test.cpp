@@ -11,7 +11,7 @@
 namespace longreach {
 namespace {
 
-// Layers are not known by maximum likelihood from a press as light as the first of them is met with.
+// The slowest is a soft tile behind a hard one: nothing is pressed until the tool has followed.
 TEST(MaterialSteps, WhatIsReportedFollowsTheMaterialAndTheForceDoesNotStep) {
   ExperimentRun run;
   run.config = configure({}, LONGREACH_DEPLOY);

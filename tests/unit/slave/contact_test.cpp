@@ -269,6 +269,33 @@ TEST(SlaveContact, FindsAnotherObjectUnderTheTool) {
   }
 }
 
+// Noise and a change of the material can leave a fit whose surface may be anywhere.
+TEST(SlaveContact, TellsNoSurfaceFartherThanTheToolHasGone) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    Bench bench{1000.0, random.uniform(1.0, 2.0), 0.1, std::pow(10.0, random.uniform(-2.0, 0.5)),
+                Random(seed).child("noise")};
+    SlaveContact contact(SensingConfig{}, EstimatorConfig{});
+    double deepest_m = 0.0, speed = 2e-3;
+    for (int i = 0; i < 3000; ++i) {
+      if (i > 1000 && i % 200 == 199) {
+        bench.stiffness_n_per_m = std::pow(10.0, random.uniform(1.0, 6.0));
+        bench.noise_n = std::pow(10.0, random.uniform(-2.0, 0.5));
+        speed = random.uniform(-1e-3, 1e-3);
+      }
+      bench.step(contact, bench.force() > 10.0 ? -5e-4 : bench.force() < 0.5 ? 2e-3 : speed);
+      deepest_m = std::max(deepest_m, bench.x_m - 0.1);
+      for (const ReportedSurface& s : contact.report(Vector3(0.1, 3.0, -1.0))) {
+        if (s.stiffness <= 0.0) continue;
+        ++told;
+        ASSERT_LT(std::abs(s.offset), 6e-3 + 3.0 * deepest_m) << "seed " << seed << " at " << i;
+      }
+    }
+  }
+  EXPECT_GT(told, 30000);
+}
+
 // Over a cylinder of 50 mm, 10 mm/s, for 40 mm: the mean direction of the force is off by 25 degrees then.
 TEST(SlaveContact, ASlideOverACurvedSurfaceIsNoDepth) {
   for (const EstimatorKind kind : {EstimatorKind::kFixedExponent, EstimatorKind::kMaximumLikelihood}) {
