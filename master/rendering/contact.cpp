@@ -40,7 +40,6 @@ void Contact::configure(const ContactConfig& config) {
 void Contact::reset() {
   axes_ = {};
   for (ContactAxis& a : axes_) a.spring.configure(config_.spring);
-  force_step_ = 0.0;
 }
 
 ContactChange Contact::on_report(const ContactReport& report, const GoalHistory& history,
@@ -53,7 +52,6 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
     goals[i] = goal_of(s, history);
     if (!goals[i] && !history.forgotten(s.touch_sequence)) return ContactChange::kRejected;
   }
-  const Vector3 before = spring_force(handle.x);
   for (ContactAxis& a : axes_) {
     const auto same = [&](const ReportedSurface& s) { return s.touch > 0 && axis_of(s) == &a; };
     if (a.known && std::ranges::none_of(report.surfaces, same)) forget(a, handle.x);
@@ -70,9 +68,7 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
       add_axis(s, *goals[i], handle, mapping);
     }
   }
-  if (!any) return ContactChange::kNone;
-  force_step_ = (spring_force(handle.x) - before).norm();
-  return ContactChange::kUpdated;
+  return any ? ContactChange::kUpdated : ContactChange::kNone;
 }
 
 std::optional<Vector3> Contact::goal_of(const ReportedSurface& s, const GoalHistory& history) const {
@@ -197,12 +193,6 @@ Vector3 Contact::step_naive(const ContactHandle& handle, const Mapping& mapping,
     a.force = a.reported * std::max(0.0, a.s(handle.x) - a.surface);
     if (a.force > 0.0) force -= std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate)) * a.n_M;
   }
-  return force;
-}
-
-Vector3 Contact::spring_force(const Vector3& x) const {
-  Vector3 force = Vector3::Zero();
-  for (const ContactAxis& a : axes_) force -= a.spring.force_n(a.s(x)) * a.n_M;
   return force;
 }
 

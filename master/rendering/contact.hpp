@@ -94,7 +94,6 @@ class Contact {
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool clamped() const;
   [[nodiscard]] bool yielding() const;
-  [[nodiscard]] double force_step() const { return force_step_; }  // of the springs, by the last report
 
  private:
   using Surfaces = std::array<ReportedSurface, kSurfaces>;
@@ -110,12 +109,10 @@ class Contact {
   /// Handle's coordinate along the axis where it commands the goal at the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;
-  [[nodiscard]] Vector3 spring_force(const Vector3& x) const;
 
   ContactMotion motion_;
   ContactConfig config_{};
   std::array<ContactAxis, kAxes> axes_{};
-  double force_step_ = 0.0;
 };
 
 }  // namespace longreach

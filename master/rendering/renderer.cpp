@@ -129,6 +129,8 @@ void Renderer::reset(const HandleState& handle) {
   store_.fill(config_.store_j);
   began_j_ = port_energy_j();
   begins_ = true;
+  unreported_.reset();
+  force_step_n_ = 0.0;
   for (HandPort* port : {&translation_, &rotation_}) {
     port->contact.reset();
     port->tank.empty();  // what is in it may come from the store of the engagement before
@@ -141,6 +143,7 @@ void Renderer::reset(const HandleState& handle) {
 
 bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& history,
                          const RendererInput& input, const Mapping& mapping) {
+  if (!unreported_) unreported_ = translation_.contact;
   const ContactChange first = translation_.contact.on_report(report.translation, history.translation,
                                                              translation_handle(input, mapping), mapping);
   const Vector3 phi = log_rotation(input.handle.q_MH);
@@ -150,15 +153,25 @@ bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& his
   return first != ContactChange::kRejected && second != ContactChange::kRejected;
 }
 
-Vector3 Renderer::contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale) {
-  if (config_.law == RenderingLaw::kNaive) return port.contact.step_naive(at, mapping, stale);
-  return port.contact.step(at, mapping, stale, Purse(port.tank, stale ? nullptr : &store_), device_.period_s);
+Vector3 Renderer::contact_force(Contact& contact, EnergyTank& tank, EnergyTank& store,
+                                const ContactHandle& at, const Mapping& mapping, bool stale) {
+  if (config_.law == RenderingLaw::kNaive) return contact.step_naive(at, mapping, stale);
+  return contact.step(at, mapping, stale, Purse(tank, stale ? nullptr : &store), device_.period_s);
 }
 
 Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {
   const double entered_j = translation_.guard.observe(in.handle.p_MH - x_last_);
   x_last_ = in.handle.p_MH;
-  const Vector3 contact = contact_force(translation_, translation_handle(in, mapping), mapping, in.stale);
+  const ContactHandle at = translation_handle(in, mapping);
+  EnergyTank tank = translation_.tank, store = store_;
+  const Vector3 contact =
+      contact_force(translation_.contact, translation_.tank, store_, at, mapping, in.stale);
+  if (unreported_) {
+    const Vector3 without = contact_force(*unreported_, tank, store, at, mapping, in.stale);
+    force_step_n_ =
+        std::copysign((contact - without).stableNorm(), contact.stableNorm() - without.stableNorm());
+    unreported_.reset();
+  }
   if (config_.law == RenderingLaw::kStiffness) {
     // A spring that is ramped away stores as much less: the hand does not load what it does not feel.
     const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
@@ -177,7 +190,8 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
   const Vector3 phi = log_rotation(in.handle.q_MH);
   const Matrix3 rate = rotation_vector_rate(phi);
   const Vector3 contact =
-      rate.transpose() * contact_force(rotation_, rotation_handle(in, mapping, phi, rate), mapping, in.stale);
+      rate.transpose() * contact_force(rotation_.contact, rotation_.tank, store_,
+                                       rotation_handle(in, mapping, phi, rate), mapping, in.stale);
   if (config_.law == RenderingLaw::kStiffness) {
     const double felt_j = rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j();
     const double left_j = rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,

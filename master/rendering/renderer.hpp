@@ -11,6 +11,7 @@
 // contrast; it keeps the limits.
 
 #include <cstdint>
+#include <optional>
 
 #include "common/link/stiffness_report.hpp"
 #include "master/devices/certain_motion.hpp"
@@ -110,6 +111,9 @@ class Renderer {
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
   [[nodiscard]] double stored_energy_j() const;
   [[nodiscard]] double store_j() const { return store_.level_j(); }
+  /// By how much the force of the contact on the hand is another one than without the reports that were taken
+  /// before the last step, N; before slew and limits. Negative: a weaker one.
+  [[nodiscard]] double force_step_n() const { return force_step_n_; }
 
   // Into a pressed surface rate mode lets the force rise so fast.
   static constexpr double kRise_n_per_s = 10.0, kRise_nm_per_s = 0.2;
@@ -119,13 +123,16 @@ class Renderer {
   [[nodiscard]] Vector3 refill_drag(const RendererInput& input) const;
   Vector3 translate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
   Vector3 rotate(const RendererInput& input, const Mapping& mapping, const Vector3& resistance);
-  Vector3 contact_force(HandPort& port, const ContactHandle& at, const Mapping& mapping, bool stale);
+  Vector3 contact_force(Contact& contact, EnergyTank& tank, EnergyTank& store, const ContactHandle& at,
+                        const Mapping& mapping, bool stale);
 
   RenderingConfig config_;
   RenderedDevice device_;
   Resistance resistance_;
   HandPort translation_, rotation_;
-  EnergyTank store_;  // of the engagement, for both ports
+  EnergyTank store_;                   // of the engagement, for both ports
+  std::optional<Contact> unreported_;  // of translation, as it was before the reports of this tick
+  double force_step_n_ = 0.0;
   Vector3 x_last_ = Vector3::Zero();
   Quaternion q_last_ = Quaternion::Identity();
   double began_j_ = 0.0, port_energy_min_j_ = 0.0;  // at the engagement; since one began

@@ -39,11 +39,20 @@ const std::vector<Experiment> kExperiments = {
     {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
      run_rate_contact, rate_contact_plots, "",
      "the hand feels {felt_over_tool_force} of the tool's force of {tool_force_n} N"},
-    {"six-dof-contact", "An oblique plane, a corner and a torque, from reported surfaces alone.",
+    {"six-dof-contact", "An oblique plane, corners and a stop against turning, that nobody described.",
      run_six_dof_contact, six_dof_contact_plots, "",
+     "force off by {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} and "
+     "{corner_y_force_error*100} % in a corner, {diagonal_x_force_error*100} and "
+     "{diagonal_y_force_error*100} % "
+     "in one that is pressed diagonally; its slope by {oblique_displayed_error*100} %, "
+     "{corner_x_displayed_error*100} and {corner_y_displayed_error*100} %, {diagonal_x_displayed_error*100} "
+     "and "
+     "{diagonal_y_displayed_error*100} %, in torsion by {torque_displayed_error*100} %"},
+    {"tensor-rendering", "The same from reported surfaces alone: what the rendering adds to the error.",
+     run_tensor_rendering, tensor_rendering_plots, "",
      "off by {oblique_displayed_error*100} % on an oblique plane, {corner_displayed_error_x*100} and "
      "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},
-    {"hostile-updates", "A million hostile stiffness reports in four hands: passive, limited, without steps?",
+    {"hostile-updates", "Half a million hostile stiffness reports in four hands: passive, limited?",
      run_hostile_updates, hostile_updates_plots, "",
      "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy "
      "{port_energy_min_j*1e3} mJ, "

@@ -87,6 +87,8 @@ std::vector<Metric> run_rate_contact(const ExperimentRun& run);
 std::vector<Plot> rate_contact_plots();
 std::vector<Metric> run_six_dof_contact(const ExperimentRun& run);
 std::vector<Plot> six_dof_contact_plots();
+std::vector<Metric> run_tensor_rendering(const ExperimentRun& run);
+std::vector<Plot> tensor_rendering_plots();
 std::vector<Metric> run_home_rotation(const ExperimentRun& run);
 std::vector<Plot> home_rotation_plots();
 std::vector<Metric> run_home_translation(const ExperimentRun& run);

@@ -20,15 +20,20 @@ std::map<std::string, double> metrics(std::string_view name, const std::vector<s
   return values;
 }
 
-TEST(HostileUpdates, GiveNoEnergyAndNoStepAndTheNaiveLawFailsUnderTheSame) {
+TEST(HostileUpdates, GiveNoEnergyAndTheNaiveLawFailsUnderTheSame) {
   auto m = metrics("hostile-updates");
-  EXPECT_EQ(m.at("updates"), 1e6);
+  // Counted where they arrive: half of what is sent is lost, and what was overtaken is not taken.
+  EXPECT_NEAR(m.at("updates"), 0.5e6, 5e3);
   EXPECT_GT(m.at("reports_applied"), 1e5);
+  EXPECT_LE(m.at("reports_applied") + m.at("reports_refused"), m.at("updates"));
   EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
   EXPECT_LE(m.at("energy_drawdown_j"), 1e-3);
-  EXPECT_LE(m.at("force_step_excess_n"), 0.0);
+  // They may take the force away at once, and make it rise by less than the slew of a tick.
+  EXPECT_LE(m.at("force_step_excess_n"), 20.0);
+  EXPECT_LE(m.at("force_rise_excess_n"), 5.0);
   EXPECT_EQ(m.at("unsafe_wrenches"), 0.0);
   EXPECT_LT(m.at("naive_port_energy_min_j"), -1.0);
+  EXPECT_GT(m.at("naive_force_step_excess_n"), 10.0);
   EXPECT_EQ(m.at("naive_unsafe_wrenches"), 0.0);
 }
 
@@ -85,8 +90,27 @@ TEST(RateContact, IsProportionalToTheForceOfTheSlaveWhileTheHandIsStill) {
   EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
 }
 
-TEST(SixDofContact, DisplaysAnObliquePlaneACornerAndATorque) {
+// What is felt in a corner is less right than on a plane: each surface is known by what the other leaves.
+TEST(SixDofContact, IsFeltThroughTheWholeLoop) {
   auto m = metrics("six-dof-contact");
+  EXPECT_LE(m.at("oblique_displayed_error"), 0.05);
+  EXPECT_LE(m.at("oblique_force_error"), 0.05);
+  EXPECT_LE(m.at("oblique_tangential_n"), 0.1);
+  EXPECT_LE(m.at("torque_displayed_error"), 0.05);
+  for (const char* corner : {"corner_x", "corner_y", "diagonal_x", "diagonal_y"}) {
+    EXPECT_LE(m.at(std::string(corner) + "_force_error"), 0.35) << corner;
+    EXPECT_LE(m.at(std::string(corner) + "_displayed_error"), 0.35) << corner;
+    EXPECT_LE(m.at(std::string(corner) + "_registration_error_m"), 1e-3) << corner;
+  }
+  for (const char* scene : {"oblique", "corner", "diagonal", "torque"})
+    EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -returned_most_j()) << scene;
+  // It contains the slave: a wrong exponent is felt.
+  auto wrong = metrics("six-dof-contact", {"estimator.kind=FIXED_EXPONENT", "estimator.exponent=3"});
+  EXPECT_GT(wrong.at("oblique_displayed_error"), 0.1);
+}
+
+TEST(TensorRendering, DisplaysAnObliquePlaneACornerAndATorque) {
+  auto m = metrics("tensor-rendering");
   EXPECT_LE(m.at("oblique_displayed_error"), 0.05);
   EXPECT_LE(m.at("oblique_tangential_n"), 0.01);
   EXPECT_LE(m.at("oblique_registration_error_m"), 1e-3);

@@ -99,6 +99,15 @@ TEST_P(Touch, TheHandFeelsTheWallCalmlyWhereItIs) {
 
 INSTANTIATE_TEST_SUITE_P(Grid, Touch, testing::ValuesIn(grid()));
 
+/// Whatever the law: against a twin that did not get the report, in the same tick.
+TEST(Touch, AStepOfTheForceByAReportIsMeasuredUnderEachLaw) {
+  const Values naive = touch({"profile=moon", "rendering.law=NAIVE"}, 1);
+  EXPECT_GT(naive.at("force_step_at_update_max_n"), 10.0);
+  EXPECT_GT(naive.at("force_step_excess_n"), 10.0);
+  const Values ours = touch({"profile=moon"}, 1);
+  EXPECT_LT(ours.at("force_step_at_update_max_n"), 0.1);
+}
+
 /// The hand drives five times as far as the tool: when it learns of the wall, that is 25 mm behind it.
 TEST(Touch, ASoftWallLearntFarBehindTheHandIsDisplayedRight) {
   for (std::uint64_t seed = 1; seed <= 30; seed += full_size() ? 1 : 5) {

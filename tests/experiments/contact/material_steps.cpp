@@ -49,7 +49,7 @@ struct Row {
 struct Outcome {
   std::vector<Change> changes;
   std::vector<Row> rows;
-  double force_step_max_n = 0.0, force_step_excess_n = 0.0;
+  double force_step_excess_n = 0.0, force_rise_excess_n = 0.0;  // over max(0.1 N, 5 %)
   double port_energy_min_j = 0.0;
   double error_end = 1.0;
 };
@@ -129,10 +129,10 @@ class Run {
     const MasterView& m = lab_.master();
     if (m.reports == reports_) return;
     reports_ = m.reports;
-    const double step_n = std::abs(m.force_step_n);
-    outcome_.force_step_max_n = std::max(outcome_.force_step_max_n, step_n);
+    const double step_n = m.force_step_n;
     const double bound_n = std::max(0.1, 0.05 * m.spring_force_n.norm());
-    outcome_.force_step_excess_n = std::max(outcome_.force_step_excess_n, step_n - bound_n);
+    outcome_.force_step_excess_n = std::max(outcome_.force_step_excess_n, std::abs(step_n) - bound_n);
+    outcome_.force_rise_excess_n = std::max(outcome_.force_rise_excess_n, step_n - bound_n);
   }
 
   Laboratory lab_;
@@ -185,6 +185,7 @@ void tell(const std::string& name, const Outcome& o, std::vector<Metric>& metric
   metrics.push_back({name + "_farthest_m", farthest_m, "m"});
   metrics.push_back({name + "_error_end", o.error_end, ""});
   metrics.push_back({name + "_force_step_excess_n", o.force_step_excess_n, "N"});
+  metrics.push_back({name + "_force_rise_excess_n", o.force_rise_excess_n, "N"});
   metrics.push_back({name + "_port_energy_min_j", o.port_energy_min_j, "J"});
 }
 

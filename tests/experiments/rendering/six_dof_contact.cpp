@@ -1,229 +1,193 @@
-// Contacts that are more than a wall across the motion: an oblique plane, a corner of two planes, a torque.
-// The master is the real one; the far side is a formula that answers with surfaces, half a round trip late
-// each way.
+// Contacts that are more than a wall across the motion, through the whole loop (slave, estimator, link): an
+// oblique plane, a corner whose planes are met one after the other, a corner that is pressed diagonally, and
+// a stop against turning. Nobody described them. Judged by the slope of the force at the hand between two
+// rests, and by where it would be zero, against the scene.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
-#include <numbers>
 #include <string>
+#include <vector>
 
 #include "common/config/config.hpp"
-#include "master/devices/simulated_devices.hpp"
-#include "master/master_node.hpp"
 #include "tests/experiments/experiment.hpp"
+#include "tests/experiments/laboratory.hpp"
 #include "tests/experiments/trace.hpp"
 
 namespace longreach {
 namespace {
 
-constexpr double kOneWay_s = 1.3;
-constexpr double kTick_s = 1e-3;
-
-/// A plane n . g > d, in displacements or rotation vectors from the anchor.
-struct Plane {
-  Vector3 n = Vector3::UnitX();
-  double d = 0.0;
-  double stiffness = 0.0;
+struct Wall {
+  Vector3 n = Vector3::UnitX();  // inwards
+  double at_m = 0.01;            // from the start along it
+  double n_per_m = 1000.0;
 };
 
-struct World {
-  std::vector<Plane> translation, rotation;
+MasterConfig master_of(const ExperimentRun& run) {
+  MasterConfig config = to_struct(run.config.master());
+  config.safety.engage_at_start = true;
+  config.mapping.mode = MotionMode::kPosition;
+  config.mapping.scale = 1.0;
+  config.rendering.friction_n = config.rendering.friction_nm = 0.0;  // only the contact is of interest
+  config.rendering.rotational_stiffness_nm_per_rad = 0.0;
+  return config;
+}
+
+SlaveConfig slave_of(const ExperimentRun& run, const std::vector<Wall>& walls) {
+  SlaveConfig config = to_struct(run.config.slave());
+  config.scene = {};
+  for (const Wall& wall : walls) {
+    const std::string name = "wall " + std::to_string(config.scene.surface.size() + 1);
+    config.scene.material.push_back({.name = name, .stiffness_n_per_m = wall.n_per_m});
+    SurfaceConfig surface;
+    surface.name = surface.material = name;
+    surface.plane = PlaneConfig{.point_m = wall.at_m * wall.n, .normal = -wall.n};
+    config.scene.surface.push_back(surface);
+  }
+  return config;
+}
+
+/// The stops of scenes/hinge.txtpb: 10 N m/rad from 0.05 rad on.
+SlaveConfig slave_with_stop(const ExperimentRun& run) {
+  SlaveConfig config = slave_of(run, {});
+  config.scene.material.push_back({.name = "stop", .stiffness_n_per_m = 1000.0, .damping_s_per_m = 0.2});
+  SurfaceConfig surface;
+  surface.name = surface.material = "stop";
+  surface.hinge = HingeConfig{};
+  config.scene.surface.push_back(surface);
+  return config;
+}
+
+struct Rest {
+  Vector3 x_m, force_n;
+  double turn_rad, moment_nm;
 };
 
-/// What it touches now, and since which command.
-class FarContact {
+class Hand {
  public:
-  explicit FarContact(std::vector<Plane> planes) : planes_(std::move(planes)) {}
-
-  ContactReport touch(const Vector3& goal, std::uint64_t sequence) {
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const Plane& plane = planes_[i];
-      ReportedSurface& s = report_.surfaces[i];
-      const bool inside = plane.n.dot(goal) > plane.d;
-      if (inside && !s.pressed)
-        s = {.normal = -plane.n,
-             .stiffness = plane.stiffness,
-             .touch_sequence = static_cast<double>(sequence),
-             .touch = ++touch_};
-      s.pressed = inside;
-    }
-    return report_;
+  Hand(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed) : lab_(master, slave, seed) {
+    to({});
+    stay(2.0);
+    for (int i = 0; i < 60 && lab_.master().state != SafetyState::kEngaged; ++i) stay(1.0);
+    rtt_s_ = lab_.link().rtt_s.value_or(0.0);
   }
 
- private:
-  std::vector<Plane> planes_;
-  ContactReport report_{};
-  std::uint32_t touch_ = 0;
-};
-
-class Bench {
- public:
-  Bench(MasterConfig config, const World& world)
-      : config_(prepared(std::move(config))),
-        devices_(config_.device),
-        node_(config_),
-        translation_(world.translation),
-        rotation_(world.rotation) {}
-
-  void run(const HandTarget& target, double seconds, const Vector3& speed = Vector3::Zero()) {
-    HandTarget now = target;
-    for (double t = 0.0; t < seconds; t += kTick_s) {
-      now.position_m += kTick_s * speed;
-      now.velocity_m_per_s = speed;
-      tick(now);
+  /// At 20 mm/s.
+  void to(const Vector3& x_m) {
+    const Vector3 way_m = x_m - target_.position_m;
+    const double speed = 0.02, seconds = way_m.norm() / speed;
+    const Vector3 from_m = target_.position_m;
+    if (seconds > 0.0) target_.velocity_m_per_s = way_m / seconds;
+    for (double t = 0.0; t < seconds; t += lab_.period_s()) {
+      target_.position_m = from_m + way_m * (t / seconds);
+      tick();
     }
+    target_.position_m = x_m;
+    target_.velocity_m_per_s.setZero();
   }
-
-  [[nodiscard]] const MasterView& view() const { return node_.view(); }
-  [[nodiscard]] const MasterOutput& out() const { return out_; }
-  [[nodiscard]] const HandleState& handle() const { return handle_; }
-  [[nodiscard]] double now_s() const { return to_seconds(now_ - Time{}); }
+  void turn_to(double rad) { target_.rotation_rad = {0.0, 0.0, rad}; }
+  void stay(double seconds) {
+    for (double t = 0.0; t < seconds; t += lab_.period_s()) tick();
+  }
+  /// Until what was met has come back and has been felt.
+  void wait() { stay(2.0 * rtt_s_ + 4.0); }
+  [[nodiscard]] Rest rest() const {
+    const MasterView& m = lab_.master();
+    return {m.p_MH, m.F_H_M.force, log_rotation(lab_.devices().spherical().orientation()).z(),
+            m.F_H_M.moment.z()};
+  }
+  [[nodiscard]] double port_energy_min_j() const { return lab_.master().port_energy_min_j; }
   void trace_into(Trace* trace) { trace_ = trace; }
 
  private:
-  static MasterConfig prepared(MasterConfig config) {
-    config.safety.engage_at_start = true;
-    config.mapping.mode = MotionMode::kPosition;
-    config.mapping.scale = 1.0;
-    config.rendering.friction_n = 0.0;  // only the contact is of interest
-    config.rendering.rotational_stiffness_nm_per_rad = 0.0;
-    return config;
+  void tick() {
+    lab_.drive(target_);
+    lab_.step();
+    if (trace_ == nullptr || ++ticks_ % 10 != 0) return;
+    const Rest now = rest();
+    trace_->row({lab_.now_s(), now.x_m.x(), now.x_m.y(), now.force_n.x(), now.force_n.y(), now.force_n.z()});
   }
 
-  struct Sent {
-    Time at;
-    std::uint64_t sequence;
-    Vector3 position_m, rotation_rad;
-  };
-
-  void tick(const HandTarget& target) {
-    now_ += from_seconds(kTick_s);
-    devices_.set_target(target);
-    MasterInput in;
-    in.now = now_;
-    in.handle = handle_ = devices_.read(now_);
-    in.last_heard = now_;
-    Received<StiffnessReport> report;
-    if (answer(report.message)) {
-      report.sequence = ++reports_;
-      in.reports = {&report, 1};
-    }
-    out_ = node_.step(in);
-    devices_.write(out_.F_H_M);
-    if (out_.command)
-      way_.push_back({now_, out_.sequence, out_.command->position_m, out_.command->rotation_rad});
-    if (trace_ && ++ticks_ % 10 == 0) {
-      const Vector3& x = handle_.p_MH;
-      trace_->row({now_s(), x.x(), x.y(), out_.F_H_M.force.x(), out_.F_H_M.force.y(), out_.F_H_M.force.z(),
-                   log_rotation(handle_.q_MH).x(), out_.F_H_M.moment.x()});
-    }
-  }
-
-  /// A report each 20 ms, of the command that left a round trip ago.
-  bool answer(StiffnessReport& report) {
-    report.engagement = node_.view().engagement;
-    report.state = SafetyState::kEngaged;
-    if (node_.view().state != SafetyState::kEngaged) return true;
-    bool any = false;
-    while (!way_.empty() && now_ - way_.front().at >= from_seconds(2.0 * kOneWay_s)) {
-      const Sent s = way_.front();
-      way_.pop_front();
-      report.translation = translation_.touch(s.position_m, s.sequence);
-      report.rotation = rotation_.touch(s.rotation_rad, s.sequence);
-      any = s.sequence % 4 == 0;
-    }
-    return any;
-  }
-
-  MasterConfig config_;
-  SimulatedDevices devices_;
-  MasterNode node_;
-  FarContact translation_, rotation_;
-  std::deque<Sent> way_;
-  MasterOutput out_;
-  HandleState handle_;
-  Time now_{};
-  std::uint64_t reports_ = 0;
+  Laboratory lab_;
+  HandTarget target_{.grip = Grip::kFirm};
+  double rtt_s_ = 0.0;
   Trace* trace_ = nullptr;
   int ticks_ = 0;
 };
 
-HandTarget reach(const Vector3& x_m, const Vector3& rotation_rad = Vector3::Zero()) {
-  HandTarget target;
-  target.position_m = x_m;
-  target.rotation_rad = rotation_rad;
-  target.grip = Grip::kFirm;
-  return target;
-}
-
-/// Slope of the contact force against depth between two depths, after everything has settled.
-struct Slope {
-  Vector3 x[2], f[2];
-  void take(int i, const Bench& b) {
-    x[i] = b.handle().p_MH;
-    f[i] = b.out().F_H_M.force;
+void judge(const std::string& name, const Wall& wall, const Rest& less, const Rest& more,
+           std::vector<Metric>& metrics) {
+  const double slope = -(more.force_n - less.force_n).dot(wall.n) / (more.x_m - less.x_m).dot(wall.n);
+  double force_error = 0.0;
+  for (const Rest* rest : {&less, &more}) {
+    const double due_n = wall.n_per_m * (wall.n.dot(rest->x_m) - wall.at_m);
+    force_error = std::max(force_error, std::abs(-rest->force_n.dot(wall.n) / due_n - 1.0));
   }
-  [[nodiscard]] double along(const Vector3& n) const { return -(f[1] - f[0]).dot(n) / (x[1] - x[0]).dot(n); }
-};
-
-void oblique(const MasterConfig& config, Trace& trace, std::vector<Metric>& metrics) {
-  constexpr double kStiffness = 2000.0;
-  const Vector3 n = Vector3(1.0, 0.5, -0.3).normalized();
-  Bench b(config, {{{n, 0.01, kStiffness}}, {}});
-  b.trace_into(&trace);
-  b.run(reach(Vector3::Zero()), 1.0);
-  b.run(reach(0.02 * n), 6.0);         // first touch, news, settles
-  b.run(reach(Vector3::Zero()), 2.0);  // out
-  b.run(reach(0.012 * n), 4.0);        // in again: felt at once
-  Slope slope;
-  b.run(reach(0.018 * n), 3.0);
-  slope.take(0, b);
-  const Vector3 beside = n.cross(Vector3::UnitZ()).normalized();
-  const double tangential_n = std::abs(b.out().F_H_M.force.dot(beside));
-  b.run(reach(0.026 * n), 3.0);
-  slope.take(1, b);
-  metrics.push_back({"oblique_displayed_error", std::abs(slope.along(n) / kStiffness - 1.0), ""});
-  metrics.push_back({"oblique_tangential_n", tangential_n, "N"});
-  const double surface_m = n.dot(slope.x[1]) - slope.f[1].norm() / kStiffness;
-  metrics.push_back({"oblique_registration_error_m", std::abs(surface_m - 0.01), "m"});
-  metrics.push_back({"oblique_port_energy_min_j", b.view().port_energy_min_j, "J"});
+  const double foot_m = wall.n.dot(more.x_m) + more.force_n.dot(wall.n) / slope;
+  metrics.push_back({name + "_displayed_error", std::abs(slope / wall.n_per_m - 1.0), ""});
+  metrics.push_back({name + "_force_error", force_error, ""});
+  metrics.push_back({name + "_registration_error_m", std::abs(foot_m - wall.at_m), "m"});
 }
 
-void corner(const MasterConfig& config, std::vector<Metric>& metrics) {
-  Bench b(config, {{{Vector3::UnitX(), 0.01, 1000.0}, {Vector3::UnitY(), 0.008, 2000.0}}, {}});
-  b.run(reach(Vector3::Zero()), 1.0);
-  b.run(reach({0.018, 0.0, 0.0}), 5.0);    // the first plane
-  b.run(reach({0.018, 0.015, 0.0}), 6.0);  // slides along it into the second
-  b.run(reach({0.0, 0.0, 0.0}), 2.0);
-  b.run(reach({0.015, 0.012, 0.0}), 4.0);
-  Slope slope;
-  slope.take(0, b);
-  b.run(reach({0.022, 0.020, 0.0}), 3.0);
-  slope.take(1, b);
-  metrics.push_back({"corner_displayed_error_x", std::abs(slope.along(Vector3::UnitX()) / 1000.0 - 1.0), ""});
-  metrics.push_back({"corner_displayed_error_y", std::abs(slope.along(Vector3::UnitY()) / 2000.0 - 1.0), ""});
-  metrics.push_back({"corner_port_energy_min_j", b.view().port_energy_min_j, "J"});
+void oblique(const ExperimentRun& run, std::vector<Metric>& metrics) {
+  const Wall wall{Vector3(1.0, 0.5, -0.3).normalized(), 0.01, 1000.0};
+  Trace trace(run.out, "oblique", {"t_s", "x_m", "y_m", "fx_n", "fy_n", "fz_n"});
+  Hand hand(master_of(run), slave_of(run, {wall}), run.seed);
+  hand.trace_into(&trace);
+  hand.to(0.016 * wall.n);
+  hand.wait();
+  hand.to(Vector3::Zero());
+  hand.to(0.017 * wall.n);
+  hand.wait();
+  const Rest less = hand.rest();
+  hand.to(0.022 * wall.n);
+  hand.wait();
+  const Rest more = hand.rest();
+  trace.close();
+  judge("oblique", wall, less, more, metrics);
+  const Vector3 across_n = more.force_n - wall.n.dot(more.force_n) * wall.n;
+  metrics.push_back({"oblique_tangential_n", across_n.norm(), "N"});
+  metrics.push_back({"oblique_port_energy_min_j", hand.port_energy_min_j(), "J"});
 }
 
-void torque(const MasterConfig& config, std::vector<Metric>& metrics) {
-  constexpr double kStiffness = 0.4;  // N m/rad
-  Bench b(config, {{}, {{Vector3::UnitX(), 0.1, kStiffness}}});
-  const auto turn = [](double rad) { return reach(Vector3::Zero(), {rad, 0.0, 0.0}); };
-  b.run(turn(0.0), 1.0);
-  b.run(turn(0.25), 5.0);
-  b.run(turn(0.0), 2.0);
-  b.run(turn(0.2), 4.0);
-  const auto sample = [&](int) {
-    return std::array{log_rotation(b.handle().q_MH).x(), b.out().F_H_M.moment.x()};
-  };
-  const auto first = sample(0);
-  b.run(turn(0.35), 3.0);
-  const auto second = sample(1);
-  const double displayed = -(second[1] - first[1]) / (second[0] - first[0]);
-  metrics.push_back({"torque_displayed_error", std::abs(displayed / kStiffness - 1.0), ""});
-  metrics.push_back({"torque_port_energy_min_j", b.view().port_energy_min_j, "J"});
+void corner(const ExperimentRun& run, const std::string& name, const std::vector<Vector3>& first,
+            std::vector<Metric>& metrics) {
+  const Wall walls[] = {{Vector3::UnitX(), 0.01, 800.0}, {Vector3::UnitY(), 0.01, 1200.0}};
+  Hand hand(master_of(run), slave_of(run, {walls[0], walls[1]}), run.seed);
+  for (const Vector3& place_m : first) {
+    hand.to(place_m);
+    hand.wait();
+  }
+  hand.to({0.016, 0.015, 0.0});
+  hand.wait();
+  const Rest less = hand.rest();
+  hand.to({0.022, 0.020, 0.0});
+  hand.wait();
+  const Rest more = hand.rest();
+  judge(name + "_x", walls[0], less, more, metrics);
+  judge(name + "_y", walls[1], less, more, metrics);
+  metrics.push_back({name + "_port_energy_min_j", hand.port_energy_min_j(), "J"});
+}
+
+void torque(const ExperimentRun& run, std::vector<Metric>& metrics) {
+  constexpr double kStop_nm_per_rad = 10.0, kEffect = 0.04, kStop_rad = 0.05;
+  MasterConfig master = master_of(run);
+  master.rendering.ke_rotation = kEffect;
+  Hand hand(master, slave_with_stop(run), run.seed);
+  hand.turn_to(0.12);
+  hand.wait();
+  hand.turn_to(0.0);
+  hand.wait();
+  hand.turn_to(0.12);
+  hand.wait();
+  const Rest less = hand.rest();
+  hand.turn_to(0.2);
+  hand.wait();
+  const Rest more = hand.rest();
+  const double slope = -(more.moment_nm - less.moment_nm) / (more.turn_rad - less.turn_rad);
+  metrics.push_back({"torque_displayed_error", std::abs(slope / (kEffect * kStop_nm_per_rad) - 1.0), ""});
+  metrics.push_back(
+      {"torque_registration_error_rad", std::abs(more.turn_rad + more.moment_nm / slope - kStop_rad), "rad"});
+  metrics.push_back({"torque_port_energy_min_j", hand.port_energy_min_j(), "J"});
 }
 
 }  // namespace
@@ -231,7 +195,7 @@ void torque(const MasterConfig& config, std::vector<Metric>& metrics) {
 std::vector<Plot> six_dof_contact_plots() {
   return {{.name = "six-dof-contact",
            .csv = "oblique",
-           .title = "An oblique plane of 2 N/mm, round trip 2.6 s",
+           .title = "An oblique plane of 1 N/mm that nobody described",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}}, ""},
@@ -239,13 +203,11 @@ std::vector<Plot> six_dof_contact_plots() {
 }
 
 std::vector<Metric> run_six_dof_contact(const ExperimentRun& run) {
-  const MasterConfig config = to_struct(run.config.master());
   std::vector<Metric> metrics;
-  Trace trace(run.out, "oblique", {"t_s", "x_m", "y_m", "fx_n", "fy_n", "fz_n", "turn_rad", "moment_nm"});
-  oblique(config, trace, metrics);
-  trace.close();
-  corner(config, metrics);
-  torque(config, metrics);
+  oblique(run, metrics);
+  corner(run, "corner", {{0.016, 0.0, 0.0}, {0.016, 0.015, 0.0}, Vector3::Zero()}, metrics);
+  corner(run, "diagonal", {{0.016, 0.015, 0.0}, Vector3::Zero()}, metrics);
+  torque(run, metrics);
   return metrics;
 }
 

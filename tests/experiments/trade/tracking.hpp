@@ -21,10 +21,10 @@ struct Tracking {
 /// `settings`: PATH=VALUE, beyond those of the run; over `analog` unless they name a profile.
 Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
-/// The experiment `touch` over the same link; the mean over some seeds.
+/// The experiment `touch` over the same link, with some seeds.
 struct Touched {
-  double stiffness_error = 0.0;
-  double return_bit_per_s = 0.0;
+  double stiffness_error = 0.0;   // the worst of them
+  double return_bit_per_s = 0.0;  // their mean
 };
 Touched touched(const ExperimentRun& run, std::vector<std::string> settings);
 

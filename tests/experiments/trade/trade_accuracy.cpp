@@ -1,5 +1,5 @@
 // The preset `accuracy`, end to end: what a millisecond of both sides costs, against how well the tool
-// follows the hand and how right walls of 500 to 4000 N/m feel.
+// follows the hand and how right the worst of four walls of 500 to 4000 N/m feels.
 
 #include "tests/experiments/trade/tracking.hpp"
 #include "tests/experiments/trade/trade.hpp"
@@ -35,10 +35,9 @@ std::vector<TradePoint> measure_stiffness(const ExperimentRun& run) {
   for (const std::string preset : kPresets) {
     double error = 0.0;
     for (const std::string wall : kWalls) {
-      error += touched(run, {"accuracy=" + preset, "scene.material.wall.stiffness_n_per_m=" + wall,
-                             "scene.material.wall.exponent=1.5", "estimator.exponent=1.5"})
-                   .stiffness_error /
-               std::size(kWalls);
+      const Touched one = touched(run, {"accuracy=" + preset, "scene.material.wall.stiffness_n_per_m=" + wall,
+                                        "scene.material.wall.exponent=1.5"});
+      error = std::max(error, one.stiffness_error);
     }
     points.push_back(point_of(preset, track(run, {"accuracy=" + preset}).cost_us, 100.0 * error));
   }
@@ -66,7 +65,7 @@ TradeStage trade_accuracy_tracking() {
 
 TradeStage trade_accuracy_stiffness() {
   return stage("accuracy_stiffness", "The preset of accuracy: walls of 500 to 4000 N/m",
-               "error of the displayed stiffness", "%", measure_stiffness);
+               "error of the displayed stiffness, worst wall", "%", measure_stiffness);
 }
 
 }  // namespace longreach

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace longreach {
@@ -125,6 +126,46 @@ TEST(Renderer, AnEngagementThatBeginsAtTheDevicesEdgeOwesNothingAndStartsFromIts
     before = force;
   }
   EXPECT_LT(renderer.translation().guard.deficit_max_j(), 2e-3);
+}
+
+/// Presses by 20 mm at 50 mm/s and keeps moving; half way through a report comes of a wall behind the hand.
+double step_by_a_report(RenderingLaw law, bool reports) {
+  RenderingConfig config;
+  config.law = law;
+  Renderer renderer(config, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  GoalHistories history(1000);
+  RendererInput in;
+  in.live = true;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  double largest_n = 0.0;
+  for (int i = 1; i <= 400; ++i) {
+    in.handle.p_MH.x() = 5e-5 * i;
+    in.handle.velocity_m_per_s = {0.05, 0.0, 0.0};
+    mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+    history.translation.push(static_cast<std::uint64_t>(i), mapping.goal().position_m);
+    history.rotation.push(static_cast<std::uint64_t>(i), mapping.goal().rotation_rad);
+    if (i == 100 || (reports && i == 200)) {
+      StiffnessReport report;
+      report.translation.surfaces[0] = {.normal = -Vector3::UnitX(),
+                                        .stiffness = i == 100 ? 500.0 : 5000.0,
+                                        .touch_sequence = 50.0,
+                                        .touch = 1,
+                                        .pressed = true};
+      EXPECT_TRUE(renderer.on_report(report, history, in, mapping));
+    }
+    (void)renderer.step(in, mapping);
+    if (i > 100) largest_n = std::max(largest_n, i == 200 || !reports ? renderer.force_step_n() : 0.0);
+  }
+  return largest_n;
+}
+
+TEST(Renderer, TheStepOfAReportIsThatOfItsLawAndMotionIsNone) {
+  EXPECT_GT(step_by_a_report(RenderingLaw::kNaive, true), 10.0);
+  EXPECT_LT(step_by_a_report(RenderingLaw::kStiffness, true), 0.1);
+  // The value of the first report stays: what the hand does after it adds nothing.
+  EXPECT_LT(step_by_a_report(RenderingLaw::kStiffness, false), 0.1);
 }
 
 }  // namespace
