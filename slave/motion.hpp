@@ -39,6 +39,8 @@ class SlaveMotion {
   /// At rest at these joints, moved into their limits.
   void reset(const JointVector& joint_rad);
 
+  /// An engagement begins: the tool may give way anew.
+  void renew() { limiter_.renew(); }
   /// Returns what had to be clamped.
   Clamps step(const MotionInput& input);
 

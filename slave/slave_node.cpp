@@ -176,6 +176,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.sensor_fault = robot_ok && !sensor_ok;
   in.sensor_sign = doubt.wrong_sign();
   in.no_relief = motion.no_relief() || doubt.no_relief();
+  in.comes = doubt.comes(contact.normal());
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -237,6 +238,7 @@ void SlaveNode::State::begin_engagement() {
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
   doubt.reset();
+  motion.renew();
   turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
@@ -248,8 +250,7 @@ void SlaveNode::State::begin_engagement() {
 }
 
 void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> commands) {
-  const SafetyState now = safety.state();
-  if (now != SafetyState::kEngaged && now != SafetyState::kHolding) return;
+  if (!safety.follows()) return;
   for (const Received<MotionCommand>& received : commands) {
     const MotionCommand& command = received.message;
     if (command.engagement != safety.engagement() || command.request != Request::kEngage ||
@@ -314,19 +315,19 @@ bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
 
 void SlaveNode::State::feel(Time now, double dt) {
   const bool engaged = safety.state() == SafetyState::kEngaged;
-  const bool follows = engaged || safety.state() == SafetyState::kHolding;
   if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
   const double news_age_s = safety.news_age_s(now) + playout.delay_s();
   if (needs.contact) {
-    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
-                  view.clamps.force_guard, sensor.doubt_n(), news_age_s});
-    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(), safety.state());
+    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, safety.follows() ? played_sequence : 0.0, scale,
+                  dt, view.clamps.force_guard, sensor.doubt_n(), news_age_s});
+    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(),
+               {safety.state(), let_go, lead.still()});
   }
   if (needs.rotation) {
     const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
     const Vector3 moment_nm = needs.contact ? free_moment_nm(view.F_E_W) : view.F_E_W.moment;
-    turn_contact.step({turn, V_WE.angular, moment_nm, follows ? played_turn_sequence : 0.0, scale, dt,
-                       view.clamps.moment_guard, sensor.doubt_nm(), news_age_s});
+    turn_contact.step({turn, V_WE.angular, moment_nm, safety.follows() ? played_turn_sequence : 0.0, scale,
+                       dt, view.clamps.moment_guard, sensor.doubt_nm(), news_age_s});
   }
   // Between engagements the zero is renewed.
   if (engaged || contact.in_contact() || turn_contact.in_contact()) return sensor.abandon();
@@ -334,17 +335,14 @@ void SlaveNode::State::feel(Time now, double dt) {
 }
 
 // Not while it is stopped, not ok, or its sensor is not believed.
-bool SlaveNode::State::reflexes_move() const {
-  const bool moves = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
-  return moves && robot_ok && sensor_ok;
-}
+bool SlaveNode::State::reflexes_move() const { return safety.follows() && robot_ok && sensor_ok; }
 
 // What the reflexes know: no force where they must not move the robot.
 ContactForce SlaveNode::State::pressed() const {
   ContactForce force = contact.force();
-  if (!reflexes_move()) force.force_n = 0.0;
   force.lead_m = -force.reaction.dot(lead.m());
   doubt.tell(force, lead.m());
+  if (!reflexes_move()) force.force_n = force.retreat_m_per_s = 0.0;
   return force;
 }
 

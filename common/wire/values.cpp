@@ -38,7 +38,7 @@ std::uint32_t number_of(HoldCause cause) { return static_cast<std::uint32_t>(cau
 /// Where it is; of a cause without a place nothing.
 void write(const Reason& reason, Floats& place) {
   place.Clear();
-  if (reason.joint == 0 && reason.limit == 0.0) return;
+  if (reason.joint == 0 && reason.limit == 0.0 && reason.value == 0.0) return;
   place.Add(static_cast<float>(reason.joint));
   for (const double x : {reason.value, reason.limit})
     place.Add(static_cast<float>(std::clamp(x, -kPlaceMax, kPlaceMax)));

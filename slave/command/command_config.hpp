@@ -18,6 +18,7 @@ struct CommandConfig {
   std::uint32_t iterations_max = 20;
   double hold_force_n = 0.0;
   double moment_guard_nm = 5.0;
+  double give_way_m = 0.2;
 };
 
 /// Of the stiffest stop that the moment guard reckons with.

@@ -17,7 +17,7 @@ constexpr double kAlong = 0.3;     // cosine: not across
 
 void ContactGuard::approach(const ContactForce& contact, double dt) {
   bleed_.reset();
-  const bool calm = !contact.in_contact || contact.force_n <= limits_.guard_n;
+  const bool calm = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
   calm_s_ = calm ? calm_s_ + dt : 0.0;
   if (calm_s_ > kCalm_s) relief_.reset();
 }
@@ -32,6 +32,7 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
   const double left_m = (limits_.guard_n - contact.force_n) / k - coming_m;
   const double speed = braking(left_m, coming_m);
   cap.speed = (left_m > 0.0 ? speed : -speed) - bleed_off(contact, limits_.guard_n);
+  if (contact.gives_way) cap.speed = std::min(cap.speed, -contact.retreat_m_per_s);
   cap.speed = std::max(cap.speed, -give_way_max(contact));
   return cap;
 }
@@ -54,13 +55,16 @@ VelocityCap ContactGuard::growth(const ContactForce& contact) const {
 }
 
 bool ContactGuard::advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt) {
-  if (!contact.in_contact || !(contact.force_n > limits_.guard_n)) return false;
-  if (capped) give_way(contact, v, dt);
-  return !relief_.may_go_on();
+  if (!contact.in_contact || !(contact.force_n > limits_.guard_n || contact.gave_way)) return false;
+  const bool in = v.dot(contact.reaction) < 0.0;
+  if (capped || in) give_way(contact, v, dt);
+  if (!(contact.force_n > limits_.guard_n || contact.gives_way)) return false;
+  // An operator who retreats by himself is not held up.
+  return !relief_.may_go_on() && (capped || !(v.dot(contact.reaction) > 0.0));
 }
 
 Vector3 ContactGuard::back_off(const ContactForce& contact, const Vector3& p) {
-  const double wanted = hold_off(contact, p);
+  const double wanted = std::max(hold_off(contact, p), contact.retreat_m_per_s);
   backs_off_ = wanted > 0.0;
   return std::max(std::min(wanted, give_way_max(contact)), contact.ease_m_per_s) * contact.reaction;
 }
@@ -72,7 +76,7 @@ bool ContactGuard::backed_off(const ContactForce& contact, const Vector3& v, dou
 }
 
 void ContactGuard::give_way(const ContactForce& contact, const Vector3& v, double dt) {
-  relief_.go(v.dot(contact.reaction) * dt, contact.force_n, dt);
+  relief_.go(v.dot(contact.reaction) * dt, contact.force_n, dt, contact.trend_n_per_s);
 }
 
 // Speed from which it can still end within what is left of its way.

@@ -30,6 +30,10 @@ struct ContactForce {
   double grows_lead_m = 0.0;           // of the setpoint in that direction
   bool trusted = true;                 // false: the tool gives way to nothing
   double ease_m_per_s = 0.0;           // but without a goal so fast, to see whether the force answers
+  bool gives_way = false;              // to what grows at rest (force_answer.hpp), at this speed:
+  double retreat_m_per_s = 0.0;
+  bool gave_way = false;       // ever in this contact: the way that is given counts till it ends
+  double trend_n_per_s = 0.0;  // that it grows by at rest
 };
 
 struct GuardLimits {
@@ -38,6 +42,7 @@ struct GuardLimits {
   double stiffness_n_per_m = 2e4;  // k_max
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a
+  double give_way_m = 1e9;              // longest way that is given
 };
 
 /// What differs between force and moment.
@@ -54,7 +59,12 @@ class ContactGuard {
   explicit ContactGuard(const GuardScale& scale) : scale_(scale), relief_(scale.relief) {}
 
   /// Holds in the calls that follow.
-  void limit(const GuardLimits& limits) { limits_ = limits; }
+  void limit(const GuardLimits& limits) {
+    limits_ = limits;
+    relief_.limit(limits.give_way_m);
+  }
+  /// An engagement begins: the way that may be given, too.
+  void renew() { relief_.reset(); }
 
   /// Towards a goal, first of all in a step.
   void approach(const ContactForce& contact, double dt);

@@ -37,7 +37,7 @@ void GoalLimiter::limit_guards(bool let_go) {
   const CommandConfig& c = config_;
   const double force_hold_n = hold_limit_n(c), moment_hold_nm = hold_limit_nm(c);
   force_.limit({let_go ? force_hold_n : c.force_guard_n, force_hold_n, c.guard_stiffness_n_per_m,
-                c.speed_max_m_per_s, c.acceleration_max_m_per_s2});
+                c.speed_max_m_per_s, c.acceleration_max_m_per_s2, c.give_way_m});
   moment_.limit({let_go ? moment_hold_nm : c.moment_guard_nm, moment_hold_nm, kGuardStiffness_nm_per_rad,
                  c.speed_max_rad_per_s, c.acceleration_max_rad_per_s2});
 }
@@ -87,7 +87,10 @@ void GoalLimiter::move(double dt) {
 
 // True: the tool would give way, but the force or the moment has not answered.
 bool GoalLimiter::brake(const LimiterInput& input) {
-  const Vector3 back = force_.back_off(input.contact, X_WE_.p);
+  Vector3 back = force_.back_off(input.contact, X_WE_.p);
+  const VelocityCap edge = workspace(input.dt);
+  const double over = edge.active ? back.dot(edge.direction) - edge.speed : 0.0;
+  if (over > 0.0) back -= over * edge.direction;
   const Vector3 turn_back = moment_.back_off(input.moment, turned_rad_);
   V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * input.dt);
   V_WE_.angular += clamp_norm(turn_back - V_WE_.angular, config_.acceleration_max_rad_per_s2 * input.dt);

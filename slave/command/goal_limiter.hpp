@@ -44,6 +44,12 @@ class GoalLimiter {
   /// The robot could only be asked for `X_WE` instead of the last setpoint, `dt` after the one before.
   void correct(const Pose& X_WE, double dt);
 
+  /// An engagement begins: the tool may give way anew.
+  void renew() {
+    force_.renew();
+    moment_.renew();
+  }
+
   LimiterOutput step(const LimiterInput& input);
 
   [[nodiscard]] const std::optional<Pose>& goal() const {

@@ -1,4 +1,4 @@
-// I21: force and moment at the plant, and what becomes of it when the robot stops.
+// I21: force and moment at the plant, and what becomes of it, and of the tool, when the robot stops.
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +143,33 @@ class TurnRelieved : public Invariant {
   bool lied_ = false;
 };
 
+/// Whatever presses or lies: no further from where the hold began than giving way may lead, and braking.
+class HeldPlace : public Invariant {
+ public:
+  explicit HeldPlace(const Scenario& s)
+      : Invariant("I21e", "in a hold the tool gives way no further than command.give_way_m"),
+        way_m_(s.slave.command.give_way_m),
+        a_(s.slave.command.acceleration_max_m_per_s2) {}
+  void see(const Moment& m) override {
+    const bool moved = m.since(Spoils::kRobot) < kCalm_s || m.since(Spoils::kJoints) < kCalm_s ||
+                       m.since(Spoils::kSlaveTime) < kCalm_s;
+    const bool holds = m.claimed == SafetyState::kHolding && !m.ghost->right().engaged;
+    if (!holds || moved) {
+      place_m_ = m.X_WE.p;
+      braking_m_ = m.v_WE.norm() * (kReact_s + 0.5 * m.v_WE.norm() / a_);
+      return;
+    }
+    at_most(m, (m.X_WE.p - place_m_).norm(), way_m_ + braking_m_ + kSlack_m, "m in a hold");
+  }
+
+ private:
+  static constexpr double kReact_s = 0.3, kSlack_m = 2e-3;
+
+  double way_m_, a_;
+  Vector3 place_m_ = Vector3::Zero();
+  double braking_m_ = 0.0;
+};
+
 }  // namespace
 
 void add_contact_invariants(const Scenario& s, Invariants& all) {
@@ -150,6 +177,7 @@ void add_contact_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Relieved>(s));
   all.push_back(std::make_unique<TurnGuarded>(s));
   all.push_back(std::make_unique<TurnRelieved>(s));
+  all.push_back(std::make_unique<HeldPlace>(s));
 }
 
 }  // namespace longreach

@@ -18,7 +18,8 @@ std::vector<std::string> guard_names() {
        {HoldCause::kOperator, HoldCause::kPeerHolds, HoldCause::kLinkSilent, HoldCause::kPeerRestarted,
         HoldCause::kRobotFault, HoldCause::kJointLeapt, HoldCause::kJointOutside, HoldCause::kHandleLetGo,
         HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled, HoldCause::kOverrun,
-        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief})
+        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief,
+        HoldCause::kWallComes})
     all.push_back(cause_name("slave", cause));
   for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose,
                                 HoldCause::kDeviceFault, HoldCause::kHandleLetGo})

@@ -20,6 +20,7 @@ std::vector<Looseness> looseness(const SlaveConfig& c) {
           {"command.force_guard_n", c.command.force_guard_n},
           {"command.hold_force_n", hold_limit_n(c.command)},
           {"command.moment_guard_nm", c.command.moment_guard_nm},
+          {"command.give_way_m", c.command.give_way_m},
           {"command.workspace_m", c.command.workspace_m},
           {"sensing.touch_n", c.sensing.touch_n},
           {"sensing.filter_s", c.sensing.filter_s},

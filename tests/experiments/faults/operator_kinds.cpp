@@ -75,6 +75,7 @@ void loosen_slave(World& world, Active& fault) {
                                  "command.force_guard_n",
                                  "command.hold_force_n",
                                  "command.moment_guard_nm",
+                                 "command.give_way_m",
                                  "command.guard_stiffness_n_per_m",
                                  "command.workspace_m",
                                  "command.tolerance_m",
