@@ -64,6 +64,7 @@ struct MasterNode::State {
     view.mode = c.mapping.mode;
     view.scale = c.mapping.scale;
     view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
+    view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   }
 
   void decide(const MasterInput& input);
@@ -325,6 +326,8 @@ void MasterNode::State::publish(const Wrench& F) {
   view.tank_j = linear.tank.level_j();
   view.force_clamped = linear.guard.clamped() || linear.contact.yielding();
   view.stiffness_clamped = linear.contact.clamped();
+  view.rotational_stiffness_clamped = config.device.turns && angular.contact.clamped();
+  view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   view.damping_injected = linear.guard.injecting() || angular.guard.injecting();
   view.false_holds = safety.false_holds();
 }

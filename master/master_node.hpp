@@ -74,9 +74,10 @@ struct MasterView {
   Vector3 inward = Vector3::Zero();    // unit, into the surface, M
   double stiffness_n_per_m = 0.0;      // rendered now, along the inward normal
   double stiffness_max_n_per_m = 0.0;  // the most that is: of the device, or as configured
-  Vector3 spring_moment_nm = Vector3::Zero();    // of a contact in rotation
-  double rotational_stiffness_nm_per_rad = 0.0;  // rendered now, about the foremost axis
-  double force_step_n = 0.0;                     // of the spring force, by the last report that was applied
+  Vector3 spring_moment_nm = Vector3::Zero();        // of a contact in rotation
+  double rotational_stiffness_nm_per_rad = 0.0;      // rendered now, about the foremost axis
+  double rotational_stiffness_max_nm_per_rad = 0.0;  // the most that is
+  double force_step_n = 0.0;       // of the spring force, by the last report that was applied
   double port_energy_j = 0.0;      // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
   double port_energy_min_j = 0.0;  // least of it since an engagement began, of all of them
   double stored_energy_j = 0.0;
@@ -84,6 +85,7 @@ struct MasterView {
   double tank_j = 0.0;
   bool force_clamped = false;
   bool stiffness_clamped = false;
+  bool rotational_stiffness_clamped = false;
   bool damping_injected = false;
   std::uint64_t reports = 0;          // applied
   std::uint64_t rejected_values = 0;  // ignored: not finite, out of range

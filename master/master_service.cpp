@@ -30,6 +30,7 @@ void add_view(proto::Status& out, const MasterView& view) {
   out.set_energy_min_j(view.port_energy_min_j);
   if (view.force_clamped) out.add_clamped("force at the hand");
   if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
+  if (view.rotational_stiffness_clamped) out.add_clamped("rotational stiffness at the hand");
   if (view.damping_injected) out.add_clamped("energy at the hand");
   if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps);
 }

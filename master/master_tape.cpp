@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(HandleState) == 112 && sizeof(OperatorRequests) == 32);
-static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 1008);
+static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 1040);
 
 MasterTape::MasterTape(double rate_hz, Duration to_log_time)
     : Tape("master", to_log_time),
@@ -206,6 +206,7 @@ void write(const MasterView& v, recording::MasterView& out) {
   out.set_tank_j(v.tank_j);
   out.set_force_clamped(v.force_clamped);
   out.set_stiffness_clamped(v.stiffness_clamped);
+  out.set_rotational_stiffness_clamped(v.rotational_stiffness_clamped);
   out.set_damping_injected(v.damping_injected);
   out.set_reports(v.reports);
   out.set_rejected_values(v.rejected_values);

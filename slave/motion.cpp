@@ -11,6 +11,8 @@ constexpr double kFarRad = 0.1;        // a solution farther off than this is no
 constexpr double kAside = 5e-3;        // of the length: so far the tool may leave its way there
 constexpr double kTurningShare = 0.8;  // of what a joint may do, on its way to another solution
 
+bool touches(const MotionInput& input) { return input.contact.in_contact || input.moment.in_contact; }
+
 }  // namespace
 
 SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
@@ -43,17 +45,18 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
 }
 
 Clamps SlaveMotion::step(const MotionInput& input) {
-  const bool waits = input.X_WE_goal && !input.contact.in_contact;
+  const bool waits = input.X_WE_goal && !touches(input);
   const bool ends = waits && patience_.ends(X_WE_, *input.X_WE_goal, input.dt);
   if (!ends) stands_.reset();
   if (!waits) patience_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
-  const LimiterOutput wanted =
-      limiter_.step({stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go});
+  const LimiterOutput wanted = limiter_.step(
+      {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment});
   clamps.tool_speed = wanted.tool_speed;
   clamps.acceleration = wanted.acceleration;
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;
+  clamps.moment_guard = wanted.moment_guard;
   no_relief_ = wanted.no_relief;
 
   if (!limiter_.at_rest()) {
@@ -129,7 +132,7 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   if (!singular && !turning_ && found.status != InverseStatus::kNearest) return found;
   const bool turned = turning_;
   turning_ = false;
-  if (input.contact.in_contact) return found;
+  if (touches(input)) return found;
   const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
   const double aside_m = singular || turned ? kAside * kinematics().motion_length_m() : 0.0;
   const bool homes = singular && inverse_.closed().applies();  // a search would not come back in time

@@ -26,8 +26,9 @@ constexpr double kSingularBand = 0.08;
 struct MotionInput {
   std::optional<Pose> X_WE_goal{};  // none: brake and stay
   ContactForce contact{};
-  double dt = 0.0;      // > 0, s, the same in every step
-  bool let_go = false;  // nobody holds the handle: what presses comes down to the hold limit
+  double dt = 0.0;        // > 0, s, the same in every step
+  bool let_go = false;    // nobody holds the handle: what presses comes down to the hold limit
+  ContactForce moment{};  // of a contact by rotation: N are N m, m are rad
 };
 
 class SlaveMotion {
@@ -38,6 +39,8 @@ class SlaveMotion {
   /// At rest at these joints, moved into their limits.
   void reset(const JointVector& joint_rad);
 
+  /// An engagement begins: the tool may give way anew.
+  void renew() { limiter_.renew(); }
   /// Returns what had to be clamped.
   Clamps step(const MotionInput& input);
 
@@ -52,7 +55,7 @@ class SlaveMotion {
   }
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
-  /// The tool would give way to a force that has not answered to that.
+  /// The tool would give way to a force or a moment that has not answered to that.
   [[nodiscard]] bool no_relief() const { return no_relief_; }
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its limit of jerk
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }

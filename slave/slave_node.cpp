@@ -5,8 +5,6 @@
 
 #include "common/link/playout.hpp"
 #include "common/link/time_watch.hpp"
-#include "slave/command/held_back.hpp"
-#include "slave/command/servo_lag.hpp"
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
 #include "slave/force_doubt.hpp"
@@ -14,17 +12,19 @@
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
 #include "slave/robot_watch.hpp"
+#include "slave/sensing/free_moment.hpp"
 #include "slave/sensing/sensor_watch.hpp"
 #include "slave/sensing/tool_load.hpp"
+#include "slave/setpoint_lead.hpp"
 #include "slave/slave_reports.hpp"
 #include "slave/slave_safety.hpp"
+#include "slave/tool_held_back.hpp"
 
 namespace longreach {
 namespace {
 
-constexpr double kDtMax = 0.02;                           // a later tick moves no further than this
-constexpr double kReachedM = 1e-3, kReachedRad = 0.01;    // a goal counts as reached
-constexpr double kHeldBackM = 2e-3, kHeldBackRad = 0.02;  // from its goal: the tool does not follow
+constexpr double kDtMax = 0.02;                         // a later tick moves no further than this
+constexpr double kReachedM = 1e-3, kReachedRad = 0.01;  // a goal counts as reached
 constexpr double kZeroMax = 0.5;  // of the guard, that a zero may take for the sensor's bias
 
 }  // namespace
@@ -40,7 +40,7 @@ struct SlaveNode::State {
         joints(config.robot),
         watch(config.robot),
         right(config.robot),
-        servo(config.robot.servo_hz),
+        lead(config.robot.servo_hz),
         witness(config.sensing, config.command),
         doubt(config.sensing, config.command),
         sensor(config.sensing, kZeroMax * config.command.force_guard_n),
@@ -62,6 +62,8 @@ struct SlaveNode::State {
   void feel(Time now, double dt);
   [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
   [[nodiscard]] ContactForce pressed() const;
+  [[nodiscard]] ContactForce turned() const;
+  [[nodiscard]] bool reflexes_move() const;
   void book_reached();
   void book_held_back(const Clamps& clamps, double dt);
   void show(const Clamps& clamps, std::uint64_t rejected_values);
@@ -75,8 +77,7 @@ struct SlaveNode::State {
   JointWitness joints;
   RobotWatch watch;
   CommandRight right;
-  ServoLag servo;
-  Vector3 lead_m = Vector3::Zero();  // of the setpoint before the tool
+  SetpointLead lead;
   SensorWatch witness;
   ForceDoubt doubt;
   ToolCompensation sensor;
@@ -98,7 +99,7 @@ struct SlaveNode::State {
   bool grip = false;    // likewise: a hold or a silence drops nothing
   double played_sequence = 0.0, played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
-  HeldBack held_back{kHeldBackM}, turn_held_back{kHeldBackRad};
+  ToolHeldBack held_back;
   std::uint64_t rejected_values = 0;
 };
 
@@ -148,9 +149,9 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   output.grip = s.grip;
   s.reports.report(input, s.view, s.reached_sequence,
                    {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
-                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.direction(), s.X_WE_anchor.p},
+                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
                    {s.turn_contact, log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
-                    s.turn_held_back.direction(), Vector3::Zero()},
+                    s.held_back.turn(), Vector3::Zero()},
                    output);
   s.reports.telemetry(input, s.view, s.robot_ok, s.contact.foremost().depth_m(), output);
   s.view.touch_sequence = s.contact.foremost().touch_sequence();
@@ -175,6 +176,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.sensor_fault = robot_ok && !sensor_ok;
   in.sensor_sign = doubt.wrong_sign();
   in.no_relief = motion.no_relief() || doubt.no_relief();
+  in.comes = doubt.comes(contact.normal());
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -219,8 +221,7 @@ void SlaveNode::State::watch_robot(const RobotState& robot) {
 // Nobody commands the robot: what would be the setpoint is where it is.
 void SlaveNode::State::follow(const RobotState& robot) {
   motion.reset(robot.joint_rad);
-  servo.reset(motion.X_WE().p);
-  lead_m.setZero();
+  lead.reset(motion.X_WE());
 }
 
 // By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
@@ -228,8 +229,8 @@ void SlaveNode::State::follow(const RobotState& robot) {
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
   const bool brakes = safety.brakes() || doubt.rests();
-  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt, let_go});
-  lead_m = servo.step(motion.X_WE().p, dt);
+  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt, let_go, turned()});
+  lead.step(motion.X_WE(), dt);
   return clamps;
 }
 
@@ -237,6 +238,7 @@ void SlaveNode::State::begin_engagement() {
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
   doubt.reset();
+  motion.renew();
   turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
@@ -248,8 +250,7 @@ void SlaveNode::State::begin_engagement() {
 }
 
 void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> commands) {
-  const SafetyState now = safety.state();
-  if (now != SafetyState::kEngaged && now != SafetyState::kHolding) return;
+  if (!safety.follows()) return;
   for (const Received<MotionCommand>& received : commands) {
     const MotionCommand& command = received.message;
     if (command.engagement != safety.engagement() || command.request != Request::kEngage ||
@@ -314,33 +315,44 @@ bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
 
 void SlaveNode::State::feel(Time now, double dt) {
   const bool engaged = safety.state() == SafetyState::kEngaged;
-  const bool follows = engaged || safety.state() == SafetyState::kHolding;
   if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
   const double news_age_s = safety.news_age_s(now) + playout.delay_s();
   if (needs.contact) {
-    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, follows ? played_sequence : 0.0, scale, dt,
-                  view.clamps.force_guard, sensor.doubt_n(), news_age_s});
-    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(), safety.state());
+    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, safety.follows() ? played_sequence : 0.0, scale,
+                  dt, view.clamps.force_guard, sensor.doubt_n(), news_age_s});
+    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(),
+               {safety.state(), let_go, lead.still()});
   }
   if (needs.rotation) {
     const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
-    turn_contact.step({turn, V_WE.angular, view.F_E_W.moment, follows ? played_turn_sequence : 0.0, scale, dt,
-                       false, sensor.doubt_nm(), news_age_s});
+    const Vector3 moment_nm = needs.contact ? free_moment_nm(view.F_E_W) : view.F_E_W.moment;
+    turn_contact.step({turn, V_WE.angular, moment_nm, safety.follows() ? played_turn_sequence : 0.0, scale,
+                       dt, view.clamps.moment_guard, sensor.doubt_nm(), news_age_s});
   }
   // Between engagements the zero is renewed.
   if (engaged || contact.in_contact() || turn_contact.in_contact()) return sensor.abandon();
   if (!sensor.zeroing()) sensor.zero();
 }
 
-// What the reflexes know: no force where they must not move the robot, because it is stopped, not ok, or its
-// sensor is not believed.
+// Not while it is stopped, not ok, or its sensor is not believed.
+bool SlaveNode::State::reflexes_move() const { return safety.follows() && robot_ok && sensor_ok; }
+
+// What the reflexes know: no force where they must not move the robot.
 ContactForce SlaveNode::State::pressed() const {
-  const bool moves = safety.state() == SafetyState::kEngaged || safety.state() == SafetyState::kHolding;
   ContactForce force = contact.force();
-  if (!moves || !robot_ok || !sensor_ok) force.force_n = 0.0;
-  force.lead_m = -force.reaction.dot(lead_m);
-  doubt.tell(force, lead_m);
+  force.lead_m = -force.reaction.dot(lead.m());
+  doubt.tell(force, lead.m());
+  if (!reflexes_move()) force.force_n = force.retreat_m_per_s = 0.0;
   return force;
+}
+
+// Likewise of a contact by rotation.
+ContactForce SlaveNode::State::turned() const {
+  ContactForce moment = turn_contact.force();
+  if (!reflexes_move()) moment.force_n = 0.0;
+  moment.lead_m = -moment.reaction.dot(lead.rad());
+  moment.trusted = !doubt.rests();
+  return moment;
 }
 
 void SlaveNode::State::book_reached() {
@@ -352,21 +364,9 @@ void SlaveNode::State::book_reached() {
 }
 
 void SlaveNode::State::book_held_back(const Clamps& clamps, double dt) {
-  if (safety.state() != SafetyState::kEngaged || !robot_ok) {
-    held_back.reset();
-    turn_held_back.reset();
-    return;
-  }
-  const bool arm = clamps.joint_position || clamps.singularity || clamps.unreachable;
-  // Several limits at once act in no direction of one of them.
-  Vector3 along = Vector3::Zero();
-  if (!arm && clamps.workspace && !clamps.force_guard)
-    along = (view.X_WE.p - motion.workspace_centre_m()).stableNormalized();
-  if (!arm && !clamps.workspace && contact.in_contact()) along = -contact.normal();
-  held_back.step(view.X_WE.p - X_WE_anchor.p, view.X_WE_goal.p - view.X_WE.p,
-                 arm || clamps.workspace || clamps.force_guard, along, dt);
-  turn_held_back.step(log_rotation(view.X_WE.q * X_WE_anchor.q.conjugate()),
-                      log_rotation(view.X_WE_goal.q * view.X_WE.q.conjugate()), arm, Vector3::Zero(), dt);
+  if (safety.state() != SafetyState::kEngaged || !robot_ok) return held_back.reset();
+  held_back.step({clamps, view.X_WE, view.X_WE_goal, X_WE_anchor, motion.workspace_centre_m(), dt}, contact,
+                 turn_contact);
 }
 
 void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {

@@ -14,6 +14,7 @@ void merge(Clamps& all, const Clamps& one) {
   all.singularity = all.singularity || one.singularity;
   all.unreachable = all.unreachable || one.unreachable;
   all.acceleration = all.acceleration || one.acceleration;
+  all.moment_guard = all.moment_guard || one.moment_guard;
 }
 
 // The goal may not run ahead of a tool that is held back: while it moves, that is told more often than by the

@@ -200,7 +200,8 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
   } else if (rule.to == State::kFault) {
     if (state_ != State::kFault) cause_ = rule.demand == Demand::kRobotFault ? in.robot : Reason(rule.cause);
   } else if (cause_ == HoldCause::kNone || rule.demand == Demand::kNoRelief) {
-    cause_ = rule.cause;
+    const bool comes = rule.demand == Demand::kNoRelief && in.comes != HoldCause::kNone;
+    cause_ = comes ? in.comes : Reason(rule.cause);
   }
   if (state_ == State::kEngaged && rule.to != State::kEngaged) {
     left_at_ = in.stalled_since.value_or(in.now);

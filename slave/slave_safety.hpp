@@ -10,8 +10,8 @@
 //   Engaged, Holding, Stopped  the robot is not where its setpoints lead Fault      robot does not follow
 //   any but Fault              a stop is asked for, on either side       Stopped    operator
 //   any                        a new engagement is asked for             Engaged    -
-//   Engaged, Holding           the force does not fall as the robot      Holding  no relief
-//                              gives way
+//   Engaged, Holding           the force does not fall as the robot      Holding  no relief, or wall comes
+//                              gives way, or the way is used up
 //   Engaged                    another master has taken the robot        Holding    taken by another master
 //   Engaged                    the master began a new session            Holding    other side restarted
 //   Engaged                    this tick came later than the gap timer   Holding    stalled
@@ -60,7 +60,8 @@ struct SlaveSafetyInput {
   bool robot_astray = false;             // it is not where its setpoints lead
   bool sensor_fault = false;             // its force sensor says what no contact could do
   bool sensor_sign = false;              // the force grows along what should relieve it
-  bool no_relief = false;                // the force does not answer to relief
+  bool no_relief = false;                // the force does not answer to relief,
+  Reason comes{};                        // or it does, the way is used up, and where it comes from
   bool stop = false;                     // asked for on this side
   std::optional<Time> stalled_since{};   // the tick before, where it is longer ago than the gap timer
   bool delay_rose = false;               // the round trip, by more than delay_rise_max_s
@@ -85,6 +86,10 @@ class SlaveSafety {
   bool step(const SlaveSafetyInput& input);
 
   [[nodiscard]] SafetyState state() const { return state_; }
+  /// Engaged, or in a hold: the robot moves by itself, if only to give way.
+  [[nodiscard]] bool follows() const {
+    return state_ == SafetyState::kEngaged || state_ == SafetyState::kHolding;
+  }
   [[nodiscard]] const Reason& cause() const { return cause_; }
   /// The engagement that is asked for and not granted, and why; 0: none.
   [[nodiscard]] std::uint32_t refused() const { return refused_; }

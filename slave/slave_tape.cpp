@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 1088 && sizeof(SlaveView) == 736);
+static_assert(sizeof(SlaveOutput) == 1104 && sizeof(SlaveView) == 736);
 
 SlaveTape::SlaveTape(double rate_hz, Duration to_log_time)
     : Tape("slave", to_log_time),

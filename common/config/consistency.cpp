@@ -288,13 +288,11 @@ Finding within(const PathStep& step, Finding finding) {
 
 // A force that the sensor cannot measure, or that is passed before it is noticed, is not guarded.
 Finding check_guarded(const proto::SlaveConfig& config) {
-  const double guard_n = config.command().force_guard_n(), range_n = config.sensing().force_range_n();
-  if (range_n > 0.0 && guard_n >= range_n) {
-    const PathStep section{config.GetDescriptor()->FindFieldByName("sensing"), -1};
-    return within(section, at(config.sensing(), "force_range_n",
-                              " = " + format_number(range_n) +
-                                  " is not above command.force_guard_n = " + format_number(guard_n)));
-  }
+  const PathStep sensing{config.GetDescriptor()->FindFieldByName("sensing"), -1};
+  if (const std::string why = unmeasured_force(config); !why.empty())
+    return within(sensing, at(config.sensing(), "force_range_n", why));
+  if (const std::string why = unmeasured_moment(config); !why.empty())
+    return within(sensing, at(config.sensing(), "moment_range_nm", why));
   const PathStep section{config.GetDescriptor()->FindFieldByName("command"), -1};
   const double hold_n = config.command().hold_force_n(), touch_n = config.sensing().touch_n();
   if (hold_n > 0.0 && hold_n <= touch_n) {

@@ -53,6 +53,11 @@ std::string advice(const proto::SlaveConfig& config, FirstTouch touch, double le
          "; " + slower;
 }
 
+std::string not_above(double range, const std::string& guard, double value) {
+  if (range <= 0.0 || value < range) return "";
+  return " = " + format_number(range) + " is not above command." + guard + " = " + format_number(value);
+}
+
 }  // namespace
 
 std::string unguarded(const proto::SlaveConfig& config) {
@@ -63,6 +68,15 @@ std::string unguarded(const proto::SlaveConfig& config) {
   return " = " + format_number(guard_n) + " cannot be held at a touch with " +
          format_number(touch.speed_m_per_s) + " m/s on " + format_number(touch.stiffness_n_per_m) +
          " N/m, but " + format_number(std::ceil(10.0 * least_n) / 10.0) + advice(config, touch, least_n);
+}
+
+std::string unmeasured_force(const proto::SlaveConfig& config) {
+  return not_above(config.sensing().force_range_n(), "force_guard_n", config.command().force_guard_n());
+}
+
+std::string unmeasured_moment(const proto::SlaveConfig& config) {
+  if (!config.scene().needs().rotation()) return "";
+  return not_above(config.sensing().moment_range_nm(), "moment_guard_nm", config.command().moment_guard_nm());
 }
 
 }  // namespace longreach

@@ -13,4 +13,9 @@ namespace longreach {
 /// scene has nothing to touch.
 std::string unguarded(const proto::SlaveConfig& config);
 
+/// Likewise of sensing.force_range_n and sensing.moment_range_nm: what the sensor cannot measure is not
+/// guarded. Of a moment empty where nothing turns the tool.
+std::string unmeasured_force(const proto::SlaveConfig& config);
+std::string unmeasured_moment(const proto::SlaveConfig& config);
+
 }  // namespace longreach

@@ -258,6 +258,8 @@ void visit_fields(Visitor& visit, S& s) {
   visit("tolerance_m", s.tolerance_m);
   visit("iterations_max", s.iterations_max);
   visit("hold_force_n", s.hold_force_n);
+  visit("moment_guard_nm", s.moment_guard_nm);
+  visit("give_way_m", s.give_way_m);
 }
 
 template <class Visitor, Is<JointConfig> S>

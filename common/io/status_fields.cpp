@@ -85,6 +85,7 @@ void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Cl
   add(clamps.joint_position, "joint position");
   add(clamps.workspace, "workspace");
   add(clamps.force_guard, "force guard");
+  add(clamps.moment_guard, "moment guard");
   add(clamps.singularity, "singularity");
   add(clamps.unreachable, "unreachable");
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace longreach {
 namespace {
@@ -62,9 +63,17 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      Blame::kSystem},
     {"sensor zeroing", "the force sensor is being zeroed",
      "leave the tool untouched for sensing.zero_s, then engage", Blame::kSystem},
+    {"wall comes", "something is moving towards the robot", "engage and retreat from it", Blame::kSystem},
 }};
 
 constexpr CauseText kUnknown{"unknown", "unknown", "see the log", Blame::kSystem};
+
+/// "+x" of 1, "-z" of -3; of no axis nothing.
+std::string axis(double value) {
+  for (int i = 1; i <= 3; ++i)
+    if (std::abs(value) == i) return std::string(value > 0.0 ? "+" : "-") + "xyz"[i - 1];
+  return {};
+}
 
 std::string rounded(double value) {
   char text[32];
@@ -84,6 +93,8 @@ std::string sentence(const Reason& r) {
   if (r.cause == HoldCause::kToolOutside && r.limit > 0.0)
     return "the tool is " + rounded(r.value) + " m from the centre of its workspace, whose radius is " +
            rounded(r.limit) + " m";
+  const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
+  if (!out.empty()) return std::string(text_of(r.cause).sentence) + ", the way out is along " + out;
   if (r.joint == 0) return std::string(text_of(r.cause).sentence);
   switch (r.cause) {
     case HoldCause::kJointLeapt:

@@ -38,9 +38,10 @@ enum class HoldCause : std::uint8_t {
   kRobotMoves,   // not at rest before an engagement
   kToolOutside,  // of command.workspace_m
   kSensorZeroing,
+  kWallComes,  // the force answers as the robot gives way, and goes on to come; the way is used up
   kCount
 };
-inline constexpr HoldCause kLastCause = HoldCause::kSensorZeroing;
+inline constexpr HoldCause kLastCause = HoldCause::kWallComes;
 
 /// Whose doing it is, for the verdict of a run.
 enum class HoldBlame : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
@@ -58,8 +59,9 @@ const CauseText& text_of(HoldCause cause);
 struct Reason {
   HoldCause cause = HoldCause::kNone;
   std::uint8_t joint = 0;  // from 1; 0: not of a joint
-  double value =
-      0.0;  // rad or m, of a speed a second: the joint's, or of the tool from the workspace's centre
+  // rad or m, of a speed a second: the joint's, or of the tool from the workspace's centre; of a wall that
+  // comes the axis of W along which the tool can retreat: 1, 2, 3 for x, y, z, negative against it
+  double value = 0.0;
   double limit = 0.0;  // likewise: the limit, or where the joint was before
 
   constexpr Reason() = default;

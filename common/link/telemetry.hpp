@@ -22,6 +22,7 @@ struct Clamps {
   bool unreachable = false;
   bool acceleration =
       false;  // of tool or joints: for figures; every change of motion meets it, so it is no warning
+  bool moment_guard = false;
 };
 
 /// What may be thought of an estimate.

@@ -38,7 +38,7 @@ std::uint32_t number_of(HoldCause cause) { return static_cast<std::uint32_t>(cau
 /// Where it is; of a cause without a place nothing.
 void write(const Reason& reason, Floats& place) {
   place.Clear();
-  if (reason.joint == 0 && reason.limit == 0.0) return;
+  if (reason.joint == 0 && reason.limit == 0.0 && reason.value == 0.0) return;
   place.Add(static_cast<float>(reason.joint));
   for (const double x : {reason.value, reason.limit})
     place.Add(static_cast<float>(std::clamp(x, -kPlaceMax, kPlaceMax)));
@@ -154,8 +154,8 @@ bool read(const proto::PoseXyzw& in, Pose& out) {
 }
 
 std::uint32_t to_bits(const Clamps& c) {
-  const bool flags[] = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,
-                        c.force_guard, c.singularity, c.unreachable,    c.acceleration};
+  const bool flags[] = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,   c.force_guard,
+                        c.singularity, c.unreachable, c.acceleration,   c.moment_guard};
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < std::size(flags); ++i) bits |= static_cast<std::uint32_t>(flags[i]) << i;
   return bits;
@@ -163,8 +163,8 @@ std::uint32_t to_bits(const Clamps& c) {
 
 bool read(std::uint32_t bits, Clamps& out) {
   const auto bit = [bits](int i) { return ((bits >> i) & 1u) != 0; };
-  out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7)};
-  return bits < 1u << 8;
+  out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7), bit(8)};
+  return bits < 1u << 9;
 }
 
 // An estimator that knows nothing yet may have an infinite variance: that is "not valid", not a damaged

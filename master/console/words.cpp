@@ -40,6 +40,7 @@ std::string held_back(const MasterView& view) {
   if (robot.unreachable)
     return "the goal is out of the robot's reach: it does not follow any further this way";
   if (robot.force_guard) return "the force guard lets the robot go no deeper";
+  if (robot.moment_guard) return "the moment guard lets the robot turn no further";
   if (!behind(view.far)) return "";
   if (robot.singularity) return "near a singular pose the robot follows slowly";
   if (robot.joint_speed) return "a joint of the robot is at its speed limit: it follows late";
@@ -167,6 +168,10 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (view.stiffness_clamped)
     words.push_back(formatted("stiffness: cut to %.3g N/mm, the most that this device can render",
                               1e-3 * view.stiffness_max_n_per_m));
+  if (view.rotational_stiffness_clamped)
+    words.push_back(
+        formatted("rotational stiffness: cut to %.3g N m/rad, the most that this device can render",
+                  view.rotational_stiffness_max_nm_per_rad));
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
   if (view.at_boundary) words.emplace_back("hand: at the edge of its space, move it back with the clutch");
   if (!view.far_known || view.silent) return words;  // what was clamped then
@@ -177,6 +182,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
   if (robot.workspace) words.emplace_back("robot: the goal is outside of the workspace");
   if (robot.force_guard) words.emplace_back("robot: the force guard lets it go no deeper");
+  if (robot.moment_guard) words.emplace_back("robot: the moment guard lets it turn no further");
   if (robot.singularity && late) words.emplace_back("robot: slowed down near a singular pose");
   if (robot.unreachable) words.emplace_back("robot: the goal is out of reach");
   return words;

@@ -250,6 +250,10 @@ double Renderer::stiffness_max_n_per_m() const {
   return translation_contact(config_, device_).spring.stiffness_max_n_per_m;
 }
 
+double Renderer::stiffness_max_nm_per_rad() const {
+  return rotation_contact(config_, device_).spring.stiffness_max_n_per_m;
+}
+
 double Renderer::port_energy_j() const {
   return translation_.guard.port_energy_j() + rotation_.guard.port_energy_j();
 }

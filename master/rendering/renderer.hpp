@@ -107,6 +107,7 @@ class Renderer {
   [[nodiscard]] double stiffness(const HandPort& port) const;
   /// The most that is rendered: of the configuration, and of the device, whose damping bounds it.
   [[nodiscard]] double stiffness_max_n_per_m() const;
+  [[nodiscard]] double stiffness_max_nm_per_rad() const;
   [[nodiscard]] double port_energy_j() const;
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
   [[nodiscard]] double stored_energy_j() const;

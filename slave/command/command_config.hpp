@@ -17,11 +17,19 @@ struct CommandConfig {
   double tolerance_m = 1e-10;
   std::uint32_t iterations_max = 20;
   double hold_force_n = 0.0;
+  double moment_guard_nm = 5.0;
+  double give_way_m = 0.2;
 };
+
+/// Of the stiffest stop that the moment guard reckons with.
+constexpr double kGuardStiffness_nm_per_rad = 400.0;
 
 /// Force in contact that a hold comes down to.
 inline double hold_limit_n(const CommandConfig& c) {
   return c.hold_force_n > 0.0 ? std::min(c.hold_force_n, c.force_guard_n) : 0.5 * c.force_guard_n;
 }
+
+/// Likewise of a moment.
+inline double hold_limit_nm(const CommandConfig& c) { return 0.5 * c.moment_guard_nm; }
 
 }  // namespace longreach

@@ -1,45 +1,25 @@
 #pragma once
 // From the goal that the operator asks for to a setpoint pose that the robot may be asked for: speed and
 // acceleration of the tool in translation and rotation, a workspace sphere about the tool's start, and the
-// force guard:
-//   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
-//   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
-//   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
-//   the contact is not lost. Without a goal, so in a hold, it does so down to the hold limit, within 1 s as
-//   far as speed and acceleration allow; k is then what is seen on that way. While nobody holds the handle G
-//   is the hold limit. Giving way ends where the force
-//   does not answer to it (relief.hpp). Where the force was seen to grow in another direction than into the
-//   contact, the speed in that direction is bounded likewise, and the tool does not give way along it.
+// guards of force and moment in contact (contact_guard.hpp). While nobody holds the handle these are the hold
+// limits.
 // A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
 // Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
 
 #include <optional>
 
 #include "slave/command/command_config.hpp"
-#include "slave/command/relief.hpp"
+#include "slave/command/contact_guard.hpp"
 #include "slave/command/vector_limit.hpp"
 
 namespace longreach {
 
-/// What the force guard knows about the contact.
-struct ContactForce {
-  bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
-  double force_n = 0.0;                // measured along it
-  double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
-  double lead_m = 0.0;                 // of the setpoint into the contact, still to come by the servo's lag
-  Vector3 grows = Vector3::Zero();     // unit, in which the force grows though it should not; zero: none
-  double grows_lead_m = 0.0;           // of the setpoint in that direction
-  bool trusted = true;                 // false: the tool gives way to nothing
-  double ease_m_per_s = 0.0;           // but without a goal so fast, to see whether the force answers
-};
-
 struct LimiterInput {
   std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay, but for the bleed-off
   ContactForce contact{};
-  double dt = 0.0;      // s, > 0
-  bool let_go = false;  // nobody holds the handle: the guard is the hold limit
+  double dt = 0.0;        // s, > 0
+  bool let_go = false;    // nobody holds the handle: the guard is the hold limit
+  ContactForce moment{};  // of a contact by rotation: N are N m, m are rad
 };
 
 struct LimiterOutput {
@@ -48,7 +28,8 @@ struct LimiterOutput {
   bool acceleration = false;  // likewise
   bool workspace = false;
   bool force_guard = false;
-  bool no_relief = false;  // the tool would give way, but the force has not answered
+  bool no_relief = false;  // the tool would give way, but the force or the moment has not answered
+  bool moment_guard = false;
 };
 
 class GoalLimiter {
@@ -62,6 +43,12 @@ class GoalLimiter {
   void reset(const Pose& X_WE);
   /// The robot could only be asked for `X_WE` instead of the last setpoint, `dt` after the one before.
   void correct(const Pose& X_WE, double dt);
+
+  /// An engagement begins: the tool may give way anew.
+  void renew() {
+    force_.renew();
+    moment_.renew();
+  }
 
   LimiterOutput step(const LimiterInput& input);
 
@@ -77,33 +64,22 @@ class GoalLimiter {
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
 
  private:
-  bool brake(const ContactForce& contact, double dt);
-  [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
-  [[nodiscard]] double hold_off(const ContactForce& contact);
-  [[nodiscard]] double give_way_max(const ContactForce& contact) const;
-  void give_way(const ContactForce& contact, double dt);
-  void forget_relief(const ContactForce& contact, double dt);
+  void limit_guards(bool let_go);
+  bool brake(const LimiterInput& input);
   Pose inside(const Pose& goal, LimiterOutput& out) const;
   void observe_goal(const Pose& goal, double dt);
-  VelocityCap guard(const ContactForce& contact) const;
-  VelocityCap growth(const ContactForce& contact) const;
-  [[nodiscard]] double approach(double left_m, double coming_m) const;
+  void move(double dt);
   VelocityCap workspace(double dt) const;
 
   CommandConfig config_;
-  double guard_n_ = 0.0;  // in this step
   Vector3 centre_m_;
   Pose X_WE_{};
   Pose X_WE_before_{};               // one step ago
   Twist V_WE_{};                     // of the setpoint
   std::optional<Pose> X_WE_goal_{};  // of the step before
-  struct Bleed {
-    double from_n, from_m;  // force and place on the way out where it began
-  };
-  std::optional<Bleed> bleed_{};  // in a hold
-  Relief relief_{};
-  double calm_s_ = 0.0;  // below the guard
-  Twist V_WE_goal_{};    // as far as the limits allow to believe it
+  ContactGuard force_{kForceScale}, moment_{kMomentScale};
+  Vector3 turned_rad_ = Vector3::Zero();  // sum of the setpoint's turns
+  Twist V_WE_goal_{};                     // as far as the limits allow to believe it
 };
 
 }  // namespace longreach

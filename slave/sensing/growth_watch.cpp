@@ -16,6 +16,7 @@ constexpr double kRest_s = 0.02;       // on end: the tool rests
 constexpr double kRemembered_s = 0.5;  // of a place
 constexpr double kOwn = 10.0;          // times k_max: what grows faster is not by the way gone
 constexpr double kAgainst = 0.5;       // cosine, of a way against the force
+constexpr double kTrend = 1.3;         // of the trend at rest, which is not known exactly
 constexpr double kInnocent_m = 1e-3;   // on a way of this the force did not grow again
 
 double share_of(double dt, double tau_s) { return tau_s > 0.0 ? -std::expm1(-dt / tau_s) : 1.0; }
@@ -27,6 +28,11 @@ void GrowthWatch::reset() {
   direction_.setZero();
   begun_ = false;
   time_s_ = rest_s_ = 0.0;
+}
+
+void GrowthWatch::forget() {
+  places_.clear();
+  direction_.setZero();
 }
 
 // Force and place are equally late, so that a growth is compared with the way that made it.
@@ -62,7 +68,7 @@ void GrowthWatch::step(const GrowthSample& s) {
   } else if (rests(p_m_ - before_m, s.dt)) {
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].force_n += size_n_ - before_n;
   } else {
-    look_back(force_n_.stableNormalized());
+    look_back(force_n_.stableNormalized(), s.trend_n_per_s);
     doubt_again();
     if ((p_m_ - places_.back().p_m).norm() >= kApart_m) places_.push(here);
   }
@@ -73,14 +79,15 @@ bool GrowthWatch::rests(const Vector3& step_m, double dt) {
   return rest_s_ > kRest_s;
 }
 
-void GrowthWatch::look_back(const Vector3& normal) {
+void GrowthWatch::look_back(const Vector3& normal, double trend_n_per_s) {
   const double k = bounds_.stiffness_n_per_m, seen_n = std::max(kGrowthSeen_n, kNoise * bounds_.noise_n);
   double most_n = seen_n;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
     const Vector3 way_m = p_m_ - place.p_m;
     place.deepest_m = std::max(place.deepest_m, -normal.dot(way_m));
-    const double grown_n = size_n_ - place.force_n, own_n = grown_n - k * place.deepest_m;
+    const double by_itself_n = kTrend * std::max(trend_n_per_s, 0.0) * (time_s_ - place.time_s);
+    const double grown_n = size_n_ - place.force_n - by_itself_n, own_n = grown_n - k * place.deepest_m;
     const double length_m = way_m.norm(), along = normal.dot(way_m) / std::max(length_m, kApart_m);
     if (along < -kAgainst) continue;
     if (own_n <= most_n || length_m < kApart_m || grown_n > kOwn * k * length_m + seen_n) continue;

@@ -2,8 +2,9 @@
 // In which direction does the tool's own motion make the force larger, although the force that is told does
 // not point against it? A surface at rest, no stiffer than k_max, pushes harder only where the tool goes
 // against its force:
-//   |F| - |F_i| <= k_max max(0, -n (p - p_i)),   n = F/|F|
-// for every place p_i of the last half millimetre and half second, to the deepest approach since. What grows
+//   |F| - |F_i| <= k_max max(0, -n (p - p_i)) + 1.3 g (t - t_i),   n = F/|F|
+// for every place p_i of the last half millimetre and half second, to the deepest approach since; g is what
+// it is known to grow by at rest (force_answer.hpp), for that is not the tool's doing. What grows
 // by more than that and noise, and not faster than ten times k_max on the way gone, grows along d = p - p_i:
 // the sign or the frame of the sensor is wrong, or the surface comes. What grows while the tool rests is not
 // its own; nor is what grows within 60 degrees of against the force: there it is but a stiffer surface.
@@ -17,7 +18,8 @@ struct GrowthSample {
   Vector3 p_WE = Vector3::Zero();     // measured tool, m
   Vector3 force_n = Vector3::Zero();  // in W
   bool in_contact = false;
-  double dt = 0.0;  // s
+  double dt = 0.0;             // s
+  double trend_n_per_s = 0.0;  // g
 };
 
 struct GrowthBounds {
@@ -32,6 +34,8 @@ class GrowthWatch {
   void configure(const GrowthBounds& bounds) { bounds_ = bounds; }
   [[nodiscard]] const GrowthBounds& bounds() const { return bounds_; }
   void reset();
+  /// What was seen does not count, as the tool gives way.
+  void forget();
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
@@ -55,7 +59,7 @@ class GrowthWatch {
   };
   void smooth(const GrowthSample& sample);
   [[nodiscard]] bool rests(const Vector3& step_m, double dt);
-  void look_back(const Vector3& normal);
+  void look_back(const Vector3& normal, double trend_n_per_s);
   void doubt_again();
 
   GrowthBounds bounds_;

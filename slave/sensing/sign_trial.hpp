@@ -4,7 +4,8 @@
 // that comes goes on to push, and what a carried body does in motion ends with the motion. After 60 ms, over
 // all of them and over the last 20 ms,
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor
-//   else                                          no relief
+//   else it grows at rest (force_answer.hpp)      a wall that comes: its answer decides
+//   else, after 150 ms                            no relief
 // What grew across the force could be a surface stiffer than k_max, too, on which the tool slides. If it does
 // not go on to grow, it is. Else the tool gives way along the force by 0.1 mm: from such a surface the force
 // falls by more than k_max does on half of that way, or the contact ends. That acquits at any time.
@@ -33,7 +34,9 @@ class SignTrial {
   void reset() { *this = {}; }
 
   /// `reaction`: unit, of the force on the tool; `bounds` those of `growth`; dt in s.
-  void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt) {
+  /// `grows`: at rest.
+  void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt,
+            bool grows = false) {
     if (verdict_ != Verdict::kPending) return;
     if (!growth.in_contact()) return reset();
     const Point now{growth.place_m(), growth.size_n()};
@@ -42,7 +45,7 @@ class SignTrial {
     if (easing_) {
       see_answer(now, bounds);
     } else if (time_s_ >= kTrial_s) {
-      see_rest(now, reaction, bounds);
+      see_rest(now, reaction, bounds, grows);
     }
   }
   [[nodiscard]] Verdict verdict() const { return verdict_; }
@@ -52,6 +55,7 @@ class SignTrial {
  private:
   static constexpr double kTrial_s = 0.06;
   static constexpr double kLast_s = 0.02;
+  static constexpr double kGrows_s = 0.15;  // till a growth at rest is known
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
@@ -70,12 +74,16 @@ class SignTrial {
     const double may_n = std::max(kChange_n, kNoise * noise_n) + kShare * std::abs(expected_n);
     return std::abs(now.force_n - then.force_n - expected_n) <= may_n;
   }
-  void see_rest(const Point& now, const Vector3& reaction, const GrowthBounds& bounds) {
-    const bool as_grown = as_before(from_, now, bounds.noise_n) && as_before(last_, now, bounds.noise_n);
-    if (!across_) {
-      verdict_ = as_grown ? Verdict::kSign : Verdict::kNoRelief;
-    } else if (!as_grown) {
+  void see_rest(const Point& now, const Vector3& reaction, const GrowthBounds& bounds, bool grows) {
+    const bool as_grown =
+        !otherwise_ && as_before(from_, now, bounds.noise_n) && as_before(last_, now, bounds.noise_n);
+    if (!across_ && as_grown) {
+      verdict_ = Verdict::kSign;
+    } else if (!as_grown && (across_ || grows)) {
       reset();
+    } else if (!across_) {
+      otherwise_ = true;
+      if (time_s_ >= kGrows_s) verdict_ = Verdict::kNoRelief;
     } else {
       easing_ = true;
       direction_ = reaction;
@@ -96,6 +104,7 @@ class SignTrial {
 
   Verdict verdict_ = Verdict::kNone;
   bool across_ = false, easing_ = false;
+  bool otherwise_ = false;  // than it grew before
   double time_s_ = 0.0, slope_n_per_m_ = 0.0;
   Vector3 direction_ = Vector3::Zero();  // of the growth; then of giving way
   Point from_{}, last_{};

@@ -125,6 +125,8 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run);
 std::vector<Plot> singular_paths_plots();
 std::vector<Metric> run_sensor_faults(const ExperimentRun& run);
 std::vector<Plot> sensor_faults_plots();
+std::vector<Metric> run_moving_wall(const ExperimentRun& run);
+std::vector<Plot> moving_wall_plots();
 std::vector<Metric> run_impact(const ExperimentRun& run);
 std::vector<Plot> impact_plots();
 std::vector<Metric> run_unknown_contact(const ExperimentRun& run);

@@ -119,6 +119,22 @@ TEST_F(Oracle, SeesAHoldWithoutACause) {
   EXPECT_TRUE(broken("I30"));
 }
 
+TEST_F(Oracle, SeesAWallThatIsTakenForAWrongSensor) {
+  run(1, [this](Moment& m, int) {
+    m.spoilt_s[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(Spoils::kScene)))] = 0.0;
+    claim(SafetyState::kFault, HoldCause::kSensorSign);
+  });
+  EXPECT_TRUE(broken("I30"));
+}
+
+TEST_F(Oracle, SeesAHeldToolThatGivesWayTooFar) {
+  run(700, [this](Moment& m, int i) {
+    claim(SafetyState::kHolding, HoldCause::kOperator);
+    m.X_WE.p.x() -= i == 0 ? 0.0 : 3e-4;
+  });
+  EXPECT_TRUE(broken("I21e"));
+}
+
 TEST_F(Oracle, SeesAStopThatIsNone) {
   run(2, [this](Moment& m, int i) {
     m.stop_at_slave = i == 0;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "common/config/config.hpp"
 #include "master/rendering/rendering_config.hpp"
 #include "tests/experiments/experiment.hpp"
@@ -65,6 +68,56 @@ TEST(Hinge, IsScaledWithTheMotionIfAskedFor) {
   const Felt felt = turn_into_the_stop(
       {"profile=lab", "rendering.ke_rotation=0.04", "rendering.ke_by_scale=true", "mapping.scale=0.5"});
   EXPECT_NEAR(felt.displayed_nm_per_rad, 0.2, 0.05 * 0.2);
+}
+
+struct Turned {
+  double moment_max_nm = 0.0, moment_nm = 0.0;  // at the tool; at the end
+  double hand_nm = 0.0;
+  double behind_rad = 0.0;  // the robot's goal behind the tool
+  bool guarded = false, in_contact = false, cut = false;
+  std::uint64_t violations = 0;
+};
+
+/// The handle by 0.3 rad for 6 s, into a stop of 1000 N m/rad.
+Turned turn_far(const std::string& guard_nm) {
+  const proto::LabConfig config =
+      configure({"scene_file=scenes/hinge.txtpb", "scene.material.stop.stiffness_n_per_m=100000",
+                 "profile=lab", "master.safety.engage_at_start=true", "mapping.mode=POSITION",
+                 "mapping.scale=1", "command.moment_guard_nm=" + guard_nm},
+                LONGREACH_DEPLOY);
+  Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
+  Turned seen;
+  for (const double rad : {0.0, 0.3}) {
+    for (double t = 0.0; t < 6.0; t += lab.period_s()) {
+      lab.drive({.rotation_rad = {0.0, 0.0, rad}, .grip = Grip::kFirm});
+      lab.step();
+      seen.moment_nm = lab.arm().true_wrench().moment.norm();
+      seen.moment_max_nm = std::max(seen.moment_max_nm, seen.moment_nm);
+    }
+  }
+  seen.hand_nm = lab.master().F_H_M.moment.norm();
+  seen.behind_rad = log_rotation(lab.slave().X_WE_goal.q * lab.slave().X_WE.q.conjugate()).norm();
+  seen.guarded = lab.master().far.clamps.moment_guard;
+  seen.in_contact = lab.master().in_contact;
+  seen.cut = lab.master().rotational_stiffness_clamped;
+  seen.violations = lab.slave().limit_violations;
+  std::printf("moment guard %s N m: at most %.1f N m at the tool, then %.2f; %.3f N m at the hand\n",
+              guard_nm.c_str(), seen.moment_max_nm, seen.moment_nm, seen.hand_nm);
+  return seen;
+}
+
+TEST(Hinge, TheMomentGuardHoldsTheToolAtAStiffStop) {
+  const Turned without = turn_far("1000"), with = turn_far("5");
+  EXPECT_GT(without.moment_max_nm, 200.0);
+  constexpr double kStop_nm_per_rad = 1000.0, kSpeed = 0.3, kReact_s = 0.02, kAcceleration = 2.0;
+  EXPECT_LE(with.moment_max_nm,
+            5.0 + kStop_nm_per_rad * (kSpeed * kReact_s + 0.5 * kSpeed * kSpeed / kAcceleration));
+  EXPECT_LE(with.moment_nm, 1.03 * 5.0);
+  EXPECT_GT(with.moment_nm, 4.0);
+  EXPECT_TRUE(with.guarded) << "the operator is shown why the robot turns no further";
+  EXPECT_TRUE(with.in_contact);
+  EXPECT_TRUE(with.cut) << "and that the stop is stiffer than the device can render";
+  EXPECT_EQ(with.violations, 0U);
 }
 
 }  // namespace

@@ -147,18 +147,31 @@ TEST(SensorFaults, ASensorAtTheEndOfItsRangeIsToldInATenthOfASecond) {
   EXPECT_LE(run.told_s - c.lie_s, 0.1);
 }
 
-TEST(SensorFaults, AWallThatComesIsAHoldAndNoFault) {
-  for (const double coming : {0.005, 0.02}) {
-    for (const double wall_n_per_m : {1e3, 5e3}) {
-      LieCase c;
-      c.guard.wall_n_per_m = wall_n_per_m;
-      c.coming_m_per_s = coming;
-      c.behind_m = -kGuardWall_m;
-      c.end_s = kGuardWall_m / coming + 3.0;
-      const LieRun run = lie_run(c);
-      EXPECT_NE(run.rows.back().state, SafetyState::kFault) << coming << ' ' << wall_n_per_m;
-      EXPECT_NE(run.told, HoldCause::kSensorFault) << coming << ' ' << wall_n_per_m;
-      EXPECT_NE(run.told, HoldCause::kSensorSign) << coming << ' ' << wall_n_per_m;
+TEST(SensorFaults, AWallThatComesIsGivenWayToAndIsNoFault) {
+  for (const double give_way_m : {0.03, 0.2}) {
+    for (const double coming : {0.003, 0.02, 0.05}) {
+      for (const double wall_n_per_m : {200.0, 1e3, 5e3}) {
+        LieCase c;
+        c.guard.wall_n_per_m = wall_n_per_m;
+        c.guard.guard_n = 20.0;
+        c.coming_m_per_s = coming;
+        c.behind_m = -kGuardWall_m;
+        const double pressed_s = c.guard.guard_n / (wall_n_per_m * coming), way_s = 0.03 / coming;
+        c.end_s = kGuardWall_m / coming + pressed_s + way_s + 1.0;
+        SlaveConfig config = lie_config(c);
+        config.command.give_way_m = give_way_m;
+        const LieRun run = lie_run(c, config, [](int) { return false; });
+        EXPECT_EQ(run.told, HoldCause::kNone) << coming << ' ' << wall_n_per_m;
+        double peak_n = 0.0;
+        HoldCause cause = HoldCause::kNone;
+        for (const auto& row : run.rows) {
+          if (row.cause == HoldCause::kWallComes) cause = row.cause;
+          if (cause == HoldCause::kNone && row.tool_m.x() > -0.025) peak_n = std::max(peak_n, row.force_n);
+        }
+        EXPECT_EQ(cause, give_way_m < 0.1 ? HoldCause::kWallComes : HoldCause::kNone)
+            << coming << ' ' << wall_n_per_m;
+        EXPECT_LE(peak_n, kGuardOvershoot * c.guard.guard_n) << coming << ' ' << wall_n_per_m;
+      }
     }
   }
 }

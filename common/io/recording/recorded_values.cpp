@@ -4,7 +4,7 @@ namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
               sizeof(Reason) == 24 && sizeof(StiffnessReport) == 552);
-static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 8 && sizeof(Telemetry) == 416);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 432);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {
@@ -184,11 +184,12 @@ void write(const Clamps& c, recording::Clamps& out) {
   out.set_singularity(c.singularity);
   out.set_unreachable(c.unreachable);
   out.set_acceleration(c.acceleration);
+  out.set_moment_guard(c.moment_guard);
 }
 
 Clamps read(const recording::Clamps& in) {
-  return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),
-          in.force_guard(), in.singularity(), in.unreachable(),    in.acceleration()};
+  return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),   in.force_guard(),
+          in.singularity(), in.unreachable(), in.acceleration(),   in.moment_guard()};
 }
 
 void write(const Telemetry& t, recording::Telemetry& out) {

@@ -1,4 +1,4 @@
-// I21: the force at the plant, and what becomes of it when the robot stops.
+// I21: force and moment at the plant, and what becomes of it, and of the tool, when the robot stops.
 
 #include <algorithm>
 #include <cmath>
@@ -89,11 +89,95 @@ class Relieved : public Invariant {
   bool lied_ = false;
 };
 
+/// By the formula that is published: k (w t_d + w²/(2 a)) above the guard, and 0.35 of it at least.
+class TurnGuarded : public Invariant {
+ public:
+  explicit TurnGuarded(const Scenario& s)
+      : Invariant("I21c", "the moment is at most what the moment guard allows"),
+        guard_nm_(s.slave.command.moment_guard_nm) {
+    double k = 0.0;
+    for (const SurfaceConfig& surface : s.slave.scene.surface)
+      if (surface.hinge)
+        k = std::max(k, surface.hinge->arm_m * surface.hinge->arm_m *
+                            stiffest_n_per_m(s.slave.scene, guard_nm_ / surface.hinge->arm_m));
+    const double w = kSwift * s.slave.command.speed_max_rad_per_s;
+    const double over_nm = k * (w * kReact_s + 0.5 * w * w / s.slave.command.acceleration_max_rad_per_s2);
+    bound_nm_ = guard_nm_ + std::max((kGuardOvershoot - 1.0) * guard_nm_, over_nm);
+    turns_ = k > 0.0;
+  }
+  void see(const Moment& m) override {
+    const double moment_nm = m.F_E_W.moment.norm();
+    if (!turns_ || moment_nm == 0.0) return;
+    if (!as_reckoned(m)) pressed_nm_ = moment_nm;
+    if (moment_nm <= guard_nm_) pressed_nm_ = 0.0;
+    at_most(m, moment_nm, std::max(bound_nm_, kRise * pressed_nm_), "N m at the tool");
+  }
+
+ private:
+  static constexpr double kReact_s = 0.02, kSwift = 1.05, kRise = 1.05;
+
+  double guard_nm_, bound_nm_ = 0.0;
+  bool turns_ = false;
+  double pressed_nm_ = 0.0;  // turned in while the guard could not reckon
+};
+
+/// Likewise to I21b.
+class TurnRelieved : public Invariant {
+ public:
+  explicit TurnRelieved(const Scenario& s)
+      : Invariant("I21d", "in a hold the moment comes down to the hold limit"),
+        limit_nm_(hold_limit_nm(s.slave.command)) {}
+  void see(const Moment& m) override {
+    if (m.ghost->right().engaged || m.claimed != SafetyState::kHolding) {
+      held_s_ = m.t_s;
+      lied_ = false;
+    }
+    lied_ = lied_ || !as_reckoned(m);
+    if (m.t_s - held_s_ > 1.5 && !lied_)
+      at_most(m, m.F_E_W.moment.norm(), 1.05 * limit_nm_ + 0.03, "N m in a hold");
+  }
+
+ private:
+  double limit_nm_;
+  double held_s_ = 0.0;
+  bool lied_ = false;
+};
+
+/// Whatever presses or lies: no further from where the hold began than giving way may lead, and braking.
+class HeldPlace : public Invariant {
+ public:
+  explicit HeldPlace(const Scenario& s)
+      : Invariant("I21e", "in a hold the tool gives way no further than command.give_way_m"),
+        way_m_(s.slave.command.give_way_m),
+        a_(s.slave.command.acceleration_max_m_per_s2) {}
+  void see(const Moment& m) override {
+    const bool moved = m.since(Spoils::kRobot) < kCalm_s || m.since(Spoils::kJoints) < kCalm_s ||
+                       m.since(Spoils::kSlaveTime) < kCalm_s;
+    const bool holds = m.claimed == SafetyState::kHolding && !m.ghost->right().engaged;
+    if (!holds || moved) {
+      place_m_ = m.X_WE.p;
+      braking_m_ = m.v_WE.norm() * (kReact_s + 0.5 * m.v_WE.norm() / a_);
+      return;
+    }
+    at_most(m, (m.X_WE.p - place_m_).norm(), way_m_ + braking_m_ + kSlack_m, "m in a hold");
+  }
+
+ private:
+  static constexpr double kReact_s = 0.3, kSlack_m = 2e-3;
+
+  double way_m_, a_;
+  Vector3 place_m_ = Vector3::Zero();
+  double braking_m_ = 0.0;
+};
+
 }  // namespace
 
 void add_contact_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Guarded>(s));
   all.push_back(std::make_unique<Relieved>(s));
+  all.push_back(std::make_unique<TurnGuarded>(s));
+  all.push_back(std::make_unique<TurnRelieved>(s));
+  all.push_back(std::make_unique<HeldPlace>(s));
 }
 
 }  // namespace longreach

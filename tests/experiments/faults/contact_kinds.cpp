@@ -47,6 +47,19 @@ void move(World& world, Active& fault) {
   }
   world.surround(scene);
 }
+/// Towards the tool, from where it is.
+void come(World& world, Active& fault) {
+  if (!fault.begins || !touches(world)) return;
+  SceneConfig scene = world.scenario().slave.scene;
+  for (SurfaceConfig& surface : scene.surface) {
+    if (!surface.plane) continue;
+    MovementConfig movement;
+    movement.velocity_m_per_s = log_scale(fault.fault.size, 1e-3, 0.05) * surface.plane->normal.normalized();
+    surface.plane->point_m -= world.moment().t_s * movement.velocity_m_per_s;
+    surface.movement = movement;
+  }
+  world.surround(scene);
+}
 void change_stiffness(World& world, double by) {
   SceneConfig scene = world.scenario().slave.scene;
   for (MaterialConfig& material : scene.material) material.stiffness_n_per_m *= by;
@@ -66,6 +79,7 @@ const FaultKind kKinds[] = {
     {.name = "surface-appears", .group = kGroup, .spoils = kScene, .act = appear, .end = as_it_was},
     {.name = "surface-vanishes", .group = kGroup, .spoils = kScene, .act = vanish, .end = as_it_was},
     {.name = "surface-moves", .group = kGroup, .spoils = kScene, .act = move, .end = as_it_was},
+    {.name = "surface-comes", .group = kGroup, .spoils = kScene, .act = come, .end = as_it_was},
     {.name = "surface-stiffens", .group = kGroup, .spoils = kScene, .act = stiffen, .end = as_it_was},
     {.name = "surface-softens", .group = kGroup, .spoils = kScene, .act = soften, .end = as_it_was},
 };

@@ -4,7 +4,7 @@ namespace longreach {
 namespace {
 
 constexpr std::array kClamps = {"tool speed",  "joint speed", "joint position", "workspace",
-                                "force guard", "singularity", "unreachable"};
+                                "force guard", "singularity", "unreachable",    "moment guard"};
 
 std::string cause_name(const char* side, HoldCause cause) {
   return std::string(side) + ": " + std::string(text_of(cause).name);
@@ -18,7 +18,8 @@ std::vector<std::string> guard_names() {
        {HoldCause::kOperator, HoldCause::kPeerHolds, HoldCause::kLinkSilent, HoldCause::kPeerRestarted,
         HoldCause::kRobotFault, HoldCause::kJointLeapt, HoldCause::kJointOutside, HoldCause::kHandleLetGo,
         HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled, HoldCause::kOverrun,
-        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief})
+        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief,
+        HoldCause::kWallComes})
     all.push_back(cause_name("slave", cause));
   for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose,
                                 HoldCause::kDeviceFault, HoldCause::kHandleLetGo})
@@ -55,7 +56,7 @@ void GuardWatch::see(const World& world, const Moment& m) {
 void GuardWatch::clamps(const Telemetry& told) {
   const Clamps& c = told.clamps;
   const std::array now = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,
-                          c.force_guard, c.singularity, c.unreachable};
+                          c.force_guard, c.singularity, c.unreachable,    c.moment_guard};
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i] && !clamped_[i]) ++acted_[std::string("clamp: ") + kClamps[i]];
     clamped_[i] = now[i];

@@ -27,7 +27,7 @@ class GuardWatch {
 
   std::map<std::string, std::uint64_t> acted_;
   HoldCause far_ = HoldCause::kNone, near_ = HoldCause::kNone;
-  std::array<bool, 7> clamped_{};
+  std::array<bool, 8> clamped_{};
   bool watchdog_ = false, hand_ = false, injecting_ = false;
 };
 

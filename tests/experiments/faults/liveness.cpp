@@ -101,7 +101,7 @@ class Tracks : public Invariant {
   static constexpr double kSettles_s = 4.0, kOff_m = 2e-3;
   static bool limits(const Clamps& c) {
     return c.joint_position || c.workspace || c.force_guard || c.singularity || c.unreachable ||
-           c.tool_speed || c.joint_speed || c.acceleration;
+           c.tool_speed || c.joint_speed || c.acceleration || c.moment_guard;
   }
   Kinematics arm_;
   Calm calm_;

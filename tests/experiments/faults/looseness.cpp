@@ -19,6 +19,8 @@ std::vector<Looseness> looseness(const SlaveConfig& c) {
           {"command.acceleration_max_rad_per_s2", c.command.acceleration_max_rad_per_s2},
           {"command.force_guard_n", c.command.force_guard_n},
           {"command.hold_force_n", hold_limit_n(c.command)},
+          {"command.moment_guard_nm", c.command.moment_guard_nm},
+          {"command.give_way_m", c.command.give_way_m},
           {"command.workspace_m", c.command.workspace_m},
           {"sensing.touch_n", c.sensing.touch_n},
           {"sensing.filter_s", c.sensing.filter_s},

@@ -74,6 +74,8 @@ void loosen_slave(World& world, Active& fault) {
                                  "command.acceleration_max_rad_per_s2",
                                  "command.force_guard_n",
                                  "command.hold_force_n",
+                                 "command.moment_guard_nm",
+                                 "command.give_way_m",
                                  "command.guard_stiffness_n_per_m",
                                  "command.workspace_m",
                                  "command.tolerance_m",

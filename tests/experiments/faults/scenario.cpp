@@ -54,6 +54,10 @@ std::vector<std::string> limits(Random& random, const std::string& scene) {
   std::vector<std::string> all = {"command.force_guard_n=" + number(random, 10.0, 40.0),
                                   "command.speed_max_m_per_s=" + number(random, 0.05, 0.25),
                                   "command.workspace_m=" + number(random, 0.3, 3.0)};
+  if (scene.find("hinge") != std::string::npos) {
+    all.push_back("command.moment_guard_nm=" + number(random, 0.5, 5.0));
+    all.push_back("scene.material.stop.stiffness_n_per_m=" + number(random, 500.0, 3e4));
+  }
   if (scene.find("wall") == std::string::npos) return all;
   all.push_back("scene.surface.wall.plane.point_m=" + number(random, 0.01, 0.06) + ",0,0");
   all.push_back("scene.material.wall.stiffness_n_per_m=" + number(random, 200.0, 1e4));

@@ -139,9 +139,12 @@ class Circumstances {
       case HoldCause::kUnanswered:
         return way || lately(unheard_s_) || lately(silent_s_);
       case HoldCause::kSensorFault:
-      case HoldCause::kSensorSign:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot;
+      // Nothing that surroundings do is the sensor's.
+      case HoldCause::kSensorSign:
+        return spoilt(Spoils::kSensor) || robot;
       case HoldCause::kNoRelief:
+      case HoldCause::kWallComes:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot || lately(pressed_s_);
       default:
         return false;

@@ -5,6 +5,7 @@
 // Way: from where the tool was when the lie began, less what relieves the true force on a wall of known
 // stiffness. Told late: after a lie is implausible by the table of slave/sensing/sensor_watch.hpp, by truth.
 // What is not to be seen, by that table, is counted: the tool rests or is free, and the lie moves nothing.
+// A drift in contact grows at rest and answers to giving way, as a wall that comes does: up to give_way_m.
 
 #include <algorithm>
 #include <array>
@@ -84,9 +85,14 @@ struct Outcome {
   std::optional<double> told_s{};
 };
 
+/// Nothing moves here: what comes is the sensor's, too.
 bool of_the_sensor(HoldCause cause) {
-  return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign || cause == HoldCause::kNoRelief;
+  return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
+         cause == HoldCause::kNoRelief || cause == HoldCause::kWallComes;
 }
+
+/// What a sensor that drifts says of a wall grows at rest and answers to giving way, as one that comes does.
+bool fakes_an_answer(In in, Lie lie) { return touches(in) && lie == Lie::kDrift; }
 
 /// The hand on its way to the wall, or not.
 HandTarget hand_at(In in, double t_s) {
@@ -183,17 +189,19 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
       },
       run.progress);
   Trace trace(run.out, "sensor_faults", {"run", "arm", "state", "lie", "way_m", "force_n", "told_s"});
-  double way_m = 0.0, force_n = 0.0, late_s = 0.0, never = 0.0, told = 0.0, false_faults = 0.0, honest = 0.0;
+  double way_m = 0.0, force_n = 0.0, faked_m = 0.0, faked_n = 0.0, late_s = 0.0, never = 0.0, told = 0.0,
+         false_faults = 0.0, honest = 0.0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Outcome& o = outcomes[i];
     const bool lies_now = all[cells[i].lie].lie.lie != Lie::kNone;
-    way_m = std::max(way_m, o.way_m);
-    force_n = std::max(force_n, o.force_n);
+    const bool fakes = fakes_an_answer(static_cast<In>(cells[i].state), all[cells[i].lie].lie.lie);
+    (fakes ? faked_m : way_m) = std::max(fakes ? faked_m : way_m, o.way_m);
+    (fakes ? faked_n : force_n) = std::max(fakes ? faked_n : force_n, o.force_n);
     told += lies_now && o.told_s ? 1.0 : 0.0;
     honest += lies_now ? 0.0 : 1.0;
     false_faults += !lies_now && o.told_s ? 1.0 : 0.0;
     if (o.implausible_s && !o.told_s) never += 1.0;
-    if (o.implausible_s && o.told_s) late_s = std::max(late_s, *o.told_s - *o.implausible_s);
+    if (o.implausible_s && o.told_s && !fakes) late_s = std::max(late_s, *o.told_s - *o.implausible_s);
     trace.row({static_cast<double>(i), static_cast<double>(cells[i].arm), static_cast<double>(cells[i].state),
                static_cast<double>(cells[i].lie), o.way_m, o.force_n, o.told_s.value_or(-1.0)});
   }
@@ -209,6 +217,8 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
   return {{"runs", runs, ""},
           {"way_max_m", way_m, "m"},
           {"true_force_over_guard", force_n / kGuard_n, ""},
+          {"faked_answer_way_max_m", faked_m, "m"},
+          {"faked_answer_true_force_over_guard", faked_n / kGuard_n, ""},
           {"told", told, ""},
           {"told_late_max_s", late_s, "s"},
           {"implausible_never_told", never, ""},

@@ -54,6 +54,8 @@ const std::vector<Limit>& slave_limits() {
   static const std::vector<Limit> kLimits = {{"command.speed_max_m_per_s", "0.25", "0.1", "0.26"},
                                              {"command.speed_max_rad_per_s", "0.3", "0.1", "0.31"},
                                              {"command.force_guard_n", "20", "10", "20.1"},
+                                             {"command.moment_guard_nm", "5", "2", "5.1"},
+                                             {"command.give_way_m", "0.2", "0.1", "0.21"},
                                              {"safety.gap_s", "0.2", "0.1", "0.21"},
                                              {"safety.age_max_s", "30", "10", "31"},
                                              {"safety.resume_s", "1", "0", "1.1"},

@@ -23,6 +23,8 @@ void expect_same(const CommandConfig& s, const proto::Command& m) {
   EXPECT_EQ(s.tolerance_m, m.tolerance_m());
   EXPECT_EQ(s.iterations_max, m.iterations_max());
   EXPECT_EQ(s.hold_force_n, m.hold_force_n());
+  EXPECT_EQ(s.moment_guard_nm, m.moment_guard_nm());
+  EXPECT_EQ(s.give_way_m, m.give_way_m());
 }
 
 void expect_same(const JointConfig& s, const proto::Joint& m) {

@@ -187,7 +187,7 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   std::vector<std::string> seen;
   for (bool Clamps::*limit :
        {&Clamps::joint_position, &Clamps::workspace, &Clamps::unreachable, &Clamps::force_guard,
-        &Clamps::singularity, &Clamps::joint_speed, &Clamps::tool_speed}) {
+        &Clamps::moment_guard, &Clamps::singularity, &Clamps::joint_speed, &Clamps::tool_speed}) {
     s.view.far.clamps = {};
     s.view.far.clamps.*limit = true;
     EXPECT_FALSE(contains(happening(s), "moving freely")) << happening(s);
@@ -337,12 +337,16 @@ TEST(Words, NameEveryClamp) {
   MasterView view;
   EXPECT_TRUE(clamps_in_words(view).empty());
   view.force_clamped = view.stiffness_clamped = view.damping_injected = true;
-  EXPECT_EQ(clamps_in_words(view).size(), 3u);
+  view.rotational_stiffness_clamped = true;
+  view.rotational_stiffness_max_nm_per_rad = 0.45;
+  EXPECT_EQ(clamps_in_words(view).size(), 4u);
+  EXPECT_EQ(clamps_in_words(view)[2],
+            "rotational stiffness: cut to 0.45 N m/rad, the most that this device can render");
   view.far_known = true;
-  view.far.clamps = {true, true, true, true, true, true, true, true};
-  EXPECT_EQ(clamps_in_words(view).size(), 7u) << "a robot that keeps up is not slowed down";
+  view.far.clamps = {true, true, true, true, true, true, true, true, true};
+  EXPECT_EQ(clamps_in_words(view).size(), 9u) << "a robot that keeps up is not slowed down";
   view.far.X_WE_goal.p.x() = 0.02;
-  EXPECT_EQ(clamps_in_words(view).size(), 10u);
+  EXPECT_EQ(clamps_in_words(view).size(), 12u);
 }
 
 }  // namespace

@@ -67,5 +67,26 @@ TEST(Relief, AWayBackInIsWayThatIsLeftAgainButNeverMoreThanAtFirst) {
   EXPECT_NEAR(relief.left_m(), 0.02, 1e-12);
 }
 
+TEST(Relief, AForceThatWouldGrowAtRestAnswersByNotGrowing) {
+  constexpr double kSpeed_m_per_s = 0.01;
+  for (const double stiffness : {90.0, 110.0}) {
+    Relief relief;
+    double way = 0.0;
+    for (; relief.may_go_on() && way < 0.5; way += kSpeed_m_per_s * kTick_s)
+      relief.go(kSpeed_m_per_s * kTick_s, 20.0, kTick_s, stiffness * kSpeed_m_per_s);
+    if (stiffness > 100.0) {
+      EXPECT_GE(way, 0.5);
+    } else {
+      EXPECT_NEAR(way, 0.15, 2e-3) << "20 mm, less the noise of 5 mm, by a tenth";
+    }
+  }
+}
+
+TEST(Relief, AnAnsweredWayIsNoLongerThanItMayBe) {
+  Relief relief;
+  relief.limit(0.1);
+  EXPECT_NEAR(way_m(relief, [](double way) { return 300.0 - 200.0 * way; }), 0.1, 2.1e-4);
+}
+
 }  // namespace
 }  // namespace longreach

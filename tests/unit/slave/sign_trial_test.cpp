@@ -122,13 +122,20 @@ TEST(SignTrial, AWallThatComesGoesOnToPush) {
     t.tool.go(away);
   }
   ASSERT_TRUE(t.tool.accused);
+  SignTrial known = t.trial;  // to grow at rest
   t.trial.begin(t.tool.watch);
-  for (int i = 0; i < 100; ++i) {
+  known.begin(t.tool.watch);
+  for (int i = 0; i < 160; ++i) {
     t.tool.wall_m -= 1e-3 * 0.01;
     t.tool.go(Vector3::Zero());
     t.step();
+    known.step(t.tool.watch, -kIn, {.noise_n = 0.05}, 1e-3, true);
+    if (i == 58) {
+      EXPECT_EQ(known.verdict(), Verdict::kPending);
+    }
   }
   EXPECT_EQ(t.trial.verdict(), Verdict::kNoRelief);
+  EXPECT_EQ(known.verdict(), Verdict::kNone) << "its answer to giving way decides";
 }
 
 // What comes and stops: the sum may fit, the last of it does not.
@@ -139,7 +146,7 @@ TEST(SignTrial, WhatStillChangesAtTheEndIsNoWrongSensor) {
   ASSERT_TRUE(t.press(0.01 * kIn));
   t.tool.go(0.01 * kIn, 0.3);
   t.trial.begin(t.tool.watch);
-  for (int i = 0; i < 70; ++i) {
+  for (int i = 0; i < 160; ++i) {
     t.tool.wall_m += i < 40 ? 1.5e-5 : i < 57 ? -3.53e-5 : 0.0;  // 0.6 N less, then as before
     t.tool.go(Vector3::Zero());
     t.step();
@@ -156,7 +163,7 @@ TEST(SignTrial, ABodyThatIsCarriedEndsItsForceWithTheMotion) {
   ASSERT_TRUE(t.tool.accused);
   t.trial.begin(t.tool.watch);
   const double from_n = t.tool.watch.size_n();
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 160; ++i) {
     t.tool.tell(std::max(0.2, from_n - 0.05 * i) * kIn);
     t.step();
   }

@@ -1,0 +1,115 @@
+#include "slave/command/contact_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kBleed_s = 0.2;   // τ: of a servo's lag and a loop's delay many times
+constexpr double kHoldAim = 0.95;  // of the hold limit, so that it is met within five τ
+constexpr double kSofter = 0.1;    // of a known stiffness, that a contact may seem to have
+constexpr double kBraking = 0.8;   // of the acceleration, for the end of the way
+constexpr double kCalm_s = 0.05;   // below the guard: the force has gone
+constexpr double kAlong = 0.3;     // cosine: not across
+
+}  // namespace
+
+void ContactGuard::approach(const ContactForce& contact, double dt) {
+  bleed_.reset();
+  const bool calm = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
+  calm_s_ = calm ? calm_s_ + dt : 0.0;
+  if (calm_s_ > kCalm_s) relief_.reset();
+}
+
+VelocityCap ContactGuard::cap(const ContactForce& contact) const {
+  VelocityCap cap;
+  if (!contact.in_contact) return cap;
+  cap.active = true;
+  cap.direction = -contact.reaction;
+  // In braking distances of the stiffest surface: what is left, or what is too much of what is still coming.
+  const double k = limits_.stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
+  const double left_m = (limits_.guard_n - contact.force_n) / k - coming_m;
+  const double speed = braking(left_m, coming_m);
+  cap.speed = (left_m > 0.0 ? speed : -speed) - bleed_off(contact, limits_.guard_n);
+  if (contact.gives_way) cap.speed = std::min(cap.speed, -contact.retreat_m_per_s);
+  cap.speed = std::max(cap.speed, -give_way_max(contact));
+  return cap;
+}
+
+double ContactGuard::braking(double left_m, double coming_m) const {
+  return std::sqrt(2.0 * limits_.acceleration_m_per_s2 *
+                   std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
+}
+
+// Whatever the sensor says of the direction.
+VelocityCap ContactGuard::growth(const ContactForce& contact) const {
+  VelocityCap cap;
+  if (!contact.in_contact || contact.grows.isZero(0.0)) return cap;
+  cap.active = true;
+  cap.direction = contact.grows;
+  const double left_m =
+      (limits_.guard_n - contact.force_n) / limits_.stiffness_n_per_m - std::max(contact.grows_lead_m, 0.0);
+  cap.speed = left_m > 0.0 ? braking(left_m, 0.0) : 0.0;
+  return cap;
+}
+
+bool ContactGuard::advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt) {
+  if (!contact.in_contact || !(contact.force_n > limits_.guard_n || contact.gave_way)) return false;
+  const bool in = v.dot(contact.reaction) < 0.0;
+  if (capped || in) give_way(contact, v, dt);
+  if (!(contact.force_n > limits_.guard_n || contact.gives_way)) return false;
+  // An operator who retreats by himself is not held up.
+  return !relief_.may_go_on() && (capped || !(v.dot(contact.reaction) > 0.0));
+}
+
+Vector3 ContactGuard::back_off(const ContactForce& contact, const Vector3& p) {
+  const double wanted = std::max(hold_off(contact, p), contact.retreat_m_per_s);
+  backs_off_ = wanted > 0.0;
+  return std::max(std::min(wanted, give_way_max(contact)), contact.ease_m_per_s) * contact.reaction;
+}
+
+bool ContactGuard::backed_off(const ContactForce& contact, const Vector3& v, double dt) {
+  if (!backs_off_) return false;
+  give_way(contact, v, dt);
+  return !relief_.may_go_on();
+}
+
+void ContactGuard::give_way(const ContactForce& contact, const Vector3& v, double dt) {
+  relief_.go(v.dot(contact.reaction) * dt, contact.force_n, dt, contact.trend_n_per_s);
+}
+
+// Speed from which it can still end within what is left of its way.
+double ContactGuard::give_way_max(const ContactForce& contact) const {
+  if (!contact.trusted || contact.grows.dot(contact.reaction) > kAlong) return 0.0;
+  const double left_m = relief_.may_go_on() ? relief_.left_m() : 0.0;
+  return std::sqrt(kBraking * 2.0 * limits_.acceleration_m_per_s2 * left_m);
+}
+
+// Speed out of the contact that eases what is above the limit; 0: nothing is.
+double ContactGuard::bleed_off(const ContactForce& contact, double limit_n) const {
+  if (!contact.in_contact || !(contact.force_n > limit_n)) return 0.0;
+  const double k = contact.stiffness_n_per_m > 0.0 ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
+  return std::min((contact.force_n - limit_n) / (k * kBleed_s), limits_.speed_m_per_s);
+}
+
+// Likewise in a hold, by the stiffness that the force shows as the tool goes back: not known at a first
+// touch, and less than the surface's where the robot gives way, too.
+double ContactGuard::hold_off(const ContactForce& contact, const Vector3& p) {
+  const double limit_n = limits_.hold_n, aim_n = kHoldAim * limit_n;
+  if (!contact.in_contact || contact.force_n <= aim_n) bleed_.reset();
+  if (!contact.in_contact) return 0.0;
+  const double out_m = contact.reaction.dot(p) + contact.lead_m;  // the tool, on its way out
+  if (!bleed_ && contact.force_n > limit_n) bleed_ = Bleed{contact.force_n, out_m};
+  if (!bleed_) return 0.0;
+  if (out_m < bleed_->from_m) *bleed_ = {contact.force_n, out_m};
+  const bool known = contact.stiffness_n_per_m > 0.0;
+  double k = known ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
+  const double least = known ? kSofter * k : std::min(k, scale_.soft_n_per_m);
+  const double fell_n = bleed_->from_n - contact.force_n + scale_.seen_n;
+  const double seen = fell_n / std::max(out_m - bleed_->from_m, 1e-9);
+  k = std::clamp(seen, least, k);
+  return std::clamp((contact.force_n - aim_n) / (k * kBleed_s), 0.0, limits_.speed_m_per_s);
+}
+
+}  // namespace longreach

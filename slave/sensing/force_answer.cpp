@@ -1,0 +1,196 @@
+#include "slave/sensing/force_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace longreach {
+namespace {
+
+constexpr double kSettled_s = 0.008;  // after the touch: the force is smooth, and late as it will be
+constexpr double kRest_s = 0.04;
+constexpr double kFast_s = 0.008, kFast = 0.5;       // of the bound: there is no time for more
+constexpr double kGrown_n = 0.4, kGrownNoise = 8.0;  // that noise does not make
+constexpr double kTrend_s = 0.25, kMuch_n = 1.6;     // a trend is of so long a rest, or of so much growth
+constexpr double kNoGrowth_s = 0.5;                  // of rest without that
+constexpr double kStale_s = 1.0;                     // of motion, after which a trend is no longer known
+constexpr double kStep_m = 1e-4;
+constexpr double kAside = 0.2, kRounding_m = 1e-5;  // of a way straight back
+constexpr double kAnswer_n = 0.5, kAnswerNoise = 10.0;
+constexpr double kAnswer_n_per_m = 100.0;  // that a contact has at least
+constexpr double kHardest_n_per_m = 1e7;   // steel on steel
+constexpr double kCheckMax_s = 0.5;        // a tool at its greatest speed has come to rest by then
+constexpr double kHaste_n_per_s = 250.0;   // growth at which the whole acceleration is used
+constexpr double kLeastHaste = 0.05;
+constexpr double kRefined_s = 0.1;         // after the answer: the stiffness becomes better by more way
+constexpr double kRelief_s = 0.1;          // τ
+constexpr double kFastest_m_per_s = 10.0;  // of a wall: more is noise
+constexpr double kWall_s = 0.05;           // time constant of v
+
+}  // namespace
+
+ForceAnswer::Trend ForceAnswer::trend(const Point& from, const Point& to) {
+  const double passed_s = std::max(to.t_s - from.t_s, 1e-6);
+  return {(to.force_n - from.force_n) / passed_s, (to.p_m - from.p_m) / passed_s};
+}
+
+void ForceAnswer::step(const ForceAnswerInput& in) {
+  if (!in.in_contact) return reset();
+  const Point now{before_.t_s + in.dt, in.force_n, in.p_m};
+  if (before_.t_s == 0.0) before_ = now;
+  rest(now, in);
+  if (gives_way() && !in.may_move) state_ = State::kGrowing;
+  switch (state_) {
+    case State::kRest:
+      if (grew_) state_ = State::kGrowing;
+      watch_relief(now, in);
+      break;
+    case State::kGrowing:
+      if (!grew_) state_ = State::kRest;
+      watch_relief(now, in);
+      if (grew_ && in.may_move && in.force_n >= in.bound_n) begin_to_give_way(now, in.reaction);
+      break;
+    case State::kGivingWay:
+      look_for_answer(now);
+      break;
+    case State::kAnswered:
+      answered_s_ += in.dt;
+      if (!grew_ && in.still) state_ = State::kRest;
+      break;
+    case State::kChecking:
+      checked_s_ += in.dt;
+      check(now, in);
+      break;
+    case State::kWrongSign:
+      break;
+  }
+  if (gives_way()) drive(now, in);
+  before_ = now;
+}
+
+// By more than noise and what the tool's own way could make.
+bool ForceAnswer::grown(const Point& from, const Point& now, const ForceAnswerInput& in) const {
+  const double nearer_m = std::max(-in.reaction.dot(now.p_m - from.p_m), 0.0);
+  const double grown_n = now.force_n - from.force_n - limits_.stiffness_n_per_m * nearer_m;
+  const double passed_s = now.t_s - from.t_s;
+  const bool fast = passed_s >= kFast_s && grown_n >= kFast * in.bound_n;
+  return (passed_s >= kRest_s || fast) && grown_n >= std::max(kGrown_n, kGrownNoise * limits_.noise_n);
+}
+
+// Two points of the rest, so that a trend is neither of a moment nor of long ago.
+void ForceAnswer::rest(const Point& now, const ForceAnswerInput& in) {
+  if (!in.still || now.t_s < kSettled_s) {
+    rest_s_ = 0.0;
+    moved_s_ += in.dt;
+    if (moved_s_ > kStale_s && !gives_way()) grew_ = false;
+    return;
+  }
+  if (rest_s_ == 0.0) begun_ = now;
+  if (rest_s_ == 0.0 || now.force_n < older_.force_n) older_ = newer_ = now;
+  rest_s_ += in.dt;
+  moved_s_ = 0.0;
+  const bool lately = now.t_s - newer_.t_s <= kNoGrowth_s;
+  if (grown(older_, now, in)) {
+    grew_ = grew_ || lately;
+    trend_ = trend(older_, now);
+  }
+  if (grown(newer_, now, in)) {
+    grew_ = true;
+    if (now.t_s - newer_.t_s >= kTrend_s || now.force_n - newer_.force_n >= kMuch_n)
+      older_ = std::exchange(newer_, now);
+  } else if (!lately) {
+    grew_ = false;
+  }
+}
+
+void ForceAnswer::begin_to_give_way(const Point& now, const Vector3& reaction) {
+  state_ = State::kGivingWay;
+  watches_ = false;
+  gave_way_ = true;
+  from_ = now;
+  given_ = trend_;
+  along_ = reaction;
+  retreat_m_per_s_ = 0.0;
+}
+
+ForceAnswer::Deviation ForceAnswer::deviation(const Point& now, double trend_n_per_s) const {
+  const double passed_s = now.t_s - from_.t_s;
+  return {from_.force_n + trend_n_per_s * passed_s - now.force_n,
+          along_.dot(now.p_m - from_.p_m - passed_s * given_.m_per_s)};
+}
+
+bool ForceAnswer::decides(double change_n, double way_m) const {
+  return way_m >= kStep_m &&
+         change_n >= std::max({kAnswer_n, kAnswerNoise * limits_.noise_n, kAnswer_n_per_m * way_m});
+}
+
+// The tool goes back because the guard is exceeded. Only straight back counts: what slides may meet more.
+void ForceAnswer::watch_relief(const Point& now, const ForceAnswerInput& in) {
+  const Vector3 way_m = now.p_m - from_.p_m;
+  const double out_m = along_.dot(way_m), aside_m = (way_m - out_m * along_).norm();
+  if (!in.may_move || in.force_n <= in.guard_n) watches_ = false;
+  if (!watches_ || out_m < 0.0 || aside_m > kAside * out_m + kRounding_m) {
+    watches_ = in.may_move && in.force_n > in.guard_n;
+    from_ = now;
+    along_ = in.reaction;
+    given_ = {};
+    return;
+  }
+  if (!decides(from_.force_n - now.force_n, out_m) && !decides(now.force_n - from_.force_n, out_m)) return;
+  if (now.force_n > from_.force_n) {
+    state_ = State::kChecking;
+    checked_s_ = 0.0;
+    tries_ = true;
+  }
+  watches_ = false;
+}
+
+void ForceAnswer::look_for_answer(const Point& now) {
+  const Deviation d = deviation(now, given_.n_per_s);
+  if (decides(d.fell_n, d.way_m)) {
+    state_ = State::kAnswered;
+    answered_ = true;
+    answered_s_ = 0.0;
+  } else if (decides(-d.fell_n, d.way_m)) {
+    state_ = State::kChecking;
+    checked_s_ = 0.0;
+  }
+}
+
+// A wall that comes faster than it did looks like a wrong sign; at rest it shows how fast it now is.
+void ForceAnswer::check(const Point& now, const ForceAnswerInput& in) {
+  if (rest_s_ < kRest_s && checked_s_ < kCheckMax_s) return;
+  if (!in.still) begun_ = now;
+  const Trend after = trend(begun_, now);
+  if (tries_) {
+    tries_ = false;
+    trend_ = after;
+    return begin_to_give_way(now, in.reaction);
+  }
+  const Deviation d = deviation(begun_, 0.5 * (given_.n_per_s + after.n_per_s));
+  state_ = decides(-d.fell_n, d.way_m) ? State::kWrongSign : State::kGrowing;
+  trend_ = after;
+}
+
+void ForceAnswer::drive(const Point& now, const ForceAnswerInput& in) {
+  if (state_ == State::kGivingWay) {
+    const double haste = std::clamp(given_.n_per_s / kHaste_n_per_s, kLeastHaste, 1.0);
+    retreat_m_per_s_ += haste * limits_.acceleration_m_per_s2 * in.dt;
+  } else {
+    const Deviation d = deviation(now, given_.n_per_s);
+    if (answered_s_ < kRefined_s && decides(d.fell_n, d.way_m)) {
+      stiffness_n_per_m_ = std::clamp(d.fell_n / d.way_m, kAnswer_n_per_m, kHardest_n_per_m);
+      wall_m_per_s_ = given_.n_per_s / stiffness_n_per_m_;
+    } else {
+      const double comes_m =
+          along_.dot(now.p_m - before_.p_m) + (now.force_n - before_.force_n) / stiffness_n_per_m_;
+      const double seen_m_per_s = std::clamp(comes_m / in.dt, -kFastest_m_per_s, kFastest_m_per_s);
+      wall_m_per_s_ += -std::expm1(-in.dt / kWall_s) * (seen_m_per_s - wall_m_per_s_);
+    }
+    const double above_n = in.force_n - in.bound_n;
+    retreat_m_per_s_ = wall_m_per_s_ + above_n / (stiffness_n_per_m_ * kRelief_s);
+  }
+  retreat_m_per_s_ = std::clamp(retreat_m_per_s_, 0.0, limits_.speed_m_per_s);
+}
+
+}  // namespace longreach

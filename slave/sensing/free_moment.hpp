@@ -1,0 +1,24 @@
+#pragma once
+// What of a measured moment is a contact by rotation. A force F that acts at r makes the moment r x F about
+// the tool: across F, and at most |r| |F|. That part is the force at its lever:
+//   τ_free = τ - min(1, L |F|/|τ_across|) τ_across,  τ_across = τ - (τ·F) F/|F|²
+// L is the longest lever that a tool has. A force that may be noise explains nothing. A stop that turns the
+// tool about an axis across a force that presses at the same time is noticed only from L |F| on.
+
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+constexpr double kToolLever_m = 0.3;
+constexpr double kForceSeen_n = 0.2;
+
+inline Vector3 free_moment_nm(const Wrench& F_E_W) {
+  const double force_n = F_E_W.force.norm();
+  if (!(force_n > kForceSeen_n)) return F_E_W.moment;
+  const Vector3 along = F_E_W.force / force_n;
+  const Vector3 across_nm = F_E_W.moment - along.dot(F_E_W.moment) * along;
+  const double size_nm = across_nm.norm(), lever_nm = kToolLever_m * force_n;
+  return F_E_W.moment - (size_nm > lever_nm ? lever_nm / size_nm : 1.0) * across_nm;
+}
+
+}  // namespace longreach

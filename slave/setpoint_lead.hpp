@@ -1,0 +1,46 @@
+#pragma once
+// How far the setpoint is ahead of a tool that follows it through a servo (servo_lag.hpp), in place and in
+// rotation.
+
+#include "slave/command/servo_lag.hpp"
+
+namespace longreach {
+
+class SetpointLead {
+ public:
+  explicit SetpointLead(double servo_hz) : place_(servo_hz), turn_(servo_hz) {}
+
+  /// The tool rests at this setpoint.
+  void reset(const Pose& X_WE) {
+    place_.reset(X_WE.p);
+    turn_.reset(turned_rad_);
+    q_WE_ = X_WE.q;
+    p_WE_ = X_WE.p;
+    speed_m_per_s_ = 0.0;
+    m_.setZero();
+    rad_.setZero();
+  }
+  /// The setpoint, `dt` > 0 after the last.
+  void step(const Pose& X_WE, double dt) {
+    turned_rad_ += log_rotation(X_WE.q * q_WE_.conjugate());
+    q_WE_ = X_WE.q;
+    speed_m_per_s_ = (X_WE.p - p_WE_).norm() / dt;
+    p_WE_ = X_WE.p;
+    m_ = place_.step(X_WE.p, dt);
+    rad_ = turn_.step(turned_rad_, dt);
+  }
+  [[nodiscard]] const Vector3& m() const { return m_; }
+  /// The setpoint stands, but for rounding, and the way still to come makes no force that is seen.
+  [[nodiscard]] bool still() const { return speed_m_per_s_ < 1e-4 && m_.norm() < 5e-6; }
+  [[nodiscard]] const Vector3& rad() const { return rad_; }
+
+ private:
+  ServoLag place_, turn_;
+  Quaternion q_WE_ = Quaternion::Identity();
+  Vector3 p_WE_ = Vector3::Zero();
+  double speed_m_per_s_ = 0.0;
+  Vector3 turned_rad_ = Vector3::Zero();  // sum of the setpoint's turns
+  Vector3 m_ = Vector3::Zero(), rad_ = Vector3::Zero();
+};
+
+}  // namespace longreach

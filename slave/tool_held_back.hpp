@@ -1,0 +1,47 @@
+#pragma once
+// What keeps the tool from its goal (held_back.hpp), in place and in rotation: which limit acts, and in which
+// direction as far as it is one limit.
+
+#include "slave/command/held_back.hpp"
+#include "slave/contact.hpp"
+
+namespace longreach {
+
+struct ToolHeldBackInput {
+  Clamps clamps{};
+  Pose X_WE{};  // measured
+  Pose X_WE_goal{};
+  Pose X_WE_anchor{};
+  Vector3 centre_m = Vector3::Zero();  // of the workspace
+  double dt = 0.0;
+};
+
+class ToolHeldBack {
+ public:
+  void reset() {
+    place_.reset();
+    turn_.reset();
+  }
+  void step(const ToolHeldBackInput& in, const SlaveContact& contact, const SlaveContact& turn_contact) {
+    const Clamps& clamps = in.clamps;
+    const bool arm = clamps.joint_position || clamps.singularity || clamps.unreachable;
+    // Several limits at once act in no direction of one of them.
+    Vector3 along = Vector3::Zero(), about = Vector3::Zero();
+    if (!arm && clamps.workspace && !clamps.force_guard) along = (in.X_WE.p - in.centre_m).stableNormalized();
+    if (!arm && !clamps.workspace && contact.in_contact()) along = -contact.normal();
+    if (!arm && clamps.moment_guard && turn_contact.in_contact()) about = -turn_contact.normal();
+    place_.step(in.X_WE.p - in.X_WE_anchor.p, in.X_WE_goal.p - in.X_WE.p,
+                arm || clamps.workspace || clamps.force_guard, along, in.dt);
+    turn_.step(log_rotation(in.X_WE.q * in.X_WE_anchor.q.conjugate()),
+               log_rotation(in.X_WE_goal.q * in.X_WE.q.conjugate()), arm || clamps.moment_guard, about,
+               in.dt);
+  }
+  /// Of each: unit, in W, towards the goal; zero: nothing holds the tool back.
+  [[nodiscard]] const Vector3& place() const { return place_.direction(); }
+  [[nodiscard]] const Vector3& turn() const { return turn_.direction(); }
+
+ private:
+  HeldBack place_{2e-3}, turn_{0.02};  // from its goal, m and rad: the tool does not follow
+};
+
+}  // namespace longreach

@@ -1,0 +1,73 @@
+// A wall that comes towards a robot whose operator holds still, over the whole loop: how far and how hard,
+// and what the operator is told at the master.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/config/config.hpp"
+#include "slave/command/guard_config.hpp"
+#include "tests/experiments/experiment.hpp"
+#include "tests/experiments/laboratory.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kGuard_n = 20.0, kWall_n_per_m = 2000.0, kWall_m_per_s = 0.03, kGiveWay_m = 0.1;
+
+struct Came {
+  double force_n = 0.0;  // largest at the tool, engaged
+  double way_m = 0.0;
+  Reason told{};  // first cause at the master
+  bool engaged_again = false;
+  double retreat_m = 0.0;  // then
+};
+
+/// `presses_on`: it is watched after the hold, too.
+Came comes(double give_way_m, double watched_m, bool presses_on = false) {
+  const proto::LabConfig config =
+      configure({"profile=lab", "mapping.mode=POSITION", "mapping.scale=1", "safety.engage_at_start=true",
+                 "command.give_way_m=" + std::to_string(give_way_m),
+                 "scene.surface.wall.plane.point_m=" + std::to_string(3.0 * kWall_m_per_s) + ",0,0",
+                 "scene.surface.wall.movement.velocity_m_per_s=" + std::to_string(-kWall_m_per_s) + ",0,0",
+                 "scene.material.wall.stiffness_n_per_m=" + std::to_string(kWall_n_per_m)},
+                LONGREACH_DEPLOY);
+  Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
+  const double from_m = lab.arm().start_pose().p.x();
+  Came out;
+  const double until_s = 3.0 + (watched_m + kGuard_n / kWall_n_per_m) / kWall_m_per_s;
+  while (lab.now_s() < until_s && (out.told == HoldCause::kNone || presses_on)) {
+    lab.drive({});
+    lab.step();
+    out.force_n = std::max(out.force_n, lab.arm().true_wrench().force.norm());
+    out.way_m = from_m - lab.arm().true_pose().p.x();
+    if (lab.master().state == SafetyState::kHolding) out.told = lab.master().cause;
+  }
+  const double held_m = lab.arm().true_pose().p.x();
+  lab.requests().engage = true;
+  for (double t = 0.0; t < 1.0; t += lab.period_s()) {
+    HandTarget hand;
+    hand.position_m.x() = -0.1 * t;
+    lab.drive(hand);
+    lab.step();
+    out.engaged_again = out.engaged_again || lab.slave().state == SafetyState::kEngaged;
+  }
+  out.retreat_m = held_m - lab.arm().true_pose().p.x();
+  return out;
+}
+
+TEST(MovingWall, IsGivenWayToAndThenTheOperatorRetreats) {
+  const Came came = comes(kGiveWay_m, 2.0 * kGiveWay_m);
+  EXPECT_LE(came.force_n, kGuardOvershoot * kGuard_n);
+  EXPECT_NEAR(came.way_m, kGiveWay_m, 2e-3);
+  EXPECT_EQ(came.told, HoldCause::kWallComes);
+  EXPECT_EQ(sentence(came.told), "something is moving towards the robot, the way out is along -x");
+  EXPECT_TRUE(came.engaged_again);
+  EXPECT_GT(came.retreat_m, 0.03);
+}
+
+TEST(MovingWall, WithoutThatWayItPressesOn) {
+  EXPECT_GT(comes(0.02, kGiveWay_m, true).force_n, 2.0 * kGuard_n);
+}
+
+}  // namespace
+}  // namespace longreach
