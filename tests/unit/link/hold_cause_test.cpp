@@ -38,6 +38,10 @@ TEST(HoldCauses, ThePlaceIsInTheSentence) {
             "joint 3 of the robot has leapt from 0.25 to 1.5 rad (or m), as no joint can");
   EXPECT_EQ(sentence({HoldCause::kToolOutside, 0, 0.612, 0.5}),
             "the tool is 0.612 m from the centre of its workspace, whose radius is 0.5 m");
+  EXPECT_EQ(sentence({HoldCause::kWallComes, 0, -1.0, 0.0}),
+            "something is moving towards the robot, the way out is along -x");
+  EXPECT_EQ(sentence({HoldCause::kWallComes, 0, 3.0, 0.0}),
+            "something is moving towards the robot, the way out is along +z");
   for (const HoldCause cause : all_causes()) {
     EXPECT_NE(sentence({cause, 2, 1e300, -1e300}).find("joint 2"), std::string::npos) << text_of(cause).name;
     EXPECT_EQ(sentence(cause), text_of(cause).sentence);
