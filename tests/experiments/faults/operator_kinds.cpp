@@ -2,9 +2,11 @@
 
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "common/config/number_text.hpp"
+#include "tests/experiments/faults/looseness.hpp"
 #include "tests/experiments/faults/world.hpp"
 
 namespace longreach {
@@ -57,52 +59,30 @@ void renew(World& world, Active& fault) {
   if (fault.begins) world.lease(true);
 }
 
-/// A client asks for everything that would loosen a limit, of whoever runs.
-template <std::size_t N>
-const char* any(Random& random, const std::array<const char*, N>& paths) {
-  return paths[random.next() % N];
-}
 std::string wild_value(Random& random) {
-  constexpr std::array kValues = {"0", "-1", "nan", "inf", "NAIVE", "1,0,0"};
+  constexpr std::array kValues = {"0",      "-1",   "nan",     "inf",  "1,0,0",
+                                  "IGNORE", "HOLD", "ARRIVAL", "true", "NAIVE"};
   return random.chance(0.2) ? kValues[random.next() % kValues.size()]
                             : format_number(log_scale(random.uniform(), 1e-3, 1e6));
 }
+const char* any(Random& random, std::span<const GuardedField> limits) {
+  return limits[random.next() % limits.size()].path;
+}
+/// A client asks for everything that would loosen a limit, of whoever runs.
 void loosen_slave(World& world, Active& fault) {
-  constexpr std::array kPaths = {"command.speed_max_m_per_s",
-                                 "command.acceleration_max_m_per_s2",
-                                 "command.speed_max_rad_per_s",
-                                 "command.acceleration_max_rad_per_s2",
-                                 "command.force_guard_n",
-                                 "command.hold_force_n",
-                                 "command.moment_guard_nm",
-                                 "command.give_way_m",
-                                 "command.guard_stiffness_n_per_m",
-                                 "command.workspace_m",
-                                 "command.tolerance_m",
-                                 "sensing.touch_n",
-                                 "sensing.release_n",
-                                 "sensing.filter_s",
-                                 "sensing.zero_s",
-                                 "sensing.tool.mass_kg",
-                                 "sensing.tool.com_m",
-                                 "sensing.gravity_m_per_s2",
-                                 "sensing.force_bias_n",
-                                 "safety.gap_s",
-                                 "safety.age_max_s",
-                                 "safety.resume_s",
-                                 "robot.servo_hz",
-                                 "playout.delay_s"};
-  if (often(world, fault)) world.set_slave(any(fault.random, kPaths), wild_value(fault.random));
+  if (often(world, fault)) world.set_slave(any(fault.random, slave_limits()), wild_value(fault.random));
 }
 void loosen_hand(World& world, Active& fault) {
-  constexpr std::array kPaths = {
-      "rendering.law",          "rendering.force_max_n",   "rendering.moment_max_nm",
-      "rendering.slew_n_per_s", "rendering.slew_nm_per_s", "rendering.stiffness_max_n_per_m",
-      "rendering.ke",           "rendering.tank_max_j",    "rendering.store_j",
-      "rendering.ramp_s",       "rendering.fade_s",        "rendering.contact_damping_n_s_per_m",
-      "safety.silence_s",       "safety.resume_s",         "safety.presence_s",
-      "mapping.kv_per_s",       "mapping.radius_max_m"};
-  if (often(world, fault)) world.set_master(any(fault.random, kPaths), wild_value(fault.random));
+  if (often(world, fault)) world.set_master(any(fault.random, master_limits()), wild_value(fault.random));
+}
+/// Also of what is no limit, and is not for clients.
+void meddle_with_robot(World& world, Active& fault) {
+  constexpr std::array kSlave = {"robot.servo_hz", "loop.rate_hz", "link.telemetry_hz", "playout.quantile"};
+  constexpr std::array kMaster = {"mapping.kv_per_s", "mapping.radius_max_m", "link.send_hz",
+                                  "device.period_s"};
+  if (!often(world, fault)) return;
+  world.set_slave(kSlave[fault.random.next() % kSlave.size()], wild_value(fault.random));
+  world.set_master(kMaster[fault.random.next() % kMaster.size()], wild_value(fault.random));
 }
 /// Tighter, while it moves.
 void tighten(World& world, Active& fault) {
@@ -144,6 +124,7 @@ const FaultKind kKinds[] = {
     {.name = "session-renewed", .group = kGroup, .spoils = kLease, .longest_s = 0.5, .act = renew},
     {.name = "limits-loosened", .group = kGroup, .act = loosen_slave},
     {.name = "hand-limits-loosened", .group = kGroup, .act = loosen_hand},
+    {.name = "settings-meddled-with", .group = kGroup, .act = meddle_with_robot},
     {.name = "limits-tightened", .group = kGroup, .act = tighten},
 };
 

@@ -329,7 +329,7 @@ void World::set_slave(std::string_view path, const std::string& value) {
               lab_.slave().state == SafetyState::kEngaged))
     return;
   lab_.configure_slave(to_struct(slave_config_));
-  moment_.loosened = looser(scenario_.slave, to_struct(slave_config_));
+  moment_.loosened = looser(scenario_.config.slave(), slave_config_);
 }
 
 void World::set_master(std::string_view path, const std::string& value) {
@@ -337,7 +337,7 @@ void World::set_master(std::string_view path, const std::string& value) {
               lab_.master().state == SafetyState::kEngaged))
     return;
   lab_.configure_master(to_struct(master_config_));
-  moment_.loosened = looser(scenario_.master, to_struct(master_config_));
+  moment_.loosened = looser(scenario_.config.master(), master_config_);
 }
 
 }  // namespace longreach
