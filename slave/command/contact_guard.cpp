@@ -86,9 +86,9 @@ double ContactGuard::give_way_max(const ContactForce& contact) const {
   return std::sqrt(kBraking * 2.0 * limits_.acceleration_m_per_s2 * left_m);
 }
 
-// Speed out of the contact that eases what is above the limit; 0: nothing is.
+// In contact, the speed out of it that eases what is above the limit; 0: nothing is.
 double ContactGuard::bleed_off(const ContactForce& contact, double limit_n) const {
-  if (!contact.in_contact || !(contact.force_n > limit_n)) return 0.0;
+  if (!(contact.force_n > limit_n)) return 0.0;
   const double k = contact.stiffness_n_per_m > 0.0 ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
   return std::min((contact.force_n - limit_n) / (k * kBleed_s), limits_.speed_m_per_s);
 }

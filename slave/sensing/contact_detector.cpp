@@ -10,7 +10,7 @@ namespace {
 constexpr double kNormalMemoryS = 2.0;
 constexpr double kNoiseMemoryS = 0.02;
 constexpr double kOutlier = 5.0;  // of the usual sd: what a spike counts at most after it
-constexpr double kTouchSds = 8.0, kReleaseSds = 4.0;
+constexpr double kTouchSds = 8.0;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
   const bool before = in_contact_;
   // Released below the touch threshold even if the configuration has them the wrong way round.
   reading.touch_n = std::max(config_.touch_n + doubt_n, kTouchSds * noise_n);
-  const double release_n = std::max(std::min(config_.release_n, config_.touch_n), kReleaseSds * noise_n);
+  const double release_n = std::min(config_.release_n, config_.touch_n);
   in_contact_ = before ? force >= release_n : force > reading.touch_n;
   reading.in_contact = in_contact_;
   reading.began = in_contact_ && !before;

@@ -1,8 +1,9 @@
 #pragma once
 // Is the tool in contact, and in which direction does the contact push?
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact begins when |f̄| > touch, ends when |f̄| < release
-// A sensor that becomes noisy makes neither: touch is at least 8, release 4 standard deviations of f̄ along an
-// axis, from the third differences of the last 20 ms (difference_noise.hpp says what they see).
+// A sensor that becomes noisy makes no contact: touch is at least 8 standard deviations of f̄ along an axis,
+// from the third differences of the last 20 ms (difference_noise.hpp says what they see). It ends none
+// either.
 //   n = Σ w f̄ / |Σ w f̄| over the contact, its last 2 s: the direction of the force on the tool (outward
 //   normal of a frictionless wall)
 // A sample that is not finite is left out and counted.

@@ -163,6 +163,16 @@ TEST(Faults, ASensorThatBecomesNoisyMakesNoSurface) {
       "seed 14084627291538519210\n");
 }
 
+// A sensor that sticks for 5 ms under a light press ends no contact, which would begin elsewhere.
+TEST(Faults, ASensorThatSticksEndsNoContact) {
+  expect_no_violation(
+      "seed 100\nfaults_end_s 12.316894587448326\nend_s 8.268\n"
+      "fault sensor-stuck start_s 4.538870313654189 duration_s 0.004765058811494528 size 0.8325610423205322 "
+      "seed 1186773267609567018\n"
+      "fault narrow start_s 4.777107929291367 duration_s 2.509872486890292 size 0.08244891451154834 seed "
+      "2514417517479460272\n");
+}
+
 TEST(Faults, ThereAreFortyKinds) {
   EXPECT_GE(fault_kinds().size(), 40U);
   std::vector<std::string_view> names;

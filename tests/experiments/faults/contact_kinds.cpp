@@ -78,7 +78,11 @@ constexpr auto kScene = only(Spoils::kScene);
 const FaultKind kKinds[] = {
     {.name = "surface-appears", .group = kGroup, .spoils = kScene, .act = appear, .end = as_it_was},
     {.name = "surface-vanishes", .group = kGroup, .spoils = kScene, .act = vanish, .end = as_it_was},
-    {.name = "surface-moves", .group = kGroup, .spoils = kScene, .act = move, .end = as_it_was},
+    {.name = "surface-moves",
+     .group = kGroup,
+     .spoils = Spoils::kScene | Spoils::kSwing,
+     .act = move,
+     .end = as_it_was},
     {.name = "surface-comes", .group = kGroup, .spoils = kScene, .act = come, .end = as_it_was},
     {.name = "surface-stiffens", .group = kGroup, .spoils = kScene, .act = stiffen, .end = as_it_was},
     {.name = "surface-softens", .group = kGroup, .spoils = kScene, .act = soften, .end = as_it_was},

@@ -30,7 +30,8 @@ enum class Spoils : std::uint16_t {
   kMaster = 256,     // the master sends what no master should
   kSlave = 512,      // the slave does
   kOperator = 1024,  // the operator does not let it go on
-  kLease = 2048      // who has the robot changes
+  kLease = 2048,     // who has the robot changes
+  kSwing = 4096      // what is touched goes to and fro
 };
 constexpr std::uint16_t operator|(Spoils a, Spoils b) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

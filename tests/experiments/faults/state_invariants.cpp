@@ -140,9 +140,10 @@ class Circumstances {
         return way || lately(unheard_s_) || lately(silent_s_);
       case HoldCause::kSensorFault:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot;
-      // Nothing that surroundings do is the sensor's.
+      // Of what surroundings do, only a swing of up to 1 Hz is as a sensor with a wrong sign would be: it
+      // comes while the robot goes, and rests while it rests.
       case HoldCause::kSensorSign:
-        return spoilt(Spoils::kSensor) || robot;
+        return spoilt(Spoils::kSensor) || spoilt(Spoils::kSwing) || robot;
       case HoldCause::kNoRelief:
       case HoldCause::kWallComes:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot || lately(pressed_s_);
@@ -246,8 +247,10 @@ class ToldWhy : public Invariant {
     if (m.reason == HoldCause::kNone || m.reason == shown_) return;
     shown_ = m.reason;
     words_ = "the reason that is shown was not there: " + std::string(text_of(m.reason).name);
+    // A fault that still stands may be old: I30 has judged its cause as it began.
+    const bool stands = m.reason_is_far && m.claimed == SafetyState::kFault && m.cause == m.reason;
     using At = Circumstances::At;
-    that(m, there_.had(m, m.reason, m.reason_is_far ? At::kSlave : At::kMaster), words_.c_str());
+    that(m, stands || there_.had(m, m.reason, m.reason_is_far ? At::kSlave : At::kMaster), words_.c_str());
   }
 
  private:

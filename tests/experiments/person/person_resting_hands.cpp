@@ -103,10 +103,14 @@ PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
           {"handle beyond its centre, m", -m.hand_m.x(), 1e-4},
           {"swing of the force, N", m.felt_swing_n, kCalm_n}};
 }
-/// Held out far enough for a hand to bear it.
+/// Held out far enough for a hand to bear it: 2 or 3 N, or what the store pays for, if that is less, for a
+/// stiffness that is found to be 2 % too low and less 4 % that a hand takes by giving way. (500 N/m and a
+/// firm hand: 2.96 N.)
 PersonChecks judge_felt(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all = judge_held_out(s, seen);
-  const double least_n = s.grip == Grip::kFirm ? 3.0 : 2.0;
+  const double low = 0.98 * rendered(s, s.slave.scene.material[0].stiffness_n_per_m);
+  const double paid_n = store_pays_n(s, low, s.master.rendering.rate_stiffness_n_per_m);
+  const double least_n = std::min(s.grip == Grip::kFirm ? 3.0 : 2.0, 0.96 * paid_n);
   all.push_back({"shortfall of what is to be felt, N", least_n - seen.move[0].felt_n, 0.0});
   return all;
 }

@@ -206,5 +206,37 @@ TEST(ForceAnswer, StaysFiniteWhateverItIsGiven) {
   }
 }
 
+TEST(ForceAnswer, StopsToGiveWayWhereItMayMoveNoMore) {
+  for (const State till : {State::kGivingWay, State::kAnswered}) {
+    OnTheRail rail;
+    rail.wall_m = coming(0.01);
+    ASSERT_EQ(rail.go(5.0, [till](State s) { return s == till; }), till);
+    rail.may_move = false;
+    rail.go(kDt);
+    EXPECT_EQ(rail.answer.state(), State::kGrowing);
+    EXPECT_EQ(rail.answer.retreat_m_per_s(), 0.0);
+    rail.may_move = true;
+    EXPECT_EQ(rail.go(5.0), State::kAnswered);
+  }
+}
+
+// It cannot rest, as the robot overshoots: what is known then decides.
+TEST(ForceAnswer, ACheckEndsThoughTheToolDoesNotComeToRest) {
+  OnTheRail rail;
+  rail.wall_m = coming(0.01);
+  rail.sign = -1.0;
+  ASSERT_EQ(rail.go(50.0, [](State s) { return s == State::kChecking; }), State::kChecking);
+  State last = State::kChecking;
+  for (int i = 0; i < 5000 && last == State::kChecking; ++i) {
+    const double in_m = rail.tool_m - 1e-6 * i;
+    rail.t_s += kDt;
+    const double force_n = 2e3 * std::max(0.01 * rail.t_s - in_m, 0.0);
+    rail.answer.step({in_m * Vector3::UnitX(), force_n, -Vector3::UnitX(), true, false, true, kBound_n,
+                      kBound_n / 0.8, kDt});
+    last = rail.answer.state();
+  }
+  EXPECT_NE(last, State::kChecking);
+}
+
 }  // namespace
 }  // namespace longreach

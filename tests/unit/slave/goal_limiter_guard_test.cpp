@@ -257,5 +257,75 @@ TEST(Pursue, BacksOutWithinItsSpeedWhileTheRestOfTheMotionEnds) {
   EXPECT_NEAR(p.velocity.x(), -limits.speed, 1e-3);
 }
 
+TEST(GoalLimiterGuard, GivesWayAsFastAsItIsToldWhateverTheGoal) {
+  constexpr double kRetreat = 0.01;
+  Touching t(18.0);
+  t.contact.gives_way = t.contact.gave_way = true;
+  t.contact.retreat_m_per_s = kRetreat;
+  t.contact.trend_n_per_s = 20.0;  // at rest: what it does not grow by is its answer
+  EXPECT_NEAR(t.go_to(Vector3(2, 0, 0)).x(), -kRetreat, 1e-12);
+  EXPECT_TRUE(t.out.force_guard);
+  t.contact.force_n = 0.9 * kHold_n;
+  EXPECT_NEAR(t.hold().x(), -kRetreat, 1e-12);
+  // What was given counts till the contact ends; below the guard the tool goes on meanwhile.
+  t.contact.gives_way = false;
+  t.contact.force_n = 15.0;
+  EXPECT_GT(t.go_to(Vector3(2, 0, 0), 1000).x(), 0.0);
+  EXPECT_FALSE(t.out.no_relief);
+  t.contact.force_n = 25.0;
+  EXPECT_LT(t.go_to(Vector3(2, 0, 0)).x(), 0.0);
+  t.contact.in_contact = false;
+  EXPECT_GT(t.go_to(Vector3(2, 0, 0)).x(), 0.2);
+  EXPECT_FALSE(t.out.no_relief);
+}
+
+/// Likewise of a contact by rotation about z, that turns the tool back.
+struct Turning : Touching {
+  ContactForce moment{.in_contact = true, .reaction = -Vector3::UnitZ()};
+
+  explicit Turning(double moment_nm) : Touching(0.0) {
+    contact.in_contact = false;
+    moment.force_n = moment_nm;
+  }
+  double turn_to(double rad, int ticks = 300) {
+    const Pose goal{Vector3::Zero(), Quaternion(Eigen::AngleAxisd(rad, Vector3::UnitZ()))};
+    for (int i = 0; i < ticks; ++i) out = limiter.step({goal, contact, kDt, let_go, moment});
+    return limiter.velocity().angular.z();
+  }
+};
+
+TEST(GoalLimiterGuard, TheMomentGuardHoldsTheToolAndTheWayBackIsFree) {
+  Turning at(CommandConfig{}.moment_guard_nm);
+  EXPECT_NEAR(at.turn_to(1.0), 0.0, 1e-9);
+  EXPECT_TRUE(at.out.moment_guard);
+  EXPECT_FALSE(at.out.force_guard);
+  EXPECT_LT(at.turn_to(-1.0), -0.1);
+  EXPECT_FALSE(at.out.moment_guard);
+}
+
+TEST(GoalLimiterGuard, WhereTheMomentGrowsTheTurnIsBounded) {
+  Turning about_x(CommandConfig{}.moment_guard_nm);
+  about_x.moment.reaction = Vector3::UnitX();
+  about_x.moment.grows = Vector3::UnitZ();
+  EXPECT_NEAR(about_x.turn_to(1.0), 0.0, 1e-9);
+  EXPECT_TRUE(about_x.out.moment_guard);
+}
+
+TEST(GoalLimiterGuard, GivesWayInAHoldNoFartherThanTheWorkspace) {
+  CommandConfig config;
+  config.workspace_m = 0.2;
+  for (const double towards : {1.0, -1.0}) {  // the edge is behind the tool, or before it
+    Touching t(0.0);
+    t.limiter = GoalLimiter(config, Vector3(towards * 0.1999, 0, 0));
+    t.limiter.reset({});
+    t.contact.force_n = 25.0;
+    for (int i = 0; i < 1000; ++i) t.hold(1);
+    const double way_m = -t.out.X_WE.p.x();
+    EXPECT_GT(way_m, 0.0);
+    if (towards > 0.0) EXPECT_LE(way_m, 1.1e-4);
+    if (towards < 0.0) EXPECT_GT(way_m, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace longreach

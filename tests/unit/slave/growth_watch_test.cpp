@@ -158,5 +158,28 @@ TEST(GrowthWatch, PlacesOfHalfASecondAgoDoNotCount) {
   EXPECT_FALSE(tool.accused) << "0.45 N, but never within half a second";
 }
 
+TEST(GrowthWatch, BeginsAnewWithAnEngagement) {
+  PressedTool tool(2e3);
+  tool.sensor = -Matrix3::Identity();
+  while (!tool.accused) tool.go(0.01 * kIn);
+  tool.watch.reset();
+  EXPECT_TRUE(tool.watch.direction().isZero(0.0));
+  EXPECT_FALSE(tool.watch.in_contact());
+  tool.accused = false;
+  tool.go(Vector3::Zero(), 0.5);
+  EXPECT_FALSE(tool.accused);
+  tool.go(0.01 * kIn, 0.5);
+  EXPECT_TRUE(tool.accused);
+}
+
+TEST(GrowthWatch, WhatWasSeenDoesNotCountAsTheToolGivesWay) {
+  PressedTool tool(2e3);
+  tool.sensor = -Matrix3::Identity();
+  while (!tool.accused) tool.go(0.01 * kIn);
+  tool.watch.forget();
+  EXPECT_TRUE(tool.watch.direction().isZero(0.0));
+  EXPECT_TRUE(tool.watch.in_contact());
+}
+
 }  // namespace
 }  // namespace longreach
