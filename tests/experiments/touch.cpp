@@ -39,6 +39,7 @@ struct Watch {
   double unsettled_s = -1.0;  // when the hand was last in a hold
   double force_step_max_n = 0.0;
   double force_step_excess_n = 0.0;  // over max(0.1 N, 5 % of the force)
+  double force_rise_excess_n = 0.0;  // likewise, of a step that makes it greater
   double registration_m = -1.0;      // at the second touch
   double force_peak_n = 0.0;         // at the tool
   double speed_peak_m_per_s = 0.0;   // of the hand
@@ -70,9 +71,10 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   w.speed_peak_m_per_s = std::max(w.speed_peak_m_per_s, lab.devices().delta().velocity_m_per_s().norm());
   if (m.reports != w.reports) {
     w.reports = m.reports;
-    const double step_n = std::abs(m.force_step_n);
-    w.force_step_max_n = std::max(w.force_step_max_n, step_n);
-    w.force_step_excess_n = std::max(w.force_step_excess_n, step_n - std::max(0.1, 0.05 * spring_n));
+    const double allowed_n = std::max(0.1, 0.05 * spring_n);
+    w.force_step_max_n = std::max(w.force_step_max_n, std::abs(m.force_step_n));
+    w.force_step_excess_n = std::max(w.force_step_excess_n, std::abs(m.force_step_n) - allowed_n);
+    w.force_rise_excess_n = std::max(w.force_rise_excess_n, m.force_step_n - allowed_n);
   }
   if (w.first_touch_s < 0.0 && lab.arm().true_penetration_m() > 0.0) {
     w.first_touch_s = lab.now_s();
@@ -141,6 +143,7 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
           {"energy_drawdown_j", m.energy_drawdown_j, "J"},
           {"force_step_at_update_max_n", w.force_step_max_n, "N"},
           {"force_step_excess_n", w.force_step_excess_n, "N"},
+          {"force_rise_excess_n", w.force_rise_excess_n, "N"},
           {"tool_force_peak_n", w.force_peak_n, "N"},
           {"hand_speed_peak_m_per_s", w.speed_peak_m_per_s, "m/s"},
           {"rtt_s", w.rtt_s, "s"},

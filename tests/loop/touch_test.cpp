@@ -89,7 +89,8 @@ TEST_P(Touch, TheHandFeelsTheWallCalmlyWhereItIs) {
   EXPECT_EQ(v.at("probing_cycles_done"), 1.0);
   EXPECT_GE(v.at("port_energy_min_j"), -returned_most_j());
   EXPECT_LE(v.at("energy_drawdown_j"), 0.001);
-  EXPECT_LE(v.at("force_step_excess_n"), 0.0);
+  EXPECT_LE(v.at("force_rise_excess_n"), 0.0);  // it may fall by a little more: a surface that lies deeper
+  EXPECT_LE(v.at("force_step_excess_n"), 0.1);
   EXPECT_LE(v.at("wall_registration_error_m"), 0.001);
   EXPECT_EQ(v.at("rejected_datagrams"), 0.0);
   EXPECT_EQ(v.at("rejected_values"), 0.0);

@@ -65,24 +65,21 @@ std::string wild_value(Random& random) {
   return random.chance(0.2) ? kValues[random.next() % kValues.size()]
                             : format_number(log_scale(random.uniform(), 1e-3, 1e6));
 }
-const char* any(Random& random, std::span<const GuardedField> limits) {
-  return limits[random.next() % limits.size()].path;
+/// A limit, or what is none and still not for clients.
+const char* any(Random& random, std::span<const GuardedField> limits, std::span<const char* const> more) {
+  const std::size_t at = random.next() % (limits.size() + more.size());
+  return at < limits.size() ? limits[at].path : more[at - limits.size()];
 }
 /// A client asks for everything that would loosen a limit, of whoever runs.
 void loosen_slave(World& world, Active& fault) {
-  if (often(world, fault)) world.set_slave(any(fault.random, slave_limits()), wild_value(fault.random));
+  constexpr std::array kMore = {"robot.servo_hz", "playout.quantile"};
+  if (often(world, fault))
+    world.set_slave(any(fault.random, slave_limits(), kMore), wild_value(fault.random));
 }
 void loosen_hand(World& world, Active& fault) {
-  if (often(world, fault)) world.set_master(any(fault.random, master_limits()), wild_value(fault.random));
-}
-/// Also of what is no limit, and is not for clients.
-void meddle_with_robot(World& world, Active& fault) {
-  constexpr std::array kSlave = {"robot.servo_hz", "loop.rate_hz", "link.telemetry_hz", "playout.quantile"};
-  constexpr std::array kMaster = {"mapping.kv_per_s", "mapping.radius_max_m", "link.send_hz",
-                                  "device.period_s"};
-  if (!often(world, fault)) return;
-  world.set_slave(kSlave[fault.random.next() % kSlave.size()], wild_value(fault.random));
-  world.set_master(kMaster[fault.random.next() % kMaster.size()], wild_value(fault.random));
+  constexpr std::array kMore = {"mapping.kv_per_s", "mapping.radius_max_m"};
+  if (often(world, fault))
+    world.set_master(any(fault.random, master_limits(), kMore), wild_value(fault.random));
 }
 /// Tighter, while it moves.
 void tighten(World& world, Active& fault) {
@@ -124,7 +121,6 @@ const FaultKind kKinds[] = {
     {.name = "session-renewed", .group = kGroup, .spoils = kLease, .longest_s = 0.5, .act = renew},
     {.name = "limits-loosened", .group = kGroup, .act = loosen_slave},
     {.name = "hand-limits-loosened", .group = kGroup, .act = loosen_hand},
-    {.name = "settings-meddled-with", .group = kGroup, .act = meddle_with_robot},
     {.name = "limits-tightened", .group = kGroup, .act = tighten},
 };
 
