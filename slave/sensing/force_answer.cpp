@@ -8,14 +8,14 @@ namespace longreach {
 namespace {
 
 constexpr double kSettled_s = 0.008;  // after the touch: the force is smooth, and late as it will be
-constexpr double kRest_s = 0.04;
+constexpr double kTrendRest_s = 0.04;
 constexpr double kFast_s = 0.008, kFast = 0.5;       // of the bound: there is no time for more
 constexpr double kGrown_n = 0.4, kGrownNoise = 8.0;  // that noise does not make
 constexpr double kTrend_s = 0.25, kMuch_n = 1.6;     // a trend is of so long a rest, or of so much growth
 constexpr double kNoGrowth_s = 0.5;                  // of rest without that
 constexpr double kStale_s = 1.0;                     // of motion, after which a trend is no longer known
 constexpr double kStep_m = 1e-4;
-constexpr double kAside = 0.2, kRounding_m = 1e-5;  // of a way straight back
+constexpr double kAsideShare = 0.2, kRounding_m = 1e-5;  // of a way straight back
 constexpr double kAnswer_n = 0.5, kAnswerNoise = 10.0;
 constexpr double kAnswer_n_per_m = 100.0;  // that a contact has at least
 constexpr double kHardest_n_per_m = 1e7;   // steel on steel
@@ -74,7 +74,7 @@ bool ForceAnswer::grown(const Point& from, const Point& now, const ForceAnswerIn
   const double grown_n = now.force_n - from.force_n - limits_.stiffness_n_per_m * nearer_m;
   const double passed_s = now.t_s - from.t_s;
   const bool fast = passed_s >= kFast_s && grown_n >= kFast * in.bound_n;
-  return (passed_s >= kRest_s || fast) && grown_n >= std::max(kGrown_n, kGrownNoise * limits_.noise_n);
+  return (passed_s >= kTrendRest_s || fast) && grown_n >= std::max(kGrown_n, kGrownNoise * limits_.noise_n);
 }
 
 // Two points of the rest, so that a trend is neither of a moment nor of long ago.
@@ -129,7 +129,7 @@ void ForceAnswer::watch_relief(const Point& now, const ForceAnswerInput& in) {
   const Vector3 way_m = now.p_m - from_.p_m;
   const double out_m = along_.dot(way_m), aside_m = (way_m - out_m * along_).norm();
   if (!in.may_move || in.force_n <= in.guard_n) watches_ = false;
-  if (!watches_ || out_m < 0.0 || aside_m > kAside * out_m + kRounding_m) {
+  if (!watches_ || out_m < 0.0 || aside_m > kAsideShare * out_m + kRounding_m) {
     watches_ = in.may_move && in.force_n > in.guard_n;
     from_ = now;
     along_ = in.reaction;
@@ -159,7 +159,7 @@ void ForceAnswer::look_for_answer(const Point& now) {
 
 // A wall that comes faster than it did looks like a wrong sign; at rest it shows how fast it now is.
 void ForceAnswer::check(const Point& now, const ForceAnswerInput& in) {
-  if (rest_s_ < kRest_s && checked_s_ < kCheckMax_s) return;
+  if (rest_s_ < kTrendRest_s && checked_s_ < kCheckMax_s) return;
   if (!in.still) begun_ = now;
   const Trend after = trend(begun_, now);
   if (tries_) {
