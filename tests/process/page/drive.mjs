@@ -78,17 +78,20 @@ async function path(person) {
   });
   // Coarse: a deflection of 15 mm is a speed of 20 mm/s. Let go, the handle goes home.
   await person.click('[data-mode="rate"]');
-  await person.see('rate mode', () => longreach.frame().mode === 'rate');
+  await person.see('rate mode', () => longreach.frame().mode === 'rate', () => person.hold_on());
   await person.grasp();
   await person.see('nearly at the wall', () => longreach.commanded() > 0.09, async () => {
     if (!await person.hold_on()) return;
     await person.drag(0.015 - await person.look(() => longreach.hand.aim_m[0]));
   });
   await person.release();
-  await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004);
+  await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004, async () => {
+    // Taken again after a hold, it stays where it is until it is sent home.
+    if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > 0.001)) await person.repeat(' ');
+  });
   // Fine: into the wall, whose news takes as long as the link; then it is there at once.
   await person.click('[data-mode="position"]');
-  await person.see('position mode', () => longreach.frame().mode === 'position');
+  await person.see('position mode', () => longreach.frame().mode === 'position', () => person.hold_on());
   await person.grasp();
   await person.see('the robot touches the wall', () => longreach.frame().in_contact && longreach.frame().stiffness_n_per_m > 500,
     async () => {
@@ -100,7 +103,9 @@ async function path(person) {
   });
   await person.shoot('path-wall');
   await person.drag(-0.02);
-  await person.see('let go of the wall', () => !longreach.frame().in_contact, () => person.hold_on());
+  await person.see('let go of the wall', () => !longreach.frame().in_contact, async () => {
+    if (await person.hold_on() && await person.look(() => longreach.commanded() > 0.095)) await person.drag(-0.001);
+  });
   await person.release();
   await person.click('#stop');
   await person.see('the robot stops', () => longreach.frame().far_state === 'Stopped');
