@@ -58,6 +58,7 @@ export class Person {
   /** Takes the handle by the pad; drag() and release() follow. */
   async grasp() {
     this.deeds += 1;
+    this.grasps = true;
     const pad = await (await this.page.$('#pad')).boundingBox();
     this.at = { x: pad.x + pad.width / 2, y: pad.y + pad.height / 2 };
     this.px_per_m = await this.page.evaluate(() => (0.45 * document.getElementById('pad').clientHeight) / longreach.frame().workspace_m);
@@ -71,7 +72,10 @@ export class Person {
     await this.page.mouse.move(this.at.x, this.at.y, { steps: 6 });
   }
 
-  async release() { await this.page.mouse.up(); }
+  async release() {
+    this.grasps = false;
+    await this.page.mouse.up();
+  }
 
   /** Waits until it is so; `meanwhile` is done again and again. */
   async see(what, is_so, meanwhile = async () => {}) {
@@ -92,6 +96,11 @@ export class Person {
     const { held, state } = await this.look(() => ({ held: longreach.hand.held, state: longreach.frame().state }));
     if (!held) {
       await this.repeat('t');
+      if (this.grasps) {     // anew from the middle of the pad: the next drags would leave the window
+        this.again += 1;
+        await this.release();
+        await this.grasp();
+      }
     } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the answer takes a round trip
       console.log('held meanwhile: engaged again');
       this.engaged_ms = Date.now();
