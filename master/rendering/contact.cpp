@@ -174,7 +174,8 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
     } else {
-      a.spring.set_surface(std::max(a.surface, s));  // what fades does not load the hand again
+      a.spring.set_surface(std::max(a.surface, s));
+      a.spring.give_way(s);  // what fades does not load the hand again, however far this has gone meanwhile
     }
     a.force = a.spring.step(s, dt_s, purse);
     if (a.force <= 0.0) continue;

@@ -11,7 +11,7 @@ constexpr double kLoad_s = 0.15, kFullForce_s = 0.4, kAtRest_s = 2.2;
 }  // namespace
 
 void ContactSpring::begin(double s_m, double surface_m) {
-  target_ = fading_ = last_n_ = 0.0;
+  target_ = fading_ = last_n_ = depth_m_ = 0.0;
   clamped_ = yielding_ = home_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
@@ -49,6 +49,7 @@ double ContactSpring::step(double s_m, double dt_s, Purse purse) {
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
   return_anchor(s_m, dt_s, purse);
   s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
+  depth_m_ = std::max(0.0, s_m - anchor_m_);
   return last_n_ = force_n(s_m);
 }
 

@@ -47,6 +47,9 @@ class ContactSpring {
   /// Eases the spring at once to this depth, m, if it is deeper.
   void limit_depth(double s_m, double depth_m) { anchor_m_ = std::max(anchor_m_, s_m - depth_m); }
 
+  /// Eases the spring at once to the depth of the last step, m, if it is deeper.
+  void give_way(double s_m) { limit_depth(s_m, depth_m_); }
+
   /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
   /// purse. Returns the force >= 0, N, against the inward direction.
   double step(double s_m, double dt_s, Purse purse);
@@ -71,6 +74,7 @@ class ContactSpring {
   double surface_m_ = 0.0;
   double paid_j_ = 0.0;
   double last_n_ = 0.0;    // force of the last step
+  double depth_m_ = 0.0;   // of the last step
   double s_slow_m_ = 0.0;  // follows the handle with fade_s: which way it goes, apart from tremor
   bool clamped_ = false;
   bool yielding_ = false;

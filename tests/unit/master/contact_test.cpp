@@ -179,6 +179,22 @@ TEST(Contact, IsForgottenWhenTheSlaveHasForgottenIt) {
   EXPECT_FALSE(b.felt.known());
 }
 
+// Both programs stood still, and the handle went on without force: what is known is old in the first tick.
+TEST(Contact, WhatFadesIsNotLoadedByAHandleThatHasGoneDeeperMeanwhile) {
+  const Vector3 n = Vector3::UnitX();
+  for (const bool stale : {true, false}) {
+    Bench b(n);
+    b.report(contact(pressed(n, 1000.0, 101.0)));
+    b.press(0.005 * n);
+    const double before_n = b.press(0.0105 * n).norm();
+    EXPECT_NEAR(before_n, 0.5, 1e-6);
+    if (!stale) b.report(contact({}));
+    b.at.x = 0.0185 * n;
+    for (int i = 0; i < 300; ++i)
+      ASSERT_LE(b.felt.step(b.at, b.mapping, stale, b.tank, 1e-3).norm(), before_n + 1e-9) << i;
+  }
+}
+
 TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
   Bench b(Vector3::UnitX());
   b.at.rate_mode = true;
