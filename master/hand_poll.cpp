@@ -14,7 +14,7 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(20);
 
 bool asks(const OperatorRequests& r) {
   return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0 ||
-         r.load.has_value();
+         r.grip.has_value() || r.turns_gripper;
 }
 
 /// What keys and pad ask for together; a stop wins.
@@ -22,7 +22,7 @@ OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
   keys.stop = keys.stop || pad.stop;
   keys.engage = (keys.engage || pad.engage) && !keys.stop;
   if (!keys.mode) keys.mode = pad.mode;
-  if (!keys.load) keys.load = pad.load;
+  keys.turns_gripper = keys.turns_gripper != pad.turns_gripper;
   keys.scale_steps += pad.scale_steps;
   return keys;
 }

@@ -69,7 +69,9 @@ struct MasterNode::State {
 
   void decide(const MasterInput& input);
   void take_handle(HandleState h);
-  void take_requests(const OperatorRequests& r);
+  void take_requests(const OperatorRequests& r, Time now);
+  void ask_gripper(bool closed, Time now);
+  void take_gripper(const Received<Telemetry>& told);
   void take_buttons(const Buttons& now);
   void change_scale(double scale, int steps);
   RendererInput renderer_input();
@@ -97,6 +99,7 @@ struct MasterNode::State {
   double one_way_s = 0.0;   // half of the round trip
   double send_phase = 1.0;  // of the send period
   Time far_at{};            // when the newest telemetry came
+  Time grip_asked{};        // when view.grip was asked for last
   MasterView view;
 };
 
@@ -112,7 +115,7 @@ void MasterNode::State::take_handle(HandleState h) {
   }
 }
 
-void MasterNode::State::take_requests(const OperatorRequests& r) {
+void MasterNode::State::take_requests(const OperatorRequests& r, Time now) {
   if (r.mode) view.mode = *r.mode;
   double scale = r.scale.value_or(view.scale);
   if (!(scale >= kScaleStep - 1e-12 && scale <= 1.0)) {
@@ -121,7 +124,20 @@ void MasterNode::State::take_requests(const OperatorRequests& r) {
   }
   change_scale(scale, r.scale_steps);
   view.clutched = r.clutch;
-  view.load = r.load.value_or(view.load);
+  if (r.grip) ask_gripper(*r.grip, now);
+  if (r.turns_gripper) ask_gripper(!view.gripper_closed(), now);
+}
+
+void MasterNode::State::ask_gripper(bool closed, Time now) {
+  view.grip = closed;
+  grip_asked = now;
+}
+
+/// The gripper is the robot's: what was asked for is asked for until the slave, knowing that, tells it as
+/// done.
+void MasterNode::State::take_gripper(const Received<Telemetry>& told) {
+  const bool knows = told.echo_sent && *told.echo_sent > grip_asked;
+  if (knows && view.grip == told.message.gripper.closed) view.grip.reset();
 }
 
 /// Steps land on multiples of 0.05, whatever scale was set before.
@@ -152,7 +168,7 @@ RendererInput MasterNode::State::renderer_input() {
   at.scale = view.scale;
   at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
   at.stale = safety.stale();
-  at.load = view.load;
+  at.load = view.far.gripper.holds;
   at.clutched = view.clutched;
   return at;
 }
@@ -176,6 +192,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
   for (const auto& received : input.telemetry) {
     if (!received.newest) continue;
     view.far = received.message;
+    take_gripper(received);
     far_at = input.now;
     view.far_known = true;
   }
@@ -195,7 +212,7 @@ MotionCommand MasterNode::State::command() {
   c.request = safety.request();
   c.mode = view.mode;
   c.scale = view.scale;
-  c.grip = view.load;
+  c.grip = view.grip;
   c.let_go = !handle.held;
   c.position_m = goal.position_m;
   c.rotation_rad = goal.rotation_rad;
@@ -206,6 +223,7 @@ MotionCommand MasterNode::State::command() {
 bool MasterNode::stalled(Time now) const { return state_->time.stalls(now, state_->safety.config().gap_s); }
 
 void MasterNode::State::decide(const MasterInput& input) {
+  if (input.taken) view.grip.reset();  // another master's robot is another master's gripper
   const std::uint32_t engagement = safety.engagement();
   const MasterSafetyInput in{.now = input.now,
                              .last_heard = input.last_heard,
@@ -243,7 +261,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
   s.take_handle(input.handle);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
-  s.take_requests(input.requests);
+  s.take_requests(input.requests, input.now);
   s.take_buttons(s.handle.buttons);
   s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;

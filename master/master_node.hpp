@@ -27,7 +27,8 @@ struct OperatorRequests {
   std::optional<double> scale{};  // 0.05 to 1; others are ignored and counted
   int scale_steps = 0;            // of 0.05
   bool clutch = false;            // level: while true the handle moves without the robot
-  std::optional<bool> load{};     // close the gripper on something, or open it: a level
+  std::optional<bool> grip{};     // the gripper shall be closed, or open
+  bool turns_gripper = false;     // closed it shall be open, open closed
 };
 
 struct MasterInput {
@@ -60,7 +61,7 @@ struct MasterView {
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
-  bool load = false;         // the gripper is closed, on a load
+  std::optional<bool> grip{};  // asked for, and not yet told by the slave as done
   bool at_boundary = false;  // position mode: a handle meets its soft stop, time to relocate with the clutch
   Vector3 p_MH = Vector3::Zero();    // handle, m
   Vector3 goal_m = Vector3::Zero();  // goal minus anchor, W
@@ -102,6 +103,9 @@ struct MasterView {
   Reason last_hold{};           // cause of the last of them
   double far_age_s = 0.0;       // since the newest telemetry came
   double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
+
+  /// Closed, or asked to close.
+  [[nodiscard]] bool gripper_closed() const { return grip.value_or(far.gripper.closed); }
 };
 
 struct MasterOutput {

@@ -21,7 +21,10 @@ void add_view(proto::Status& out, const MasterView& view) {
   out.set_scale(view.scale);
   assign(view.p_MH, *out.mutable_hand_m());
   assign(view.goal_m, *out.mutable_goal_m());
-  if (view.far_known) assign(view.far.X_WE.p, *out.mutable_tool_m());
+  if (view.far_known) {
+    assign(view.far.X_WE.p, *out.mutable_tool_m());
+    out.set_gripper(in_words(view.far.gripper));
+  }
   out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.stiffness_n_per_m);
   out.set_force_n(view.F_H_M.force.norm());

@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(HandleState) == 112 && sizeof(OperatorRequests) == 32);
-static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 1040);
+static_assert(sizeof(MasterInput) == 256 && sizeof(MasterOutput) == 136 && sizeof(MasterView) == 1056);
 
 MasterTape::MasterTape(double rate_hz, Duration to_log_time)
     : Tape("master", to_log_time),
@@ -122,7 +122,8 @@ void write(const OperatorRequests& r, recording::OperatorRequests& out) {
   if (r.scale) out.set_scale(*r.scale);
   out.set_scale_steps(r.scale_steps);
   out.set_clutch(r.clutch);
-  if (r.load) out.set_load(*r.load);
+  if (r.grip) out.set_grip(*r.grip);
+  out.set_turns_gripper(r.turns_gripper);
 }
 
 OperatorRequests read(const recording::OperatorRequests& in) {
@@ -134,7 +135,8 @@ OperatorRequests read(const recording::OperatorRequests& in) {
   if (in.has_scale()) r.scale = in.scale();
   r.scale_steps = in.scale_steps();
   r.clutch = in.clutch();
-  if (in.has_load()) r.load = in.load();
+  if (in.has_grip()) r.grip = in.grip();
+  r.turns_gripper = in.turns_gripper();
   return r;
 }
 
@@ -182,7 +184,7 @@ void write(const MasterView& v, recording::MasterView& out) {
   out.set_mode(to_recorded<recording::Mode>(v.mode));
   out.set_scale(v.scale);
   out.set_clutched(v.clutched);
-  out.set_load(v.load);
+  out.set_gripper_closed(v.gripper_closed());
   out.set_at_boundary(v.at_boundary);
   out.set_hand_missing(v.hand_missing);
   write(v.p_MH, *out.mutable_hand_m());

@@ -10,7 +10,7 @@ std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRe
   if (holds_) {
     if (!held) take(in);
     requests.clutch = in.aim.clutch;
-    if (in.aim.grip != gripped_) requests.load = gripped_ = in.aim.grip;
+    if (in.aim.grip != gripped_) requests.grip = gripped_ = in.aim.grip;
     return lead(in);
   }
   if (held) {

@@ -8,6 +8,7 @@
 #include "slave/command_right.hpp"
 #include "slave/contact.hpp"
 #include "slave/force_doubt.hpp"
+#include "slave/gripper.hpp"
 #include "slave/joint_witness.hpp"
 #include "slave/motion.hpp"
 #include "slave/plausible.hpp"
@@ -25,7 +26,6 @@ namespace {
 
 constexpr double kDtMax = 0.02;                         // a later tick moves no further than this
 constexpr double kReachedM = 1e-3, kReachedRad = 0.01;  // a goal counts as reached
-constexpr double kZeroMax = 0.5;  // of the guard, that a zero may take for the sensor's bias
 
 }  // namespace
 
@@ -43,7 +43,7 @@ struct SlaveNode::State {
         lead(config.robot.servo_hz),
         witness(config.sensing, config.command),
         doubt(config.sensing, config.command),
-        sensor(config.sensing, kZeroMax * config.command.force_guard_n),
+        sensor(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
         contact(config.sensing, config.estimator),
         turn_contact(rotational(config.sensing), config.estimator),
         playout(config.playout),
@@ -61,6 +61,7 @@ struct SlaveNode::State {
   void look(const RobotState& robot, Time now);
   void feel(Time now, double dt);
   [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
+  [[nodiscard]] bool free() const { return !contact.in_contact() && !turn_contact.in_contact(); }
   [[nodiscard]] ContactForce pressed() const;
   [[nodiscard]] ContactForce turned() const;
   [[nodiscard]] bool reflexes_move() const;
@@ -96,7 +97,7 @@ struct SlaveNode::State {
   Pose X_WE_anchor{};
   double scale = 1.0;   // k_scale as last sent
   bool let_go = false;  // likewise
-  bool grip = false;    // likewise: a hold or a silence drops nothing
+  Gripper gripper;
   double played_sequence = 0.0, played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
   ToolHeldBack held_back;
@@ -116,7 +117,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.motion.configure(config.command);
   s.witness.configure(config.sensing, config.command);
   s.doubt.configure(config.sensing, config.command);
-  s.sensor.configure(config.sensing, kZeroMax * config.command.force_guard_n);
+  s.sensor.configure(config.sensing, CompensationLimits::of(config.command));
   s.contact.configure(config.sensing, config.estimator);
   s.turn_contact.configure(rotational(config.sensing), config.estimator);
   s.playout.configure(config.playout);
@@ -146,7 +147,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
 
   SlaveOutput output;
   if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
-  output.grip = s.grip;
+  output.grip = s.gripper.asked();
   s.reports.report(input, s.view, s.reached_sequence,
                    {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
                    {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
@@ -207,6 +208,7 @@ void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
   if (!robot.ok) joints.forget();
   view.unready = robot.ok && finite(robot) ? joints.look(robot, now) : Reason(HoldCause::kRobotFault);
   robot_ok = view.unready == HoldCause::kNone;
+  if (robot_ok) gripper.see(robot);
   if (robot_ok && !view.robot_seen) sensor.zero();
   view.robot_seen = view.robot_seen || robot_ok;
 }
@@ -245,8 +247,7 @@ void SlaveNode::State::begin_engagement() {
   time.rebase();
   contact.forget_goals();
   turn_contact.forget_goals();
-  played_sequence = played_turn_sequence = 0.0;
-  reached_sequence = 0;
+  reached_sequence = 0, played_sequence = played_turn_sequence = 0.0;
 }
 
 void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> commands) {
@@ -259,7 +260,7 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
     }
     if (received.newest) {
       scale = command.scale;
-      grip = command.grip;
+      gripper.ask(command.grip);
       let_go = command.let_go;
     }
     const bool turns = command.goal_kind == GoalKind::kOrientation;
@@ -309,12 +310,12 @@ bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
   const Quaternion q_EW = tool.X_WE.q.conjugate();
   const SensorWatch::Motion moved{tool.X_WE.p, V_WE.linear.norm(), elapsed_s};
   if (!witness.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
-  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, elapsed_s);
+  sensor.grip(gripper.may_hold());
+  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, elapsed_s, {free(), tool.X_WE});
   return witness.felt(view.F_E_W.force, moved, sensor.doubt_n());
 }
 
 void SlaveNode::State::feel(Time now, double dt) {
-  const bool engaged = safety.state() == SafetyState::kEngaged;
   if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
   const double news_age_s = safety.news_age_s(now) + playout.delay_s();
   if (needs.contact) {
@@ -330,7 +331,7 @@ void SlaveNode::State::feel(Time now, double dt) {
                        dt, view.clamps.moment_guard, sensor.doubt_nm(), news_age_s});
   }
   // Between engagements the zero is renewed.
-  if (engaged || contact.in_contact() || turn_contact.in_contact()) return sensor.abandon();
+  if (safety.state() == SafetyState::kEngaged || !free()) return sensor.abandon();
   if (!sensor.zeroing()) sensor.zero();
 }
 
@@ -375,8 +376,9 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.refused = safety.refused();
   view.refusal = safety.refusal();
   view.engagement = safety.engagement();
+  view.gripper = gripper.state(sensor.load());
   view.X_WE_anchor = X_WE_anchor;
-  view.in_contact = contact.in_contact() || turn_contact.in_contact();
+  view.in_contact = !free();
   const Surface &surface = contact.foremost(), &stop = turn_contact.foremost();
   view.estimate = surface.estimate();
   view.reported_stiffness_n_per_m = surface.told().stiffness_n_per_m();

@@ -54,7 +54,8 @@ struct SlaveView {
   std::uint32_t touch = 0;
   double played_sequence = 0.0;
   double playout_delay_s = 0.0;
-  Clamps clamps{};            // in this tick
+  Clamps clamps{};  // in this tick
+  GripperState gripper{};
   bool robot_seen = false;    // it has worked once
   Reason unready{};           // why no engagement could begin with it or its sensor
   std::uint32_t refused = 0;  // engagement that is asked for and not granted, and why; 0: none
@@ -68,7 +69,7 @@ struct SlaveView {
 
 struct SlaveOutput {
   std::optional<JointVector> joint_setpoint_rad{};  // none: nobody commands the robot, it rests by itself
-  bool grip = false;                                // gripper closed
+  std::optional<bool> grip{};                       // gripper closed or open; none: as it is
   std::optional<StiffnessReport> report{};
   std::uint64_t report_sequence = 0;
   std::optional<Telemetry> telemetry{};

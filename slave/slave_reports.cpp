@@ -102,7 +102,7 @@ void SlaveReports::telemetry(const SlaveInput& input, const SlaveView& view, boo
   t.rejected = input.rejected;
   t.limit_violations = view.limit_violations;
   t.late_ticks = input.late_ticks;
-  t.load = input.robot.load;
+  t.gripper = view.gripper;
   clamps_ = {};
   output.telemetry = t;
   output.telemetry_sequence = ++telemetry_sequence_;

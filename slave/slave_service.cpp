@@ -86,6 +86,7 @@ proto::Status SlaveService::status() {
     out.set_estimate(stiffness_in_words(estimate, turns ? "N m/rad" : "N/m") + ", " + law_in_words(estimate));
   }
   out.set_force_n(view.F_E_W.force.norm());
+  out.set_gripper(in_words(view.gripper));
   add_clamps(*out.mutable_clamped(), view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);

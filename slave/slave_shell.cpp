@@ -57,7 +57,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   in.may_send = port_.may_send(now);
 
   const SlaveOutput out = node_.step(in);
-  robot_.grip(out.grip);
+  if (out.grip) robot_.grip(*out.grip);
   robot_.write(out.joint_setpoint_rad);
   if (out.report) port_.send(now, out.report_sequence, *out.report);
   if (out.telemetry) port_.send(now, out.telemetry_sequence, *out.telemetry);

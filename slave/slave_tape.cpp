@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 1104 && sizeof(SlaveView) == 736);
+static_assert(sizeof(SlaveOutput) == 1120 && sizeof(SlaveView) == 768);
 
 SlaveTape::SlaveTape(double rate_hz, Duration to_log_time)
     : Tape("slave", to_log_time),
@@ -125,7 +125,7 @@ SlaveInput read(const recording::SlaveInput& in) {
 
 void write(const SlaveOutput& output, recording::SlaveOutput& out) {
   if (output.joint_setpoint_rad) write_joints(*output.joint_setpoint_rad, *out.mutable_joint_setpoint_rad());
-  out.set_grip(output.grip);
+  if (output.grip) out.set_grip(*output.grip);
   if (output.report) write(*output.report, *out.mutable_report());
   out.set_report_sequence(output.report_sequence);
   if (output.telemetry) write(*output.telemetry, *out.mutable_telemetry());

@@ -294,6 +294,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("basis", s.basis);
   visit("joint", s.joint);
   visit("servo_hz", s.servo_hz);
+  visit("load_max_kg", s.load_max_kg);
   visit("convention", s.convention);
   visit("tool", s.tool);
   visit("prefer", s.prefer);

@@ -90,6 +90,13 @@ void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Cl
   add(clamps.unreachable, "unreachable");
 }
 
+std::string in_words(const GripperState& gripper) {
+  if (!gripper.closed) return gripper.holds ? "open, and something is in it" : "open";
+  if (!gripper.holds) return "closed";
+  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
+  return text("closed, holds %.3g kg (standard deviation %.2g)", gripper.load_kg, gripper.load_sd_kg);
+}
+
 void fill(proto::Status& status, const SideFigures& figures) {
   *status.mutable_link() = to_message(figures.link);
   add_count(status, "accepted", figures.accepted);

@@ -98,7 +98,9 @@ struct SetpointDatagram {
   static constexpr std::uint8_t kKind = kSetpoint;
   enum Flag : std::uint32_t {
     kMove = 1,  // the joints follow joint_rad; without it they brake and rest: nobody is engaged
-    kGrip = 2   // the gripper is closed
+    kGrip = 2,  // the gripper is closed
+    // Somebody has asked for that; without it the gripper stays as it is, as after a restart of the slave.
+    kGripAsked = 4
   };
   Header header{};
   std::uint32_t flags = 0;

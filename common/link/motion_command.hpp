@@ -4,6 +4,7 @@
 // accepted the engagement: the first goal is zero and nothing can jump.
 
 #include <cstdint>
+#include <optional>
 
 #include "common/spatial/spatial.hpp"
 
@@ -24,7 +25,7 @@ struct MotionCommand {
   Request request = Request::kHold;
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;                        // k_scale, 0.05 to 1
-  bool grip = false;                         // gripper closed: a level
+  std::optional<bool> grip{};                // gripper closed or open, as asked for; none: as it is
   bool let_go = false;                       // nobody holds the handle: a level
   GoalKind goal_kind = GoalKind::kPosition;  // which of the two below this datagram carries
   Vector3 position_m = Vector3::Zero();      // goal minus anchor, in W

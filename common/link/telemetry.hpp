@@ -47,6 +47,13 @@ struct ContactEstimate {
   Verdict n_verdict = Verdict::kNotYet;
 };
 
+struct GripperState {
+  bool closed = false;
+  bool holds = false;       // something is in it
+  double load_kg = 0.0;     // identified mass of that
+  double load_sd_kg = 0.0;  // 0: not known
+};
+
 struct Telemetry {
   SafetyState state = SafetyState::kIdle;
   HoldCause cause = HoldCause::kNone;
@@ -65,7 +72,7 @@ struct Telemetry {
   std::uint64_t rejected = 0;  // datagrams dropped, all reasons
   std::uint64_t limit_violations = 0;
   std::uint64_t late_ticks = 0;  // ticks late by over 100 ms
-  bool load = false;             // the gripper holds something
+  GripperState gripper{};
 };
 
 }  // namespace longreach

@@ -11,8 +11,9 @@ namespace {
 using Doubles = google::protobuf::RepeatedField<double>;
 using Floats = google::protobuf::RepeatedField<float>;
 
-constexpr double kEstimateMax = 1e30;    // keeps a float finite
-constexpr double kPlaceMax = 1e9;        // of a cause
+constexpr double kEstimateMax = 1e30;  // keeps a float finite
+constexpr double kPlaceMax = 1e9;      // of a cause
+constexpr float kLoadMaxKg = 1e9F;
 constexpr double kSequenceMax = 9e15;    // below 2^53: a fractional sequence still has its fraction's halves
 constexpr double kScaleRounding = 1e-9;  // steps of 0.05 do not add up exactly
 constexpr double kUnitTolerance = 1e-6;  // of a quaternion's norm
@@ -240,7 +241,8 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
   out.set_request(static_cast<std::uint32_t>(command.request));
   out.set_mode(static_cast<std::uint32_t>(command.mode));
   out.set_scale(command.scale);
-  out.set_grip(command.grip);
+  out.clear_grip();
+  if (command.grip) out.set_grip(*command.grip);
   out.set_let_go(command.let_go);
   out.mutable_position_m()->Clear();
   out.mutable_rotation_rad()->Clear();
@@ -257,7 +259,7 @@ bool read(const proto::MotionCommand& in, MotionCommand& out) {
   if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return false;
   out.engagement = in.engagement();
   out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
-  out.grip = in.grip();
+  out.grip = in.has_grip() ? std::optional(in.grip()) : std::nullopt;
   out.let_go = in.let_go();
   out.goal_kind = in.rotation_rad().empty() ? GoalKind::kPosition : GoalKind::kOrientation;
   if (in.position_m().empty() == in.rotation_rad().empty()) return false;  // neither or both
@@ -318,7 +320,10 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_rejected(telemetry.rejected);
   out.set_limit_violations(telemetry.limit_violations);
   out.set_late_ticks(telemetry.late_ticks);
-  out.set_load(telemetry.load);
+  out.set_load(telemetry.gripper.holds);
+  out.set_gripper_closed(telemetry.gripper.closed);
+  out.set_load_kg(static_cast<float>(telemetry.gripper.load_kg));
+  out.set_load_sd_kg(static_cast<float>(telemetry.gripper.load_sd_kg));
 }
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
@@ -327,6 +332,9 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
                         read(in.goal(), out.X_WE_goal) && read(in, out.estimate) &&
                         read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;
+  if (!(in.load_kg() >= 0.0F && in.load_kg() < kLoadMaxKg) ||
+      !(in.load_sd_kg() >= 0.0F && in.load_sd_kg() < kLoadMaxKg))
+    return false;
   if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3) return false;
   if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
       !all_within(in.moment_nm(), 1e12)) {
@@ -342,7 +350,8 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
   out.rejected = in.rejected();
   out.limit_violations = in.limit_violations();
   out.late_ticks = in.late_ticks();
-  out.load = in.load();
+  out.gripper = {in.gripper_closed(), in.load(), static_cast<double>(in.load_kg()),
+                 static_cast<double>(in.load_sd_kg())};
   return true;
 }
 

@@ -111,6 +111,7 @@ constexpr auto kRows = std::to_array<Row>({
                   : std::string();
      }},
     {"contact estimate", [](const Status& s) { return s.estimate(); }},
+    {"gripper", [](const Status& s) { return s.gripper(); }},
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
     {"by the contact",
      [](const Status& s) { return s.has_contact_n() ? print("%.3g N", s.contact_n()) : std::string(); }},

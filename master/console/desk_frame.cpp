@@ -17,7 +17,7 @@ void add_states(proto::Frame& out, const ConsoleSnapshot& s) {
   out.set_mode(std::string(mode_in_words(view.mode)));
   out.set_scale(view.scale);
   out.set_clutched(view.clutched);
-  out.set_gripping(view.load);
+  out.set_gripping(view.gripper_closed());
   out.set_hand_missing(view.hand_missing);
   out.set_hand_outside(s.hand_outside);
 }
@@ -56,7 +56,12 @@ void add_far(proto::FarFrame& out, const Telemetry& far) {
   out.set_stiffness_n_per_m(far.estimate.valid ? far.estimate.stiffness_n_per_m : 0.0);
   out.set_penetration_m(far.penetration_m);
   add_clamps(*out.mutable_clamped(), far.clamps);
-  out.set_gripping(far.load);
+  out.set_gripping(far.gripper.closed);
+  out.set_holds(far.gripper.holds);
+  if (far.gripper.load_sd_kg > 0.0) {
+    out.set_load_kg(far.gripper.load_kg);
+    out.set_load_sd_kg(far.gripper.load_sd_kg);
+  }
   out.set_playout_delay_s(far.playout_delay_s);
 }
 

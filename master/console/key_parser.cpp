@@ -39,7 +39,7 @@ std::optional<Key> letter(char c) {
     case '_':
       return Key{KeyAction::kScaleDown};
     case 'g':
-      return Key{KeyAction::kLoad};
+      return Key{KeyAction::kGripper};
     case 'c':
       return Key{KeyAction::kClutch};
     case 'e':

@@ -27,9 +27,8 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
     case KeyAction::kClutch:
       requests.clutch = !requests.clutch;
       return;
-    case KeyAction::kLoad:
-      state.loaded = !state.loaded;
-      requests.load = state.loaded;
+    case KeyAction::kGripper:
+      requests.turns_gripper = !requests.turns_gripper;
       return;
     // Whatever was typed since the last poll, a stop among it wins.
     case KeyAction::kEngage:
@@ -51,8 +50,8 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 std::string_view key_line() {
   return "w s / up down: x   a d / left right: y   r f / page up down: z   shift: large step   space: let go "
          "  "
-         "m: mode (rate: 2 s after the last key the hand goes home)   + -: scale   c: clutch   g: gripper "
-         "loaded   e: engage   x: stop   q: quit   ?: keys";
+         "m: mode (rate: 2 s after the last key the hand goes home)   + -: scale   c: clutch   g: gripper   "
+         "e: engage   x: stop   q: quit   ?: keys";
 }
 
 }  // namespace longreach

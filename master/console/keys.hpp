@@ -2,7 +2,7 @@
 // Keys, and what they ask for. Pure.
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
-// the large step; space: let go, home; m mode; + - scale; c clutch; g gripper with or without load; e engage;
+// the large step; space: let go, home; m mode; + - scale; c clutch; g gripper closed or open; e engage;
 // x stop; q quit; ? keys. Other keys, as Enter, only keep the hand where it is in rate mode.
 
 #include <string_view>
@@ -19,7 +19,7 @@ enum class KeyAction {
   kScaleUp,
   kScaleDown,
   kClutch,
-  kLoad,
+  kGripper,
   kEngage,
   kStop,
   kQuit,
@@ -44,7 +44,6 @@ struct KeyboardConfig {
 struct KeyboardState {
   Vector3 target_m = Vector3::Zero();  // where the hand wants to be, from handle home, M
   OperatorRequests requests{};         // since the last poll; clutch is a level
-  bool loaded = false;                 // as last asked for
   bool show_keys = false;
   bool quit = false;  // latched
 };

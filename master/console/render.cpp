@@ -129,6 +129,13 @@ std::string datagrams_line(const LinkFigures& link) {
   return text("%.1f %% lost, %.1f %% reordered", link.loss * 100.0, link.reorder * 100.0);
 }
 
+/// What is worth a word: that it is open is none.
+std::string gripper_in_words(const MasterView& view) {
+  const GripperState& there = view.far.gripper;
+  if (view.grip && *view.grip != there.closed) return *view.grip ? ", gripper closes" : ", gripper opens";
+  return there.closed || there.holds ? ", gripper " + in_words(there) : "";
+}
+
 std::string tool_line(const ConsoleSnapshot& s) {
   if (!s.view.far_known) return "not heard yet";
   const Vector3& p = s.view.far.X_WE.p;
@@ -209,7 +216,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
   page.line("datagrams", datagrams_line(s.link));
   page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
-                         s.view.clutched ? ", clutched" : "", s.view.load ? ", gripper loaded" : ""));
+                         s.view.clutched ? ", clutched" : "", gripper_in_words(s.view).c_str()));
   page.whole("");
   page.line("hand at", millimetres(s.view.p_MH));
   page.line("goal", millimetres(s.view.goal_m) + " from anchor");

@@ -91,10 +91,7 @@ void AxisHand::take_buttons(std::uint32_t buttons, MotionMode mode) {
   if (has(pressed, PadButton::kMode))
     r.mode = mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
   r.scale_steps = has(pressed, PadButton::kScaleUp) - has(pressed, PadButton::kScaleDown);
-  if (has(pressed, PadButton::kGripper)) {
-    loaded_ = !loaded_;
-    r.load = loaded_;
-  }
+  r.turns_gripper = has(pressed, PadButton::kGripper);
   // A stop wins.
   r.stop = has(pressed, PadButton::kStop);
   r.engage = has(pressed, PadButton::kEngage) && !r.stop;

@@ -65,7 +65,6 @@ class AxisHand {
   std::uint32_t buttons_ = 0;  // in the last step
   std::uint32_t reports_ = 0;  // likewise
   double quiet_s_ = 0.0;       // since the last report
-  bool loaded_ = false;
 };
 
 }  // namespace longreach

@@ -38,7 +38,8 @@ void RobotAdapter::write(const std::optional<JointVector>& joint_setpoint_rad) {
     std::copy_n(joint_setpoint_rad->data(), kMaxJoints, out.joint_rad);
   }
   moved_ = moves ? std::min(moved_ + 1, kLong) : 0;
-  if (grip_) out.flags |= SetpointDatagram::kGrip;
+  if (grip_.value_or(measured_.load)) out.flags |= SetpointDatagram::kGrip;
+  if (grip_) out.flags |= SetpointDatagram::kGripAsked;
   port_.send(out);
 }
 

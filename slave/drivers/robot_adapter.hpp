@@ -36,7 +36,7 @@ class RobotAdapter : public Robot {
   AdapterPort<adapter::SetpointDatagram, adapter::RobotDatagram> port_;
   Kinematics kinematics_;
   RobotState measured_{.ok = false};
-  bool grip_ = false;
+  std::optional<bool> grip_{};  // none: nobody has asked
   static constexpr int kLong = 50;
   int moved_ = 0;  // setpoints on end, kLong at most
   std::uint64_t rejected_ = 0;

@@ -30,7 +30,7 @@ class Robot {
   virtual RobotState read(Time now) = 0;
   /// In every tick; none: rest.
   virtual void write(const std::optional<JointVector>& joint_setpoint_rad) = 0;
-  /// Closes or opens the gripper: a level. A robot without one ignores it.
+  /// Closes or opens the gripper: a level, from when somebody asks on. A robot without one ignores it.
   virtual void grip(bool /*closed*/) {}
 };
 

@@ -61,6 +61,7 @@ struct RobotConfig {
   ToolConfig tool{};
   BranchPreference prefer = BranchPreference::kNearest;
   double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
+  double load_max_kg = 30.0;
 };
 
 }  // namespace longreach

@@ -12,6 +12,9 @@ constexpr double kIrregular = 1.5;     // times the usual time between samples
 constexpr double kUsual = 0.05;        // of a new one in the usual
 constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
 constexpr double kDoubt_s = 0.02;      // longer than the filter that decides on a touch
+constexpr double kBond_s = 0.01;       // of a bond between gripper and load
+constexpr double kQuick_s = 0.003;     // of the stiffest
+constexpr double kReach_m = 0.5;       // of a load's centre
 
 }  // namespace
 
@@ -51,9 +54,9 @@ void ToolCompensation::average(const Wrench& left, double dt) {
   time_s_ += dt;
   if (time_s_ < config_.zero_s) return;
   const Vector3 mean_n = sum_.force / samples_;
-  if (!zeroed_) first_n_ = clamp_norm(mean_n, zero_max_n_);
+  if (!zeroed_) first_n_ = clamp_norm(mean_n, limits_.zero_n);
   bias_ = {sum_.moment / samples_,
-           first_n_ + clamp_norm(mean_n - first_n_, zeroed_ ? kLaterZero * zero_max_n_ : 0.0)};
+           first_n_ + clamp_norm(mean_n - first_n_, zeroed_ ? kLaterZero * limits_.zero_n : 0.0)};
   zeroing_ = first_ = false;
   zeroed_ = true;
 }
@@ -77,21 +80,54 @@ void AccelerationDoubt::step(const Twist& V_WF, double dt) {
   last_ = V_WF;
 }
 
-double ToolCompensation::doubt_n() const {
+double ToolCompensation::tool_doubt_n() const {
   return config_.tool.mass_kg * (doubt_.m_per_s2() + config_.tool.com_m.norm() * doubt_.rad_per_s2());
 }
 
-double ToolCompensation::doubt_nm() const {
-  return config_.tool.com_m.norm() * doubt_n() + config_.tool.inertia_kg_m2.maxCoeff() * doubt_.rad_per_s2();
+double ToolCompensation::doubt_n() const {
+  return tool_doubt_n() + std::min(load_.doubt_kg() * push_.m_per_s2(), limits_.load_n);
 }
 
-Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt) {
-  if (!(config_.tool.mass_kg > 0.0) && !(config_.zero_s > 0.0)) return reading;
+double ToolCompensation::doubt_nm() const {
+  const double by_load = kReach_m * load_.doubt_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
+  return config_.tool.com_m.norm() * tool_doubt_n() +
+         config_.tool.inertia_kg_m2.maxCoeff() * doubt_.rad_per_s2() + std::min(by_load, limits_.load_nm);
+}
+
+Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& sample, double dt) {
+  const Pose& X_WF = sample.X_WF;
+  const Pose before = X_WF_.value_or(X_WF);
+  X_WF_ = X_WF;
+  const Twist mean{log_rotation(X_WF.q * before.q.conjugate()) / dt, (X_WF.p - before.p) / dt};
+  const SensorMotion motion = load_motion_.step(X_WF.q, mean, config_.gravity_m_per_s2, 0.0, dt);
+  load_.step(left, motion, sample.free, dt);
+  const auto follow = [&](SensorMotion& lag, double time_s) {
+    const double share = -std::expm1(-dt / time_s);
+    lag.gravity = motion.gravity;
+    lag.acceleration += share * (motion.acceleration - lag.acceleration);
+    lag.angular = motion.angular;
+    lag.angular_acceleration += share * (motion.angular_acceleration - lag.angular_acceleration);
+  };
+  follow(slow_, kBond_s);
+  follow(quick_, kQuick_s);
+  const double turned = quick_.angular_acceleration.norm() + quick_.angular.squaredNorm();
+  push_.step((quick_.gravity - quick_.acceleration).norm() + kReach_m * turned, dt);
+  turn_.step(turned, dt);
+  const Wrench load = tool_wrench(load_.load(), slow_);
+  return {left.moment - load.moment, left.force - load.force};
+}
+
+Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
+                              const LoadSample& load) {
+  const bool as_read = !(config_.tool.mass_kg > 0.0) && !(config_.zero_s > 0.0);
+  if (as_read && !loads_) return reading;
   doubt_.step(V_WF, dt);
   const Quaternion q_FW = q_WF.conjugate();
-  const Wrench tool =
-      tool_wrench(config_.tool, motion_.step(q_WF, V_WF, config_.gravity_m_per_s2, config_.bandwidth_hz, dt));
-  const Wrench left{q_FW * reading.moment - tool.moment, q_FW * reading.force - tool.force};
+  const SensorMotion motion = motion_.step(q_WF, V_WF, config_.gravity_m_per_s2, config_.bandwidth_hz, dt);
+  const Wrench tool = tool_wrench(config_.tool, motion);
+  Wrench left{q_FW * reading.moment - tool.moment, q_FW * reading.force - tool.force};
+  if (loads_ && dt > 0.0) left = without_load(left, load, dt);
+  if (as_read && !(load_.load().mass_kg > 0.0)) return reading;
   if (zeroing_) average(left, dt);
   return {q_WF * (left.moment - bias_.moment), q_WF * (left.force - bias_.force)};
 }

@@ -8,22 +8,19 @@
 // mean of that, over `zero_s` in which nothing is touched, for the bias; no more of it than a bound, and
 // later zeros no more than a fifth of that besides, so that it hides no greater force. Where samples came
 // irregularly, the acceleration is known no better than from one of them to the next: the doubt is what the
-// tool would do by it.
+// tool would do by it. What the gripper holds is taken out likewise, as far as it is known
+// (load_identifier.hpp), by an acceleration that is smoothed as a bond does; what of it is not known is in
+// doubt while the tool accelerates, and 0.3 s longer.
 
 #include <limits>
 #include <optional>
 
 #include "common/spatial/spatial.hpp"
+#include "slave/command/command_config.hpp"
+#include "slave/sensing/load_identifier.hpp"
 #include "slave/sensing/sensing_config.hpp"
 
 namespace longreach {
-
-struct SensorMotion {
-  Vector3 gravity = Vector3::Zero();       // m/s²
-  Vector3 acceleration = Vector3::Zero();  // of the sensor's origin, m/s²
-  Vector3 angular = Vector3::Zero();       // rad/s
-  Vector3 angular_acceleration = Vector3::Zero();
-};
 
 /// By the tool on the sensor, at its origin.
 Wrench tool_wrench(const ToolLoadConfig& tool, const SensorMotion& motion);
@@ -57,16 +54,58 @@ class AccelerationDoubt {
   double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
 };
 
+/// The greatest that an acceleration was in the last 0.3 s.
+class AccelerationPeak {
+ public:
+  void step(double m_per_s2, double dt) {
+    age_s_ += dt;
+    if (m_per_s2 < most_ && age_s_ < kLasts_s) return;
+    most_ = m_per_s2;
+    age_s_ = 0.0;
+  }
+  [[nodiscard]] double m_per_s2() const { return most_; }
+
+ private:
+  static constexpr double kLasts_s = 0.3;
+  double most_ = 0.0, age_s_ = 0.0;
+};
+
+/// What a load may be learnt from.
+struct LoadSample {
+  bool free = false;  // nothing is touched
+  // Of the sensor: a load is moved by ways. A speed that is told may be that of an instant, of a servo that
+  // comes to rest between two setpoints.
+  Pose X_WF{};
+};
+
+/// What is never exceeded: by a force that is taken for a bias, and by what a load that is not known may do
+/// without being a contact, so that the guards see every force.
+struct CompensationLimits {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  double zero_n = kNone;
+  double load_n = kNone, load_nm = kNone;
+
+  /// By the guards of force and moment.
+  static CompensationLimits of(const CommandConfig& c) {
+    return {0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
+  }
+};
+
 /// Removes it.
 class ToolCompensation {
  public:
-  /// No force greater than `zero_max_n` is ever taken for a bias.
-  explicit ToolCompensation(const SensingConfig& config,
-                            double zero_max_n = std::numeric_limits<double>::infinity())
-      : config_(config), zero_max_n_(zero_max_n), zeroing_(config.zero_s > 0.0), first_(zeroing_) {}
-  void configure(const SensingConfig& config, double zero_max_n) {
+  explicit ToolCompensation(const SensingConfig& config, const CompensationLimits& limits = {},
+                            double load_max_kg = 0.0)
+      : config_(config),
+        limits_(limits),
+        load_(config, load_max_kg),
+        zeroing_(config.zero_s > 0.0),
+        first_(zeroing_),
+        loads_(load_max_kg > 0.0) {}
+  void configure(const SensingConfig& config, const CompensationLimits& limits) {
     config_ = config;
-    zero_max_n_ = zero_max_n;
+    limits_ = limits;
+    load_.configure(config);
     if (!(config.zero_s > 0.0)) abandon();
   }
 
@@ -79,28 +118,38 @@ class ToolCompensation {
   /// What the environment does to the tool, W: `reading` (in W) less tool and bias, at a sensor of
   /// orientation `q_WF` and velocity `V_WF`, `dt` after the last. What is not finite is handed on and
   /// averaged into nothing.
-  Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt);
+  Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
+              const LoadSample& load = {});
+  /// The gripper is closed, a level.
+  void grip(bool closed) { load_.grip(closed); }
 
   /// False while the first zero is still being taken: what is left holds the bias.
   [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the sensor's frame
-  /// What of force and moment may be by an acceleration that is not known.
+  [[nodiscard]] const LoadIdentifier& load() const { return load_; }
+  /// What of force and moment may be by an acceleration or a load that is not known.
   [[nodiscard]] double doubt_n() const;
   [[nodiscard]] double doubt_nm() const;
 
  private:
   void average(const Wrench& left, double dt);
+  [[nodiscard]] double tool_doubt_n() const;
+  Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
-  double zero_max_n_;
-  SensorMotionEstimate motion_{};
+  CompensationLimits limits_;
+  SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationDoubt doubt_{};
+  LoadIdentifier load_;
+  std::optional<Pose> X_WF_{};        // at the last sample of a load
+  AccelerationPeak push_{}, turn_{};  // of a load
+  SensorMotion slow_{}, quick_{};     // as a bond hands it on; as it may at the fastest
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
   double time_s_ = 0.0;
   int samples_ = 0;
-  bool zeroing_, first_, zeroed_ = false;
+  bool zeroing_, first_, loads_, zeroed_ = false;
 };
 
 }  // namespace longreach

@@ -190,6 +190,14 @@ const std::vector<Experiment> kExperiments = {
      "{hard_to_soft_maximum_likelihood_slowest_s} s, pressed; with the exponent given within "
      "{layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
      "{hard_to_soft_fixed_exponent_slowest_s} s"},
+    {"drag",
+     "Loads that nobody described are dragged: is their inertia taken for a contact, is their mass found?",
+     run_drag_study, drag_plots, "",
+     "{dragged} of {drags} dragged, {phantom_contacts} with a contact that was none, {holds} with a hold; "
+     "mass within "
+     "5 % in {mass_within_5_percent} of {mass_above_noise} whose inertia is above 20 times the noise, within "
+     "3 sd in "
+     "{mass_within_3_sd} of {mass_told}; a wall that the load meets is found within {wall_found_max_s} s"},
     {"docking",
      "A free-floating spacecraft is grasped, dragged and docked across the link; three "
      "mistakes.",

@@ -137,6 +137,8 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
 std::vector<Plot> scenes_cost_plots();
 std::vector<Metric> run_trade(const ExperimentRun& run);
 std::vector<Plot> trade_plots();
+std::vector<Metric> run_drag_study(const ExperimentRun& run);
+std::vector<Plot> drag_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);
 std::vector<Plot> docking_plots();
 std::vector<Metric> run_extremes(const ExperimentRun& run);

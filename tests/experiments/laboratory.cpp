@@ -94,7 +94,7 @@ void Laboratory::step_slave() {
   if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
   setpoint_rad_ = out.joint_setpoint_rad;
   arm_.write(out.joint_setpoint_rad);
-  arm_.grip(out.grip);
+  if (out.grip) arm_.grip(*out.grip);
   if (out.report) {
     report_places_.push(slave_node_.view().reported_at_m);
     last_report_ = out.report_sequence;

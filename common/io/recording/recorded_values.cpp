@@ -4,7 +4,7 @@ namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
               sizeof(Reason) == 24 && sizeof(StiffnessReport) == 552);
-static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 432);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 448);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {
@@ -78,7 +78,7 @@ void write(const MotionCommand& command, recording::MotionCommand& out) {
   out.set_request(to_recorded<recording::Request>(command.request));
   out.set_mode(to_recorded<recording::Mode>(command.mode));
   out.set_scale(command.scale);
-  out.set_grip(command.grip);
+  if (command.grip) out.set_grip(*command.grip);
   out.set_let_go(command.let_go);
   out.set_goal_kind(to_recorded<recording::GoalKind>(command.goal_kind));
   write(command.position_m, *out.mutable_position_m());
@@ -90,7 +90,7 @@ MotionCommand read(const recording::MotionCommand& in) {
           read_enum(in.request(), Request::kLetGo),
           read_enum(in.mode(), MotionMode::kPosition),
           in.scale(),
-          in.grip(),
+          in.has_grip() ? std::optional(in.grip()) : std::nullopt,
           in.let_go(),
           read_enum(in.goal_kind(), GoalKind::kOrientation),
           read(in.position_m()),
@@ -209,7 +209,10 @@ void write(const Telemetry& t, recording::Telemetry& out) {
   out.set_rejected(t.rejected);
   out.set_limit_violations(t.limit_violations);
   out.set_late_ticks(t.late_ticks);
-  out.set_load(t.load);
+  out.set_load(t.gripper.holds);
+  out.set_gripper_closed(t.gripper.closed);
+  out.set_load_kg(t.gripper.load_kg);
+  out.set_load_sd_kg(t.gripper.load_sd_kg);
 }
 
 Telemetry read(const recording::Telemetry& in) {
@@ -230,7 +233,7 @@ Telemetry read(const recording::Telemetry& in) {
   t.rejected = in.rejected();
   t.limit_violations = in.limit_violations();
   t.late_ticks = in.late_ticks();
-  t.load = in.load();
+  t.gripper = {in.gripper_closed(), in.load(), in.load_kg(), in.load_sd_kg()};
   return t;
 }
 

@@ -152,7 +152,7 @@ export class Picture {
     this.trails.robot.add(tool);
     if (ghost) this.trails.operator.add(ghost.position);
     this.scenery.touch(tool, frame.in_contact);
-    this.bodies.follow(tool, rotation(far.tool_rad), far.gripping);
+    this.bodies.follow(tool, rotation(far.tool_rad), far.holds);
     // Side by side, where they would lie in each other.
     const aside = new Vector3(0, 0, 0.012);
     this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3(), old);

@@ -63,7 +63,7 @@ bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& targe
   hand_m_ = centre_m_;
   if (distance < 0.006) return true;
   const double v = std::clamp(distance / 1.5, 0.004, speed);
-  const double spring = (in.master->load ? 1.5 : 1.0) * rate_stiffness_;
+  const double spring = (in.master->far.gripper.holds ? 1.5 : 1.0) * rate_stiffness_;
   hand_m_ +=
       (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kHand_n_per_m) / distance * error;
   return false;
@@ -132,7 +132,7 @@ bool DockingOperator::held(const DockingOperatorInput& in) {
 DockingOperatorOutput DockingOperator::step(const DockingOperatorInput& in) {
   out_ = {};
   if (!held(in)) act(in);
-  out_.requests.load = closed_;
+  if (closed_ != asked_) out_.requests.grip = asked_ = closed_;
   out_.target.position_m = hand_m_;
   out_.target.rotation_rad = hand_rad_;
   out_.target.grip = Grip::kFirm;

@@ -115,7 +115,7 @@ class DockingOperator {
   std::optional<double> there_s_{}, look_s_{}, relocating_s_{}, held_s_{};
   std::optional<Vector3> relocate_to_{};
   MotionMode mode_ = MotionMode::kPosition;
-  bool closed_ = false;
+  bool closed_ = false, asked_ = false;  // the gripper, as he wants it and has asked for
   Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // where he wants the handle
   Vector3 centre_m_ = Vector3::Zero();                             // of rate mode
   Vector3 aim_m_ = Vector3::Zero(), aim_rad_ = Vector3::Zero();

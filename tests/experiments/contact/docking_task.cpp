@@ -119,7 +119,7 @@ class Task {
     now.turned_rad = log_rotation(bodies().displaced(0).q);
     pictures_.emplace_back(lab_.now_s(), now);
     while (pictures_.size() > 1 && pictures_[1].first <= lab_.now_s() - late_s_) pictures_.pop_front();
-    pictures_.front().second.load = lab_.master().far.load;  // telemetry, late as it comes
+    pictures_.front().second.load = lab_.master().far.gripper.holds;  // telemetry, late as it comes
   }
 
   void watch() {

@@ -45,7 +45,7 @@ void impossible_scale(World& world, Active& fault) {
 void clutch(World& world, Active&) { world.levels.clutch = true; }
 void let_go(World& world, Active&) { world.levels.let_go = true; }
 void load(World& world, Active& fault) {
-  if (often(world, fault)) world.requests.load = fault.random.chance(0.5);
+  if (often(world, fault)) world.requests.grip = fault.random.chance(0.5);
 }
 /// Another master takes the robot, and returns it.
 void take(World& world, Active& fault) {

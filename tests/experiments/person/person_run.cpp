@@ -171,7 +171,7 @@ void ask(Laboratory& lab, const PersonMove& move, MasterConfig& master) {
   requests.stop = move.stop;
   requests.hold = move.hold;
   requests.engage = move.engage;
-  requests.load = move.load;
+  requests.grip = move.load;
   lab.let_go(move.let_go);
   if (!move.change) return;
   move.change(master);

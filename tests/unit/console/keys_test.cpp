@@ -63,14 +63,12 @@ TEST(Keys, CountScaleStepsAndToggleTheClutch) {
   EXPECT_FALSE(state.requests.clutch);
 }
 
-TEST(Keys, TellOfALoadAndThatItIsGone) {
+TEST(Keys, TurnTheGripperAndTwiceNothing) {
   KeyboardState state;
-  EXPECT_FALSE(state.requests.load.has_value());
-  apply({KeyAction::kLoad}, {}, MotionMode::kRate, state);
-  EXPECT_EQ(state.requests.load, true);
-  state.requests = {};
-  apply({KeyAction::kLoad}, {}, MotionMode::kRate, state);
-  EXPECT_EQ(state.requests.load, false);
+  apply({KeyAction::kGripper}, {}, MotionMode::kRate, state);
+  EXPECT_TRUE(state.requests.turns_gripper);
+  apply({KeyAction::kGripper}, {}, MotionMode::kRate, state);
+  EXPECT_FALSE(state.requests.turns_gripper);
 }
 
 }  // namespace

@@ -91,9 +91,9 @@ TEST_F(AxisHandTest, ButtonsActWhenTheyGoDownTheClutchWhileItIsDown) {
   EXPECT_FALSE(step(pressing(PadButton::kMode), MotionMode::kRate).requests.mode);
   EXPECT_EQ(step(pressing(PadButton::kScaleUp)).requests.scale_steps, 1);
   EXPECT_EQ(step(pressing(PadButton::kScaleDown)).requests.scale_steps, -1);
-  EXPECT_EQ(step(pressing(PadButton::kGripper)).requests.load, true);
+  EXPECT_TRUE(step(pressing(PadButton::kGripper)).requests.turns_gripper);
   step({.present = true});
-  EXPECT_EQ(step(pressing(PadButton::kGripper)).requests.load, false);
+  EXPECT_TRUE(step(pressing(PadButton::kGripper)).requests.turns_gripper);
   EXPECT_TRUE(step(pressing(PadButton::kClutch)).level.clutch);
   EXPECT_TRUE(step(pressing(PadButton::kClutch)).level.clutch);
   EXPECT_FALSE(step({.present = true}).level.clutch);

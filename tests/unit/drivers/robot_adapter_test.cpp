@@ -52,6 +52,8 @@ struct RobotAdapterTest : ::testing::Test {
   }
 };
 
+constexpr std::uint32_t kClosed = SetpointDatagram::kGrip | SetpointDatagram::kGripAsked;
+
 TEST_F(RobotAdapterTest, TurnsTheWrenchFromTheToolIntoTheWorld) {
   RobotDatagram d = robot_at(0.1);
   d.flags |= RobotDatagram::kLoad;
@@ -78,18 +80,35 @@ TEST_F(RobotAdapterTest, NothingMovesBeforeTheRobotHasSaidWhereItIs) {
   robot.write(JointVector::Constant(0.5));
   in = end.receive(at_ms(1));
   ASSERT_TRUE(in);
-  EXPECT_EQ(in->flags, SetpointDatagram::kMove | SetpointDatagram::kGrip);
+  EXPECT_EQ(in->flags, SetpointDatagram::kMove | kClosed);
   EXPECT_EQ(in->joint_rad[5], 0.5);
   robot.write(JointVector::Constant(NAN));
   in = end.receive(at_ms(1));
   ASSERT_TRUE(in);
-  EXPECT_EQ(in->flags, SetpointDatagram::kGrip);
+  EXPECT_EQ(in->flags, kClosed);
   EXPECT_EQ(robot.rejected_setpoints(), 1u);
   robot.write(std::nullopt);
   in = end.receive(at_ms(1));
   ASSERT_TRUE(in);
-  EXPECT_EQ(in->flags, SetpointDatagram::kGrip);  // what it holds it keeps
+  EXPECT_EQ(in->flags, kClosed);  // what it holds it keeps
   EXPECT_EQ(robot.rejected_setpoints(), 1u);
+}
+
+// The slave may have been started again while the robot held something.
+TEST_F(RobotAdapterTest, ALoadThatIsThereIsKeptUntilSomebodyAsks) {
+  const auto sent = [this] {
+    robot.write(std::nullopt);
+    const auto in = end.receive(at_ms(2));
+    return in ? in->flags : ~0U;
+  };
+  EXPECT_EQ(sent(), 0U) << "whatever the gripper is, it stays";
+  RobotDatagram d = robot_at(0.1);
+  d.flags |= RobotDatagram::kLoad;
+  end.send(d);
+  (void)robot.read(at_ms(1));
+  EXPECT_EQ(sent(), SetpointDatagram::kGrip);
+  robot.grip(false);
+  EXPECT_EQ(sent(), SetpointDatagram::kGripAsked);
 }
 
 TEST_F(RobotAdapterTest, ARobotThatNobodyEngagedIsSentNoMotion) {

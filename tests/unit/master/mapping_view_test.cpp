@@ -62,38 +62,79 @@ TEST(MasterView, SaysWhenAHandleIsToBeRelocated) {
   EXPECT_FALSE(b.node.view().at_boundary);
 }
 
-TEST(MasterView, KeepsTheLoadUntilItIsPutDown) {
-  Bench b;
-  b.in.requests.load = true;
-  b.tick();
-  b.tick();
-  EXPECT_TRUE(b.node.view().load);
-  b.in.requests.load = false;
-  b.tick();
-  EXPECT_FALSE(b.node.view().load);
+/// What the slave tells of its gripper, knowing what was sent until `knows`.
+Received<Telemetry> told(const Bench& b, bool closed, bool holds, Time knows) {
+  Received<Telemetry> r;
+  r.received = b.in.now;
+  r.echo_sent = knows;
+  r.message.gripper = {.closed = closed, .holds = holds};
+  return r;
 }
 
-TEST(MasterView, TheGripperIsALevelInEachCommand) {
-  Bench b;
-  const auto sent = [&b] {
-    for (int i = 0; i < 20; ++i) {
-      if (const auto command = b.tick().command) return command->grip;
-    }
-    return false;
-  };
-  EXPECT_FALSE(sent());
-  b.in.requests.load = true;
-  EXPECT_TRUE(sent());
-  EXPECT_TRUE(sent());
-  b.in.requests.load = false;
-  EXPECT_FALSE(sent());
+std::optional<bool> sent(Bench& b) {
+  for (int i = 0; i < 20; ++i) {
+    if (const auto command = b.tick().command) return command->grip;
+  }
+  ADD_FAILURE() << "no command";
+  return {};
 }
 
+TEST(MasterView, TheGripperIsAsItIsUntilSomebodyAsksForAnother) {
+  Bench b;
+  EXPECT_EQ(sent(b), std::nullopt);
+  Received<Telemetry> r = told(b, true, true, b.in.now);
+  b.in.telemetry = {&r, 1};
+  b.tick();
+  b.in.telemetry = {};
+  EXPECT_TRUE(b.node.view().gripper_closed()) << "as a master before has left it";
+  EXPECT_EQ(sent(b), std::nullopt);
+  b.in.requests.turns_gripper = true;
+  b.tick();
+  b.in.requests = {};
+  EXPECT_FALSE(b.node.view().gripper_closed());
+  EXPECT_EQ(sent(b), false);
+}
+
+TEST(MasterView, WhatIsAskedOfTheGripperIsSentUntilTheSlaveKnowsAndHasDoneIt) {
+  Bench b;
+  const Time before = b.in.now;
+  b.in.requests.grip = true;
+  b.tick();
+  b.in.requests = {};
+  b.in.requests.turns_gripper = true;
+  b.tick();
+  b.in.requests = {};
+  EXPECT_EQ(sent(b), false) << "closed and open again, before the slave has heard of either";
+  for (const auto& [closed, knows, goes_on] :
+       {std::tuple{false, before, true}, {true, b.in.now, true}, {false, b.in.now, false}}) {
+    Received<Telemetry> r = told(b, closed, false, knows);
+    b.in.telemetry = {&r, 1};
+    b.tick();
+    b.in.telemetry = {};
+    EXPECT_EQ(sent(b).has_value(), goes_on) << closed;
+  }
+}
+
+TEST(MasterView, AnotherMastersGripperIsNotAskedForAgain) {
+  Bench b;
+  b.in.requests.grip = true;
+  b.tick();
+  b.in.requests = {};
+  b.in.taken = true;
+  b.tick();
+  b.in.taken = false;
+  EXPECT_EQ(sent(b), std::nullopt);
+}
+
+// A gripper that closed on nothing is closed, and holds nothing.
 TEST(MasterView, ALoadIsFeltInRateMode) {
   double force_n[2];
   for (const bool load : {false, true}) {
     Bench b;
-    b.in.requests.load = load;
+    Received<Telemetry> r = told(b, true, load, b.in.now);
+    b.in.telemetry = {&r, 1};
+    b.tick();
+    b.in.telemetry = {};
     b.in.requests.mode = MotionMode::kRate;
     for (int i = 0; i < 4000; ++i) b.tick();  // the friction of position mode fades
     b.in.handle.p_MH.x() = 0.02;

@@ -112,12 +112,12 @@ TEST(RemoteHand, ClutchIsALevelAndTheGripperAChange) {
   h.in.aim.clutch = true;
   h.tick();
   EXPECT_TRUE(h.requests.clutch);
-  EXPECT_FALSE(h.requests.load);
+  EXPECT_FALSE(h.requests.grip);
   h.in.aim.grip = true;
   h.tick();
-  EXPECT_EQ(h.requests.load, true);
+  EXPECT_EQ(h.requests.grip, true);
   h.tick();
-  EXPECT_FALSE(h.requests.load);
+  EXPECT_FALSE(h.requests.grip);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ Telemetry sample_telemetry(Numbers& n) {
   t.rejected = 1;
   t.limit_violations = 2;
   t.late_ticks = 3;
-  t.load = true;
+  t.gripper = {true, true, 4.5, 0.25};
   return t;
 }
 
@@ -183,7 +183,7 @@ TEST(RecordedValues, KeepEveryBitOfTheMastersInput) {
   MasterInput in;
   in.now = Time(Duration(123'456'789'012'345'678));
   in.handle = {n.vector(), n.vector(), n.quaternion(), n.vector(), {true, false, true, false}, false, false};
-  in.requests = {true, false, true, MotionMode::kRate, -0.0, -3, true, false};
+  in.requests = {true, false, true, MotionMode::kRate, -0.0, -3, true, false, true};
   in.last_heard = Time(Duration(0));
   in.peer_restarts = 2;
   in.taken = true;
@@ -198,7 +198,8 @@ TEST(RecordedValues, KeepEveryBitOfTheMastersInput) {
   EXPECT_EQ(back.last_heard, in.last_heard);
   EXPECT_EQ(back.rtt_s, in.rtt_s);
   EXPECT_EQ(back.overdue_ticks, in.overdue_ticks);
-  EXPECT_EQ(back.requests.load, std::optional(false));
+  EXPECT_EQ(back.requests.grip, std::optional(false));
+  EXPECT_TRUE(back.requests.turns_gripper);
   EXPECT_EQ(back.requests.scale_steps, -3);
   EXPECT_TRUE(back.handle.buttons.mode && back.handle.buttons.scale_down && !back.handle.buttons.clutch);
   expect_kept<recording::MasterInput>(MasterInput{});

@@ -18,8 +18,9 @@ struct Loop {
   MotionCommand command{};
   std::uint64_t sequence = 0;
   std::optional<Time> last_heard{};
+  bool holds = false;
 
-  bool run(int ticks, bool silent = false) {
+  std::optional<bool> run(int ticks, bool silent = false) {
     SlaveOutput out;
     for (int i = 0; i < ticks; ++i) {
       now += std::chrono::milliseconds(1);
@@ -32,6 +33,7 @@ struct Loop {
       SlaveInput in;
       in.now = now;
       in.robot = arm.read(now);
+      in.robot.load = holds;
       in.peer_session_count = 1;
       if (!silent) {
         last_heard = now;
@@ -48,20 +50,35 @@ struct Loop {
 TEST(Gripper, FollowsTheCommandsOfTheEngagementOnly) {
   Loop loop;
   loop.command.grip = true;
-  EXPECT_FALSE(loop.run(200)) << "not engaged";
+  EXPECT_EQ(loop.run(200), std::nullopt) << "not engaged";
   loop.command.engagement = 1;
   loop.command.request = Request::kEngage;
-  EXPECT_TRUE(loop.run(200));
+  EXPECT_EQ(loop.run(200), true);
   ASSERT_TRUE(loop.node.engaged());
-  EXPECT_TRUE(loop.run(3000, true)) << "silence drops nothing";
+  EXPECT_EQ(loop.run(3000, true), true) << "silence drops nothing";
   EXPECT_FALSE(loop.node.engaged());
   loop.command.request = Request::kStop;
   loop.command.grip = false;
-  EXPECT_TRUE(loop.run(200)) << "neither does a stop";
+  EXPECT_EQ(loop.run(200), true) << "neither does a stop";
   loop.command.request = Request::kEngage;
   loop.command.engagement = 2;
-  EXPECT_FALSE(loop.run(500));
+  EXPECT_EQ(loop.run(500), false);
   ASSERT_TRUE(loop.node.engaged());
+}
+
+TEST(Gripper, StaysAsItIsUnderAMasterThatAsksForNothing) {
+  Loop loop;
+  loop.holds = true;
+  loop.command.engagement = 1;
+  loop.command.request = Request::kEngage;
+  EXPECT_EQ(loop.run(300), std::nullopt);
+  ASSERT_TRUE(loop.node.engaged());
+  EXPECT_TRUE(loop.node.view().gripper.closed && loop.node.view().gripper.holds) << "as the robot says";
+  loop.command.grip = false;
+  EXPECT_EQ(loop.run(100), false);
+  EXPECT_FALSE(loop.node.view().gripper.closed);
+  loop.command.grip.reset();
+  EXPECT_EQ(loop.run(100), false);
 }
 
 }  // namespace

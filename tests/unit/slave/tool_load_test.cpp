@@ -169,7 +169,7 @@ TEST(ToolCompensation, KeepsTheLastZeroWhenTheNextIsAbandonedOrReadsNonsense) {
 TEST(ToolCompensation, AZeroThatIsTakenWhileSomethingPressesHidesNoMoreThanItsBound) {
   SensingConfig config;
   config.zero_s = 0.01;
-  ToolCompensation compensation(config, 10.0);
+  ToolCompensation compensation(config, {.zero_n = 10.0});
   const auto read = [&](double force_n) {
     compensation.zero();
     for (int n = 0; n < 20; ++n)

@@ -26,7 +26,7 @@ TEST(Codec, KeepsEveryFieldOfAMotionCommand) {
   EXPECT_EQ(out.request, Request::kEngage);
   EXPECT_EQ(out.mode, MotionMode::kRate);
   EXPECT_EQ(out.scale, 0.35);
-  EXPECT_TRUE(out.grip);
+  EXPECT_EQ(out.grip, true);
   EXPECT_TRUE(out.let_go);
   EXPECT_EQ(out.goal_kind, GoalKind::kPosition);
   EXPECT_EQ(out.position_m, in.position_m);
@@ -116,7 +116,9 @@ TEST(Codec, KeepsEveryFieldOfTelemetry) {
   EXPECT_EQ(out.rejected, 11u);
   EXPECT_EQ(out.limit_violations, 12u);
   EXPECT_EQ(out.late_ticks, 13u);
-  EXPECT_TRUE(out.load);
+  EXPECT_TRUE(out.gripper.closed && out.gripper.holds);
+  EXPECT_EQ(out.gripper.load_kg, 4.5);
+  EXPECT_EQ(out.gripper.load_sd_kg, 0.25);
 }
 
 TEST(Codec, ExtremeMessagesFitADatagramAndAreAccepted) {

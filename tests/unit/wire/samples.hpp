@@ -96,7 +96,7 @@ inline Telemetry telemetry() {
   t.rejected = 11;
   t.limit_violations = 12;
   t.late_ticks = 13;
-  t.load = true;
+  t.gripper = {true, true, 4.5, 0.25};
   return t;
 }
 

@@ -1,0 +1,151 @@
+#include "slave/sensing/load_identifier.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/core/random.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDt = 1e-3, kMost_kg = 30.0;
+const Vector3 kAlong(0.8, 0.6, 0.0);
+
+/// A mass on a spring and damper behind a sensor that moves along x and y, without turning.
+class Carried {
+ public:
+  Carried(double mass_kg, const Vector3& com_m, double noise_n, const Vector3& gravity = Vector3::Zero())
+      : mass_(mass_kg), com_m_(com_m), noise_n_(noise_n), gravity_(gravity) {
+    sensing_.force_noise_n = noise_n;
+    sensing_.moment_noise_nm = 0.1 * noise_n;
+  }
+
+  /// `seconds` of a hand that goes to and fro with speeds of `v`, or of rest.
+  void go(LoadIdentifier& load, double seconds, double v, bool free = true) {
+    for (double t = 0.0; t < seconds; t += kDt) {
+      // Trapezes of speed: 0.5 s each way, with a ramp of 50 ms.
+      const double phase = std::fmod(t, 1.0);
+      const double sense = phase < 0.5 ? 1.0 : -1.0, in = std::fmod(phase, 0.5);
+      const double speed = v * sense * std::clamp(std::min(in, 0.45 - in) / 0.05, 0.0, 1.0);
+      const Vector3 before = velocity_;
+      velocity_ = speed * kAlong;
+      tool_ += kDt * velocity_;
+      const Vector3 bond = kBond * (tool_ - place_) + kDamping * (velocity_ - follows_);
+      // Implicit in its own speed, so that light loads are stable.
+      const Vector3 faster = (follows_ + kDt / mass_ * (bond + kDamping * follows_ + mass_ * gravity_)) /
+                             (1.0 + kDt / mass_ * kDamping);
+      Wrench read;
+      read.force = mass_ * (gravity_ - (faster - follows_) / kDt);
+      follows_ = faster;
+      place_ += kDt * follows_;
+      read.moment = com_m_.cross(read.force);
+      for (int i = 0; i < 3; ++i) {
+        read.force[i] += noise_n_ * random_.normal() + bias_n_[i];
+        read.moment[i] += 0.1 * noise_n_ * random_.normal();
+      }
+      SensorMotion motion;
+      motion.gravity = gravity_;
+      motion.acceleration = (velocity_ - before) / kDt;
+      load.step(closed ? read : Wrench{Vector3::Zero(), bias_n_}, motion, free, kDt);
+    }
+  }
+
+  [[nodiscard]] const SensingConfig& sensing() const { return sensing_; }
+  bool closed = true;
+
+ private:
+  static constexpr double kBond = 2e4, kDamping = 1500.0;
+  double mass_;
+  Vector3 com_m_;
+  double noise_n_;
+  Vector3 gravity_;
+  SensingConfig sensing_{};
+  Vector3 bias_n_{0.4, -1.1, 0.7};
+  Vector3 tool_ = Vector3::Zero(), velocity_ = Vector3::Zero();
+  Vector3 place_ = Vector3::Zero(), follows_ = Vector3::Zero();
+  Random random_{7};
+};
+
+TEST(LoadIdentifier, FindsTheMassAndCentreOfALoadOnItsBond) {
+  for (const double mass_kg : {0.5, 2.0, 8.0, 30.0}) {
+    Carried carried(mass_kg, {0.06, 0.02, -0.03}, 0.05);
+    LoadIdentifier load(carried.sensing(), kMost_kg);
+    load.grip(true);
+    carried.go(load, 6.0, 0.05);
+    ASSERT_TRUE(load.known()) << mass_kg << " kg, told " << load.load().mass_kg << " sd " << load.sd_kg();
+    EXPECT_TRUE(load.holds());
+    EXPECT_NEAR(load.load().mass_kg, mass_kg, 3.0 * load.sd_kg());
+    EXPECT_NEAR(load.load().mass_kg, mass_kg, 0.05 * mass_kg + 0.02);
+    // Where it lies along the way is not told by it.
+    EXPECT_LT((load.load().com_m - Vector3(0.06, 0.02, -0.03)).cross(kAlong).norm(), 0.02) << mass_kg;
+  }
+}
+
+TEST(LoadIdentifier, KnowsNothingOfALoadThatRests) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  load.grip(true);
+  carried.go(load, 20.0, 0.0);
+  EXPECT_FALSE(load.known());
+  EXPECT_FALSE(load.holds());
+  EXPECT_EQ(load.load().mass_kg, 0.0);
+  EXPECT_NEAR(load.doubt_kg(), kMost_kg, 1.0) << "anything that it may hold";
+}
+
+TEST(LoadIdentifier, AGripperThatClosedOnNothingHoldsNothing) {
+  Carried carried(1e-3, Vector3::Zero(), 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  load.grip(true);
+  carried.go(load, 6.0, 0.05);
+  EXPECT_TRUE(load.known());
+  EXPECT_FALSE(load.holds());
+}
+
+TEST(LoadIdentifier, AWeightIsKnownAtRest) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05, {0.0, 0.0, -9.81});
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  carried.closed = false;
+  carried.go(load, 5.0, 0.0);
+  carried.closed = true;
+  load.grip(true);
+  carried.go(load, 5.0, 0.0);
+  ASSERT_TRUE(load.known());
+  EXPECT_NEAR(load.load().mass_kg, 5.0, 0.25);
+}
+
+TEST(LoadIdentifier, ForgetsWhatItLetsGo) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  load.grip(true);
+  carried.go(load, 6.0, 0.05);
+  load.grip(false);
+  EXPECT_EQ(load.load().mass_kg, 0.0);
+  EXPECT_EQ(load.doubt_kg(), 0.0);
+  load.grip(true);
+  EXPECT_FALSE(load.known());
+}
+
+TEST(LoadIdentifier, LearnsNothingWhileSomethingIsTouched) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  load.grip(true);
+  carried.go(load, 6.0, 0.05, false);
+  EXPECT_EQ(load.load().mass_kg, 0.0);
+  EXPECT_FALSE(load.known());
+}
+
+TEST(LoadIdentifier, NonsenseChangesNothing) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  load.grip(true);
+  carried.go(load, 6.0, 0.05);
+  const double before_kg = load.load().mass_kg;
+  Wrench nonsense;
+  nonsense.force.x() = NAN;
+  for (int i = 0; i < 500; ++i) load.step(nonsense, {}, true, kDt);
+  EXPECT_EQ(load.load().mass_kg, before_kg);
+}
+
+}  // namespace
+}  // namespace longreach
