@@ -15,8 +15,11 @@ constexpr double kTrend_s = 0.25, kMuch_n = 1.6;     // a trend is of so long a 
 constexpr double kNoGrowth_s = 0.5;                  // of rest without that
 constexpr double kStale_s = 1.0;                     // of motion, after which a trend is no longer known
 constexpr double kStep_m = 1e-4;
+constexpr double kFollows_m = 5e-3;  // a way after which each wall at rest would have answered
+constexpr double kComes_n = 0.25, kComesNoise = 5.0;     // of growth at the rest after it, smooth: it comes
 constexpr double kAsideShare = 0.2, kRounding_m = 1e-5;  // of a way straight back
 constexpr double kAnswer_n = 0.5, kAnswerNoise = 10.0;
+constexpr double kOfAnswer = 0.7;          // what is left of one when g is known better
 constexpr double kAnswer_n_per_m = 100.0;  // that a contact has at least
 constexpr double kHardest_n_per_m = 1e7;   // steel on steel
 constexpr double kCheckMax_s = 0.5;        // a tool at its greatest speed has come to rest by then
@@ -42,6 +45,7 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
   if (gives_way() && !in.may_move) state_ = State::kGrowing;
   switch (state_) {
     case State::kRest:
+      suspected_ = false;
       if (grew_) state_ = State::kGrowing;
       watch_relief(now, in);
       break;
@@ -119,9 +123,9 @@ ForceAnswer::Deviation ForceAnswer::deviation(const Point& now, double trend_n_p
           along_.dot(now.p_m - from_.p_m - passed_s * given_.m_per_s)};
 }
 
-bool ForceAnswer::decides(double change_n, double way_m) const {
+bool ForceAnswer::decides(double change_n, double way_m, double share) const {
   return way_m >= kStep_m &&
-         change_n >= std::max({kAnswer_n, kAnswerNoise * limits_.noise_n, kAnswer_n_per_m * way_m});
+         change_n >= share * std::max({kAnswer_n, kAnswerNoise * limits_.noise_n, kAnswer_n_per_m * way_m});
 }
 
 // The tool goes back because the guard is exceeded. Only straight back counts: what slides may meet more.
@@ -136,11 +140,15 @@ void ForceAnswer::watch_relief(const Point& now, const ForceAnswerInput& in) {
     given_ = {};
     return;
   }
-  if (!decides(from_.force_n - now.force_n, out_m) && !decides(now.force_n - from_.force_n, out_m)) return;
-  if (now.force_n > from_.force_n) {
+  const bool fell = decides(from_.force_n - now.force_n, out_m);
+  const bool grew = decides(now.force_n - from_.force_n, out_m);
+  const bool follows = !fell && !grew && out_m >= kFollows_m;
+  if (!grew && !fell && !follows) return;
+  if (!fell) {
     state_ = State::kChecking;
     checked_s_ = 0.0;
-    tries_ = true;
+    tries_ = grew;
+    follows_ = follows;
   }
   watches_ = false;
 }
@@ -150,6 +158,7 @@ void ForceAnswer::look_for_answer(const Point& now) {
   if (decides(d.fell_n, d.way_m)) {
     state_ = State::kAnswered;
     answered_ = true;
+    suspected_ = false;
     answered_s_ = 0.0;
   } else if (decides(-d.fell_n, d.way_m)) {
     state_ = State::kChecking;
@@ -157,19 +166,30 @@ void ForceAnswer::look_for_answer(const Point& now) {
   }
 }
 
-// A wall that comes faster than it did looks like a wrong sign; at rest it shows how fast it now is.
+// The tool has rested as long as it went, so that the two growths are known alike; or there is no time for
+// that.
+bool ForceAnswer::seen_enough(const Point& now) const {
+  if (rest_s_ == 0.0) return false;
+  const double much_n = std::max(kMuch_n, 2.0 * kAnswerNoise * limits_.noise_n);
+  const bool fast = rest_s_ >= kFast_s && now.force_n - begun_.force_n >= much_n;
+  return fast || rest_s_ >= std::clamp(begun_.t_s - from_.t_s, kTrendRest_s, kTrend_s);
+}
+
+// A wall that comes faster than it did, or is stiffer deeper, looks like a wrong sign; at rest it shows how
+// fast the force grows now. What grew by more than before and after is suspicious; the next way decides.
 void ForceAnswer::check(const Point& now, const ForceAnswerInput& in) {
-  if (rest_s_ < kTrendRest_s && checked_s_ < kCheckMax_s) return;
+  if (!seen_enough(now) && checked_s_ < kCheckMax_s) return;
   if (!in.still) begun_ = now;
   const Trend after = trend(begun_, now);
-  if (tries_) {
-    tries_ = false;
-    trend_ = after;
-    return begin_to_give_way(now, in.reaction);
-  }
-  const Deviation d = deviation(begun_, 0.5 * (given_.n_per_s + after.n_per_s));
-  state_ = decides(-d.fell_n, d.way_m) ? State::kWrongSign : State::kGrowing;
+  const Deviation d = deviation(begun_, std::max({given_.n_per_s, after.n_per_s, 0.0}));
+  const bool suspicious = decides(-d.fell_n, d.way_m, kOfAnswer), again = suspicious && suspected_;
+  const bool comes = now.force_n - begun_.force_n >= std::max(kComes_n, kComesNoise * limits_.noise_n);
+  const bool follows = std::exchange(follows_, false) && comes;
+  const bool tries = std::exchange(tries_, false) || suspicious || follows;
   trend_ = after;
+  suspected_ = suspicious;
+  state_ = again ? State::kWrongSign : State::kGrowing;
+  if (tries && !again) begin_to_give_way(now, in.reaction);
 }
 
 void ForceAnswer::drive(const Point& now, const ForceAnswerInput& in) {

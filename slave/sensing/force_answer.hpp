@@ -10,10 +10,14 @@
 //   growing     it has come to the bound                                       giving way
 //   both        the guard is exceeded, the tool goes back by itself, -D as     checking, then giving way
 //               below with g = 0
-//   giving way  s >= 0.1 mm,  D >= 0.5 N or 10 σ, and D >= 100 N/m s           answered: a wall comes
+//   both        likewise, neither D nor -D on 5 mm                             checking; giving way if it
+//   grows giving way  s >= 0.1 mm,  D >= 0.5 N or 10 σ, and D >= 100 N/m s           answered: a wall comes
 //   giving way  s >= 0.1 mm, -D likewise                                       checking: the tool rests
-//   checking    at rest again, with the mean of g before and after: the same   wrong sign
-//   checking    otherwise: the wall comes faster than before                   growing
+//   checking    at rest as long as it went, but 40 to 250 ms, or till 1.6 N    giving way, suspected
+//               or 20 σ grew in 8 ms, with the greater of g before and after:
+//               0.7 of that
+//   checking    likewise, and suspected                                        wrong sign
+//   checking    otherwise: the wall comes faster, or is stiffer deeper         growing
 //   answered    half a second of rest without growth; of growing, too          rest
 //   any         the contact ends                                               rest
 // Giving way without an answer ends by its length (relief.hpp). Once answered, D/s is the stiffness k, and
@@ -83,10 +87,11 @@ class ForceAnswer {
   void begin_to_give_way(const Point& now, const Vector3& reaction);
   void watch_relief(const Point& now, const ForceAnswerInput& in);
   void look_for_answer(const Point& now);
+  [[nodiscard]] bool seen_enough(const Point& now) const;
   void check(const Point& now, const ForceAnswerInput& in);
   void drive(const Point& now, const ForceAnswerInput& in);
   [[nodiscard]] Deviation deviation(const Point& now, double trend_n_per_s) const;
-  [[nodiscard]] bool decides(double change_n, double way_m) const;
+  [[nodiscard]] bool decides(double change_n, double way_m, double share = 1.0) const;
   [[nodiscard]] static Trend trend(const Point& from, const Point& to);
 
   ForceAnswerLimits limits_;
@@ -94,6 +99,8 @@ class ForceAnswer {
   bool gave_way_ = false, answered_ = false;
   bool watches_ = false;     // a tool that goes back by itself
   bool tries_ = false;       // once at rest, to give way
+  bool follows_ = false;     // likewise, if it grows there
+  bool suspected_ = false;   // the way before made the force grow
   Point older_{}, newer_{};  // of this rest, or of growth in it
   double rest_s_ = 0.0;      // the present one
   double moved_s_ = 0.0;     // since the last

@@ -94,6 +94,7 @@ void GrowthWatch::look_back(const Vector3& normal, double trend_n_per_s) {
     most_n = own_n;
     direction_ = way_m / length_m;
     slope_n_per_m_ = grown_n / length_m;
+    n_per_s_ = grown_n / (time_s_ - place.time_s);
     across_ = along < kAgainst;
     seen_m_ = p_m_;
     seen_n_ = size_n_;

@@ -44,6 +44,7 @@ class GrowthWatch {
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // since it last did
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
+  [[nodiscard]] double n_per_s() const { return n_per_s_; }  // of that growth
   /// It grows across the force: a surface stiffer than k_max, on which the tool slides, could do that too.
   [[nodiscard]] bool across() const { return across_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // |F|, smooth
@@ -74,6 +75,7 @@ class GrowthWatch {
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
   double slope_n_per_m_ = 0.0;  // of that growth
+  double n_per_s_ = 0.0;        // likewise
   bool across_ = false;         // likewise
 };
 

@@ -3,9 +3,10 @@
 // brakes, and the force tells. A wall that was pressed by a robot with a wrong sensor rests with it; a wall
 // that comes goes on to push, and what a carried body does in motion ends with the motion. After 60 ms, over
 // all of them and over the last 20 ms,
-//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor
+//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor, but not
+//                                                 before what comes would differ by twice that tolerance
 //   else it grows at rest (force_answer.hpp)      a wall that comes: its answer decides
-//   else, after 150 ms                            no relief
+//   else, after 150 ms, or as long as that takes  no relief
 // What grew across the force could be a surface stiffer than k_max, too, on which the tool slides. If it does
 // not go on to grow, it is. Else the tool gives way along the force by 0.1 mm: from such a surface the force
 // falls by more than k_max does on half of that way, or the contact ends. That acquits at any time.
@@ -28,6 +29,7 @@ class SignTrial {
     verdict_ = Verdict::kPending;
     direction_ = growth.direction();
     slope_n_per_m_ = growth.slope_n_per_m();
+    n_per_s_ = growth.n_per_s();
     across_ = growth.across();
     from_ = {growth.place_m(), growth.size_n()};
   }
@@ -59,6 +61,8 @@ class SignTrial {
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
+  static constexpr double kShown = 2.0;  // tolerances that what comes and what rests differ by
+  static constexpr double kGrown = 4.0;  // changes, so that growth at rest is known
   static constexpr double kEase_m = 1e-4;
   static constexpr double kEase_m_per_s = 2e-3;
   static constexpr double kEaseMax_s = 0.5;
@@ -69,21 +73,35 @@ class SignTrial {
     double force_n = 0.0;
   };
   [[nodiscard]] bool pending() const { return verdict_ == Verdict::kPending; }
+  [[nodiscard]] static double change(double noise_n) { return std::max(kChange_n, kNoise * noise_n); }
+  [[nodiscard]] double expected(const Point& then, const Point& now) const {
+    return slope_n_per_m_ * direction_.dot(now.p_m - then.p_m);
+  }
+  [[nodiscard]] static double tolerance(double expected_n, double noise_n) {
+    return change(noise_n) + kShare * std::abs(expected_n);
+  }
   [[nodiscard]] bool as_before(const Point& then, const Point& now, double noise_n) const {
-    const double expected_n = slope_n_per_m_ * direction_.dot(now.p_m - then.p_m);
-    const double may_n = std::max(kChange_n, kNoise * noise_n) + kShare * std::abs(expected_n);
-    return std::abs(now.force_n - then.force_n - expected_n) <= may_n;
+    const double expected_n = expected(then, now);
+    return std::abs(now.force_n - then.force_n - expected_n) <= tolerance(expected_n, noise_n);
+  }
+  /// A wall that comes grows at rest by no less than before, while the tool went back: by clearly more than a
+  /// wall at rest under a wrong sensor does.
+  [[nodiscard]] bool tells_apart(const Point& now, double noise_n) const {
+    const double expected_n = expected(from_, now);
+    return n_per_s_ * time_s_ - expected_n >= kShown * tolerance(expected_n, noise_n);
   }
   void see_rest(const Point& now, const Vector3& reaction, const GrowthBounds& bounds, bool grows) {
     const bool as_grown =
         !otherwise_ && as_before(from_, now, bounds.noise_n) && as_before(last_, now, bounds.noise_n);
+    if (as_grown && !tells_apart(now, bounds.noise_n)) return;
     if (!across_ && as_grown) {
       verdict_ = Verdict::kSign;
     } else if (!as_grown && (across_ || grows)) {
       reset();
     } else if (!across_) {
       otherwise_ = true;
-      if (time_s_ >= kGrows_s) verdict_ = Verdict::kNoRelief;
+      if (time_s_ >= kGrows_s && n_per_s_ * time_s_ >= kGrown * change(bounds.noise_n))
+        verdict_ = Verdict::kNoRelief;
     } else {
       easing_ = true;
       direction_ = reaction;
@@ -105,7 +123,7 @@ class SignTrial {
   Verdict verdict_ = Verdict::kNone;
   bool across_ = false, easing_ = false;
   bool otherwise_ = false;  // than it grew before
-  double time_s_ = 0.0, slope_n_per_m_ = 0.0;
+  double time_s_ = 0.0, slope_n_per_m_ = 0.0, n_per_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();  // of the growth; then of giving way
   Point from_{}, last_{};
 };

@@ -161,13 +161,16 @@ const std::vector<Experiment> kExperiments = {
      "{faked_answer_true_force_over_guard}; told at most {told_late_max_s} s late, false faults "
      "{false_faults}; a force that answers to the way, though it is none, moves {control_way_m*1e3} mm"},
     {"moving-wall",
-     "A wall comes towards a robot that is held still, four arms, 0.1 to 50 mm/s, 200 to 20,000 N/m; and the "
-     "same with a force sensor of the wrong sign.",
+     "A wall comes towards a robot that is held still, four arms, 0.1 to 50 mm/s, 200 to 20,000 N/m; walls "
+     "of "
+     "layers, hands that move; and the same with a force sensor of the wrong sign.",
      run_moving_wall, moving_wall_plots, "",
      "{runs} walls: at most {force_over_guard_max} of the guard up to 250 N/s, {force_over_bound_max} of the "
-     "formula's bound beyond; told within {told_beside_stop_max_s} s of the stop, sign faults {false_signs}; "
-     "a "
-     "wrong sign found in {wrong_sign_found} of {wrong_sign_pressed}, at rest at "
+     "formula's bound beyond, {layers_force_over_guard_max} where layers make it four times as stiff, "
+     "{hand_moves_force_over_guard_max} and {hand_moves_layers_force_over_guard_max} under {hand_moves_runs} "
+     "hands that move; told within {told_beside_stop_max_s} s of the stop, sign faults {false_signs}; a "
+     "wrong "
+     "sign found in {wrong_sign_found} of {wrong_sign_pressed}, at rest at "
      "{wrong_sign_at_rest_force_over_guard} of the guard; with 20 mm of way {control_force_over_guard}"},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
      run_impact, impact_plots, "",

@@ -183,6 +183,16 @@ TEST_F(Oracle, SeesAHoldThatGoesOnPressing) {
     claim(SafetyState::kHolding, HoldCause::kLinkSilent);
   });
   EXPECT_TRUE(broken("I21b"));
+  EXPECT_FALSE(broken("I21d"));
+}
+
+TEST_F(Oracle, SeesAHoldThatGoesOnTurning) {
+  run(3000, [this](Moment& m, int) {
+    m.F_E_W.moment.x() = 0.9 * scenario_.slave.command.moment_guard_nm;
+    claim(SafetyState::kHolding, HoldCause::kLinkSilent);
+  });
+  EXPECT_TRUE(broken("I21d"));
+  EXPECT_FALSE(broken("I21b"));
 }
 
 TEST_F(Oracle, SeesAHandThatIsPushedTooHard) {

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/config/config.hpp"
 #include "slave/command/guard_config.hpp"
@@ -63,6 +66,42 @@ TEST(MovingWall, IsGivenWayToAndThenTheOperatorRetreats) {
   EXPECT_EQ(sentence(came.told), "something is moving towards the robot, the way out is along -x");
   EXPECT_TRUE(came.engaged_again);
   EXPECT_GT(came.retreat_m, 0.03);
+}
+
+/// Of skin, flesh and bone, while the hand goes to and fro by 15 mm: the first cause of a hold.
+Reason layers_come(double m_per_s, double hand_m_per_s) {
+  constexpr double kReach_m = 0.015;
+  std::vector<std::string> settings{"profile=lab",
+                                    "scene_file=scenes/layers.txtpb",
+                                    "mapping.mode=POSITION",
+                                    "mapping.scale=1",
+                                    "safety.engage_at_start=true",
+                                    "command.give_way_m=" + std::to_string(kGiveWay_m)};
+  double deep_m = 3.0 * m_per_s;
+  for (const char* layer : {"skin", "flesh", "bone"}) {
+    const std::string surface = std::string("scene.surface.") + layer;
+    settings.push_back(surface + ".plane.point_m=" + std::to_string(deep_m) + ",0,0");
+    settings.push_back(surface + ".movement.velocity_m_per_s=" + std::to_string(-m_per_s) + ",0,0");
+    deep_m += layer[0] == 's' ? 0.03 : 0.012;  // the bone is met at 0.8 of the guard
+  }
+  const proto::LabConfig config = configure(settings, LONGREACH_DEPLOY);
+  Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
+  const double until_s = 3.0 + (2.0 * kGiveWay_m + 0.1) / m_per_s;
+  while (lab.now_s() < until_s && (lab.now_s() < 2.0 || lab.slave().cause == HoldCause::kNone)) {
+    HandTarget hand;
+    const double way_m = std::fmod(hand_m_per_s * lab.now_s() + kReach_m, 4.0 * kReach_m);
+    hand.position_m.x() = std::abs(way_m - 2.0 * kReach_m) - kReach_m;
+    lab.drive(hand);
+    lab.step();
+  }
+  return lab.slave().cause;
+}
+
+TEST(MovingWall, OfLayersIsNoWrongSignUnderAHandThatRestsOrMoves) {
+  for (const double m_per_s : {0.01, 0.03}) {
+    for (const double hand_m_per_s : {0.0, 5e-3, 0.02})
+      EXPECT_EQ(layers_come(m_per_s, hand_m_per_s), HoldCause::kWallComes) << m_per_s << ' ' << hand_m_per_s;
+  }
 }
 
 TEST(MovingWall, WithoutThatWayItPressesOn) {

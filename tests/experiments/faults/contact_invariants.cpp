@@ -66,25 +66,29 @@ class Guarded : public Invariant {
   double pressed_n_ = 0.0, engaged_s_ = 0.0;
 };
 
-/// A second and a half after the last right to move what presses has come down to the hold limit. A hold in
-/// which the sensor has lied may have spent its way of relief on that.
+/// A second and a half after the last right to move what presses or turns has come down to the hold limit. A
+/// hold in which the sensor has lied may have spent its way of relief on that.
 class Relieved : public Invariant {
  public:
-  explicit Relieved(const Scenario& s)
-      : Invariant("I21b", "in a hold the force comes down to the hold limit"),
-        limit_n_(hold_limit_n(s.slave.command)) {}
+  struct Of {
+    const char* name;
+    const char* says;
+    const char* unit;
+    Vector3 Wrench::*part;
+    double most;  // with what a servo and noise leave
+  };
+  explicit Relieved(const Of& of) : Invariant(of.name, of.says), of_(of) {}
   void see(const Moment& m) override {
     if (m.ghost->right().engaged || m.claimed != SafetyState::kHolding) {
       held_s_ = m.t_s;
       lied_ = false;
     }
     lied_ = lied_ || !as_reckoned(m);
-    if (m.t_s - held_s_ > 1.5 && !lied_)
-      at_most(m, m.F_E_W.force.norm(), 1.05 * limit_n_ + 0.3, "N in a hold");
+    if (m.t_s - held_s_ > 1.5 && !lied_) at_most(m, (m.F_E_W.*of_.part).norm(), of_.most, of_.unit);
   }
 
  private:
-  double limit_n_;
+  Of of_;
   double held_s_ = 0.0;
   bool lied_ = false;
 };
@@ -121,28 +125,6 @@ class TurnGuarded : public Invariant {
   double pressed_nm_ = 0.0;  // turned in while the guard could not reckon
 };
 
-/// Likewise to I21b.
-class TurnRelieved : public Invariant {
- public:
-  explicit TurnRelieved(const Scenario& s)
-      : Invariant("I21d", "in a hold the moment comes down to the hold limit"),
-        limit_nm_(hold_limit_nm(s.slave.command)) {}
-  void see(const Moment& m) override {
-    if (m.ghost->right().engaged || m.claimed != SafetyState::kHolding) {
-      held_s_ = m.t_s;
-      lied_ = false;
-    }
-    lied_ = lied_ || !as_reckoned(m);
-    if (m.t_s - held_s_ > 1.5 && !lied_)
-      at_most(m, m.F_E_W.moment.norm(), 1.05 * limit_nm_ + 0.03, "N m in a hold");
-  }
-
- private:
-  double limit_nm_;
-  double held_s_ = 0.0;
-  bool lied_ = false;
-};
-
 /// Whatever presses or lies: no further from where the hold began than giving way may lead, and braking.
 class HeldPlace : public Invariant {
  public:
@@ -174,9 +156,14 @@ class HeldPlace : public Invariant {
 
 void add_contact_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Guarded>(s));
-  all.push_back(std::make_unique<Relieved>(s));
+  const double hold_n = hold_limit_n(s.slave.command), hold_nm = hold_limit_nm(s.slave.command);
+  all.push_back(
+      std::make_unique<Relieved>(Relieved::Of{"I21b", "in a hold the force comes down to the hold limit",
+                                              "N in a hold", &Wrench::force, 1.05 * hold_n + 0.3}));
   all.push_back(std::make_unique<TurnGuarded>(s));
-  all.push_back(std::make_unique<TurnRelieved>(s));
+  all.push_back(
+      std::make_unique<Relieved>(Relieved::Of{"I21d", "in a hold the moment comes down to the hold limit",
+                                              "N m in a hold", &Wrench::moment, 1.05 * hold_nm + 0.03}));
   all.push_back(std::make_unique<HeldPlace>(s));
 }
 

@@ -8,23 +8,38 @@
 namespace longreach {
 namespace {
 
+constexpr double kAhead_m = 2e-3;
+
 bool touches(const World& world) { return needs(world.scenario().slave.scene).contact; }
 
 void as_it_was(World& world, Active&) { world.surround(world.scenario().slave.scene); }
 
-/// A wall of the scene's first material just ahead of the tool.
-void appear(World& world, Active& fault) {
-  if (!fault.begins || !touches(world)) return;
+/// A wall of the scene's first material, so far ahead of the tool, that comes; besides what is there, or
+/// alone.
+void wall_ahead(World& world, Active& fault, double ahead_m, double m_per_s, bool alone) {
   SceneConfig scene = world.scenario().slave.scene;
   const Vector3 normal =
       Vector3(fault.random.normal(), fault.random.normal(), fault.random.normal()).normalized();
-  const Vector3 place = world.moment().X_WE.p - log_scale(fault.fault.size, 1e-4, 0.02) * normal;
   SurfaceConfig wall;
   wall.name = "appeared";
   wall.material = scene.material.front().name;
-  wall.plane = PlaneConfig{place, normal, false};
+  wall.plane = PlaneConfig{world.moment().X_WE.p - ahead_m * normal, normal, false};
+  if (m_per_s > 0.0) {
+    wall.movement = MovementConfig{m_per_s * normal};
+    wall.plane->point_m -= world.moment().t_s * m_per_s * normal;
+  }
+  if (alone) scene.surface.clear();
   scene.surface.push_back(wall);
   world.surround(scene);
+}
+void appear(World& world, Active& fault) {
+  if (fault.begins && touches(world))
+    wall_ahead(world, fault, log_scale(fault.fault.size, 1e-4, 0.02), 0.0, false);
+}
+/// Till the way that the robot may give is used up.
+void come_far(World& world, Active& fault) {
+  if (fault.begins && touches(world))
+    wall_ahead(world, fault, kAhead_m, log_scale(fault.fault.size, 0.02, 0.05), true);
 }
 void vanish(World& world, Active& fault) {
   if (!fault.begins) return;
@@ -78,12 +93,16 @@ constexpr auto kScene = only(Spoils::kScene);
 const FaultKind kKinds[] = {
     {.name = "surface-appears", .group = kGroup, .spoils = kScene, .act = appear, .end = as_it_was},
     {.name = "surface-vanishes", .group = kGroup, .spoils = kScene, .act = vanish, .end = as_it_was},
-    {.name = "surface-moves",
-     .group = kGroup,
-     .spoils = Spoils::kScene | Spoils::kSwing,
-     .act = move,
-     .end = as_it_was},
+    {.name = "surface-moves", .group = kGroup, .spoils = kScene, .act = move, .end = as_it_was},
     {.name = "surface-comes", .group = kGroup, .spoils = kScene, .act = come, .end = as_it_was},
+    {.name = "surface-comes-far",
+     .group = kGroup,
+     .spoils = kScene,
+     .longest_s = 10.0,
+     .shortest_s = 4.0,
+     .besides = 0.15,
+     .act = come_far,
+     .end = as_it_was},
     {.name = "surface-stiffens", .group = kGroup, .spoils = kScene, .act = stiffen, .end = as_it_was},
     {.name = "surface-softens", .group = kGroup, .spoils = kScene, .act = soften, .end = as_it_was},
 };

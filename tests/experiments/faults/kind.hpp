@@ -30,8 +30,7 @@ enum class Spoils : std::uint16_t {
   kMaster = 256,     // the master sends what no master should
   kSlave = 512,      // the slave does
   kOperator = 1024,  // the operator does not let it go on
-  kLease = 2048,     // who has the robot changes
-  kSwing = 4096      // what is touched goes to and fro
+  kLease = 2048      // who has the robot changes
 };
 constexpr std::uint16_t operator|(Spoils a, Spoils b) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -59,6 +58,9 @@ struct FaultKind {
   std::string_view group;
   std::uint16_t spoils = 0;
   double longest_s = 5.0;
+  double shortest_s = 0.005;
+  double besides =
+      0.0;  // share of the seeds that have it once besides those they draw; 0: it is one of those
   void (*act)(World&, Active&) = nullptr;  // before the tick
   void (*end)(World&, Active&) = nullptr;  // when it is over
   void (*robot)(World&, Active&, RobotState&) = nullptr;

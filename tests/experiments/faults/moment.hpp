@@ -11,7 +11,7 @@
 
 namespace longreach {
 
-constexpr std::size_t kSpoils = 13;
+constexpr std::size_t kSpoils = 12;
 
 struct Moment {
   double t_s = 0.0;

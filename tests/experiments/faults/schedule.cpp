@@ -11,7 +11,6 @@
 namespace longreach {
 namespace {
 
-constexpr double kShortest_s = 0.005;
 constexpr int kKindsMax = 7;
 constexpr int kTimesMax = 4;
 
@@ -20,7 +19,7 @@ std::size_t below(Random& random, std::size_t end) { return static_cast<std::siz
 Fault draw_fault(Random& random, const FaultKind& kind, double begin_s, double end_s) {
   Fault fault;
   fault.kind = kind.name;
-  fault.duration_s = log_scale(random.uniform(), kShortest_s, kind.longest_s);
+  fault.duration_s = log_scale(random.uniform(), kind.shortest_s, kind.longest_s);
   fault.duration_s = std::min(fault.duration_s, 0.5 * (end_s - begin_s));
   fault.start_s = random.uniform(begin_s, end_s - fault.duration_s);
   fault.size = random.uniform();
@@ -48,7 +47,8 @@ Schedule draw_schedule(std::uint64_t seed, double round_trip_s) {
   schedule.faults_end_s = begin_s + log_scale(random.uniform(), 10.0, 30.0);
   schedule.end_s = schedule.faults_end_s + 7.0 + 6.0 * round_trip_s;
   std::vector<const FaultKind*> all;
-  for (const FaultKind& kind : fault_kinds()) all.push_back(&kind);
+  for (const FaultKind& kind : fault_kinds())
+    if (kind.besides == 0.0) all.push_back(&kind);
   const std::size_t kinds = 1 + below(random, kKindsMax);
   for (std::size_t k = 0; k < kinds; ++k) {
     const FaultKind& kind = *all[below(random, all.size())];
@@ -56,6 +56,10 @@ Schedule draw_schedule(std::uint64_t seed, double round_trip_s) {
     for (std::size_t i = 0; i < times; ++i)
       schedule.faults.push_back(draw_fault(random, kind, begin_s, schedule.faults_end_s));
   }
+  Random besides = Random(seed).child("faults besides");
+  for (const FaultKind& kind : fault_kinds())
+    if (besides.chance(kind.besides))
+      schedule.faults.push_back(draw_fault(besides, kind, begin_s, schedule.faults_end_s));
   std::ranges::stable_sort(schedule.faults, {}, &Fault::start_s);
   return schedule;
 }

@@ -2,6 +2,7 @@
 // What goes wrong in one run, and when: a plain list, drawn from a seed, that can be printed, read again and
 // shortened. Swarm testing (Groce et al. 2012): each seed has a few kinds of fault only, several times each,
 // so that kinds meet that rarely would if all were always there. Durations are log-uniform; faults overlap.
+// What takes seconds to make a guard act comes besides, in a share of the seeds, from a stream of its own.
 //
 //   seed 17
 //   faults_end_s 31.5

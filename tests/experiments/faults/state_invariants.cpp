@@ -140,10 +140,9 @@ class Circumstances {
         return way || lately(unheard_s_) || lately(silent_s_);
       case HoldCause::kSensorFault:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot;
-      // Of what surroundings do, only a swing of up to 1 Hz is as a sensor with a wrong sign would be: it
-      // comes while the robot goes, and rests while it rests.
+      // Nothing that surroundings do is taken for a sensor with a wrong sign.
       case HoldCause::kSensorSign:
-        return spoilt(Spoils::kSensor) || spoilt(Spoils::kSwing) || robot;
+        return spoilt(Spoils::kSensor) || robot;
       case HoldCause::kNoRelief:
       case HoldCause::kWallComes:
         return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot || lately(pressed_s_);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "common/core/random.hpp"
 
@@ -17,9 +18,17 @@ using State = ForceAnswer::State;
 
 constexpr double kDt = 1e-3, kBound_n = 16.0, kAcceleration = 1.25;
 
-/// x is out of the wall. `wall_m` at time t is where its surface is; the tool begins at 0.
+/// From this depth on, what is met is stiffer by this.
+struct Layer {
+  double depth_m, n_per_m;
+};
+
+/// x is out of the wall. `wall_m` at time t is where its surface is; the tool begins at 0. The hand moves the
+/// tool, but not while the tool rests or gives way, and into the wall up to the guard only.
 struct OnTheRail {
   double wall_n_per_m = 2e3;
+  std::vector<Layer> layers{};
+  double hand_m_per_s = 0.0;  // out of the wall
   std::function<double(double)> wall_m = [](double) { return 0.0; };
   double sign = 1.0;  // of the sensor
   double noise_n = 0.0;
@@ -31,12 +40,23 @@ struct OnTheRail {
   Random random{3};
 
   [[nodiscard]] double true_n() const {
-    return lie_n ? lie_n(t_s) : wall_n_per_m * std::max(wall_m(t_s) - tool_m, 0.0);
+    if (lie_n) return lie_n(t_s);
+    const double depth_m = wall_m(t_s) - tool_m;
+    double force_n = wall_n_per_m * std::max(depth_m, 0.0);
+    for (const Layer& layer : layers) force_n += layer.n_per_m * std::max(depth_m - layer.depth_m, 0.0);
+    return force_n;
+  }
+  [[nodiscard]] double wanted_m_per_s() const {
+    if (answer.rests()) return 0.0;
+    const double out = sign * answer.retreat_m_per_s();
+    if (answer.gives_way()) return sign > 0.0 ? std::max(out, hand_m_per_s) : out;
+    const double bleed = (true_n() - kBound_n / 0.8) / (2e4 * 0.2);
+    return bleed > 0.0 && hand_m_per_s != 0.0 ? std::max(sign * bleed, hand_m_per_s) : hand_m_per_s;
   }
   State go(double seconds, const std::function<bool(State)>& until = {}) {
     for (int i = 0; i < std::lround(seconds / kDt); ++i) {
       const bool still = speed_m_per_s == 0.0;
-      const double change = sign * answer.retreat_m_per_s() - speed_m_per_s;
+      const double change = wanted_m_per_s() - speed_m_per_s;
       speed_m_per_s += std::clamp(change, -kAcceleration * kDt, kAcceleration * kDt);
       tool_m += speed_m_per_s * kDt;
       t_s += kDt;
@@ -146,6 +166,21 @@ TEST(ForceAnswer, AWrongSignIsFoundAsTheGuardGivesWayToAWallAtRest) {
   }
 }
 
+// It follows the wall, so that its force neither falls nor grows; at rest it shows that it comes.
+TEST(ForceAnswer, AWallThatTheGuardFollowsIsLookedAtAtRest) {
+  ForceAnswer answer{ForceAnswerLimits{}};
+  double out_m = 0.0, wall_m = 21.0 / 2e3;
+  for (int i = 0; i < 6000 && !answer.answered(); ++i) {
+    const double speed = answer.gives_way() ? answer.retreat_m_per_s() : answer.rests() ? 0.0 : 3e-3;
+    out_m += kDt * speed;
+    wall_m += kDt * 3e-3;
+    answer.step({out_m * Vector3::UnitX(), 2e3 * (wall_m - out_m), Vector3::UnitX(), true, speed == 0.0, true,
+                 kBound_n, 20.0, kDt});
+  }
+  EXPECT_TRUE(answer.answered());
+  EXPECT_LT(out_m, 0.01);
+}
+
 TEST(ForceAnswer, AWallThatComesFasterAllTheTimeIsNoWrongSign) {
   for (const double m_per_s2 : {0.05, 0.5}) {
     OnTheRail rail;
@@ -153,6 +188,62 @@ TEST(ForceAnswer, AWallThatComesFasterAllTheTimeIsNoWrongSign) {
     bool wrong = false;
     rail.go(0.5, [&](State s) { return wrong = wrong || s == State::kWrongSign; });
     EXPECT_FALSE(wrong) << m_per_s2;
+  }
+}
+
+/// Ever, as it comes; `wrong`: the sensor has the wrong sign.
+bool called_wrong(double wall_n_per_m, double stiffer, double m_per_s, double hand_m_per_s,
+                  bool wrong = false) {
+  OnTheRail rail;
+  rail.wall_n_per_m = wall_n_per_m;
+  const double flesh_m = 0.5 * kBound_n / wall_n_per_m;
+  const double bone_m = flesh_m + 0.53 * kBound_n / (stiffer * wall_n_per_m);
+  rail.layers = {{flesh_m, (stiffer - 1.0) * wall_n_per_m},
+                 {bone_m, stiffer * (stiffer - 1.0) * wall_n_per_m}};
+  rail.wall_m = coming(m_per_s);
+  rail.hand_m_per_s = hand_m_per_s;
+  rail.noise_n = 0.02;
+  rail.sign = wrong ? -1.0 : 1.0;
+  bool sign = false;
+  const double touches_s = 2.0 * kBound_n / (wall_n_per_m * m_per_s);
+  rail.go(std::min(touches_s + 5.0, 60.0), [&](State s) { return sign = s == State::kWrongSign; });
+  return sign;
+}
+
+// Its growth becomes many times as fast while the tool gives way.
+TEST(ForceAnswer, AWallOfLayersThatComesIsNoWrongSignWhateverTheHandDoes) {
+  for (const double k : {200.0, 600.0, 2e3}) {
+    for (const double stiffer : {2.0, 4.0, 10.0}) {
+      for (const double v : {1e-3, 3e-3, 0.01, 0.03}) {
+        for (const double hand : {0.0, -0.02, -0.005, 0.2 * v, 0.8 * v}) {
+          EXPECT_FALSE(called_wrong(k, stiffer, v, hand))
+              << k << ' ' << stiffer << ' ' << v << " hand " << hand;
+        }
+        if (k * v >= 0.5) {
+          EXPECT_TRUE(called_wrong(k, stiffer, v, 0.0, true)) << k << ' ' << stiffer << ' ' << v;
+        }
+      }
+    }
+  }
+}
+
+TEST(ForceAnswer, AWallThatSwingsIsNoWrongSign) {
+  for (const double k : {500.0, 2e3, 1e4}) {
+    for (const double hz : {0.1, 0.2, 0.3, 0.5, 0.7, 1.0}) {
+      for (const double amplitude_m : {1e-3, 2e-3, 3e-3, 6e-3, 0.01, 0.02}) {
+        for (const double hand : {0.0, -0.02, -0.01, -0.005, 0.005, 0.01}) {
+          OnTheRail rail;
+          rail.wall_n_per_m = k;
+          rail.noise_n = 0.02;
+          rail.hand_m_per_s = hand;
+          rail.wall_m = [=](double t_s) { return 1e-3 + amplitude_m * std::sin(6.2832 * hz * t_s); };
+          bool sign = false;
+          rail.go(20.0, [&](State s) { return sign = s == State::kWrongSign; });
+          EXPECT_FALSE(sign) << k << ' ' << hz << " Hz " << amplitude_m << " hand " << hand << " at "
+                             << rail.t_s;
+        }
+      }
+    }
   }
 }
 

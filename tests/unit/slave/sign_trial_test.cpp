@@ -95,6 +95,7 @@ TEST(SignTrial, AStiffWallThatIsSlidOnSlowlyIsAcquittedByGivingWay) {
   ASSERT_TRUE(t.press(velocity));
   while (t.tool.force_n() < 10.0) t.tool.go(velocity);
   ASSERT_EQ(t.brake(velocity, 0.065), Verdict::kPending);
+  for (int i = 0; i < 100 && t.trial.ease_m_per_s() == 0.0; ++i) t.brake(Vector3::Zero(), 1e-3);
   EXPECT_GT(t.trial.ease_m_per_s(), 0.0);
   const double before_n = t.tool.force_n();
   EXPECT_EQ(t.brake(Vector3::Zero()), Verdict::kNone);
@@ -136,6 +137,27 @@ TEST(SignTrial, AWallThatComesGoesOnToPush) {
   }
   EXPECT_EQ(t.trial.verdict(), Verdict::kNoRelief);
   EXPECT_EQ(known.verdict(), Verdict::kNone) << "its answer to giving way decides";
+}
+
+// It grows by less than noise does in 60 ms.
+TEST(SignTrial, AWallThatComesSlowlyIsNoWrongSensor) {
+  for (const Vector3& away : {Vector3(-0.001 * kIn), Vector3(0.001 * Vector3::UnitY())}) {
+    Tried t(500.0);
+    constexpr double kComing_m_per_s = 0.004;
+    for (int i = 0; i < 8000 && !t.tool.accused; ++i) {
+      t.tool.wall_m -= 1e-3 * kComing_m_per_s;
+      t.tool.go(away);
+    }
+    ASSERT_TRUE(t.tool.accused);
+    t.trial.begin(t.tool.watch);
+    for (int i = 0; i < 450; ++i) {
+      t.tool.wall_m -= 1e-3 * kComing_m_per_s;
+      t.tool.go(Vector3::Zero());
+      t.trial.step(t.tool.watch, -kIn, {.noise_n = 0.05}, 1e-3, i > 250);
+      ASSERT_NE(t.trial.verdict(), Verdict::kSign) << i << ' ' << away.transpose();
+    }
+    EXPECT_EQ(t.trial.verdict(), Verdict::kNone);
+  }
 }
 
 // What comes and stops: the sum may fit, the last of it does not.
