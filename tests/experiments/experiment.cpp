@@ -225,7 +225,7 @@ const std::vector<Experiment> kExperiments = {
      "Every quantity at its extremes, from 1 N/m to 1e9, 1 g to 100 t, 1 mm to 20 m: stable, or refused?", "",
      run_extremes, extremes_plots, "",
      "{cells} cells of {quantities} quantities: {stable} stable, {refused} refused with a message, {bad} "
-     "bad"},
+     "bad; of {controls} controls, which are wrong, {controls_bad} bad"},
     {"faults",
      "Everything that can go wrong in virtual time, drawn at random and overlapping, under an oracle that "
      "trusts no node.",
