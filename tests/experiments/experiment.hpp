@@ -31,6 +31,9 @@ struct ExperimentRun {
 struct Experiment {
   std::string_view name;
   std::string_view summary;
+  // What it takes from the configuration: paths of groups and fields, on both sides where none is named; with
+  // a minus what it sets itself or never reads inside of them (settings_used.hpp). Empty: nothing.
+  std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
   std::string_view figure{};  // of the source paper (Liu et al. 2019) that it repeats; empty: none
@@ -51,6 +54,9 @@ const Experiment* find_experiment(std::string_view name);
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
                            const std::filesystem::path& from = std::filesystem::current_path());
+
+/// "no contact" for metrics of a run that was to touch something and did not; else empty.
+std::string_view outcome_of(const std::vector<Metric>& metrics);
 
 /// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);

@@ -60,6 +60,8 @@ void Laboratory::end_recording() {
 }
 
 void Laboratory::step() {
+  if (on_first_step && elapsed_ == Duration{})
+    on_first_step({master_config_, slave_config_, driven_.has_value()});
   elapsed_ += period_;
   step_slave();
   if (intruder_) intruder_(channels_);

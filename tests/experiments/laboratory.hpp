@@ -92,6 +92,13 @@ class Laboratory {
   /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
   /// slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
+  /// For tests: called before the first step of every laboratory, in its thread, with what it runs with.
+  struct Begun {
+    const MasterConfig& master;
+    const SlaveConfig& slave;
+    bool driven;  // by drive(): the script moves nothing
+  };
+  inline static std::function<void(const Begun&)> on_first_step{};
   /// What stands between the robot and the slave: may change what the robot says of itself, in each tick.
   void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
 

@@ -38,8 +38,12 @@ struct Options {
 };
 
 void add_run(CLI::App& app, RunOptions& o) {
-  CLI::App* run =
-      app.add_subcommand("run", "Run one experiment, e.g. `longreach-lab run touch --out out/touch`");
+  CLI::App* run = app.add_subcommand(
+      "run",
+      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. A setting that the "
+      "experiment does not use is refused.\n\n"
+      "Exit status: 0 done, 1 it failed, 2 an option or a setting is wrong and nothing was "
+      "run, 3 there was no contact (touch).");
   run->add_option("name", o.name, "Experiment")->required();
   run->add_option("--seed", o.seed, "Seed of every random stream; of faults: the one run to repeat")
       ->check(whole_number())
@@ -87,7 +91,8 @@ void add_sweep(CLI::App& app, SweepOptions& o) {
       "has "
       "a row a cell, DIR/results.times.csv what depends on the machine.\n\n"
       "Exit status: 0 all cells are done, 1 some failed (start it again to try them again), 2 the grid or an "
-      "option is wrong and nothing was run, 128 and more: stopped by a signal.");
+      "option is wrong and nothing was run, 3 all are done, some without contact, 128 and more: stopped by a "
+      "signal.");
   sweep->add_option("file", o.file, "The grid")->type_name("FILE")->required();
   sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ and the name of FILE")
       ->type_name("DIR");
@@ -177,7 +182,7 @@ int run_subcommand(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("solve")) return solve(o.kind, std::cin, std::cout);
   if (app.got_subcommand("train")) train(o.kind, o.train_seed, o.train_out);
   if (app.got_subcommand("list")) list_experiments();
-  if (app.got_subcommand("run")) run(o.run);
+  if (app.got_subcommand("run")) return run(o.run);
   return kDone;
 }
 

@@ -14,10 +14,13 @@
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/faults/faults.hpp"
 #include "tests/experiments/progress_line.hpp"
+#include "tests/experiments/settings_used.hpp"
 #include "tests/experiments/touch.hpp"
 
 namespace longreach {
 namespace {
+
+constexpr int kDone = 0, kNoContact = 3;
 
 std::string number(double value) {
   char text[40];
@@ -80,15 +83,17 @@ void run_seeds(const RunOptions& o) {
 
 }  // namespace
 
-void run(const RunOptions& o) {
+int run(const RunOptions& o) {
   const bool faults = o.name == "faults";
-  if (!o.seeds.empty() && !faults) throw ConfigError("--seeds is for the experiment faults alone");
-  if (!o.seeds.empty()) return run_seeds(o);
-  if (!o.schedule.empty() && !faults) throw ConfigError("--schedule is for the experiment faults alone");
-  if (faults && (o.seeded || !o.schedule.empty())) return repeat(o);
   const Experiment* experiment = find_experiment(o.name);
   if (!experiment)
     throw ConfigError("there is no experiment '" + o.name + "'; `longreach-lab list` shows them");
+  const proto::LabConfig config = configure(o.settings, find_deploy_folder());
+  refuse_unused(*experiment, o.settings);
+  if (!o.seeds.empty() && !faults) throw ConfigError("--seeds is for the experiment faults alone");
+  if (!o.seeds.empty()) return run_seeds(o), kDone;
+  if (!o.schedule.empty() && !faults) throw ConfigError("--schedule is for the experiment faults alone");
+  if (faults && (o.seeded || !o.schedule.empty())) return repeat(o), kDone;
   Experiment chosen = *experiment;
   if (o.record) {
     if (o.name != "touch" || o.out.empty())
@@ -97,7 +102,7 @@ void run(const RunOptions& o) {
     chosen.run = run_touch_recorded;
   }
   ExperimentRun r;
-  r.config = configure(o.settings, find_deploy_folder());
+  r.config = config;
   r.seed = o.seed;
   r.out = o.out;
   ProgressLine line(o.quiet);
@@ -113,7 +118,10 @@ void run(const RunOptions& o) {
     return (m.name == "violations" || (m.name == "never_seen" && full_size())) && m.value > 0.0;
   });
   if (wrong != metrics.end() && o.quiet) throw std::runtime_error("faults: " + wrong->name);
-  if (o.quiet) return;
+  const std::string_view outcome = outcome_of(metrics);
+  const int status = outcome.empty() ? kDone : kNoContact;
+  if (o.quiet) return status;
+  if (!outcome.empty()) std::printf("outcome: %s\n", std::string(outcome).c_str());
   for (const Metric& m : metrics) {
     std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
     if (m.name == "duration_s")
@@ -123,6 +131,7 @@ void run(const RunOptions& o) {
               config_hash(r.config).c_str(), static_cast<unsigned long long>(o.seed),
               r.out.empty() ? "" : "; written to ", r.out.c_str());
   if (wrong != metrics.end()) throw std::runtime_error(number(wrong->value) + " " + wrong->name);
+  return status;
 }
 
 }  // namespace longreach

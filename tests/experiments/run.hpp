@@ -19,8 +19,9 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// Throws ConfigError for an experiment or a setting that is none.
-void run(const RunOptions& options);
+/// Exit status: 0, or 3 when there was no contact. Throws ConfigError for an experiment or a setting that is
+/// none, or that the experiment does not use.
+int run(const RunOptions& options);
 
 void list_experiments();
 

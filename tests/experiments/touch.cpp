@@ -12,9 +12,11 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "common/config/config.hpp"
 #include "common/core/regression.hpp"
+#include "slave/scene/scene.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/laboratory.hpp"
 #include "tests/experiments/plot.hpp"
@@ -50,7 +52,6 @@ struct Watch {
   ScriptPhase phase = ScriptPhase::kWaiting;
 };
 
-/// Signed depth of the handle behind the true surface, m of the handle; position mode.
 // Into the wall, where the scene has one.
 std::optional<Vector3> inward_of(const SlaveConfig& slave) {
   const auto& surface = slave.scene.surface;
@@ -58,13 +59,24 @@ std::optional<Vector3> inward_of(const SlaveConfig& slave) {
   return Vector3(-surface.front().plane->normal.normalized());
 }
 
-double true_handle_depth(const Laboratory& lab, const Vector3& point_m, const Vector3& inward) {
+/// How far the rendered surface is, where it is nearest to the handle, from the nearest true one of any
+/// shape; m of the handle, position mode.
+double registration_error_m(const Laboratory& lab, const SlaveConfig& slave, const Vector3& base_rad) {
+  constexpr double kReach_m =
+      1.0;  // a tool as large as this touches whatever is near, and its depth says how near
+  SceneConfig scene = slave.scene;
+  const double tool_m = std::exchange(scene.tool_radius_m, kReach_m);
   const MasterView& m = lab.master();
-  const double offset_m = inward.dot(point_m - lab.slave().X_WE_anchor.p);
-  return (inward.dot(m.goal_m) - offset_m) / m.scale;
+  const double depth_m = m.inward.dot(m.p_MH) - m.surface_m;
+  const Vector3 inward = exp_rotation(base_rad) * m.inward;
+  const Vector3 rendered_m = lab.slave().X_WE_anchor.p + m.goal_m - m.scale * depth_m * inward;
+  const Scene true_scene(scene, lab.arm().start_pose());
+  const double distance_m =
+      kReach_m - true_scene.contact({.p_WE = rendered_m, .t_s = lab.now_s()}).depth_m - tool_m;
+  return std::abs(distance_m) / m.scale;
 }
 
-void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, double ke) {
+void watch_tick(Watch& w, const Laboratory& lab, const MasterConfig& master, const SlaveConfig& slave) {
   const MasterView& m = lab.master();
   const double spring_n = m.spring_force_n.norm();
   w.force_peak_n = std::max(w.force_peak_n, lab.arm().true_wrench().force.norm());
@@ -82,14 +94,8 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   }
   const ScriptPhase phase = lab.script().phase();
   if (phase == ScriptPhase::kPress && w.phase == ScriptPhase::kReturn && w.registration_m < 0.0 &&
-      !slave.scene.surface.empty() && slave.scene.surface.front().plane) {
-    const PlaneConfig& plane = *slave.scene.surface.front().plane;
-    const Vector3 inward = *inward_of(slave);
-    const Vector3 point =
-        plane.point_m + (plane.from_tool_start ? lab.arm().start_pose().p : Vector3::Zero().eval());
-    const double registered = m.inward.dot(m.p_MH) - m.surface_m;
-    w.registration_m = std::abs(registered - true_handle_depth(lab, point, inward));
-  }
+      m.surface_known && !slave.scene.surface.empty())
+    w.registration_m = registration_error_m(lab, slave, master.mapping.base_rotation_rad);
   if (phase == ScriptPhase::kProbe) {
     if (w.phase != phase) w.return_before = lab.haptic_return();
     w.return_s += lab.period_s();
@@ -104,7 +110,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   if (m.state != SafetyState::kEngaged) w.unsettled_s = lab.now_s();
   // Another tangent of a curved law begins elsewhere.
   w.cut = w.cut || m.stiffness_clamped;
-  const double true_n_per_m = ke * lab.arm().material_stiffness(lab.rendered_at_m());
+  const double true_n_per_m = master.rendering.ke * lab.arm().material_stiffness(lab.rendered_at_m());
   const bool other = m.stiffness_n_per_m != w.rendered_n_per_m || true_n_per_m != w.true_n_per_m;
   if (m.state != SafetyState::kEngaged || other) {
     w.displayed.begin_group();
@@ -121,45 +127,55 @@ void watch_tick(Watch& w, const Laboratory& lab, const SlaveConfig& slave, doubl
   }
 }
 
-std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
-  const MasterView& m = lab.master();
-  const SlaveView& s = lab.slave();
+/// What can be said of a wall that was touched.
+void add_contact(std::vector<Metric>& metrics, const Watch& w, const MasterView& m) {
   const double reference = w.reference.slope(), displayed = w.displayed.slope();
   const double error = reference > 0.0 ? std::abs(displayed - reference) / reference : 1.0;
   const double rendered_error =
       w.true_n_per_m > 0.0 ? std::abs(m.stiffness_n_per_m - w.true_n_per_m) / w.true_n_per_m : 1.0;
+  metrics.insert(metrics.end(), {{"displayed_stiffness_n_per_m", displayed, "N/m"},
+                                 {"reference_stiffness_n_per_m", reference, "N/m"},
+                                 {"displayed_stiffness_error", error, ""},
+                                 {"displayed_span_s", w.displayed_span_s, "s"},
+                                 {"rendered_stiffness_n_per_m", m.stiffness_n_per_m, "N/m"},
+                                 {"rendered_stiffness_error", rendered_error, ""},
+                                 {"stiffness_max_n_per_m", m.stiffness_max_n_per_m, "N/m"},
+                                 {"stiffness_cut", w.cut ? 1.0 : 0.0, ""},
+                                 {"estimate_sd", w.estimate_sd, ""}});
+  if (w.registration_m >= 0.0) metrics.push_back({"wall_registration_error_m", w.registration_m, "m"});
+}
+
+std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
+  const MasterView& m = lab.master();
+  const SlaveView& s = lab.slave();
   const double probed_s = std::max(w.return_s, lab.period_s());
-  return {{"displayed_stiffness_n_per_m", displayed, "N/m"},
-          {"reference_stiffness_n_per_m", reference, "N/m"},
-          {"displayed_stiffness_error", error, ""},
-          {"displayed_span_s", w.displayed_span_s, "s"},
-          {"rendered_stiffness_n_per_m", m.stiffness_n_per_m, "N/m"},
-          {"rendered_stiffness_error", rendered_error, ""},
-          {"stiffness_max_n_per_m", m.stiffness_max_n_per_m, "N/m"},
-          {"stiffness_cut", w.cut ? 1.0 : 0.0, ""},
-          {"estimate_sd", w.estimate_sd, ""},
-          {"wall_registration_error_m", w.registration_m < 0.0 ? 1.0 : w.registration_m, "m"},
-          {"port_energy_min_j", m.port_energy_min_j, "J"},
-          {"energy_drawdown_j", m.energy_drawdown_j, "J"},
-          {"force_step_at_update_max_n", w.force_step_max_n, "N"},
-          {"force_step_excess_n", w.force_step_excess_n, "N"},
-          {"force_rise_excess_n", w.force_rise_excess_n, "N"},
-          {"tool_force_peak_n", w.force_peak_n, "N"},
-          {"hand_speed_peak_m_per_s", w.speed_peak_m_per_s, "m/s"},
-          {"rtt_s", w.rtt_s, "s"},
-          {"probing_cycles_done", static_cast<double>(lab.script().cycles()), ""},
-          {"reports_applied", static_cast<double>(m.reports), ""},
-          {"rejected_datagrams",
-           static_cast<double>(lab.master_port().rejected_total() + lab.slave_port().rejected_total()), ""},
-          {"rejected_values", static_cast<double>(m.rejected_values + s.rejected_values), ""},
-          {"false_holds", static_cast<double>(m.false_holds + s.false_holds), ""},
-          {"limit_violations", static_cast<double>(s.limit_violations), ""},
-          {"sensor_faulted", s.cause == HoldCause::kSensorFault ? 1.0 : 0.0, ""},
-          {"haptic_return_datagrams_per_s",
-           static_cast<double>(w.return_after.datagrams - w.return_before.datagrams) / probed_s, "1/s"},
-          {"haptic_return_bit_per_s",
-           8.0 * static_cast<double>(w.return_after.bytes - w.return_before.bytes) / probed_s, "bit/s"},
-          {"duration_s", lab.now_s(), "s"}};
+  const bool contact = w.first_touch_s >= 0.0;
+  std::vector<Metric> metrics{{"contact", contact ? 1.0 : 0.0, ""}};
+  if (contact) add_contact(metrics, w, m);
+  metrics.insert(
+      metrics.end(),
+      {{"port_energy_min_j", m.port_energy_min_j, "J"},
+       {"energy_drawdown_j", m.energy_drawdown_j, "J"},
+       {"force_step_at_update_max_n", w.force_step_max_n, "N"},
+       {"force_step_excess_n", w.force_step_excess_n, "N"},
+       {"force_rise_excess_n", w.force_rise_excess_n, "N"},
+       {"tool_force_peak_n", w.force_peak_n, "N"},
+       {"hand_speed_peak_m_per_s", w.speed_peak_m_per_s, "m/s"},
+       {"rtt_s", contact ? w.rtt_s : lab.link().rtt_s.value_or(0.0), "s"},
+       {"probing_cycles_done", static_cast<double>(lab.script().cycles()), ""},
+       {"reports_applied", static_cast<double>(m.reports), ""},
+       {"rejected_datagrams",
+        static_cast<double>(lab.master_port().rejected_total() + lab.slave_port().rejected_total()), ""},
+       {"rejected_values", static_cast<double>(m.rejected_values + s.rejected_values), ""},
+       {"false_holds", static_cast<double>(m.false_holds + s.false_holds), ""},
+       {"limit_violations", static_cast<double>(s.limit_violations), ""},
+       {"sensor_faulted", s.cause == HoldCause::kSensorFault ? 1.0 : 0.0, ""},
+       {"haptic_return_datagrams_per_s",
+        static_cast<double>(w.return_after.datagrams - w.return_before.datagrams) / probed_s, "1/s"},
+       {"haptic_return_bit_per_s",
+        8.0 * static_cast<double>(w.return_after.bytes - w.return_before.bytes) / probed_s, "bit/s"},
+       {"duration_s", lab.now_s(), "s"}});
+  return metrics;
 }
 
 // Along the wall's normal; what the hand feels along another one is left out.
@@ -223,7 +239,7 @@ std::vector<Metric> touch(const ExperimentRun& run, const std::filesystem::path&
   const auto rows = std::max<std::int64_t>(1, std::llround(1.0 / (run.config.trace_hz() * lab.period_s())));
   for (std::int64_t i = 0; i < ticks; ++i) {
     lab.step();
-    watch_tick(watch, lab, slave, master.rendering.ke);
+    watch_tick(watch, lab, master, slave);
     if (i % rows == 0) trace_row(trace, lab, wall);
     if (run.progress && i % 1000 == 0) run.progress(static_cast<double>(i) / static_cast<double>(ticks));
     if (lab.script().cycles() > 0 && lab.script().phase() == ScriptPhase::kRest) break;

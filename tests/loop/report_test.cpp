@@ -52,8 +52,8 @@ TEST(PressWall, DirectForceLeavesThePanelsToTheOthersAndTheTitleSaysSo) {
 }
 
 TEST(ReportPage, HoldsEveryChapterAndSaysWhatFailed) {
-  const Experiment good{"good", "Is a < b?", nullptr, nullptr, "Fig. 9", "by {gap} m"};
-  const Experiment bad{"bad", "Does it run?", nullptr, nullptr, "", "never {gap}"};
+  const Experiment good{"good", "Is a < b?", "", nullptr, nullptr, "Fig. 9", "by {gap} m"};
+  const Experiment bad{"bad", "Does it run?", "", nullptr, nullptr, "", "never {gap}"};
   ReportChapter right{&good, "longreach-lab run good", "00ff", {{"gap", 0.25, "m"}}, {{"a gap", "<svg/>"}},
                       ""};
   ReportChapter wrong{&bad, "longreach-lab run bad", "00ff", {}, {}, "the disk is full"};

@@ -168,6 +168,37 @@ TEST(Touch, AWallOfSteelIsNotTakenForAWrongSensor) {
   }
 }
 
+/// A run that meets nothing has no error of a stiffness, not even one of 1.
+TEST(Touch, WithoutContactTheOutcomeSaysSo) {
+  const ExperimentRun run = configured({"profile=lab", "scene_file=scenes/free.txtpb"}, 1);
+  const std::vector<Metric> metrics = run_touch(run);
+  EXPECT_EQ(outcome_of(metrics), "no contact");
+  for (const Metric& m : metrics) {
+    EXPECT_EQ(m.name.find("stiffness"), std::string::npos) << m.name;
+    EXPECT_EQ(m.name.find("registration"), std::string::npos) << m.name;
+  }
+  EXPECT_NE(metrics_json("touch", run, metrics).find("\"outcome\": \"no contact\""), std::string::npos);
+  EXPECT_EQ(outcome_of(run_touch(configured({"profile=lab"}, 1))), "");
+}
+
+/// Of a ball and a cylinder, met beside their middle: a plane there would be 0.2 to 1 mm off.
+TEST(Touch, TheRegistrationErrorIsThatOfTheShape) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "longreach_shape.txtpb";
+  for (const std::string shape : {"sphere { centre_m: [0.155, 0.005, 0] radius_m: 0.05 }",
+                                  "cylinder { centre_m: [0.145, 0.004, 0] radius_m: 0.04 length_m: 0.3 }"}) {
+    std::ofstream(file) << "needs { contact: true }\nmaterial { name: 'm' stiffness_n_per_m: 1000 }\n"
+                        << "surface { name: 's' material: 'm' " << shape << " }\n";
+    for (const char* profile : {"lab", "moon"}) {
+      const Values v = touch({std::string("profile=") + profile, "scene_file=" + file.string()}, 1);
+      ASSERT_EQ(v.count("wall_registration_error_m"), 1U) << profile << ' ' << shape;
+      EXPECT_LT(v.at("wall_registration_error_m"), 1e-4) << profile << ' ' << shape;
+      EXPECT_GT(v.at("wall_registration_error_m"), 0.0) << profile << ' ' << shape;
+      EXPECT_EQ(v.at("probing_cycles_done"), 1.0) << profile << ' ' << shape;
+    }
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   const Values v =
       touch({"profile=moon-relay", "scene.material.wall.stiffness_n_per_m=5000", "rendering.law=NAIVE"}, 1);

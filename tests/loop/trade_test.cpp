@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/experiments/trade/cost.hpp"
+#include "tests/experiments/trade/tracking.hpp"
 #include "tests/experiments/trade/trade.hpp"
 
 namespace longreach {
@@ -59,6 +61,21 @@ TEST(Trade, TheDefaultsAreSmoothAndFeelRight) {
   EXPECT_LE(standard(trade_accuracy_tracking()).error, 0.1);   // mm
   EXPECT_LE(standard(trade_accuracy_stiffness()).error, 1.5);  // %
   EXPECT_LE(standard(trade_estimator()).error, 4.0);           // %
+}
+
+/// FAST is right on three walls and wrong on one: a mean would hide that.
+TEST(Trade, ThePresetsOfAccuracyAreJudgedByTheirWorstWall) {
+  double worst = 0.0, mean = 0.0;
+  for (const char* wall : {"500", "1000", "2000", "4000"}) {
+    const Touched one =
+        touched({}, {"accuracy=FAST", std::string("scene.material.wall.stiffness_n_per_m=") + wall,
+                     "scene.material.wall.exponent=1.5"});
+    worst = std::max(worst, 100.0 * one.stiffness_error);
+    mean += 25.0 * one.stiffness_error;
+  }
+  ASSERT_GT(worst, 1.5 * mean) << "the control: the mean is another figure";
+  for (const TradePoint& p : trade_accuracy_stiffness().measure({}))
+    if (p.series == "fast") EXPECT_NEAR(p.error, worst, 1e-9);
 }
 
 }  // namespace

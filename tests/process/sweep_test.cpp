@@ -47,7 +47,10 @@ std::map<std::string, ino_t> cells_in(const fs::path& folder) {
   return cells;
 }
 
-/// Half a second of virtual time a cell.
+/// Exit status when every cell is done, though some were too short to touch the wall.
+constexpr int kNoContact = 3;
+
+/// Two seconds of virtual time a cell: the wall is not reached.
 class Sweep : public testing::Test {
  protected:
   fs::path write_grid(const std::string& more) const {
@@ -74,7 +77,8 @@ TEST_F(Sweep, KilledAgainAndAgainItGoesOnAndGivesTheSameBytes) {
   const std::string grid =
       write_grid("setting { path: 'profile' value: ['lab', 'moon'] }\nseeds { from: 1 to: 8 }");
   const Ended whole = lab({"sweep", grid, "--out", path("whole"), "--jobs", "1"});
-  ASSERT_EQ(whole.status, 0) << whole.output;
+  ASSERT_EQ(whole.status, kNoContact) << whole.output;
+  EXPECT_NE(whole.output.find("outcome: no contact in 16 cells\n"), std::string::npos) << whole.output;
   std::map<std::string, ino_t> done;
   for (const std::size_t count : {1u, 4u, 9u}) {
     interrupt(grid, path("killed"), count, SIGKILL);
@@ -83,7 +87,7 @@ TEST_F(Sweep, KilledAgainAndAgainItGoesOnAndGivesTheSameBytes) {
     done = now;
   }
   const Ended rest = lab({"sweep", grid, "--out", path("killed"), "--jobs", "2"});
-  EXPECT_EQ(rest.status, 0) << rest.output;
+  EXPECT_EQ(rest.status, kNoContact) << rest.output;
   EXPECT_TRUE(std::ranges::includes(cells_in(path("killed")), done)) << "a cell that was done was done again";
   EXPECT_EQ(text_of(path("killed/results.csv")), text_of(path("whole/results.csv")));
   EXPECT_EQ(std::ranges::count(text_of(path("whole/results.csv")), '\n'), 17);
@@ -92,8 +96,8 @@ TEST_F(Sweep, KilledAgainAndAgainItGoesOnAndGivesTheSameBytes) {
 TEST_F(Sweep, ShardsMergedAreOneRunByteForByte) {
   const std::string grid =
       write_grid("setting { path: 'profile' value: ['lab', 'moon'] }\nseeds { from: 1 to: 3 }");
-  ASSERT_EQ(lab({"sweep", grid, "--out", path("one")}).status, 0);
-  ASSERT_EQ(lab({"sweep", grid, "--out", path("a"), "--shard", "1/2"}).status, 0);
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("one")}).status, kNoContact);
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("a"), "--shard", "1/2"}).status, kNoContact);
   EXPECT_EQ(cells_in(path("a")).size(), 3u);
   const Ended half = lab({"merge", path("a"), "--out", path("half.csv")});
   EXPECT_EQ(half.status, 1) << half.output;
@@ -102,7 +106,7 @@ TEST_F(Sweep, ShardsMergedAreOneRunByteForByte) {
         "cell 3 has no result: touch duration_s=2 profile=moon seed=1\n",
         "cell 5 has no result: touch duration_s=2 profile=moon seed=3\n", "3 of 6 cells"})
     EXPECT_NE(half.output.find(missing), std::string::npos) << half.output;
-  ASSERT_EQ(lab({"sweep", grid, "--out", path("b"), "--shard", "2/2"}).status, 0);
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("b"), "--shard", "2/2"}).status, kNoContact);
   const Ended merged = lab({"merge", "--out", path("merged.csv"), path("b"), path("a")});
   EXPECT_EQ(merged.status, 0) << merged.output;
   EXPECT_EQ(text_of(path("merged.csv")), text_of(path("one/results.csv")));
@@ -111,7 +115,7 @@ TEST_F(Sweep, ShardsMergedAreOneRunByteForByte) {
 
 TEST_F(Sweep, FoldersOfOtherGridsOrCommitsAreNotMixed) {
   const std::string grid = write_grid("seeds { from: 1 to: 2 }");
-  ASSERT_EQ(lab({"sweep", grid, "--out", path("a")}).status, 0);
+  ASSERT_EQ(lab({"sweep", grid, "--out", path("a")}).status, kNoContact);
   const std::string other = folder_.write("other.txtpb", "experiment: 'touch' seeds { from: 1 to: 3 }");
   const Ended mixed = lab({"sweep", other, "--out", path("a")});
   EXPECT_EQ(mixed.status, 2) << mixed.output;
@@ -168,6 +172,11 @@ TEST_F(Sweep, MistakesEndWithStatus2AndOneSentenceBeforeAnythingRuns) {
   const std::string bad = folder_.write(
       "bad.txtpb", "experiment: 'touch'\nsetting { path: 'mapping.scale' value: '0.5' value: '7' }\n");
   expect({"sweep", bad, "--out", path("a")}, "bad.txtpb:2:46: master.mapping.scale = 7 is outside");
+  const std::string unused = folder_.write(
+      "unused.txtpb",
+      "experiment: ['touch', 'first-touch']\nsetting { path: 'profile' value: ['lab', 'moon'] }\n");
+  expect({"sweep", unused, "--out", path("a")},
+         "unused.txtpb:2:11: first-touch does not use profile, so nothing");
   expect({"sweep", path("none.txtpb"), "--out", path("a")}, "none.txtpb: there is no such file");
   for (const char* shard : {"0/2", "3/2", "half"})
     expect({"sweep", good, "--out", path("a"), "--shard", shard}, std::string("--shard ") + shard);
@@ -175,6 +184,33 @@ TEST_F(Sweep, MistakesEndWithStatus2AndOneSentenceBeforeAnythingRuns) {
   expect({"sweep", good, "--out", path("a"), "--jobs", "many"}, "--jobs");
   expect({"sweep"}, "file");
   expect({"merge"}, "folders");
+}
+
+TEST_F(Sweep, ACellWithoutContactIsNoError) {
+  const std::string grid =
+      folder_.write("grid.txtpb",
+                    "experiment: 'touch' setting { path: 'profile' value: 'lab' }\n"
+                    "setting { path: 'scene_file' value: ['scenes/wall.txtpb', 'scenes/free.txtpb'] }");
+  const Ended ended = lab({"sweep", grid, "--out", path("a"), "--jobs", "2"});
+  EXPECT_EQ(ended.status, kNoContact) << ended.output;
+  EXPECT_NE(ended.output.find("outcome: no contact in 1 cells\n"), std::string::npos) << ended.output;
+  std::ifstream file(path("a/results.csv"));
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> head;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> row;
+    for (std::string word; std::getline(words, word, ',');) row.push_back(word);
+    row.resize(std::max(row.size(), head.size()));
+    if (head.empty()) head = row;
+    rows.emplace_back();
+    for (std::size_t i = 0; i < head.size(); ++i) rows.back()[head[i]] = row[i];
+  }
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1]["contact"], "1");
+  EXPECT_NE(rows[1]["displayed_stiffness_error"], "");
+  EXPECT_EQ(rows[2]["contact"], "0");
+  EXPECT_EQ(rows[2]["displayed_stiffness_error"], "");
 }
 
 // A stand-in for GNU parallel writes down which shards it is to run.

@@ -71,9 +71,27 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"run", "touch", "--out", ""}, "--out: is empty");
   expect({"run", "touch", "--out", "/proc/longreach"}, "cannot make the folder /proc/longreach");
   expect({"run", "touch", "--out", "/etc/passwd"}, "cannot make the folder /etc/passwd");
+  expect({"run", "first-touch", "--set", "profile=lab"},
+         "first-touch does not use profile, so nothing would change");
+  expect({"run", "faults", "--set", "profile=lab"}, "faults does not use profile, nor any other setting");
+  expect({"run", "press-wall", "--set", "rendering.law=STIFFNESS"},
+         "press-wall shows the textbook laws; rendering.law = STIFFNESS runs in the experiment touch");
   expect({"report", "--out", "/proc/longreach"}, "choose another with --out");
   expect({"solve", "identify", "--exponent", "nan"}, "nan is not a number from 0.5 to 3.5");
   expect({"nope"}, "nope is not a command");
+}
+
+TEST(Usage, ARunWithoutContactEndsWithStatus3) {
+  for (const bool quiet : {false, true}) {
+    std::vector<std::string> arguments{"run",         "touch", "--set",
+                                       "profile=lab", "--set", "scene_file=scenes/free.txtpb"};
+    if (quiet) arguments.emplace_back("--quiet");
+    RunningProgram program("longreach-lab", arguments);
+    EXPECT_EQ(program.wait(std::chrono::minutes(2)), 3);
+    EXPECT_EQ(program.output().find("outcome: no contact\n") != std::string::npos, !quiet)
+        << program.output();
+    EXPECT_EQ(program.output().find("displayed_stiffness_error"), std::string::npos) << program.output();
+  }
 }
 
 TEST(Usage, ReferenceAdaptersTakeAPathAndNothingElse) {

@@ -10,6 +10,7 @@
 #include "common/config/text_place.hpp"
 #include "tests/experiments/experiment.hpp"
 #include "tests/experiments/name_hash.hpp"
+#include "tests/experiments/settings_used.hpp"
 
 namespace longreach {
 namespace {
@@ -63,6 +64,22 @@ class Checker {
       refuse({step(campaign_, "seeds", -1)}, "seeds.from = " + std::to_string(seeds.from()) +
                                                  " is above seeds.to = " + std::to_string(seeds.to()) +
                                                  "; the grid is empty");
+  }
+
+  /// Settings that make equal rows of an experiment; after every path is known to be one.
+  void unused() const {
+    for (int i = 0; i < campaign_.setting_size(); ++i) {
+      const auto& setting = campaign_.setting(i);
+      for (const std::string& name : campaign_.experiment()) {
+        const Experiment& experiment = *find_experiment(name);
+        const PathStep at = step(campaign_, "setting", i);
+        if (!uses_setting(experiment, setting.path()))
+          refuse({at, step(setting, "path", -1)}, unused_sentence(experiment, setting.path()));
+        for (int k = 0; k < setting.also_size(); ++k)
+          if (!uses_setting(experiment, setting.also(k)))
+            refuse({at, step(setting, "also", k)}, unused_sentence(experiment, setting.also(k)));
+      }
+    }
   }
 
   /// The error of a whole cell, at the first setting with which it is there.
@@ -128,6 +145,7 @@ Plan load_plan(const fs::path& file, const fs::path& deploy_folder) {
     }
     configs += plan.configs.back();
   }
+  check.unused();
   plan.record.set_commit(program_name());
   plan.record.set_full(full_size());
   plan.record.set_configs(name_hash(configs));

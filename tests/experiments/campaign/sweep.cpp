@@ -106,6 +106,15 @@ void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder&
   if (!options.quiet) std::printf("written to %s, times to %s\n", file.c_str(), times_file(file).c_str());
 }
 
+/// Cells that are done and were without contact.
+std::size_t without_contact(const CellResults& results) {
+  return static_cast<std::size_t>(std::ranges::count_if(results, [](const auto& cell) {
+    return cell && std::ranges::any_of(cell->metric(), [](const proto::CellRecord::Metric& m) {
+             return m.name() == "contact" && m.value() == 0.0;
+           });
+  }));
+}
+
 /// The same metrics, times aside.
 bool alike(proto::CellRecord a, proto::CellRecord b) {
   const auto without_times = [](proto::CellRecord& record) {
@@ -160,11 +169,14 @@ int sweep(const SweepOptions& options) {
   if (!options.quiet)
     std::printf("%zu cells: %zu were done, %zu run, %zu of them failed; commit %s\n", of_shard, before,
                 cells.size(), progress.failed(), plan.record.commit().c_str());
+  const std::size_t no_contact = without_contact(results_in(folder, plan.grid.size()));
+  if (no_contact > 0 && !options.quiet) std::printf("outcome: no contact in %zu cells\n", no_contact);
   finish(options, plan, folder, shard);
   if (progress.failed() > 0)
     std::fprintf(stderr, "longreach-lab: %zu of %zu cells failed; the same command tries them again\n",
                  progress.failed(), of_shard);
-  return progress.failed() > 0 ? 1 : 0;
+  if (progress.failed() > 0) return 1;
+  return no_contact > 0 ? 3 : 0;
 }
 
 int merge(const MergeOptions& options) {

@@ -16,8 +16,8 @@ struct SweepOptions {
   bool quiet = false;
 };
 
-/// Exit status: 0 when every cell of the shard is done, 1 when some failed, 128 + signal when stopped. Throws
-/// ConfigError before the first cell runs.
+/// Exit status: 0 when every cell of the shard is done, 1 when some failed, 3 when some were without contact,
+/// 128 + signal when stopped. Throws ConfigError before the first cell runs.
 int sweep(const SweepOptions& options);
 
 struct MergeOptions {

@@ -69,8 +69,7 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
   take_profile(*slave.mutable_link(), link);
   master.mutable_hand()->set_grip(cell.grip == Grip::kFirm ? proto::Hand::FIRM : proto::Hand::LIGHT);
   master.mutable_mapping()->set_scale(cell.scale);
-  there.config.set_duration_s(
-      std::max(run.config.duration_s(), 120.0 + 30.0 * (link.up().delay_s() + link.down().delay_s())));
+  there.config.set_duration_s(120.0 + 30.0 * (link.up().delay_s() + link.down().delay_s()));
   const double hand_n = cell.tool_n / cell.scale;
   master.mutable_operator_()->set_press_n(hand_n);
   master.mutable_operator_()->set_probe_n(cell.probe_share * hand_n);

@@ -88,6 +88,16 @@ proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
 DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
                          Grip grip);
 
+/// The study of the experiment `delay-seeds`, or a slice of it: one link and one wall, every hand and seed.
+struct DelaySeeds {
+  std::string link;  // of a slice, as "moon" or "3 s"
+  double wall_n_per_m = 0.0;
+  LawSummary held, released;
+  double estimate_sd_max = 0.0;
+};
+std::size_t delay_seeds_slices(const ExperimentRun& run);
+DelaySeeds delay_seeds_slice(const ExperimentRun& run, std::size_t slice);
+
 /// "0.3", for names.
 std::string short_number(double x);
 

@@ -49,8 +49,10 @@ Study study_of(const ExperimentRun& run) {
               .wall_n_per_m = full ? grid.wall_n_per_m : std::vector{200.0, 5000.0},
               .grips = grid.grips,
               .seeds = full ? 30 : 1};
-  for (const double rtt_s : full ? grid.rtt_s : std::vector{0.0, 3.0})
+  for (const double rtt_s : full ? grid.rtt_s : std::vector{0.0, 3.0}) {
     study.links.push_back(plain_link(run.config, rtt_s));
+    study.links.back().set_name(short_number(rtt_s) + " s");
+  }
   return study;
 }
 
@@ -69,6 +71,15 @@ std::vector<DelayResult> run_all(const ExperimentRun& run, const Study& study) {
   };
   on_all_cores(results.size(), one, run.progress);
   return results;
+}
+
+DelaySeeds summary_of(const std::vector<DelayResult>& results) {
+  DelaySeeds all;
+  for (const DelayResult& r : results) {
+    (r.grip == Grip::kReleased ? all.released : all.held).add(r);
+    all.estimate_sd_max = std::max(all.estimate_sd_max, r.estimate_sd);
+  }
+  return all;
 }
 
 /// Everything, in the order of the runs.
@@ -129,15 +140,26 @@ std::vector<Plot> delay_seeds_plots() {
            .panels = {error, sd}}};
 }
 
+std::size_t delay_seeds_slices(const ExperimentRun& run) {
+  const Study study = study_of(run);
+  return study.links.size() * study.wall_n_per_m.size();
+}
+
+DelaySeeds delay_seeds_slice(const ExperimentRun& run, std::size_t slice) {
+  Study study = study_of(run);
+  const std::size_t walls = study.wall_n_per_m.size();
+  study.links = {study.links.at(slice / walls)};
+  study.wall_n_per_m = {study.wall_n_per_m[slice % walls]};
+  DelaySeeds found = summary_of(run_all(run, study));
+  found.link = study.links.front().name();
+  found.wall_n_per_m = study.wall_n_per_m.front();
+  return found;
+}
+
 std::vector<Metric> run_delay_seeds(const ExperimentRun& run) {
   const Study study = study_of(run);
   const std::vector<DelayResult> results = run_all(run, study);
-  LawSummary held, released;
-  double sd_max = 0.0;
-  for (const DelayResult& r : results) {
-    (r.grip == Grip::kReleased ? released : held).add(r);
-    sd_max = std::max(sd_max, r.estimate_sd);
-  }
+  const auto [link, wall, held, released, sd_max] = summary_of(results);
   if (!run.out.empty()) {
     write_runs(run, study, results);
     write_worst(run, results);

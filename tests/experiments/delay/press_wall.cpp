@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <stdexcept>
 
 #include "common/config/config.hpp"
+#include "master/rendering/comparison/comparison_law.hpp"
 #include "tests/experiments/delay/delay_grid.hpp"
 #include "tests/experiments/delay/delay_limits.hpp"
 #include "tests/experiments/devices/wall_bench.hpp"
@@ -74,9 +74,10 @@ void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics) {
 std::vector<Metric> run_press_wall(const ExperimentRun& run) {
   BilateralCase c = case_of(run);
   const RenderingLaw only = to_struct(run.config.master()).rendering.law;
-  if (only == RenderingLaw::kNaive)
-    throw std::invalid_argument(
-        "press-wall shows the textbook laws; rendering.law = NAIVE runs in the experiment touch");
+  if (run.config.master().rendering().has_law() && !is_comparison(only))
+    throw ConfigError("press-wall shows the textbook laws; rendering.law = " +
+                      proto::Rendering::Law_Name(run.config.master().rendering().law()) +
+                      " runs in the experiment touch");
   std::vector<std::array<Seen, kLaws>> rows;
   std::vector<Metric> metrics = {{"rtt_s", c.rtt_s, "s"}, {"wall_n_per_m", c.wall_n_per_m, "N/m"}};
   for (std::size_t i = 0; i < kLaws; ++i) {

@@ -30,7 +30,7 @@ ExperimentRun across(const ExperimentRun& run, const proto::LinkProfile& link, d
   master.mutable_hand()->set_grip(grip == Grip::kFirm ? proto::Hand::FIRM : proto::Hand::LIGHT);
   for (proto::Material& material : *slave.mutable_scene()->mutable_material())
     material.set_stiffness_n_per_m(wall_n_per_m);
-  out.config.set_duration_s(std::max(out.config.duration_s(), 120.0 + 30.0 * rtt_of(link)));
+  out.config.set_duration_s(120.0 + 30.0 * rtt_of(link));
   return out;
 }
 

@@ -19,6 +19,7 @@ struct Recording {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
   double period_s = 1e-3;
   double spoilt = 0.0;  // takes the place of every seventh force, if it is not zero
+  double gain = 1.0;    // of the force sensor; it is taken for 1
 };
 
 ExtremeResult identify(const Recording& what, std::uint64_t seed) {
@@ -32,7 +33,7 @@ ExtremeResult identify(const Recording& what, std::uint64_t seed) {
     PenetrationSample s = test::motion(what.contact.excitation, what.period_s * i);
     s.x_m *= what.contact.deepest_m();
     s.v_m_per_s *= what.contact.deepest_m();
-    s.force_n = what.contact.force(s.x_m, s.v_m_per_s) + what.contact.noise_n * random.normal();
+    s.force_n = what.gain * what.contact.force(s.x_m, s.v_m_per_s) + what.contact.noise_n * random.normal();
     if (what.spoilt != 0.0 && i % 7 == 3) s.force_n = what.spoilt, ++spoilt;
     identifier.step(s, what.period_s);
   }
@@ -50,14 +51,18 @@ ExtremeResult identify(const Recording& what, std::uint64_t seed) {
 template <class Set>
 ExtremeRow row(const std::string& quantity, const std::string& unit, std::initializer_list<double> values,
                const Set& set) {
-  ExtremeRow row{"identification: " + quantity, "error of the tangent stiffness", {}};
-  for (const double value : values) {
-    row.cells.push_back({short_text(value) + unit, [set, value](std::uint64_t seed) {
-                           Recording what;
-                           set(what, value);
-                           return identify(what, seed);
-                         }});
-  }
+  const auto cell = [&set](const std::string& name, double value, double gain) {
+    return ExtremeCell{name, "", [set, value, gain](std::uint64_t seed) {
+                         Recording what{.gain = gain};
+                         set(what, value);
+                         return identify(what, seed);
+                       }};
+  };
+  ExtremeRow row{"identification: " + quantity,
+                 "error of the tangent stiffness",
+                 cell("a sensor of gain 1.2", *values.begin(), 1.2),
+                 {}};
+  for (const double value : values) row.cells.push_back(cell(short_text(value) + unit, value, 1.0));
   return row;
 }
 

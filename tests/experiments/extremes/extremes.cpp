@@ -16,7 +16,7 @@
 namespace longreach {
 
 ExtremeResult accurate(double error, double bound) {
-  if (error >= 0.0 && error <= bound) return {ExtremeOutcome::kStable, error, ""};
+  if (error >= 0.0 && error <= bound && std::isfinite(bound)) return {ExtremeOutcome::kStable, error, ""};
   return bad(format_number(error) + " is not within " + format_number(bound));
 }
 ExtremeResult refused(std::string message) { return {ExtremeOutcome::kRefused, 0.0, std::move(message)}; }
@@ -32,7 +32,9 @@ std::string short_text(double value) {
   return short_one;
 }
 
-ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed) {
+namespace {
+
+ExtremeResult run_cell(const ExtremeCell& cell, std::uint64_t seed) {
   try {
     return cell.run(seed);
   } catch (const ConfigError& e) {
@@ -42,6 +44,19 @@ ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed) {
   } catch (const std::exception& e) {
     return bad(e.what());
   }
+}
+
+}  // namespace
+
+ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed) {
+  const ExtremeResult result = run_cell(cell, seed);
+  if (result.outcome == ExtremeOutcome::kStable && !cell.refusal.empty())
+    return bad("taken, though it should be refused: " + cell.refusal);
+  if (result.outcome == ExtremeOutcome::kRefused && cell.refusal.empty())
+    return bad("refused, though it should be stable: " + result.words);
+  if (result.outcome == ExtremeOutcome::kRefused && result.words.find(cell.refusal) == std::string::npos)
+    return bad("refused, but not because of " + cell.refusal + ": " + result.words);
+  return result;
 }
 
 const std::vector<ExtremeRow>& extreme_rows() {
@@ -67,8 +82,10 @@ std::vector<Plot> extremes_plots() {
 std::vector<Metric> run_extremes(const ExperimentRun& run) {
   const std::vector<ExtremeRow>& rows = extreme_rows();
   std::vector<std::vector<ExtremeResult>> results;
+  double controls_bad = 0.0;
   for (const ExtremeRow& row : rows) {
     results.emplace_back();
+    controls_bad += judge(row.control, run.seed).outcome == ExtremeOutcome::kBad ? 1.0 : 0.0;
     for (const ExtremeCell& cell : row.cells) results.back().push_back(judge(cell, run.seed));
     if (run.progress) run.progress(static_cast<double>(results.size()) / static_cast<double>(rows.size()));
   }
@@ -85,7 +102,9 @@ std::vector<Metric> run_extremes(const ExperimentRun& run) {
           {"quantities", static_cast<double>(rows.size()), ""},
           {"stable", stable, ""},
           {"refused", turned_away, ""},
-          {"bad", wrong, ""}};
+          {"bad", wrong, ""},
+          {"controls", static_cast<double>(rows.size()), ""},
+          {"controls_bad", controls_bad, ""}};
 }
 
 }  // namespace longreach

@@ -1,8 +1,9 @@
 #pragma once
 // Quantities at their extremes, each through the stage that takes it: a row is a quantity, a cell one value
-// of it. A cell is stable and accurate to a number, or refused with a message; anything else is bad: a number
-// that is not one, divergence, energy from nowhere, an error above the row's bound, silence about a value
-// that cannot be meant.
+// of it. A cell says which of two it shall be: stable and accurate to a number, or refused with a message
+// that has a certain key word. Anything else is bad: the other one, a number that is not one, divergence,
+// energy from nowhere, an error above the row's bound, silence about a value that cannot be meant. Each row
+// has a control, the same measurement of something that is wrong: it has to come out bad.
 
 #include <cstdint>
 #include <functional>
@@ -19,26 +20,29 @@ struct ExtremeResult {
   std::string words;      // kRefused: the message; kBad: what is wrong
 };
 
-/// Stable if 0 <= error <= bound, else bad.
+/// Stable if 0 <= error <= bound, which is finite; else bad.
 ExtremeResult accurate(double error, double bound);
 ExtremeResult refused(std::string message);
 ExtremeResult bad(std::string what);
 
 struct ExtremeCell {
-  std::string value;  // with its unit
+  std::string value;    // with its unit
+  std::string refusal;  // expected: refused with these words in the message; empty: stable
   std::function<ExtremeResult(std::uint64_t seed)> run;
 };
 
 struct ExtremeRow {
   std::string quantity;
   std::string measure;  // what `accuracy` is
+  ExtremeCell control;
   std::vector<ExtremeCell> cells;
 };
 
 /// A value as short as it can be read: 1e5, 0.001, 2e-05.
 std::string short_text(double value);
 
-/// Runs a cell. A configuration or geometry that is refused is that; any other exception is bad.
+/// Runs a cell and compares with what it expects. A configuration or geometry that is refused is that; any
+/// other exception is bad.
 ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed);
 
 /// All rows; those of a stage stand together.

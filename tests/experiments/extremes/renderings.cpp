@@ -6,6 +6,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
+#include "common/core/regression.hpp"
 #include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
 #include "tests/experiments/experiment.hpp"
@@ -14,8 +15,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kEnergy_j = 1e-6;    // that may come out of the device: rounding
-constexpr double kDrawdown_j = 1e-3;  // out of the rendering, unpaid
+constexpr double kEnergy_j = 1e-6;     // that may come out of the device: rounding
+constexpr double kDrawdown_j = 1e-3;   // out of the rendering, unpaid
+constexpr double kNoticed = 0.05;      // differences of stiffness below are not felt
+constexpr double kSoft_n_per_m = 1.0;  // what is softer is compared with this
+constexpr double kTouch_n = 0.3;       // less is no contact
+constexpr double kKnown_s = 1.0;       // the surface has been met
 constexpr double kRun_s = 3.0;
 constexpr double kHandshake_s = 0.1;
 constexpr double kTenYears_s = 10.0 * 365.25 * 86400.0;
@@ -27,6 +32,7 @@ struct Feeling {
   double start_s = 1.0;   // on the master's clock
   double handle_m = 0.0;  // where the device says that it is, if not zero
   Grip grip = Grip::kLight;
+  double told = 1.0;  // of the stiffness that the result is judged by; others in controls
   std::vector<std::string> settings{};
 };
 
@@ -57,13 +63,34 @@ Received<StiffnessReport> report_of(const Feeling& what, const MasterView& view,
   return {.sequence = number, .newest = true, .message = report};
 }
 
+/// Of the force over the depth of the handle, from the second touch on, against what is due: the stiffness of
+/// the report or the most that the device can render.
+class Felt {
+ public:
+  void add(const MasterView& view) {
+    peak_n_ = std::max(peak_n_, view.spring_force_n.norm());
+    const double depth_m = view.inward.dot(view.p_MH) - view.surface_m;
+    if (view.surface_known && depth_m > 0.0 && !view.force_clamped)
+      line_.add(depth_m, view.spring_force_n.dot(-view.inward));
+  }
+  [[nodiscard]] double peak_n() const { return peak_n_; }
+  [[nodiscard]] bool valid() const { return line_.valid(); }
+  [[nodiscard]] double error(double due_n_per_m) const {
+    return std::abs(line_.slope() - due_n_per_m) / std::max(due_n_per_m, kSoft_n_per_m);
+  }
+
+ private:
+  LineFit line_;
+  double peak_n_ = 0.0;
+};
+
 ExtremeResult feel(const Feeling& what) {
   const MasterConfig config = master_of(what);
   SimulatedDevices devices(config.device);
   MasterNode node(config);
   const double period_s = 1.0 / config.loop.rate_hz;
   std::uint64_t number = what.first_report;
-  double spring_n = 0.0;
+  Felt felt;
   for (int i = 0; period_s * i < kRun_s; ++i) {
     const double t = period_s * i;
     const Time now = Time{} + from_seconds(what.start_s) + from_seconds(t);
@@ -78,7 +105,7 @@ ExtremeResult feel(const Feeling& what) {
     if (i % 5 == 0) in.reports = {&report, 1}, number += number == UINT64_MAX ? 0 : 1;
     const MasterOutput out = node.step(in);
     devices.write(out.F_H_M);
-    spring_n = std::max(spring_n, node.view().spring_force_n.norm());
+    if (t > kKnown_s) felt.add(node.view());
     if (!out.F_H_M.force.allFinite() || !out.F_H_M.moment.allFinite())
       return bad("a wrench that is not finite");
     if (out.F_H_M.force.norm() > config.rendering.force_max_n + 1e-9) return bad("a force above its limit");
@@ -90,18 +117,28 @@ ExtremeResult feel(const Feeling& what) {
   if (view.state == SafetyState::kFault) return refused("the device is at fault, the hand is free");
   if (view.state != SafetyState::kEngaged) return bad("the engagement ended");
   if (view.rejected_values > 0) return refused("the reports are ignored and counted as rejected values");
-  if (what.stiffness_n_per_m >= 1e3 && what.handle_m == 0.0 && !(spring_n > 0.3))
-    return bad("the wall is not felt");
-  return accurate(view.energy_drawdown_j, kDrawdown_j);
+  if (!(view.energy_drawdown_j <= kDrawdown_j))
+    return bad(format_number(view.energy_drawdown_j) + " J out of the rendering");
+  if (what.handle_m != 0.0) return accurate(felt.peak_n(), kTouch_n);
+  if (!felt.valid() && what.stiffness_n_per_m > 0.0) return bad("the wall is not touched");
+  return accurate(felt.error(what.told * std::min(what.stiffness_n_per_m, view.stiffness_max_n_per_m)),
+                  kNoticed);
 }
 
 using Set = std::function<void(Feeling&, double)>;
+using Cells = std::initializer_list<std::pair<double, const char*>>;  // value, and what it is refused with
 
-ExtremeRow row(const std::string& quantity, const std::string& unit, std::initializer_list<double> values,
-               const Set& set) {
-  ExtremeRow row{"rendering: " + quantity, "J out of the rendering", {}};
-  for (const double value : values) {
-    row.cells.push_back({short_text(value) + unit, [set, value](std::uint64_t) {
+ExtremeRow row(const std::string& quantity, const std::string& unit, Cells cells, const Set& set) {
+  const auto softer = [set](std::uint64_t) {
+    Feeling what{.told = 1.2};
+    set(what, 1e3);
+    what.stiffness_n_per_m = 1e3;
+    return feel(what);
+  };
+  ExtremeRow row{
+      "rendering: " + quantity, "error of the felt stiffness", {"judged by 1.2 of it", "", softer}, {}};
+  for (const auto& [value, refusal] : cells) {
+    row.cells.push_back({short_text(value) + unit, refusal, [set, value = value](std::uint64_t) {
                            Feeling what;
                            set(what, value);
                            return feel(what);
@@ -121,25 +158,42 @@ std::vector<ExtremeRow> extreme_renderings() {
     const std::string hand = grip == Grip::kLight  ? "light hand"
                              : grip == Grip::kFirm ? "firm hand"
                                                    : "let go";
-    rows.push_back(row("stiffness, " + hand, "", {0.0, denormal, 1e0, 1e3, 1e6, 1e9, 1e12, 1e300},
-                       [grip](Feeling& what, double k) {
-                         what.stiffness_n_per_m = k;
-                         what.grip = grip;
-                       }));
+    rows.push_back(
+        row("stiffness, " + hand, "",
+            {{0.0, ""}, {denormal, ""}, {1e0, ""}, {1e3, ""}, {1e6, ""}, {1e9, ""}, {1e12, ""}, {1e300, ""}},
+            [grip](Feeling& what, double k) {
+              what.stiffness_n_per_m = k;
+              what.grip = grip;
+            }));
   }
-  rows.push_back(row("stiffness that is none", "", {-1.0, -1e9, nan, inf},
+  constexpr const char* kRejected = "counted as rejected values";
+  constexpr const char* kFault = "the device is at fault";
+  constexpr const char* kRate = "outside 250 to 8000";
+  rows.push_back(row("stiffness that is none", "",
+                     {{-1.0, kRejected}, {-1e9, kRejected}, {nan, kRejected}, {inf, kRejected}},
                      [](Feeling& what, double k) { what.stiffness_n_per_m = k; }));
-  rows.push_back(row("sequence of the touch", "", {-1.0, 0.0, 1e300, nan},
+  rows.back().control = {"one that is", kRejected, [](std::uint64_t) { return feel({}); }};
+  rows.push_back(row("sequence of the touch", "",
+                     {{-1.0, kRejected}, {0.0, ""}, {1e300, kRejected}, {nan, kRejected}},
                      [](Feeling& what, double sequence) { what.touch_sequence = sequence; }));
-  rows.push_back(row("handle", " m", {denormal, 20.0, 1e300, nan, inf},
+  rows.back().control = {"10, refused", kRejected, [](std::uint64_t) { return feel({}); }};
+  rows.push_back(row("handle", " m",
+                     {{denormal, ""}, {20.0, kFault}, {1e300, kFault}, {nan, kFault}, {inf, kFault}},
                      [](Feeling& what, double x_m) { what.handle_m = x_m; }));
-  rows.push_back(
-      row("sample time", " s", {2e-5, 1.25e-4, 1e-3, 4e-3, 5e-2}, [](Feeling& what, double period_s) {
-        what.settings = {"loop.rate_hz=" + format_number(std::round(1.0 / period_s))};
-      }));
-  ExtremeRow late{"rendering: start of the clock, number of a report", "J out of the rendering", {}};
-  late.cells.push_back({"10 years", [](std::uint64_t) { return feel({.start_s = kTenYears_s}); }});
-  late.cells.push_back({"2^64-20", [](std::uint64_t) { return feel({.first_report = UINT64_MAX - 19}); }});
+  rows.back().measure = "N felt at the surface";
+  rows.back().control = {"as the device says", kFault, [](std::uint64_t) { return feel({}); }};
+  const auto rate = [](double period_s) {
+    return "loop.rate_hz=" + format_number(std::round(1.0 / period_s));
+  };
+  rows.push_back(row("sample time", " s",
+                     {{2e-5, kRate}, {1.25e-4, ""}, {1e-3, ""}, {4e-3, ""}, {5e-2, kRate}},
+                     [rate](Feeling& what, double period_s) {
+                       if (period_s < 1.0) what.settings = {rate(period_s)};
+                     }));
+  ExtremeRow late = row("start of the clock, number of a report", "", {}, [](Feeling&, double) {});
+  late.cells.push_back({"10 years", "", [](std::uint64_t) { return feel({.start_s = kTenYears_s}); }});
+  late.cells.push_back(
+      {"2^64-20", "", [](std::uint64_t) { return feel({.first_report = UINT64_MAX - 19}); }});
   rows.push_back(late);
   return rows;
 }

@@ -64,8 +64,9 @@ ExtremeResult refuse_all(const std::function<double(const proto::Range&)>& value
   return refused("all " + std::to_string(fields) + ", e.g. " + first);
 }
 
-ExtremeCell setting(const std::string& name, const std::string& path, const std::string& value) {
-  return {name, [=](std::uint64_t) {
+ExtremeCell setting(const std::string& name, const std::string& path, const std::string& value,
+                    const std::string& refusal) {
+  return {name, refusal, [=](std::uint64_t) {
             static_cast<void>(configure({path + "=" + value}, find_deploy_folder()));
             return bad(path + " = " + value + " is taken");
           }};
@@ -75,14 +76,20 @@ ExtremeCell setting(const std::string& name, const std::string& path, const std:
 
 std::vector<ExtremeRow> extreme_settings() {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  const auto all = [](const std::string& name, const std::function<double(const proto::Range&)>& value) {
-    return ExtremeCell{name, [value](std::uint64_t) { return refuse_all(value); }};
+  const auto all = [](const std::string& name, const std::function<double(const proto::Range&)>& value,
+                      const std::string& refusal = "outside") {
+    return ExtremeCell{name, refusal, [value](std::uint64_t) { return refuse_all(value); }};
   };
   ExtremeRow numbers{
       "configuration: every number with a range",
       "refused, each by its name",
-      {all("NaN", [](const auto&) { return std::numeric_limits<double>::quiet_NaN(); }),
-       all("inf", [](const auto&) { return inf; }), all("-inf", [](const auto&) { return -inf; }),
+      all("in the middle", [](const proto::Range& r) { return 0.5 * (r.min() + r.max()); }),
+      {all(
+           "NaN", [](const auto&) { return std::numeric_limits<double>::quiet_NaN(); }, "finite"),
+       all(
+           "inf", [](const auto&) { return inf; }, "finite"),
+       all(
+           "-inf", [](const auto&) { return -inf; }, "finite"),
        all("1e300", [](const auto&) { return 1e300; }),
        all("above max",
            [](const proto::Range& r) { return r.max() + 1e-3 * std::max(1e-3, std::abs(r.max())); }),
@@ -90,14 +97,15 @@ std::vector<ExtremeRow> extreme_settings() {
            [](const proto::Range& r) { return r.min() - 1e-3 * std::max(1e-3, std::abs(r.min())); })}};
   ExtremeRow nothing{"configuration: directions and shapes of nothing",
                      "refused with the reason",
-                     {setting("normal 0", "scene.surface.0.plane.normal", "0,0,0"),
-                      setting("n 1e-200", "scene.surface.0.plane.normal", "1e-200,0,0"),
-                      setting("operator 0", "operator.direction", "0,0,0"),
-                      setting("k = 0", "scene.material.0.stiffness_n_per_m", "0"),
-                      setting("k = 1.1e9", "scene.material.0.stiffness_n_per_m", "1.1e9"),
-                      setting("n = 0.9", "scene.material.0.exponent", "0.9"),
-                      setting("n = 3.1", "scene.material.0.exponent", "3.1"),
-                      setting("rows of 0", "slave.robot.joint.1.a_m", "0")}};
+                     setting("one that is right", "scene.surface.0.plane.normal", "0,0,1", "no direction"),
+                     {setting("normal 0", "scene.surface.0.plane.normal", "0,0,0", "no direction"),
+                      setting("n 1e-200", "scene.surface.0.plane.normal", "1e-200,0,0", "no direction"),
+                      setting("operator 0", "operator.direction", "0,0,0", "no direction"),
+                      setting("k = 0", "scene.material.0.stiffness_n_per_m", "0", "outside 0 (excluded)"),
+                      setting("k = 1.1e9", "scene.material.0.stiffness_n_per_m", "1.1e9", "to 1e9"),
+                      setting("n = 0.9", "scene.material.0.exponent", "0.9", "outside 1 to 3"),
+                      setting("n = 3.1", "scene.material.0.exponent", "3.1", "outside 1 to 3"),
+                      setting("rows of 0", "slave.robot.joint.1.a_m", "0", "turn about one axis")}};
   return {numbers, nothing};
 }
 

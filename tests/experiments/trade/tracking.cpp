@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "common/config/config.hpp"
 #include "tests/experiments/laboratory.hpp"
@@ -93,7 +94,9 @@ Touched touched(const ExperimentRun& run, std::vector<std::string> settings) {
   Touched sum;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     one.seed = run.seed + seed;
-    for (const Metric& m : run_touch(one)) {
+    const std::vector<Metric> metrics = run_touch(one);
+    if (!outcome_of(metrics).empty()) throw std::runtime_error("trade: a wall was not touched");
+    for (const Metric& m : metrics) {
       if (m.name == "displayed_stiffness_error") sum.stiffness_error = std::max(sum.stiffness_error, m.value);
       if (m.name == "haptic_return_bit_per_s") sum.return_bit_per_s += m.value / kSeeds;
     }
