@@ -1,8 +1,6 @@
 #include "common/io/status_fields.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -90,16 +88,6 @@ void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Cl
   add(clamps.moment_guard, "moment guard");
   add(clamps.singularity, "singularity");
   add(clamps.unreachable, "unreachable");
-}
-
-std::string in_words(const GripperState& gripper) {
-  if (!gripper.closed) return gripper.holds ? "open, and something is in it" : "open";
-  if (!gripper.holds) return "closed";
-  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "closed, holds %.3g kg (standard deviation %.2g)", gripper.load_kg,
-                gripper.load_sd_kg);
-  return text.data();
 }
 
 void fill(proto::Status& status, const SideFigures& figures) {

@@ -32,8 +32,6 @@ void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Names of what is being clamped.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
-/// Open, closed, holds something, holds so many kg.
-std::string in_words(const GripperState& gripper);
 /// link, and the counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
 void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);

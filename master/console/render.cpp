@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "common/io/status_fields.hpp"
 #include "common/link/estimate_words.hpp"
+#include "common/link/gripper_words.hpp"
 #include "master/console/keys.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/console/words.hpp"

@@ -186,7 +186,7 @@ TEST(ToolCompensation, AZeroThatIsAskedForLaterMakesNothingUnready) {
   SensingConfig config;
   ToolCompensation compensation(config);
   config.zero_s = 100.0;
-  compensation.configure(config, 10.0);
+  compensation.configure(config, {.zero_n = 10.0});
   compensation.zero();
   EXPECT_TRUE(compensation.zeroing());
   EXPECT_TRUE(compensation.ready());

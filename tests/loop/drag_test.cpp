@@ -1,0 +1,40 @@
+// Loads that nobody described are dragged, with default settings.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/experiments/contact/drag.hpp"
+
+namespace longreach {
+namespace {
+
+TEST(Drag, ALoadIsNoContactAndItsMassIsFound) {
+  ExperimentRun run;
+  run.config = configure({}, LONGREACH_DEPLOY);
+  std::map<std::string, double> all;
+  for (const Metric& m : run_drag_study(run)) all[m.name] = m.value;
+  EXPECT_EQ(all["dragged"], all.at("drags"));
+  EXPECT_EQ(all["phantom_contacts"], 0.0);
+  EXPECT_EQ(all["holds"], 0.0);
+  EXPECT_EQ(all["stopped_as_without_load"], all.at("drags"));
+  EXPECT_GE(all["mass_within_3_sd"], 0.97 * all.at("mass_told"));
+  EXPECT_EQ(all["mass_within_5_percent"], all.at("mass_above_noise"));
+  EXPECT_EQ(all["walls_found"], all.at("walls"));
+  EXPECT_EQ(all["nothing_told"], all.at("closed_on_nothing"));
+}
+
+// The control: where nothing that a gripper holds may weigh, what it weighs is a contact.
+TEST(Drag, WithoutALoadThatMayBeThereItsInertiaIsAContact) {
+  ExperimentRun run;
+  run.config = configure({"robot.load_max_kg=0"}, LONGREACH_DEPLOY);
+  DragCell cell;
+  cell.mass_kg = 8.0;
+  const DragResult without = run_drag(run, cell);
+  EXPECT_GT(without.phantoms, 0);
+  run.config = configure({}, LONGREACH_DEPLOY);
+  EXPECT_EQ(run_drag(run, cell).phantoms, 0);
+}
+
+}  // namespace
+}  // namespace longreach
