@@ -4,7 +4,7 @@
 
 #include "common/config/config.hpp"
 #include "common/io/status_fields.hpp"
-#include "common/link/gripper_words.hpp"
+#include "common/link/estimate_words.hpp"
 
 namespace longreach {
 namespace {

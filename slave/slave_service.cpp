@@ -12,7 +12,6 @@
 #include "common/io/adapter_channel.hpp"
 #include "common/io/status_fields.hpp"
 #include "common/link/estimate_words.hpp"
-#include "common/link/gripper_words.hpp"
 
 namespace longreach {
 namespace {

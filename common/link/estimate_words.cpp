@@ -50,4 +50,12 @@ std::string law_in_words(const ContactEstimate& e) {
          (mixed ? " apart from k" : "");
 }
 
+std::string in_words(const GripperState& gripper) {
+  if (!gripper.closed) return gripper.holds ? "open, and something is in it" : "open";
+  if (!gripper.holds) return "closed";
+  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
+  return "closed, holds " + number(gripper.load_kg, 3) + " kg (standard deviation " +
+         number(gripper.load_sd_kg, 2) + ")";
+}
+
 }  // namespace longreach

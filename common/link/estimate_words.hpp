@@ -1,5 +1,6 @@
 #pragma once
-// What of a contact is known, how well, and what cannot be told, as an operator would say it. Pure.
+// What of a contact and of a load is known, how well, and what cannot be told, as an operator would say it.
+// Pure.
 
 #include <string>
 #include <string_view>
@@ -13,5 +14,8 @@ std::string stiffness_in_words(const ContactEstimate& estimate, std::string_view
 
 /// "n 1.5 within 0.02, lambda cannot be told apart from k". Empty without an estimate.
 std::string law_in_words(const ContactEstimate& estimate);
+
+/// The gripper: open, closed, holds something, holds so many kg.
+std::string in_words(const GripperState& gripper);
 
 }  // namespace longreach

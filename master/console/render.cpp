@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "common/link/estimate_words.hpp"
-#include "common/link/gripper_words.hpp"
 #include "master/console/keys.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/console/words.hpp"

@@ -1,4 +1,5 @@
-// Loads that nobody described are dragged (200 at full size); loads of 5 kg meet a wall; a gripper closes on nothing.
+// Loads that nobody described are dragged (200 at full size); loads of 5 kg meet a wall; a gripper closes on
+// nothing.
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,49 @@ void write(const ExperimentRun& run, const Loads& loads) {
   trace.close();
 }
 
+std::vector<Metric> of_loads(const Loads& loads) {
+  return {
+      {"drags", static_cast<double>(loads.cells.size()), ""},
+      {"dragged", loads.count([](const DragCell&, const DragResult& r) { return r.held && r.moved; }), ""},
+      {"phantom_contacts", loads.count([](const DragCell&, const DragResult& r) { return r.phantoms > 0; }),
+       ""},
+      {"holds", loads.count([](const DragCell&, const DragResult& r) { return r.holds > 0; }), ""},
+      {"stopped_as_without_load",
+       loads.count([](const DragCell&, const DragResult& r) { return r.overrun_m <= kStop_m; }), ""},
+      {"overrun_max_m", loads.most([](const DragCell&, const DragResult& r) { return r.overrun_m; }), "m"},
+      {"push_max_n", loads.most([](const DragCell&, const DragResult& r) { return r.push_n; }), "N"},
+      {"mass_told", loads.count(told), ""},
+      {"mass_within_3_sd", loads.count([](const DragCell& c, const DragResult& r) {
+         return told(c, r) && std::abs(r.told_kg - c.mass_kg) <= 3.0 * r.told_sd_kg;
+       }),
+       ""},
+      {"mass_above_noise", loads.count(well), ""},
+      {"mass_within_5_percent", loads.count([](const DragCell& c, const DragResult& r) {
+         return well(c, r) && told(c, r) && mass_error(c, r) <= kMass;
+       }),
+       ""},
+      {"mass_error_max",
+       loads.most([](const DragCell& c, const DragResult& r) { return well(c, r) ? mass_error(c, r) : 0.0; }),
+       ""},
+  };
+}
+
+std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
+  return {
+      {"walls", static_cast<double>(met.cells.size()), ""},
+      {"walls_found", met.count([](const DragCell&, const DragResult& r) {
+         return r.held && r.found_s > 0.0 && r.found_s <= kFound_s && r.phantoms == 0;
+       }),
+       ""},
+      {"wall_found_max_s", met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"},
+      {"closed_on_nothing", static_cast<double>(nothing.cells.size()), ""},
+      {"nothing_told", nothing.count([](const DragCell&, const DragResult& r) {
+         return !r.held && r.phantoms == 0 && r.told_kg == 0.0;
+       }),
+       ""},
+  };
+}
+
 }  // namespace
 
 std::vector<Plot> drag_plots() {
@@ -104,41 +148,9 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run) {
         all == &loads ? run.progress : nullptr);
   }
   write(run, loads);
-  return {
-      {"drags", static_cast<double>(drags), ""},
-      {"dragged", loads.count([](const DragCell&, const DragResult& r) { return r.held && r.moved; }), ""},
-      {"phantom_contacts", loads.count([](const DragCell&, const DragResult& r) { return r.phantoms > 0; }),
-       ""},
-      {"holds", loads.count([](const DragCell&, const DragResult& r) { return r.holds > 0; }), ""},
-      {"stopped_as_without_load",
-       loads.count([](const DragCell&, const DragResult& r) { return r.overrun_m <= kStop_m; }), ""},
-      {"overrun_max_m", loads.most([](const DragCell&, const DragResult& r) { return r.overrun_m; }), "m"},
-      {"push_max_n", loads.most([](const DragCell&, const DragResult& r) { return r.push_n; }), "N"},
-      {"mass_told", loads.count(told), ""},
-      {"mass_within_3_sd", loads.count([](const DragCell& c, const DragResult& r) {
-         return told(c, r) && std::abs(r.told_kg - c.mass_kg) <= 3.0 * r.told_sd_kg;
-       }),
-       ""},
-      {"mass_above_noise", loads.count(well), ""},
-      {"mass_within_5_percent", loads.count([](const DragCell& c, const DragResult& r) {
-         return well(c, r) && told(c, r) && mass_error(c, r) <= kMass;
-       }),
-       ""},
-      {"mass_error_max",
-       loads.most([](const DragCell& c, const DragResult& r) { return well(c, r) ? mass_error(c, r) : 0.0; }),
-       ""},
-      {"walls", static_cast<double>(walls), ""},
-      {"walls_found", met.count([](const DragCell&, const DragResult& r) {
-         return r.held && r.found_s > 0.0 && r.found_s <= kFound_s && r.phantoms == 0;
-       }),
-       ""},
-      {"wall_found_max_s", met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"},
-      {"closed_on_nothing", static_cast<double>(empty), ""},
-      {"nothing_told", nothing.count([](const DragCell&, const DragResult& r) {
-         return !r.held && r.phantoms == 0 && r.told_kg == 0.0;
-       }),
-       ""},
-  };
+  std::vector<Metric> metrics = of_loads(loads);
+  for (Metric& m : of_others(met, nothing)) metrics.push_back(std::move(m));
+  return metrics;
 }
 
 }  // namespace longreach
