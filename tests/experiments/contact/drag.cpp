@@ -27,27 +27,6 @@ double log_uniform(Random& random, double low, double high) {
 
 std::string number(double value) { return std::to_string(value); }
 
-/// A cube at the tool, which holds it by its middle of the near side, and a wall behind it.
-BodiesConfig bodies(const DragCell& cell) {
-  const double half_m = 0.05, far_m = 2.0 * half_m + (cell.wall ? kWall_m : 10.0);
-  BodiesConfig all;
-  all.mjcf_file = "drag.xml";
-  all.file = {{all.mjcf_file,
-               "<mujoco><option gravity='0 0 0'/><asset><material name='hard'/></asset><worldbody>"
-               "<body name='tool'><freejoint/><geom type='sphere' size='0.02' mass='1' pos='-0.1 0 0' "
-               "material='hard'/></body>"
-               "<body name='load' pos='0.06 0 0'><freejoint/><geom type='box' size='0.05 0.05 0.05' mass='" +
-                   number(cell.mass_kg > 0.0 ? cell.mass_kg : 1.0) +
-                   "' material='hard'/><site name='fixture' pos='" + (cell.mass_kg > 0.0 ? "-0.06" : "0.5") +
-                   " 0 0'/></body>"
-                   "<body name='wall' pos='" +
-                   number(0.01 + far_m + 0.05) +
-                   " 0 0'><geom type='box' size='0.05 0.5 0.5' material='hard'/></body>"
-                   "</worldbody></mujoco>"}};
-  all.gripper.emplace();
-  return all;
-}
-
 SlaveConfig slave_config(const ExperimentRun& run, const DragCell& cell) {
   proto::SlaveConfig message = run.config.slave();
   take_profile(*message.mutable_link(), load_link_profile(find_deploy_folder(), cell.link));
@@ -57,7 +36,7 @@ SlaveConfig slave_config(const ExperimentRun& run, const DragCell& cell) {
   SlaveConfig config = to_struct(message);
   config.scene.surface.clear();
   config.scene.material = {{"hard", 2e4, 0.001, 1.0, 0.5}};
-  config.scene.bodies = bodies(cell);
+  config.scene.bodies = bodies_of(cell);
   return config;
 }
 
@@ -162,6 +141,27 @@ class Drag {
 };
 
 }  // namespace
+
+/// A cube at the tool, which holds it by its middle of the near side, and a wall behind it.
+BodiesConfig bodies_of(const DragCell& cell) {
+  const double half_m = 0.05, far_m = 2.0 * half_m + (cell.wall ? kWall_m : 10.0);
+  BodiesConfig all;
+  all.mjcf_file = "drag.xml";
+  all.file = {{all.mjcf_file,
+               "<mujoco><option gravity='0 0 0'/><asset><material name='hard'/></asset><worldbody>"
+               "<body name='tool'><freejoint/><geom type='sphere' size='0.02' mass='1' pos='-0.1 0 0' "
+               "material='hard'/></body>"
+               "<body name='load' pos='0.06 0 0'><freejoint/><geom type='box' size='0.05 0.05 0.05' mass='" +
+                   number(cell.mass_kg > 0.0 ? cell.mass_kg : 1.0) +
+                   "' material='hard'/><site name='fixture' pos='" + (cell.mass_kg > 0.0 ? "-0.06" : "0.5") +
+                   " 0 0'/></body>"
+                   "<body name='wall' pos='" +
+                   number(0.01 + far_m + 0.05) +
+                   " 0 0'><geom type='box' size='0.05 0.5 0.5' material='hard'/></body>"
+                   "</worldbody></mujoco>"}};
+  all.gripper.emplace();
+  return all;
+}
 
 DragCell draw_drag(Random& random) {
   static constexpr const char* kLinks[] = {"lab", "kontur", "moon"};

@@ -6,6 +6,7 @@
 
 #include "common/core/random.hpp"
 #include "common/link/motion_command.hpp"
+#include "slave/scene/bodies_config.hpp"
 #include "tests/experiments/experiment.hpp"
 
 namespace longreach {
@@ -31,6 +32,8 @@ struct DragResult {
   double found_s = 0.0;  // from the load's first contact with the wall; 0: none
 };
 
+/// Its load at the tool, held by a gripper that closes, and the wall; of a material "hard".
+BodiesConfig bodies_of(const DragCell& cell);
 DragCell draw_drag(Random& random);
 DragResult run_drag(const ExperimentRun& run, const DragCell& cell);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/experiments/contact/drag.hpp"
 #include "tests/experiments/person/person_scenes.hpp"
 
 namespace longreach {
@@ -278,12 +279,14 @@ PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
           {"force of what has flown off, N", seen.move[1].felt_max_n, kNothing_n}};
 }
 
-// A load in the gripper raises the resistance, once the hand moves.
+// A load in the gripper raises the resistance, once the slave tells of it and the hand moves.
 void load(PersonScenario& s) {
   clear(s);
+  s.slave.scene.material.push_back({"hard", 2e4, 0.001, 1.0, 0.5});
+  s.slave.scene.bodies = bodies_of({.mass_kg = 2.0});
   in_mode(s, MotionMode::kRate);
   s.moves = {{.to_m = {0.015, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0},
-             {.to_m = {0.0, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0, .load = true},
+             {.to_m = {0.0, 0, 0}, .wait_s = 1.5, .wait_rtt = 1.0, .load = true},
              {.to_m = {0.015, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0}};
 }
 PersonChecks judge_load(const PersonScenario&, const PersonSeen& seen) {
