@@ -6,17 +6,17 @@
 namespace longreach {
 namespace {
 
-constexpr double kBand_s = 0.15;
-constexpr double kUpdate_s = 0.1;
-constexpr double kSettled_s = 6.0 * kBand_s;     // after a touch, until it is smoothed away
-constexpr double kBond_s = 0.03;                 // by which a bond is late
-constexpr double kUnlike = 0.03;                 // of m a, that it makes of it otherwise
-constexpr double kReach_m = 0.5;                 // of the centre of a load from the sensor
-constexpr double kBias_n = 1e3, kBias_nm = 1e2;  // that a sensor may begin with
-constexpr double kDrift = 0.01;                  // N and N m, a second: at least
-constexpr double kUnmodelled = 0.3;              // of m a: by what bond and sensor do at once
-constexpr double kSds = 3.0;
-constexpr double kKnown = 0.1, kNothing_kg = 0.1;
+constexpr double kLoadBand_s = 0.15;
+constexpr double kLoadUpdate_s = 0.1;
+constexpr double kLoadSettled_s = 6.0 * kLoadBand_s;  // after a touch, until it is smoothed away
+constexpr double kBondLag_s = 0.03;                   // by which a bond is late
+constexpr double kUnlike = 0.03;                      // of m a, that it makes of it otherwise
+constexpr double kCentreMost_m = 0.5;                 // of the centre of a load from the sensor
+constexpr double kBias_n = 1e3, kBias_nm = 1e2;       // that a sensor may begin with
+constexpr double kBiasDrift = 0.01;                   // N and N m, a second: at least
+constexpr double kUnmodelled = 0.3;                   // of m a: by what bond and sensor do at once
+constexpr double kLoadSds = 3.0;
+constexpr double kKnownShare = 0.1, kNothing_kg = 0.1;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void LoadIdentifier::grip(bool closed) {
   covariance_.topRows<4>().setZero();
   covariance_.leftCols<4>().setZero();
   if (!closed) return;
-  const double moment = load_max_kg_ * kReach_m;
+  const double moment = load_max_kg_ * kCentreMost_m;
   covariance_.diagonal().head<4>() << load_max_kg_ * load_max_kg_, Vector3::Constant(moment * moment);
 }
 
@@ -47,17 +47,17 @@ void LoadIdentifier::step(const Wrench& left, const SensorMotion& motion, bool f
   if (!now.allFinite() || !(dt > 0.0)) return;
   if (!begun_) first_ = second_ = now;
   begun_ = true;
-  const double share = -std::expm1(-dt / kBand_s);
+  const double share = -std::expm1(-dt / kLoadBand_s);
   first_ += share * (now - first_);
   second_ += share * (first_ - second_);
   free_s_ = free ? free_s_ + dt : 0.0;
   since_s_ += dt;
-  if (since_s_ < kUpdate_s) return;
+  if (since_s_ < kLoadUpdate_s) return;
   since_s_ = 0.0;
-  const auto drift = [](double told) { return (told * told + kDrift * kDrift) * kUpdate_s; };
+  const auto drift = [](double told) { return (told * told + kBiasDrift * kBiasDrift) * kLoadUpdate_s; };
   covariance_.diagonal().segment<3>(4).array() += drift(sensing_.force_drift_n);
   covariance_.diagonal().tail<3>().array() += drift(sensing_.moment_drift_nm);
-  if (free_s_ > kSettled_s) update(second_, (first_ - second_) / kBand_s, motion.gravity);
+  if (free_s_ > kLoadSettled_s) update(second_, (first_ - second_) / kLoadBand_s, motion.gravity);
 }
 
 void LoadIdentifier::update(const Signals& smooth, const Signals& change, const Vector3& gravity) {
@@ -65,16 +65,16 @@ void LoadIdentifier::update(const Signals& smooth, const Signals& change, const 
                 lever[] = {smooth.segment<3>(9), smooth.segment<3>(12), smooth.segment<3>(15)};
   // Mass that may be there: what a bond makes of its force is in proportion.
   const double most_kg = std::min(load_max_kg_, std::max(state_[0], 0.0) + sd_kg());
-  const double unlike = kUnlike * (push - gravity).norm() + kBond_s * change.segment<3>(6).norm();
+  const double unlike = kUnlike * (push - gravity).norm() + kBondLag_s * change.segment<3>(6).norm();
   const auto variance = [&](double noise, double by_bond) {
-    return noise * noise * 1e-3 / kUpdate_s + by_bond * by_bond;
+    return noise * noise * 1e-3 / kLoadUpdate_s + by_bond * by_bond;
   };
   const double force_n2 = variance(sensing_.force_noise_n + sensing_.force_resolution_n, most_kg * unlike);
   // Moments of inertia are not identified: they count as noise.
   Matrix3 turns;
   turns << lever[0], lever[1], lever[2];
   const double moment_nm2 = variance(sensing_.moment_noise_nm + sensing_.moment_resolution_nm,
-                                     most_kg * kReach_m * (unlike + kReach_m * turns.norm()));
+                                     most_kg * kCentreMost_m * (unlike + kCentreMost_m * turns.norm()));
   const Matrix3 arm = -cross_matrix(push);  // h × (g - a) = -(g - a)× h
   for (int i = 0; i < 3; ++i) {
     Row row = Row::Zero();
@@ -104,23 +104,23 @@ void LoadIdentifier::take(const Row& row, double value, double variance) {
 ToolLoadConfig LoadIdentifier::load() const {
   ToolLoadConfig load;
   const double m = std::min(state_[0], load_max_kg_);
-  if (!(m > kSds * sd_kg())) return load;
+  if (!(m > kLoadSds * sd_kg())) return load;
   load.mass_kg = m;
-  load.com_m = clamp_norm(Vector3(state_.segment<3>(1) / m), kReach_m);
+  load.com_m = clamp_norm(Vector3(state_.segment<3>(1) / m), kCentreMost_m);
   return load;
 }
 
 double LoadIdentifier::sd_kg() const { return std::sqrt(std::max(0.0, covariance_(0, 0))); }
 
 bool LoadIdentifier::known() const {
-  return closed_ && sd_kg() < std::max(kKnown * state_[0], kNothing_kg / kSds);
+  return closed_ && sd_kg() < std::max(kKnownShare * state_[0], kNothing_kg / kLoadSds);
 }
 
 bool LoadIdentifier::holds() const { return known() && load().mass_kg > kNothing_kg; }
 
 double LoadIdentifier::doubt_kg() const {
   if (!closed_) return 0.0;
-  return std::min(load_max_kg_, kUnmodelled * load().mass_kg + kSds * sd_kg());
+  return std::min(load_max_kg_, kUnmodelled * load().mass_kg + kLoadSds * sd_kg());
 }
 
 }  // namespace longreach

@@ -6,10 +6,10 @@
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
 // A load hangs on a bond that spreads a push over some 10 ms, so that f and m a do not agree from sample to
-// sample; what they sum to does. Both sides are smoothed alike (two lags of kBand_s), and a Kalman filter of
-// the constants m, h and of the bias, which drifts, takes them every kUpdate_s. What the bond may still make
-// of a force that changes counts as noise. Opened, the gripper holds nothing; closed, anything up to
-// robot.load_max_kg.
+// sample; what they sum to does. Both sides are smoothed alike (two lags of kLoadBand_s), and a Kalman filter
+// of the constants m, h and of the bias, which drifts, takes them every kLoadUpdate_s. What the bond may
+// still make of a force that changes counts as noise. Opened, the gripper holds nothing; closed, anything up
+// to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 
