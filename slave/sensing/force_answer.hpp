@@ -10,8 +10,9 @@
 //   growing     it has come to the bound                                       giving way
 //   both        the guard is exceeded, the tool goes back by itself, -D as     checking, then giving way
 //               below with g = 0
-//   both        likewise, neither D nor -D on 5 mm                             checking; giving way if it
-//   grows giving way  s >= 0.1 mm,  D >= 0.5 N or 10 σ, and D >= 100 N/m s           answered: a wall comes
+//   both        likewise, neither D nor -D on 5 mm                             checking; giving way
+//                                                                              again if it grows
+//   giving way  s >= 0.1 mm,  D >= 0.5 N or 10 σ, and D >= 100 N/m s           answered: a wall comes
 //   giving way  s >= 0.1 mm, -D likewise                                       checking: the tool rests
 //   checking    at rest as long as it went, but 40 to 250 ms, or till 1.6 N    giving way, suspected
 //               or 20 σ grew in 8 ms, with the greater of g before and after:
