@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/link/time_watch.hpp"
+#include "common/safety/time_watch.hpp"
 #include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_behaviour.hpp"
-#include "master/devices/simulated_devices.hpp"
 #include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/mapping/turns.hpp"
-#include "master/master_safety.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/renderer.hpp"
+#include "master/safety/master_safety.hpp"
+#include "master/simulation/simulated_devices.hpp"
 
 namespace longreach {
 namespace {

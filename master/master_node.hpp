@@ -13,8 +13,8 @@
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
+#include "master/config/master_config.hpp"
 #include "master/devices/handle_state.hpp"
-#include "master/master_config.hpp"
 
 namespace longreach {
 

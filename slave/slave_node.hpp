@@ -12,9 +12,9 @@
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/link/telemetry.hpp"
-#include "slave/limit_violations.hpp"
+#include "slave/command/limit_violations.hpp"
+#include "slave/config/slave_config.hpp"
 #include "slave/robot/robot.hpp"
-#include "slave/slave_config.hpp"
 
 namespace longreach {
 

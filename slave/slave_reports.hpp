@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/link/playout.hpp"
-#include "slave/contact.hpp"
+#include "slave/estimation/contact.hpp"
 #include "slave/slave_node.hpp"
 
 namespace longreach {

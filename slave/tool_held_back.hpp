@@ -3,7 +3,7 @@
 // direction as far as it is one limit.
 
 #include "slave/command/held_back.hpp"
-#include "slave/contact.hpp"
+#include "slave/estimation/contact.hpp"
 
 namespace longreach {
 

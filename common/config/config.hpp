@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "master/master_config.hpp"
+#include "master/config/master_config.hpp"
 #include "proto/config.pb.h"
-#include "slave/slave_config.hpp"
+#include "slave/config/slave_config.hpp"
 
 namespace longreach {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "common/config/number_text.hpp"
-#include "slave/command/guard_config.hpp"
+#include "slave/config/guard_config.hpp"
 
 namespace longreach {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Can the force guard hold what it promises with this robot, its sensor and its loop? A first touch at 50
 // mm/s (or at the tool's speed limit, if that is lower) on 5 N/mm (or on the stiffest surface that the guard
-// reckons with) may come to 1.35 times the guard (slave/command/guard_config.hpp).
+// reckons with) may come to 1.35 times the guard (slave/config/guard_config.hpp).
 
 #include <string>
 

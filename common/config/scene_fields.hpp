@@ -2,7 +2,7 @@
 // The lists of struct_fields.hpp for what a scene's file says.
 
 #include "common/config/field_visit.hpp"
-#include "slave/scene/scene_config.hpp"
+#include "slave/config/scene_config.hpp"
 
 namespace longreach {
 

@@ -4,8 +4,8 @@
 // lists of structs.
 
 #include "common/config/scene_fields.hpp"
-#include "master/master_config.hpp"
-#include "slave/slave_config.hpp"
+#include "master/config/master_config.hpp"
+#include "slave/config/slave_config.hpp"
 
 namespace longreach {
 

@@ -7,7 +7,7 @@
 //   tag   = HMAC-SHA-512-256(K; label | 0 | text)
 //
 // Who reads a tag cannot find the token: that takes 2^99 guesses. Does not handle: how long it is good for,
-// and how often it may be tried (common/io/pairing).
+// and how often it may be tried (common/site/pairing).
 
 #include <array>
 #include <cstdint>

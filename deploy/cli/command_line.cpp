@@ -8,12 +8,12 @@
 
 #include "common/config/adapter_address.hpp"
 #include "common/config/config.hpp"
-#include "common/io/manual/program_text.hpp"
-#include "common/io/option_checks.hpp"
-#include "common/io/rpc_server.hpp"
+#include "common/program/option_checks.hpp"
+#include "common/program/program_text.hpp"
+#include "common/rpc/rpc_server.hpp"
 #include "deploy/cli/help_text.hpp"
 #include "deploy/cli/judged_words.hpp"
-#include "deploy/cli/record_words.hpp"
+#include "deploy/cli/record/record_words.hpp"
 
 namespace longreach {
 namespace {

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/io/rpc_security.hpp"
+#include "common/site/rpc_security.hpp"
 #include "proto/config.pb.h"
 
 namespace longreach {

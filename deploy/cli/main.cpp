@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "common/config/config.hpp"
-#include "common/io/site.hpp"
+#include "common/site/site.hpp"
 #include "deploy/cli/command_line.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "common/io/pairing_rpc.hpp"
-#include "common/io/revocations.hpp"
+#include "common/rpc/pairing_rpc.hpp"
+#include "common/site/revocations.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
 

@@ -9,9 +9,9 @@
 #include <mutex>
 #include <thread>
 
-#include "common/io/rpc_channel.hpp"
-#include "common/io/rpc_server.hpp"
-#include "common/io/site.hpp"
+#include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "common/site/site.hpp"
 #include "proto/control.grpc.pb.h"
 
 namespace longreach {

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "common/link/estimate_words.hpp"
-#include "master/console/keys.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/console/words.hpp"
+#include "master/input/keys.hpp"
 
 namespace longreach {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "master/console/terminal_guard.hpp"
+#include "master/input/terminal_guard.hpp"
 
 namespace longreach {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "common/io/outlet.hpp"
+#include "common/program/outlet.hpp"
 #include "master/console/snapshot.hpp"
 
 namespace longreach {

@@ -2,7 +2,7 @@
 // What the person who holds the simulated handles does.
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/device_config.hpp"
+#include "master/config/device_config.hpp"
 #include "master/devices/handle_state.hpp"
 
 namespace longreach {

@@ -9,7 +9,7 @@
 // All springs begin without force, so that nothing steps; only the gliding anchor supplies energy, and tells
 // how much. Rotations alike, x the rotation vector from home.
 
-#include "master/devices/device_config.hpp"
+#include "master/config/device_config.hpp"
 #include "master/devices/handle_state.hpp"
 
 namespace longreach {

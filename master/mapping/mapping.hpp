@@ -19,8 +19,8 @@
 #include <array>
 
 #include "common/spatial/spatial.hpp"
+#include "master/config/mapping_config.hpp"
 #include "master/devices/handle_state.hpp"
-#include "master/mapping/mapping_config.hpp"
 
 namespace longreach {
 

@@ -14,13 +14,13 @@
 #include <optional>
 
 #include "common/link/stiffness_report.hpp"
+#include "master/config/rendering_config.hpp"
 #include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_state.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/contact.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/port_guard.hpp"
-#include "master/rendering/rendering_config.hpp"
 #include "master/rendering/resistance.hpp"
 
 namespace longreach {

@@ -8,9 +8,9 @@
 
 #include <optional>
 
-#include "slave/command/command_config.hpp"
 #include "slave/command/contact_guard.hpp"
 #include "slave/command/vector_limit.hpp"
+#include "slave/config/command_config.hpp"
 
 namespace longreach {
 

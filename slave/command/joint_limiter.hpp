@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <array>
 
-#include "slave/robot/robot_config.hpp"
+#include "slave/config/robot_config.hpp"
 
 namespace longreach {
 

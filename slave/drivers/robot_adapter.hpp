@@ -7,7 +7,7 @@
 
 #include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
-#include "slave/robot/kinematics.hpp"
+#include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {
 

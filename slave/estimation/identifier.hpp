@@ -21,10 +21,10 @@
 #include <variant>
 
 #include "common/link/telemetry.hpp"
+#include "slave/config/estimator_config.hpp"
 #include "slave/estimation/contact_curve.hpp"
 #include "slave/estimation/difference_noise.hpp"
 #include "slave/estimation/estimator.hpp"
-#include "slave/estimation/estimator_config.hpp"
 #include "slave/estimation/fixed_exponent.hpp"
 #include "slave/estimation/maximum_likelihood.hpp"
 

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "slave/config/scene_config.hpp"
 #include "slave/scene/interaction.hpp"
-#include "slave/scene/scene_config.hpp"
 
 namespace longreach {
 

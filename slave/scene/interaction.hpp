@@ -6,7 +6,7 @@
 //   F = F̄ + (-ΔU - F̄·u) u/|u|²   (Gonzalez 1996),   so that F·u = -ΔU,
 // and dampers by -D u/dt.
 
-#include "slave/scene/bodies_config.hpp"
+#include "slave/config/bodies_config.hpp"
 #include "slave/scene/hunt_crossley.hpp"
 #include "slave/scene/rigid_body.hpp"
 

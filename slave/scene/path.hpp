@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "slave/scene/scene_config.hpp"
+#include "slave/config/scene_config.hpp"
 
 namespace longreach {
 

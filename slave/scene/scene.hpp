@@ -12,9 +12,9 @@
 
 #include <vector>
 
+#include "slave/config/scene_config.hpp"
 #include "slave/scene/bounds_tree.hpp"
 #include "slave/scene/hunt_crossley.hpp"
-#include "slave/scene/scene_config.hpp"
 #include "slave/scene/shape.hpp"
 
 namespace longreach {

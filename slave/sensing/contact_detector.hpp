@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "common/spatial/spatial.hpp"
-#include "slave/sensing/sensing_config.hpp"
+#include "slave/config/sensing_config.hpp"
 
 namespace longreach {
 

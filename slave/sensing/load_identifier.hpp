@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 
 #include "common/spatial/spatial.hpp"
-#include "slave/sensing/sensing_config.hpp"
+#include "slave/config/sensing_config.hpp"
 
 namespace longreach {
 

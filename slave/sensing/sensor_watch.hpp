@@ -18,8 +18,8 @@
 
 #include <optional>
 
-#include "slave/command/command_config.hpp"
-#include "slave/sensing/sensing_config.hpp"
+#include "slave/config/command_config.hpp"
+#include "slave/config/sensing_config.hpp"
 
 namespace longreach {
 

@@ -16,9 +16,9 @@
 #include <optional>
 
 #include "common/spatial/spatial.hpp"
-#include "slave/command/command_config.hpp"
+#include "slave/config/command_config.hpp"
+#include "slave/config/sensing_config.hpp"
 #include "slave/sensing/load_identifier.hpp"
-#include "slave/sensing/sensing_config.hpp"
 
 namespace longreach {
 

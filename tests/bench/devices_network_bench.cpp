@@ -10,9 +10,9 @@
 #include <array>
 #include <cmath>
 
+#include "deploy/lab/networks/spherical_network.hpp"
 #include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
-#include "master/devices/spherical/spherical_network.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 
 namespace longreach {

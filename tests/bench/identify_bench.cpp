@@ -5,9 +5,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "deploy/lab/contact/contact_record.hpp"
+#include "deploy/lab/estimators/methods.hpp"
 #include "slave/estimation/watched_identifier.hpp"
-#include "tests/experiments/estimators/methods.hpp"
-#include "tests/property/contact_record.hpp"
 
 namespace longreach {
 namespace {

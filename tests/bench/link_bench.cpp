@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/wire/port.hpp"
-#include "tests/unit/wire/samples.hpp"
+#include "tests/unit/common/wire/samples.hpp"
 
 namespace longreach {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "master/devices/simulated_devices.hpp"
 #include "master/master_node.hpp"
+#include "master/simulation/simulated_devices.hpp"
 
 namespace longreach {
 

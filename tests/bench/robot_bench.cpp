@@ -9,9 +9,9 @@
 #include <kdl/chainiksolverpos_lma.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "slave/robot/inverse.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
+#include "slave/kinematics/inverse.hpp"
 #include "tests/oracle/kdl_chain.hpp"
-#include "tests/property/random_arm.hpp"
 
 namespace longreach {
 namespace {

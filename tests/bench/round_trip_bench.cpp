@@ -12,9 +12,9 @@
 #include <chrono>
 #include <vector>
 
-#include "common/io/udp_channel.hpp"
+#include "common/net/udp_channel.hpp"
 #include "common/wire/port.hpp"
-#include "tests/unit/wire/samples.hpp"
+#include "tests/unit/common/wire/samples.hpp"
 
 namespace longreach {
 namespace {

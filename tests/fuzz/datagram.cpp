@@ -4,7 +4,7 @@
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/unit/wire/samples.hpp"
+#include "tests/unit/common/wire/samples.hpp"
 
 namespace longreach::fuzz {
 namespace {

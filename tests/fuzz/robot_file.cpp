@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "slave/motion.hpp"
+#include "slave/command/motion.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace longreach::fuzz {

@@ -5,9 +5,9 @@
 #include "common/link/playout.hpp"
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
-#include "slave/slave_safety.hpp"
+#include "slave/safety/slave_safety.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/unit/wire/samples.hpp"
+#include "tests/unit/common/wire/samples.hpp"
 
 namespace longreach::fuzz {
 namespace {

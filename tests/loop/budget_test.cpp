@@ -9,8 +9,8 @@
 
 #include "common/config/config.hpp"
 #include "common/link/byte_budget.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
 
 namespace longreach {
 namespace {

@@ -11,13 +11,13 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/campaign/campaign_folder.hpp"
-#include "tests/experiments/campaign/child_processes.hpp"
-#include "tests/experiments/campaign/plan.hpp"
-#include "tests/experiments/campaign/results.hpp"
-#include "tests/experiments/campaign/sweep.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/unit/config/temporary_folder.hpp"
+#include "deploy/lab/campaign/campaign_folder.hpp"
+#include "deploy/lab/campaign/child_processes.hpp"
+#include "deploy/lab/campaign/plan.hpp"
+#include "deploy/lab/campaign/results.hpp"
+#include "deploy/lab/campaign/sweep.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "tests/unit/common/config/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

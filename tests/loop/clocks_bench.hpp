@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
 
 namespace longreach::clocks {
 

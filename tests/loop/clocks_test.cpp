@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/io/real_time_loop.hpp"
-#include "slave/robot/kinematics.hpp"
+#include "common/loop/real_time_loop.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "slave/kinematics/kinematics.hpp"
 #include "tests/loop/clocks_bench.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach::clocks {
 namespace {

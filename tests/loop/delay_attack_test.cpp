@@ -5,8 +5,8 @@
 
 #include <deque>
 
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/loop/clocks_bench.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach::clocks {
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <map>
 
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/delay/delay_grid.hpp"
-#include "tests/experiments/delay/delay_limits.hpp"
-#include "tests/experiments/devices/sampled_wall.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/delay/delay_grid.hpp"
+#include "deploy/lab/delay/delay_limits.hpp"
+#include "deploy/lab/devices/sampled_wall.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

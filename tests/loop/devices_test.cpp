@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "tests/experiments/devices/wall_bench.hpp"
-#include "tests/experiments/experiment.hpp"
+#include "deploy/lab/devices/wall_bench.hpp"
+#include "deploy/lab/experiment.hpp"
 
 namespace longreach {
 namespace {

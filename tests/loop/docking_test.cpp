@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/contact/docking_task.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/contact/docking_task.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

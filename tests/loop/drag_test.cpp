@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "tests/experiments/contact/drag.hpp"
+#include "deploy/lab/contact/drag.hpp"
 
 namespace longreach {
 namespace {

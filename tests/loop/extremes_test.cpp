@@ -6,7 +6,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "tests/experiments/extremes/extremes.hpp"
+#include "tests/extremes/extremes.hpp"
 
 namespace longreach {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "proto/config.pb.h"
 #include "proto/options.pb.h"
-#include "tests/experiments/faults/looseness.hpp"
+#include "tests/faults/looseness.hpp"
 
 namespace longreach {
 namespace {

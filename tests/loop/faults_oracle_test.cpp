@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "slave/robot/kinematics.hpp"
-#include "tests/experiments/faults/invariant.hpp"
-#include "tests/experiments/faults/trial.hpp"
+#include "slave/kinematics/kinematics.hpp"
+#include "tests/faults/invariant.hpp"
+#include "tests/faults/trial.hpp"
 
 namespace longreach {
 namespace {

@@ -1,16 +1,16 @@
 // The campaign of faults: its oracle, its schedules, and a part of it.
-#include "tests/experiments/faults/faults.hpp"
+#include "tests/faults/faults.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/experiments/faults/kind.hpp"
-#include "tests/experiments/faults/trial.hpp"
-#include "tests/experiments/faults/twin.hpp"
-#include "tests/experiments/faults/world.hpp"
-#include "tests/experiments/on_all_cores.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/on_all_cores.hpp"
+#include "tests/faults/kind.hpp"
+#include "tests/faults/trial.hpp"
+#include "tests/faults/twin.hpp"
+#include "tests/faults/world.hpp"
 
 namespace longreach {
 namespace {

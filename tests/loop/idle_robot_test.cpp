@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
 
 namespace longreach {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/experiments/solve.hpp"
-#include "tests/property/impact_oracle.hpp"
+#include "deploy/lab/contact/impact_oracle.hpp"
+#include "deploy/lab/solve/solve.hpp"
 
 namespace longreach {
 namespace {

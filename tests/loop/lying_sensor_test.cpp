@@ -1,6 +1,6 @@
 // The laboratory's force sensor that lies: each lie is what it says it is, and the slave is told it.
 
-#include "tests/experiments/robot/lying_sensor.hpp"
+#include "deploy/lab/robot/lying_sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
 
 namespace longreach {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/experiment.hpp"
+#include "deploy/lab/experiment.hpp"
 
 namespace longreach {
 namespace {

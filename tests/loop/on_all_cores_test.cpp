@@ -1,6 +1,6 @@
 // Trials on all cores: each is done once, wherever; a failure comes out.
 
-#include "tests/experiments/on_all_cores.hpp"
+#include "deploy/lab/on_all_cores.hpp"
 
 #include <gtest/gtest.h>
 

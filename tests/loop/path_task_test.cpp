@@ -8,10 +8,10 @@
 #include <set>
 
 #include "common/config/config.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/mapping/path_results.hpp"
 #include "slave/scene/path.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/mapping/path_results.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

@@ -1,6 +1,6 @@
 // How far a long command says it is: in place on a terminal, now and then elsewhere.
 
-#include "tests/experiments/progress_line.hpp"
+#include "deploy/lab/progress_line.hpp"
 
 #include <gtest/gtest.h>
 

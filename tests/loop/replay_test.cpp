@@ -1,5 +1,5 @@
 // A recording run again: bit for bit the same, or the first value that is not. LONGREACH_FULL=1: ten minutes.
-#include "tests/experiments/recording/replay.hpp"
+#include "deploy/lab/recording/replay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +16,16 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "common/io/recording/mcap_reader.hpp"
-#include "common/io/recording/mcap_writer.hpp"
-#include "common/io/recording/quiet_protobuf.hpp"
-#include "common/io/recording/recording_error.hpp"
 #include "common/link/header.hpp"
+#include "common/recording/mcap_reader.hpp"
+#include "common/recording/mcap_writer.hpp"
+#include "common/recording/quiet_protobuf.hpp"
+#include "common/recording/recording_error.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
+#include "deploy/lab/recording/message_difference.hpp"
 #include "proto/recording.pb.h"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
-#include "tests/experiments/recording/message_difference.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

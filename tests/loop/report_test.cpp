@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "tests/experiments/report/answer.hpp"
-#include "tests/experiments/report/page.hpp"
+#include "deploy/lab/report/answer.hpp"
+#include "deploy/lab/report/page.hpp"
 
 namespace longreach {
 namespace {

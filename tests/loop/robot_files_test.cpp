@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/solve.hpp"
-#include "tests/property/random_arm.hpp"
-#include "tests/unit/config/temporary_folder.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
+#include "deploy/lab/solve/solve.hpp"
+#include "tests/unit/common/config/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "common/config/config.hpp"
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/config/config.hpp"
-#include "slave/robot/simulated_arm.hpp"
-#include "tests/experiments/experiment.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 
 namespace longreach {
 namespace {

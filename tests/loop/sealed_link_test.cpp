@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "tests/experiments/experiment.hpp"
-#include "tests/experiments/laboratory.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/laboratory.hpp"
 #include "tests/property/intruder.hpp"
 
 namespace longreach {

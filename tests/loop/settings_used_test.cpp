@@ -11,9 +11,9 @@
 #include "common/config/config.hpp"
 #include "common/config/field_path.hpp"
 #include "common/config/number_text.hpp"
-#include "tests/experiments/delay/delay_grid.hpp"
-#include "tests/experiments/laboratory.hpp"
-#include "tests/experiments/settings_used.hpp"
+#include "deploy/lab/delay/delay_grid.hpp"
+#include "deploy/lab/laboratory.hpp"
+#include "deploy/lab/settings_used.hpp"
 
 namespace longreach {
 namespace {

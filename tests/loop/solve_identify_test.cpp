@@ -1,4 +1,4 @@
-#include "tests/experiments/solve_identify.hpp"
+#include "deploy/lab/solve/solve_identify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/property/contact_record.hpp"
+#include "deploy/lab/contact/contact_record.hpp"
 
 namespace longreach {
 namespace {

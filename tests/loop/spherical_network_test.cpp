@@ -11,9 +11,9 @@
 
 #include "common/core/geometry_error.hpp"
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/networks/train_spherical.hpp"
 #include "master/devices/spherical/spherical_catalog.hpp"
-#include "tests/experiments/train_spherical.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/synthesis/synthesis_study.hpp"
 #include "master/devices/delta/delta_catalog.hpp"
-#include "tests/experiments/synthesis_study.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

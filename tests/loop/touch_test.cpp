@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/experiment.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/experiments/trade/cost.hpp"
-#include "tests/experiments/trade/tracking.hpp"
-#include "tests/experiments/trade/trade.hpp"
+#include "deploy/lab/trade/cost.hpp"
+#include "deploy/lab/trade/tracking.hpp"
+#include "deploy/lab/trade/trade.hpp"
 
 namespace longreach {
 namespace {

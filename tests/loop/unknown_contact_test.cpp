@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "master/rendering/rendering_config.hpp"
-#include "tests/experiments/experiment.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "master/config/rendering_config.hpp"
 
 namespace longreach {
 namespace {

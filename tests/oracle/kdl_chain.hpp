@@ -4,7 +4,7 @@
 #include <kdl/chain.hpp>
 #include <kdl/frames.hpp>
 
-#include "slave/robot/robot_config.hpp"
+#include "slave/config/robot_config.hpp"
 
 namespace longreach::oracle {
 

@@ -5,9 +5,9 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
 #include "tests/oracle/kdl_chain.hpp"
-#include "tests/property/campaign.hpp"
-#include "tests/property/random_arm.hpp"
 
 namespace longreach {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "tests/process/broken_adapter.hpp"
 #include "tests/process/robot_box.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "tests/process/robot_box.hpp"
-#include "tests/process/station.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

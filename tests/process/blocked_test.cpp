@@ -13,8 +13,8 @@
 #include <fstream>
 
 #include "tests/process/load.hpp"
-#include "tests/process/station.hpp"
 #include "tests/process/terminal.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

@@ -1,5 +1,5 @@
 // What clients ask for that would switch a guard off, of real programs.
-#include "tests/process/station.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

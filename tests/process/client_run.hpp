@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "common/io/rpc_server.hpp"
-#include "tests/process/test_site.hpp"
-#include "tests/unit/io/control_fake_backend.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "tests/support/test_site.hpp"
+#include "tests/unit/common/rpc/control_fake_backend.hpp"
 
 namespace longreach {
 

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/process/robot_box.hpp"
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <iostream>
 
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/process/load.hpp"
 #include "tests/process/program_figures.hpp"
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/io/rpc_server.hpp"
-#include "common/io/site.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/control_fake_backend.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "common/site/site.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/rpc/control_fake_backend.hpp"
 
 namespace longreach {
 namespace {

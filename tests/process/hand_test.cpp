@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tests/process/station.hpp"
 #include "tests/process/terminal.hpp"
-#include "tests/unit/drivers/fake_daemon.hpp"
+#include "tests/support/station.hpp"
+#include "tests/unit/master/input/fake_daemon.hpp"
 
 namespace longreach {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/process/running_program.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

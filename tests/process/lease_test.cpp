@@ -2,7 +2,7 @@
 // a second master: refusals_test.cpp.
 #include <csignal>
 
-#include "tests/process/station.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

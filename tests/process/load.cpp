@@ -15,11 +15,11 @@
 #include <numeric>
 
 #include "common/core/random.hpp"
-#include "common/io/real_time_loop.hpp"
-#include "common/io/rpc_channel.hpp"
 #include "common/link/header.hpp"
+#include "common/loop/real_time_loop.hpp"
+#include "common/rpc/rpc_channel.hpp"
 #include "proto/control.grpc.pb.h"
-#include "tests/process/test_site.hpp"
+#include "tests/support/test_site.hpp"
 
 namespace longreach {
 namespace {

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "common/io/loop_figures.hpp"
-#include "common/io/rpc_security.hpp"
-#include "tests/process/station.hpp"
+#include "common/loop/loop_figures.hpp"
+#include "common/site/rpc_security.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <sstream>
 
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/process/load.hpp"
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "common/core/random.hpp"
 #include "tests/process/load.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

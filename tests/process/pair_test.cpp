@@ -4,9 +4,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/io/site.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "common/site/site.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

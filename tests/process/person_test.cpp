@@ -4,9 +4,9 @@
 #include <fstream>
 #include <thread>
 
-#include "tests/process/station.hpp"
 #include "tests/process/terminal.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

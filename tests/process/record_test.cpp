@@ -6,12 +6,12 @@
 #include <fstream>
 #include <thread>
 
-#include "common/io/recording/mcap_reader.hpp"
-#include "common/io/recording/mcap_writer.hpp"
+#include "common/recording/mcap_reader.hpp"
+#include "common/recording/mcap_writer.hpp"
 #include "proto/recording.pb.h"
 #include "tests/process/load.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

@@ -7,13 +7,13 @@
 #include <thread>
 
 #include "common/core/random.hpp"
-#include "common/io/certificate.hpp"
-#include "common/io/rpc_channel.hpp"
-#include "common/io/site.hpp"
+#include "common/rpc/rpc_channel.hpp"
+#include "common/site/certificate.hpp"
+#include "common/site/site.hpp"
 #include "tests/process/datagram_tap.hpp"
 #include "tests/process/load.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/wrong_certificates.hpp"
+#include "tests/support/station.hpp"
+#include "tests/unit/common/rpc/wrong_certificates.hpp"
 
 namespace longreach {
 namespace {

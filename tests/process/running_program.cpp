@@ -18,7 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/process/test_site.hpp"
+#include "tests/support/test_site.hpp"
 
 namespace longreach {
 namespace {

@@ -4,8 +4,8 @@
 #include <csignal>
 #include <thread>
 
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "common/io/rpc_channel.hpp"
+#include "common/rpc/rpc_channel.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/process/load.hpp"
 #include "tests/process/program_figures.hpp"
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

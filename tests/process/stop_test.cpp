@@ -10,10 +10,10 @@
 #include <iostream>
 #include <thread>
 
-#include "common/io/rpc_channel.hpp"
-#include "common/io/rpc_server.hpp"
-#include "tests/process/station.hpp"
-#include "tests/property/campaign.hpp"
+#include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

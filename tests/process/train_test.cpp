@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "tests/process/running_program.hpp"
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/unit/common/config/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

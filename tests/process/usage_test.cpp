@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "tests/process/running_program.hpp"
-#include "tests/process/station.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

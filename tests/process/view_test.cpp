@@ -12,7 +12,7 @@
 
 #include "tests/process/load.hpp"
 #include "tests/process/page_client.hpp"
-#include "tests/process/station.hpp"
+#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {

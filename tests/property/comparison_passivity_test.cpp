@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/delay/delay_line.hpp"
 #include "master/rendering/comparison/comparison_law.hpp"
 #include "slave/comparison/coupling.hpp"
-#include "tests/experiments/delay/delay_line.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

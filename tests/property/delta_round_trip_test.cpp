@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "master/devices/delta/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

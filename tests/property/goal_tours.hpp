@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slave/command/command_config.hpp"
+#include "slave/config/command_config.hpp"
 #include "tests/property/limited_arm.hpp"
 
 namespace longreach::test {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "master/devices/delta/delta_handle.hpp"
-#include "master/devices/delta/simulated_delta.hpp"
-#include "tests/property/campaign.hpp"
+#include "master/simulation/simulated_delta.hpp"
 
 namespace longreach {
 namespace {

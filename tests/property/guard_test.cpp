@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "slave/command/guard_config.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "slave/config/guard_config.hpp"
 #include "tests/property/guard_touch.hpp"
 
 namespace longreach::test {

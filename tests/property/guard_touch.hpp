@@ -11,9 +11,9 @@
 #include <ostream>
 #include <vector>
 
-#include "slave/robot/simulated_arm.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach::test {
 

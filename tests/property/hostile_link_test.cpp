@@ -5,9 +5,9 @@
 
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/property/intruder.hpp"
-#include "tests/unit/wire/samples.hpp"
+#include "tests/unit/common/wire/samples.hpp"
 
 namespace longreach {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/contact/contact_record.hpp"
 #include "slave/estimation/identifier.hpp"
-#include "tests/property/campaign.hpp"
-#include "tests/property/contact_record.hpp"
 
 namespace longreach {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "common/core/random.hpp"
-#include "slave/scene/contact_integrator.hpp"
-#include "tests/property/campaign.hpp"
-#include "tests/property/impact_oracle.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/contact/contact_integrator.hpp"
+#include "deploy/lab/contact/impact_oracle.hpp"
 
 namespace longreach {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/property/random_arm.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
 
 namespace longreach::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The ready arms with the joint limits of their files.
 
-#include "tests/property/random_arm.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
 
 namespace longreach::test {
 

@@ -5,8 +5,8 @@
 
 #include <array>
 
+#include "deploy/lab/campaign_size.hpp"
 #include "master/master_node.hpp"
-#include "tests/property/campaign.hpp"
 #include "tests/property/mapping_walk.hpp"
 
 namespace longreach {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/property/mapping_walk.hpp"
 
 namespace longreach {

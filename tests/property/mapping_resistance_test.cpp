@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "deploy/lab/campaign_size.hpp"
 #include "master/rendering/resistance.hpp"
-#include "tests/property/campaign.hpp"
 #include "tests/property/mapping_walk.hpp"
 
 namespace longreach {

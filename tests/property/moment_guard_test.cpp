@@ -11,10 +11,10 @@
 #include <deque>
 
 #include "common/core/random.hpp"
-#include "slave/robot/simulated_arm.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
-#include "tests/property/campaign.hpp"
-#include "tests/property/random_arm.hpp"
 
 namespace longreach::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slave/motion.hpp"
+#include "slave/command/motion.hpp"
 #include "tests/property/goal_tours.hpp"
 
 namespace longreach::test {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/property/motion_drive.hpp"
 
 namespace longreach {

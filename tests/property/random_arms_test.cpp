@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "slave/robot/joint_step.hpp"
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "slave/kinematics/joint_step.hpp"
 #include "tests/property/inverse_judge.hpp"
 
 namespace longreach {

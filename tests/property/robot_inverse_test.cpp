@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "tests/property/campaign.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "tests/property/inverse_judge.hpp"
 
 namespace longreach {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "slave/motion.hpp"
-#include "slave/robot/joint_step.hpp"
-#include "tests/property/random_arm.hpp"
+#include "deploy/lab/robot/random_arm.hpp"
+#include "slave/command/motion.hpp"
+#include "slave/kinematics/joint_step.hpp"
 
 namespace longreach {
 namespace {

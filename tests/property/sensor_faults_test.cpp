@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "slave/command/guard_config.hpp"
+#include "slave/config/guard_config.hpp"
 #include "tests/property/lying_touch.hpp"
 
 namespace longreach::test {

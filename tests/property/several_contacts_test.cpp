@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "slave/scene/yielding.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

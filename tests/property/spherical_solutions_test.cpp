@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/campaign_size.hpp"
 #include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
-#include "tests/property/campaign.hpp"
 
 namespace longreach {
 namespace {

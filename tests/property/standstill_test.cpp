@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <deque>
 
-#include "slave/robot/simulated_arm.hpp"
+#include "deploy/lab/campaign_size.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
-#include "tests/property/campaign.hpp"
 #include "tests/property/limited_arm.hpp"
 
 namespace longreach::test {

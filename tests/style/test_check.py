@@ -22,7 +22,7 @@ SOUND = {
     'master/rendering/e_config.hpp': HEADER % 'EConfig',
     'master/master_node.hpp': HEADER % 'MasterNode',
     'slave/robot/r.hpp': HEADER % 'R',
-    'slave/slave_config.hpp': HEADER % 'SlaveConfig',
+    'slave/config/slave_config.hpp': HEADER % 'SlaveConfig',
     'proto/config.proto': 'syntax = "proto2";\n',
     'deploy/config/master.txtpb': 'rpc { listen: "127.0.0.1:1" }\n',
     'tests/style/README.md': 'text\n',
@@ -72,24 +72,24 @@ class Planted(unittest.TestCase):
         self.found('master/devices/x.cpp', include('master/rendering/e.hpp'), 'floor 2')
         self.sound('master/rendering/x.cpp', include('master/devices/d.hpp'))
         self.sound('master/devices/x.cpp', include('master/rendering/e_config.hpp'))
-        self.sound('slave/robot/x.cpp', include('slave/slave_config.hpp'))
-        self.found('common/core/x.cpp', include('slave/slave_config.hpp'), 'only that side')
+        self.sound('slave/robot/x.cpp', include('slave/config/slave_config.hpp'))
+        self.found('common/core/x.cpp', include('slave/config/slave_config.hpp'), 'only that side')
 
     def test_a_shell_stands_above_its_node(self):
-        self.assertGreater(floors.floor('master/master_shell.hpp'), floors.floor('master/master_node.hpp'))
+        self.assertGreater(floors.floor('master/program/master_shell.hpp'), floors.floor('master/master_node.hpp'))
 
     def test_the_sides_do_not_see_each_other(self):
         self.found('master/rendering/x.cpp', include('slave/robot/r.hpp'), 'only that side')
         self.found('slave/robot/x.cpp', include('master/devices/d.hpp'), 'only that side')
         self.found('common/config/x.cpp', include('slave/robot/r.hpp'), 'only that side')
-        self.found('common/wire/x.cpp', include('slave/slave_config.hpp'), 'only that side')
-        self.sound('common/config/x.cpp', include('slave/slave_config.hpp'))
+        self.found('common/wire/x.cpp', include('slave/config/slave_config.hpp'), 'only that side')
+        self.sound('common/config/x.cpp', include('slave/config/slave_config.hpp'))
         self.sound('tests/loop/x.cpp', include('slave/robot/r.hpp') + include('master/master_node.hpp'))
 
     def test_a_node_does_not_see_its_service(self):
-        files = {'slave/slave_service.hpp': HEADER % 'S', 'slave/slave_node.cpp': include('slave/slave_service.hpp')}
+        files = {'slave/program/slave_service.hpp': HEADER % 'S', 'slave/slave_node.cpp': include('slave/program/slave_service.hpp')}
         self.assertTrue(any('slave_node.cpp' in error for error in self.findings(files).errors))
-        files = {'slave/slave_service.hpp': HEADER % 'S', 'slave/main.cpp': include('slave/slave_service.hpp')}
+        files = {'slave/program/slave_service.hpp': HEADER % 'S', 'slave/program/main.cpp': include('slave/program/slave_service.hpp')}
         self.assertEqual(self.findings(files).errors, [])
 
     def test_every_folder_has_a_floor(self):
@@ -176,9 +176,9 @@ class Functions(unittest.TestCase):
 class Floors(unittest.TestCase):
     def test_the_table_follows_the_design(self):
         order = ['common/core/x.hpp', 'common/link/x.hpp', 'master/mapping/x.hpp', 'master/master_node.hpp',
-                 'common/wire/x.hpp', 'master/main.cpp']
+                 'common/wire/x.hpp', 'master/program/main.cpp']
         self.assertEqual(sorted(order, key=floors.floor), order)
-        self.assertEqual(floors.floor('slave/slave_service.cpp'), floors.floor('master/console/x.cpp'))
+        self.assertEqual(floors.floor('slave/program/slave_service.cpp'), floors.floor('master/console/x.cpp'))
         self.assertIsNone(floors.floor('elsewhere/x.hpp'))
 
 

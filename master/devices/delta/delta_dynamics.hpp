@@ -12,9 +12,9 @@
 //
 // Exact but for the lumping (Codourey, The International Journal of Robotics Research 17(12), 1998).
 
+#include "master/config/device_config.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 #include "master/devices/delta/delta_statics.hpp"
-#include "master/devices/device_config.hpp"
 
 namespace longreach {
 

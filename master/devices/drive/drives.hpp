@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/device_config.hpp"
+#include "master/config/device_config.hpp"
 
 namespace longreach {
 

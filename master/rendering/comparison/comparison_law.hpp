@@ -3,12 +3,12 @@
 
 #include <variant>
 
+#include "master/config/rendering_config.hpp"
 #include "master/rendering/comparison/direct_law.hpp"
 #include "master/rendering/comparison/passivity_law.hpp"
 #include "master/rendering/comparison/position_position_law.hpp"
 #include "master/rendering/comparison/tank_law.hpp"
 #include "master/rendering/comparison/wave_law.hpp"
-#include "master/rendering/rendering_config.hpp"
 
 namespace longreach {
 

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "common/core/random.hpp"
-#include "master/devices/simulated_devices.hpp"
-#include "master/rendering/rendering_config.hpp"
-#include "tests/unit/allocations.hpp"
+#include "master/config/rendering_config.hpp"
+#include "master/simulation/simulated_devices.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace longreach {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/random.hpp"
-#include "slave/robot/simulated_arm.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "slave/robot/simulated_arm.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 

@@ -1,8 +1,8 @@
-#include "slave/robot_watch.hpp"
+#include "slave/safety/robot_watch.hpp"
 
 #include <gtest/gtest.h>
 
-#include "slave/robot/simulated_arm.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 

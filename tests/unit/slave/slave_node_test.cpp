@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "slave/robot/simulated_arm.hpp"
-#include "tests/unit/allocations.hpp"
+#include "slave/simulation/simulated_arm.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/unit/slave/node_loop.hpp"
 
 namespace longreach {

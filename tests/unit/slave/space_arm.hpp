@@ -1,7 +1,7 @@
 #pragma once
 // The space arm of deploy/robots and a wall, as plain values.
 
-#include "slave/slave_config.hpp"
+#include "slave/config/slave_config.hpp"
 
 namespace longreach::test {
 

@@ -1,0 +1,57 @@
+#pragma once
+// Calls a step at a fixed rate on absolute deadlines of the side's clock, in the calling thread.
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "common/core/loop_config.hpp"
+#include "common/loop/loop_figures.hpp"
+#include "common/loop/side_clock.hpp"
+
+namespace longreach {
+
+/// On the side's clock.
+void sleep_until(Time deadline);
+
+/// Real-time priority and locked memory for the calling thread, as far as the system permits. Returns what it
+/// did not permit, one sentence each, with what to do about it.
+std::vector<std::string> ask_for_real_time(const LoopConfig& config);
+
+/// Where a loop has its time from; a test hands it another one.
+struct LoopClock {
+  Time (*now)() = monotonic_now;
+  void (*sleep_until)(Time) = longreach::sleep_until;
+};
+
+class RealTimeLoop {
+ public:
+  explicit RealTimeLoop(double rate_hz, const LoopClock& clock = {})
+      : period_(from_seconds(1.0 / rate_hz)), clock_(clock) {}
+
+  /// step(Time now, const LoopFigures&) a period until `stop`.
+  template <class Step>
+  void run(const std::atomic<bool>& stop, Step step) {
+    Deadlines deadlines(clock_.now() + period_, period_);
+    while (!stop.load(std::memory_order_relaxed)) {
+      clock_.sleep_until(deadlines.next());
+      const Time now = clock_.now();
+      step(now, figures_);
+      const Time end = clock_.now();
+      const Duration late = now - deadlines.next();
+      figures_.book(late, end - now);
+      const std::uint64_t missed = deadlines.advance(end);
+      figures_.missed_ticks += missed;
+      figures_.overdue_ticks += missed + (late > period_ ? 1 : 0);
+    }
+  }
+
+  [[nodiscard]] const LoopFigures& figures() const { return figures_; }
+
+ private:
+  Duration period_;
+  LoopClock clock_;
+  LoopFigures figures_{};
+};
+
+}  // namespace longreach

@@ -1,0 +1,42 @@
+#include "common/net/adapter_channel.hpp"
+
+#include <algorithm>
+
+#include "common/config/config.hpp"
+#include "common/wire/adapter_port.hpp"
+
+namespace longreach {
+
+std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config) {
+  if (config.address.empty()) return nullptr;
+  return std::make_unique<UnixChannel>(config.address);
+}
+
+void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device) {
+  if (!insecure || config.address.empty()) return;
+  throw ConfigError("--insecure lets everybody on this machine move a simulated " + device +
+                    " only, and --adapter is a real one: leave out --insecure");
+}
+
+AdapterConfig told_in_time(AdapterConfig config, double rate_hz) {
+  config.silence_s = std::max(config.silence_s - 1.0 / rate_hz, 0.5 * config.silence_s);
+  return config;
+}
+
+std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
+                            const std::string& address) {
+  if (figures.stranger)
+    return "what listens at " + address + " belongs to another user (" + std::to_string(*figures.stranger) +
+           "), not to this one or root: nothing is said to it; start the adapter of the " + device +
+           " as the user who runs longreach";
+  if (!figures.present || (!figures.silent && !figures.failed)) return "";
+  const std::string adapter = "the adapter of the " + device + " at " + address;
+  if (figures.failed) return adapter + " says that the " + device + " has failed; mend that, then engage";
+  if (figures.accepted > 0) return adapter + " has gone silent; if it stays so, start it again; then engage";
+  if (figures.malformed > 0)
+    return adapter + " sends what is not of the protocol; `longreach adapter check` says what";
+  const std::string why = no_socket_there(unix_path(address));
+  return adapter + " does not answer" + (why.empty() ? "" : ": " + why) + "; start it, then engage";
+}
+
+}  // namespace longreach

@@ -1,0 +1,183 @@
+#pragma once
+// What both programs do in the same way around their loop: options, configuration, exit status. For main.cpp
+// alone: CLI11 takes seconds to compile.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "common/config/file_search.hpp"
+#include "common/config/link_profile.hpp"
+#include "common/net/address.hpp"
+#include "common/program/core_dumps.hpp"
+#include "common/program/log.hpp"
+#include "common/program/option_checks.hpp"
+#include "common/program/outlet.hpp"
+#include "common/program/program_text.hpp"
+#include "common/recording/recording_error.hpp"
+#include "common/recording/recording_folder.hpp"
+#include "common/site/revocations.hpp"
+#include "common/site/site.hpp"
+
+namespace longreach {
+
+constexpr int kExitFailed = 1;    // could not start, or the run failed its checks
+constexpr int kExitBadUsage = 2;  // options or configuration
+
+struct ProgramOptions {
+  std::string config;
+  std::vector<std::string> settings;  // path=value
+  std::string profile;
+  std::optional<double> seconds{};
+  std::string log;
+  std::string site;
+  std::string record;
+  std::string recordings;
+  double record_max_mb = kRecordMaxMb;
+  bool insecure = false;
+  bool check = false;
+  bool core_dumps = false;
+};
+
+inline void add_program_options(CLI::App& app, ProgramOptions& options, const std::string& version) {
+  app.set_version_flag("--version", version);
+  add_manual_options(app, version);
+  app.add_option("--config", options.config, "Configuration file, protobuf text format")->type_name("FILE");
+  app.add_option("--set", options.settings,
+                 "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--profile", options.profile,
+                 "Link profile whose delay and loss to imitate: a name of deploy/links, or a .txtpb file")
+      ->type_name("NAME");
+  app.add_option("--seconds", options.seconds, "End after this time")
+      ->check(number_above_zero())
+      ->type_name("N");
+  app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
+      ->type_name("FILE");
+  app.add_option("--site", options.site,
+                 "Folder of the certificates, made when there is none ($XDG_CONFIG_HOME/longreach)")
+      ->type_name("DIR");
+  app.add_option("--record", options.record,
+                 "Record from the start into this file, which `longreach-lab replay` can run again")
+      ->type_name("FILE.mcap");
+  app.add_option("--recordings", options.recordings,
+                 "Folder for what `longreach record start` records ($XDG_STATE_HOME/longreach/recordings)")
+      ->type_name("DIR");
+  app.add_option("--record-max-mb", options.record_max_mb, "A recording from the start ends at this size")
+      ->type_name("N")
+      ->check(number_between(1.0, 1e6))
+      ->capture_default_str();
+  app.add_flag("--insecure", options.insecure,
+               "RPC in clear and for everybody on this machine: simulated robots only");
+  app.add_flag("--core-dumps", options.core_dumps,
+               "Permit core dumps and debuggers, which see the secret of the session");
+  app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
+}
+
+/// Throws SiteError.
+inline std::filesystem::path site_of(const ProgramOptions& options) {
+  return options.site.empty() ? default_site() : std::filesystem::path(options.site);
+}
+
+/// Before the first secret is had: forbids core dumps as the options say. Throws SiteError.
+inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
+  if (!options.core_dumps) forbid_core_dumps();
+  if (options.insecure) {
+    put(STDERR_FILENO,
+        "INSECURE: RPC is neither encrypted nor authenticated; whoever is on this machine can take the "
+        "robot\n");
+    return {};
+  }
+  RpcSecurity security{site_credentials(site_of(options), role)};
+  refuse_revoked(site_of(options));
+  return security;
+}
+
+inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError("--set '" + setting + "': write path=value, e.g. loop.rate_hz=2000");
+  }
+  set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+/// Whether a setting is about what a file of its own describes.
+inline bool concerns_named_file(const std::string& setting) {
+  return setting.starts_with("scene.") || setting.starts_with("robot.");
+}
+
+/// The file, over it the profile, over it the settings; what these name is read before the settings that
+/// change what it says. `read` gets the files. Throws ConfigError.
+template <class Message>
+Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
+  Message message;
+  const FileSearch installed = installed_files();
+  const FileSearch search = options.config.empty() ? installed : installed.beside(options.config);
+  if (!options.config.empty()) {
+    load_text_file(options.config, message);
+    read.push_back({"config", std::filesystem::absolute(options.config)});
+  }
+  if (!options.profile.empty())
+    take_profile(*message.mutable_link(), load_link_profile(search, options.profile, &read));
+  for (const std::string& setting : options.settings) {
+    if (!concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
+  }
+  resolve_files(message, search, &read);
+  for (const std::string& setting : options.settings) {
+    if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
+  }
+  if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
+    resolve_files(message, search, nullptr);  // once more for what the settings changed
+  validate(message);
+  return message;
+}
+
+/// "robot_file=/a scene_file=/b", each on a line of its own behind "# " for --check.
+inline std::string files_text(const std::vector<FileRead>& read, const std::string& before,
+                              const std::string& behind) {
+  std::string text;
+  for (const FileRead& file : read) text += before + file.field + "=" + file.path.string() + behind;
+  return text;
+}
+
+/// Parses the options, runs, and turns exceptions into one sentence on standard error and an exit status.
+template <class Run>
+int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
+  const auto complain = [&app](const std::exception& e, int status) {
+    close_log();
+    put(STDERR_FILENO, app.get_name() + ": " + e.what() + "\n");
+    return status;
+  };
+  bound_standard_error();
+  refuse_empty_values(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "%s: %s; --help shows the options\n", app.get_name().c_str(), e.what());
+    return kExitBadUsage;
+  }
+  try {
+    return run();
+  } catch (const ConfigError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const AddressError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const RecordingError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const NoSiteError& e) {
+    return complain(e, kExitBadUsage);
+  } catch (const std::exception& e) {
+    return complain(e, kExitFailed);
+  }
+}
+
+}  // namespace longreach

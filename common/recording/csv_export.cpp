@@ -1,0 +1,354 @@
+#include "common/recording/csv_export.hpp"
+
+#include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/descriptor_database.h>
+#include <google/protobuf/dynamic_message.h>
+#include <google/protobuf/text_format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "common/config/utf8.hpp"
+#include "common/recording/mcap_reader.hpp"
+#include "common/recording/quiet_protobuf.hpp"
+#include "common/recording/recording_error.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr int kDepthMax = 8;  // of nested messages; types may contain themselves
+
+/// Where a cell comes from: fields from the message inwards.
+using Column = std::vector<const FieldDescriptor*>;
+
+void add_columns(const google::protobuf::Descriptor& type, const Column& above, std::vector<Column>& out) {
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor* field = type.field(i);
+    Column column = above;
+    column.push_back(field);
+    const bool nested = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !field->is_repeated();
+    if (!nested) {
+      out.push_back(std::move(column));
+    } else if (column.size() < kDepthMax) {
+      add_columns(*field->message_type(), column, out);
+    }
+  }
+}
+
+std::string name_of(const Column& column) {
+  std::string name;
+  for (const FieldDescriptor* field : column) name += (name.empty() ? "" : ".") + field->name();
+  return name;
+}
+
+template <class Number>
+std::string number_text(Number value) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string value_text(const Message& message, const FieldDescriptor& field) {
+  const auto& r = *message.GetReflection();
+  if (field.type() == FieldDescriptor::TYPE_BYTES) {
+    std::string text;
+    google::protobuf::TextFormat::PrintFieldValueToString(message, &field, -1, &text);
+    return csv_quoted(text.substr(1, text.size() - 2));
+  }
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return number_text(r.GetDouble(message, &field));
+    case FieldDescriptor::CPPTYPE_FLOAT:
+      return number_text(r.GetFloat(message, &field));
+    case FieldDescriptor::CPPTYPE_INT32:
+      return number_text(r.GetInt32(message, &field));
+    case FieldDescriptor::CPPTYPE_INT64:
+      return number_text(r.GetInt64(message, &field));
+    case FieldDescriptor::CPPTYPE_UINT32:
+      return number_text(r.GetUInt32(message, &field));
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return number_text(r.GetUInt64(message, &field));
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return r.GetBool(message, &field) ? "1" : "0";
+    case FieldDescriptor::CPPTYPE_ENUM: {
+      const int value = r.GetEnumValue(message, &field);
+      const auto* known = field.enum_type()->FindValueByNumber(value);
+      return known != nullptr ? known->name() : number_text(value);
+    }
+    default:
+      return csv_quoted(r.GetString(message, &field));
+  }
+}
+
+std::string repeated_text(const Message& message, const FieldDescriptor& field) {
+  const int size = message.GetReflection()->FieldSize(message, &field);
+  std::string out;
+  for (int i = 0; i < size; ++i) {
+    std::string text;
+    google::protobuf::TextFormat::PrintFieldValueToString(message, &field, i, &text);
+    out += (i > 0 ? " " : "") + text;
+  }
+  return csv_quoted(out);
+}
+
+std::string cell(const Message& message, const Column& column) {
+  const Message* inner = &message;
+  for (const FieldDescriptor* field : column) {
+    const auto& r = *inner->GetReflection();
+    if (field->is_repeated()) return repeated_text(*inner, *field);
+    if (field->has_presence() && !r.HasField(*inner, field)) return "";
+    if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) return value_text(*inner, *field);
+    inner = &r.GetMessage(*inner, field);
+  }
+  return "";
+}
+
+/// Keeps the first error of descriptors, which protobuf would log.
+struct FirstError : google::protobuf::DescriptorPool::ErrorCollector {
+  void AddError(const std::string&, const std::string& element, const Message*, ErrorLocation,
+                const std::string& message) override {
+    if (text.empty()) text = element + ": " + message;
+  }
+  std::string text;
+};
+
+/// Of a topic whose messages cannot be read.
+struct SchemaError : RecordingError {
+  using RecordingError::RecordingError;
+};
+
+/// The type of a topic, from the descriptors in the file, and its table.
+class Table {
+ public:
+  Table(const McapSchema& schema, const std::filesystem::path& file) : table_{file} {
+    google::protobuf::FileDescriptorSet files;
+    if (!files.ParseFromString(schema.descriptors))
+      throw SchemaError("the schema " + schema.name + " cannot be read");
+    std::set<std::string> names;
+    for (const auto& one : files.file()) {  // in any order, and perhaps twice
+      if (names.insert(one.name()).second) (void)files_.Add(one);
+    }
+    const auto* type = pool_.FindMessageTypeByName(schema.name);
+    if (type == nullptr)
+      throw SchemaError("the schema " + schema.name + " cannot be used: " +
+                        (error_.text.empty() ? "it does not describe its type" : printable(error_.text)));
+    message_.reset(factory_.GetPrototype(type)->New());
+    add_columns(*type, {}, columns_);
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored))
+      throw RecordingError(file.string() + " exists; give another folder with --out, or remove it");
+    out_.open(file, std::ios::binary);
+    made_ = true;
+    out_ << "t_s,log_time_ns";
+    for (const Column& column : columns_) out_ << ',' << name_of(column);
+    out_ << '\n';
+  }
+
+  /// Counts a message that does not follow the schema.
+  void add(const McapMessage& message, std::uint64_t first_ns) {
+    if (!message_->ParsePartialFromArray(message.bytes.data(), static_cast<int>(message.bytes.size()))) {
+      ++bad_;
+      return;
+    }
+    const auto since_ns = static_cast<std::int64_t>(message.log_time_ns - first_ns);
+    out_ << number_text(1e-9 * static_cast<double>(since_ns)) << ',' << message.log_time_ns;
+    for (const Column& column : columns_) out_ << ',' << cell(*message_, column);
+    out_ << '\n';
+    if (!out_) fail();
+    ++table_.rows;
+  }
+
+  CsvTable finish() {
+    out_.close();
+    if (!out_) fail();
+    return table_;
+  }
+  [[nodiscard]] bool empty() const { return table_.rows == 0; }
+  [[nodiscard]] std::uint64_t bad() const { return bad_; }
+  /// Removes what was written.
+  void undo() {
+    std::error_code ignored;
+    if (made_) std::filesystem::remove(table_.file, ignored);
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw RecordingError("cannot write " + table_.file.string() + ": " +
+                         (errno != 0 ? std::strerror(errno) : "unknown reason"));
+  }
+
+  FirstError error_;
+  google::protobuf::SimpleDescriptorDatabase files_;
+  google::protobuf::DescriptorPoolDatabase known_{*google::protobuf::DescriptorPool::generated_pool()};
+  google::protobuf::MergedDescriptorDatabase all_{&files_,
+                                                  &known_};  // some leave out google.protobuf.Timestamp
+  google::protobuf::DescriptorPool pool_{&all_, &error_};
+  google::protobuf::DynamicMessageFactory factory_{&pool_};
+  std::unique_ptr<Message> message_;
+  std::vector<Column> columns_;
+  std::ofstream out_;
+  bool made_ = false;
+  std::uint64_t bad_ = 0;
+  CsvTable table_;
+};
+
+std::string file_name(const std::string& topic) {
+  std::string name = topic.substr(topic.starts_with('/') ? 1 : 0);
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
+  constexpr std::size_t kLengthMax = 200;
+  return name.empty() ? "topic" : name.substr(0, kLengthMax);
+}
+
+/// Made with the first file in it; removed again with what was made above it, where nothing lies there.
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
+  const std::filesystem::path& make() {
+    std::error_code error;
+    for (auto one = path_; !one.empty() && !std::filesystem::exists(one, error); one = one.parent_path())
+      made_.push_back(one);
+    std::filesystem::create_directories(path_, error);
+    if (error) throw RecordingError("cannot make the folder " + path_.string() + ": " + error.message());
+    return path_;
+  }
+  void undo() {
+    std::error_code ignored;
+    for (const auto& one : made_) std::filesystem::remove(one, ignored);
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
+
+/// Why a channel is no table; empty: it is one.
+std::string not_protobuf(const McapChannel& channel, const McapSchema* schema) {
+  if (channel.encoding != "protobuf") return channel.encoding.empty() ? "no encoding" : channel.encoding;
+  if (schema == nullptr) return "no schema";
+  return schema->encoding == "protobuf" ? "" : "its schema is of " + schema->encoding;
+}
+
+/// The tables of one recording.
+class Tables {
+ public:
+  Tables(const McapReader& reader, std::filesystem::path folder)
+      : reader_(reader), folder_(std::move(folder)) {}
+
+  void add(const McapMessage& message, std::uint64_t zero_ns) {
+    const McapChannel& channel = *message.channel;
+    const auto schema = reader_.schemas().find(channel.schema);
+    const bool has_schema = schema != reader_.schemas().end();
+    const std::string other = not_protobuf(channel, has_schema ? &schema->second : nullptr);
+    if (!other.empty()) {
+      skipped_.insert(channel.topic + " (" + other + ")");
+      return;
+    }
+    if (damaged_.contains(channel.id)) return;
+    auto& table = tables_[channel.id];
+    try {
+      if (!table) table = std::make_unique<Table>(schema->second, free_name(channel.topic));
+    } catch (const SchemaError& e) {
+      damaged_[channel.id] = channel.topic + ", as " + e.what();
+      return;
+    }
+    table->add(message, zero_ns);
+  }
+
+  CsvExport finish() {
+    CsvExport out;
+    out.skipped.assign(skipped_.begin(), skipped_.end());
+    for (const auto& [channel, why] : damaged_) out.damaged.push_back(why);
+    for (const auto& [channel, table] : tables_) {
+      if (!table) continue;
+      if (table->bad() > 0)
+        out.damaged.push_back(std::to_string(table->bad()) + (table->bad() == 1 ? " message" : " messages") +
+                              " of " + reader_.channels().at(channel).topic + " against the schema");
+      const CsvTable written = table->finish();
+      if (table->empty()) table->undo();
+      if (!table->empty()) out.tables.push_back(written);
+    }
+    if (out.tables.empty()) folder_.undo();
+    return out;
+  }
+  void undo() {
+    for (const auto& [channel, table] : tables_) {
+      if (table) table->undo();
+    }
+    folder_.undo();
+  }
+
+ private:
+  /// Two topics of one recording may have one name.
+  std::filesystem::path free_name(const std::string& topic) {
+    const std::string name = file_name(topic);
+    std::string free = name;
+    for (int i = 2; !names_.insert(free).second; ++i) free = name + "_" + std::to_string(i);
+    return folder_.make() / (free + ".csv");
+  }
+
+  const McapReader& reader_;
+  Folder folder_;
+  std::map<std::uint16_t, std::string> damaged_;  // why
+  std::map<std::uint16_t, std::unique_ptr<Table>> tables_;
+  std::set<std::string> names_, skipped_;
+};
+
+std::string comma_separated(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
+
+}  // namespace
+
+CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder,
+                     std::uint64_t zero_ns) {
+  McapReader reader(recording);
+  auto message = reader.next();
+  if (!message)
+    throw RecordingError(recording.string() + (reader.whole() ? " holds no messages" : " is cut") +
+                         ": there is nothing to export");
+  const QuietProtobuf quiet;
+  const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
+  Tables tables(reader, folder);
+  try {
+    std::uint64_t last_ns = first_ns;
+    for (; message; message = reader.next()) {
+      tables.add(*message, first_ns);
+      last_ns = std::max(last_ns, message->log_time_ns);
+    }
+    CsvExport out = tables.finish();
+    out.whole = reader.whole();
+    out.last_s = 1e-9 * static_cast<double>(last_ns - first_ns);
+    if (!out.tables.empty()) return out;
+    if (!out.damaged.empty())
+      throw RecordingError(recording.string() +
+                           " is damaged, nothing of it can be exported: " + comma_separated(out.damaged));
+    throw RecordingError(recording.string() + " has no messages of protobuf, which alone are exported, but " +
+                         comma_separated(out.skipped));
+  } catch (const RecordingError&) {
+    tables.undo();
+    throw;
+  }
+}
+
+}  // namespace longreach

@@ -1,0 +1,129 @@
+#pragma once
+// The recordings of a side, one at a time: keeps tape and recorder, and hands the tape to the loop. Called by
+// one thread at a time, which is not the loop's; status() by any but the loop's.
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "common/link/header.hpp"
+#include "common/loop/side_clock.hpp"
+#include "common/recording/build_name.hpp"
+#include "common/recording/recorder.hpp"
+#include "common/recording/recording_error.hpp"
+#include "common/recording/recording_folder.hpp"
+
+namespace longreach {
+
+/// The present instant of the loop's clock.
+inline Time recording_now() { return monotonic_now(); }
+
+/// Where a side records, and what its seed was.
+struct RecordingPlace {
+  std::string folder{};  // empty: the usual one
+  std::uint64_t seed = 0;
+};
+
+template <class TapeType>
+class SideRecording {
+ public:
+  struct Request {
+    std::filesystem::path file;
+    double max_mb = kRecordMaxMb;
+    double rate_hz = 1000.0;
+    std::uint64_t seed = 0;
+    std::uint32_t config_number = 0;
+    std::string config_text;
+  };
+
+  SideRecording(std::string side, std::function<void(const RecordingStatus&)> ended)
+      : side_(std::move(side)), ended_(std::move(ended)) {}
+
+  /// attach(tape) hands it to the loop, false: the loop did not answer. Throws RecordingError.
+  template <class Attach>
+  void start(const Request& request, const Attach& attach) {
+    if (status().running)
+      throw RecordingError(status().file + " is being recorded; `longreach record stop` ends it");
+    if (tape_ && !attach(nullptr)) throw RecordingError(kNoAnswer);
+    drop();
+    auto tape = make_tape(request);
+    tape->add_config(recording_now(), request.config_number, request.config_text);
+    auto recorder = std::make_unique<Recorder>(
+        RecorderOptions{request.file, static_cast<std::uint64_t>(1e6 * request.max_mb), facts(request),
+                        ended_},
+        *tape);
+    keep(std::move(tape), std::move(recorder));
+    if (!attach(tape_.get())) {
+      recorder_->stop();
+      throw RecordingError(kNoAnswer);
+    }
+  }
+
+  /// Throws RecordingError when nothing is being recorded.
+  template <class Attach>
+  RecordingStatus stop(const Attach& attach) {
+    const RecordingStatus before = status();
+    if (!before.running)
+      throw RecordingError("nothing is being recorded" +
+                           (before.ended.empty() ? "" : "; " + before.file + ": " + before.ended));
+    (void)attach(nullptr);
+    recorder_->stop();
+    return status();
+  }
+
+  void add_config(std::uint32_t number, const std::string& text) {
+    if (tape_) tape_->add_config(recording_now(), number, text);
+  }
+  void add_event(const std::string& text) {
+    if (tape_) tape_->add_event(recording_now(), text);
+  }
+
+  /// Of the present recording or the last one; none: no file.
+  [[nodiscard]] RecordingStatus status() const {
+    const std::lock_guard lock(mutex_);
+    return recorder_ ? recorder_->status() : RecordingStatus{};
+  }
+
+ private:
+  static constexpr const char* kNoAnswer = "the control loop did not answer within 1 s; try again";
+
+  static std::unique_ptr<TapeType> make_tape(const Request& request) {
+    try {
+      return std::make_unique<TapeType>(request.rate_hz, monotonic_to_unix());
+    } catch (const std::bad_alloc&) {
+      throw RecordingError("there is no memory for a recording");
+    }
+  }
+
+  [[nodiscard]] TextMap facts(const Request& request) const {
+    return {{"side", side_},
+            {"version", std::string(build_version())},
+            {"wire", std::to_string(kWireVersion)},
+            {"commit", std::string(build_commit())},
+            {"seed", std::to_string(request.seed)},
+            {"began", recording_name_now()}};
+  }
+
+  /// The ones before end outside of the lock: that may take as long as the disk does.
+  void keep(std::unique_ptr<TapeType> tape, std::unique_ptr<Recorder> recorder) {
+    {
+      const std::lock_guard lock(mutex_);
+      recorder_.swap(recorder);
+      tape_.swap(tape);
+    }
+    recorder.reset();  // before its tape
+  }
+  void drop() { keep(nullptr, nullptr); }
+
+  std::string side_;
+  std::function<void(const RecordingStatus&)> ended_;
+  mutable std::mutex mutex_;  // of the pointers; never the loop
+  std::unique_ptr<TapeType> tape_;
+  std::unique_ptr<Recorder> recorder_;  // ends before its tape
+};
+
+}  // namespace longreach

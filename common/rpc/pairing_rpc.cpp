@@ -1,0 +1,97 @@
+#include "common/rpc/pairing_rpc.hpp"
+
+#include <grpcpp/grpcpp.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "common/loop/real_time_loop.hpp"
+#include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_refusals.hpp"
+#include "proto/pairing.grpc.pb.h"
+
+namespace longreach {
+namespace {
+
+constexpr int kPairingMaxBytes = 1 << 14;
+constexpr int kPairingThreadsMax = 8;
+constexpr auto kPairingGrace = std::chrono::seconds(2);
+
+class Service final : public proto::Pairing::Service {
+ public:
+  Service(PairingOffer& offer, PairingServer::Tried tried) : offer_(offer), tried_(std::move(tried)) {}
+
+  grpc::Status Join(grpc::ServerContext* context, const proto::PairingMessage* request,
+                    proto::PairingMessage* answer) override {
+    const std::lock_guard lock(mutex_);
+    auto result = offer_.answer(*request, monotonic_now());
+    const auto* refusal = std::get_if<std::string>(&result);
+    tried_(readable_peer(context->peer()), refusal != nullptr ? *refusal : "");
+    if (refusal != nullptr) return {grpc::StatusCode::PERMISSION_DENIED, *refusal};
+    *answer = std::get<proto::PairingMessage>(std::move(result));
+    return grpc::Status::OK;
+  }
+  PairingOffer::State state() {
+    const std::lock_guard lock(mutex_);
+    return offer_.state(monotonic_now());
+  }
+
+ private:
+  PairingOffer& offer_;
+  const PairingServer::Tried tried_;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+struct PairingServer::State {
+  Service service;
+  std::unique_ptr<grpc::Server> server;
+};
+
+PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tried tried)
+    : state_(new State{{offer, std::move(tried)}, {}}) {
+  take_rpc_log();
+  grpc::ServerBuilder builder;
+  builder.SetMaxReceiveMessageSize(kPairingMaxBytes);
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
+  builder.SetResourceQuota(grpc::ResourceQuota("longreach-pairing").SetMaxThreads(kPairingThreadsMax));
+  int port = 0;
+  builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&state_->service);
+  state_->server = builder.BuildAndStart();
+  if (!state_->server || port == 0)
+    throw std::runtime_error("cannot listen for the host to pair on " + listen +
+                             ": end the program that uses this port, or choose another with --pair-listen");
+  address_ = listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
+}
+
+PairingServer::~PairingServer() {
+  state_->server->Shutdown(std::chrono::system_clock::now() + kPairingGrace);
+  state_->server->Wait();
+}
+
+PairingOffer::State PairingServer::state() const { return state_->service.state(); }
+
+proto::PairingMessage ask_to_join(const std::string& address, const PairingRequest& request,
+                                  double timeout_s) {
+  const auto stub = proto::Pairing::NewStub(connect_in_clear(address));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() +
+                       std::chrono::milliseconds(std::llround(1e3 * timeout_s)));
+  proto::PairingMessage answer;
+  const grpc::Status status = stub->Join(&context, request.message(), &answer);
+  if (status.ok()) return answer;
+  if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED)
+    throw PairingError("the slave at " + address + " refuses: " + status.error_message());
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ||
+      status.error_message().find("onnection refused") != std::string::npos ||
+      status.error_message().find("o route") != std::string::npos)
+    throw PairingError("nobody pairs at " + address +
+                       ": start longreach-slave --pair there; it is open for 10 minutes or one use");
+  throw PairingError("what answers at " + address +
+                     " is no longreach slave that pairs: longreach-slave --pair prints address and port");
+}
+
+}  // namespace longreach

@@ -1,0 +1,38 @@
+#pragma once
+// What both sides' loops publish besides their view: the link, the loop and what was dropped. Plain values.
+
+#include "common/loop/loop_figures.hpp"
+#include "common/net/udp_channel.hpp"
+#include "common/recording/tape.hpp"
+#include "common/wire/port.hpp"
+
+namespace longreach {
+
+struct SideFigures {
+  LinkFigures link{};
+  RejectionCounts rejected{};
+  std::uint64_t accepted = 0;
+  ImpairmentCounts impaired{};
+  LoopFigures loop{};
+  std::uint64_t session = 0;        // 0: none yet
+  std::uint32_t peer_restarts = 0;  // sessions after the first
+  std::uint64_t strangers = 0;      // datagrams from other addresses than the peer's
+  std::uint64_t unsent = 0;         // datagrams that the system refused to send
+};
+
+/// What a recording keeps of them.
+LinkSample link_sample(Time now, const SideFigures& figures);
+
+/// Keeps the figures of a side. One tick costs a few copies; the figures of the link, which sort a window,
+/// are taken anew twenty times a second.
+class SideObserver {
+ public:
+  const SideFigures& observe(Time now, Port& port, const UdpChannel& channel, const LoopFigures& loop);
+  [[nodiscard]] const SideFigures& figures() const { return figures_; }
+
+ private:
+  SideFigures figures_{};
+  Time link_due_{};
+};
+
+}  // namespace longreach

@@ -1,0 +1,114 @@
+#include "common/site/pairing.hpp"
+
+#include <cctype>
+
+namespace longreach {
+namespace {
+
+constexpr std::string_view kRequest = "longreach pairing request";
+constexpr std::string_view kAnswer = "longreach pairing answer";
+
+CertificateTerms terms_of(RpcRole role) {
+  return {.name = std::string(name_of(role)),
+          .use = role == RpcRole::kMaster ? CertificateUse::kBoth : CertificateUse::kClient};
+}
+
+/// What may stand in a log line: the name comes from elsewhere.
+std::string plain(const std::string& name) {
+  std::string out;
+  for (const char c : name.substr(0, 64))
+    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' ? c : '?';
+  return out.empty() ? "?" : out;
+}
+
+std::string tries_in_words(int tries) {
+  if (tries == 0) return "no try is left: the token is void";
+  return tries == 1 ? "1 try is left" : std::to_string(tries) + " tries are left";
+}
+
+constexpr std::string_view kAnother = "; ask for another one with longreach-slave --pair";
+
+}  // namespace
+
+PairingOffer::PairingOffer(const PairingToken& token, Certificate authority, Time now, Record record)
+    : token_(token), authority_(std::move(authority)), until_(now + kLife), record_(std::move(record)) {}
+
+PairingOffer::State PairingOffer::state(Time now) const {
+  if (used_) return State::kUsed;
+  if (tries_left_ == 0) return State::kSpent;
+  return now >= until_ ? State::kExpired : State::kOpen;
+}
+
+std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const proto::PairingMessage& message,
+                                                                      Time now) {
+  switch (state(now)) {
+    case State::kOpen:
+      break;
+    case State::kUsed:
+      return "the token has been used already" + std::string(kAnother);
+    case State::kExpired:
+      return "the token has expired: it was good for 10 minutes" + std::string(kAnother);
+    case State::kSpent:
+      return "no try is left: the token is void" + std::string(kAnother);
+  }
+  --tries_left_;
+  if (!token_.verifies(message.tag(), kRequest, message.body()))
+    return "the token is wrong; " + tries_in_words(tries_left_);
+  proto::PairingRequest request;
+  proto::PairingAnswer answer;
+  try {
+    if (!request.ParseFromString(message.body()))
+      return "the request cannot be read; use programs of one version";
+    answer.set_master(certify(authority_, request.master_request(), terms_of(RpcRole::kMaster)));
+    answer.set_client(certify(authority_, request.client_request(), terms_of(RpcRole::kClient)));
+  } catch (const std::runtime_error&) {
+    return "the request asks for no certificates of ours; use programs of one version";
+  }
+  try {
+    if (record_) record_(plain(request.host()), answer.master(), answer.client());
+  } catch (const std::runtime_error& error) {
+    return std::string("who is paired could not be written down, so nobody is: ") + error.what();
+  }
+  used_ = true;
+  answer.set_authority(authority_.certificate_pem);
+  paired_ = "host=" + plain(request.host()) + " master=" + fingerprint(answer.master()) +
+            " client=" + fingerprint(answer.client());
+  proto::PairingMessage out;
+  out.set_body(answer.SerializeAsString());
+  out.set_tag(token_.tag(kAnswer, message.tag() + out.body()));
+  return out;
+}
+
+PairingRequest::PairingRequest(const PairingToken& token, const std::string& host)
+    : token_(token), master_(make_request()), client_(make_request()) {
+  proto::PairingRequest request;
+  request.set_host(host);
+  request.set_master_request(master_.request_pem);
+  request.set_client_request(client_.request_pem);
+  message_.set_body(request.SerializeAsString());
+  message_.set_tag(token_.tag(kRequest, message_.body()));
+}
+
+SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
+  if (!token_.verifies(message.tag(), kAnswer, message_.tag() + message.body()))
+    throw PairingError(
+        "the answer is not from the slave that printed the token: somebody stands between, or it is another "
+        "slave's; nothing was kept");
+  proto::PairingAnswer answer;
+  const bool good = answer.ParseFromString(message.body()) &&
+                    certificate_trouble(answer.authority(), answer.master(), master_.key_pem,
+                                        terms_of(RpcRole::kMaster).name)
+                        .empty() &&
+                    certificate_trouble(answer.authority(), answer.client(), client_.key_pem,
+                                        terms_of(RpcRole::kClient).name)
+                        .empty();
+  if (!good) throw PairingError("the slave's answer cannot be used; use programs of one version");
+  const std::string master = file_stem(RpcRole::kMaster), client = file_stem(RpcRole::kClient);
+  return {{"authority.crt", answer.authority()},
+          {master + ".crt", answer.master()},
+          {master + ".key", master_.key_pem},
+          {client + ".crt", answer.client()},
+          {client + ".key", client_.key_pem}};
+}
+
+}  // namespace longreach

@@ -1,0 +1,291 @@
+#include "deploy/cli/adapter/adapter_checks.hpp"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <limits>
+
+#include "deploy/cli/adapter/adapter_conversation.hpp"
+#include "deploy/cli/adapter/adapter_subject.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kLeast_hz = 500.0, kMost_hz = 4400.0;
+constexpr double kLongGap_s = 0.005;  // that one of a hundred gaps may reach
+constexpr double kWatchdog_s = 0.02;
+constexpr double kMargin_s = 0.01;  // for the way and the clock
+
+template <class Subject>
+class AdapterCheck {
+ public:
+  using In = typename Subject::In;
+  using Out = typename Subject::Out;
+  using Talk = Conversation<Out, In>;
+  using Seen = std::vector<typename Talk::Seen>;
+
+  AdapterCheck(const std::string& address, Subject subject)
+      : address_(address),
+        subject_(subject),
+        talk_(std::in_place, address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {}
+
+  Section run() {
+    // So that what is late is the adapter. Without the right to it the check is as good as the machine.
+    const sched_param priority{.sched_priority = 30};
+    sched_setscheduler(0, SCHED_FIFO, &priority);
+    section_.title = std::string(Subject::kWhat) + " adapter at " + address_;
+    if (meet()) {
+      private_to_the_user();
+      watch();
+      obeys();
+      ignores();
+      rests();
+      goes_on();
+      restarts();
+      talk_->talk(0.05, [this](double) { return subject_.nothing(); });
+      talk_.reset();
+      knows_its_peer();
+    }
+    return std::move(section_);
+  }
+
+ private:
+  void add(bool ok, const char* what, std::string text, std::string advice) {
+    section_.findings.push_back({ok ? FindingVerdict::kOk : FindingVerdict::kFailure,
+                                 what,
+                                 std::move(text),
+                                 ok ? "" : std::move(advice),
+                                 {}});
+  }
+
+  [[nodiscard]] std::string wrong() const {
+    std::string text;
+    for (const auto& [why, times] : talk_->wrong())
+      text += (text.empty() ? "" : "; ") + std::to_string(times) + " times " + why;
+    return text;
+  }
+
+  bool meet() {
+    Seen seen;
+    for (int i = 0; i < 20 && seen.empty(); ++i)
+      seen = talk_->talk(0.1, [this](double) { return subject_.nothing(); });
+    if (!seen.empty()) {
+      subject_.know(seen.back().in);
+      add(true, "answers", std::string("with ") + Subject::kSends, "");
+      return true;
+    }
+    const std::string trouble = talk_->socket().trouble();
+    if (!trouble.empty()) {
+      add(false, "answers", "the adapter cannot be reached: " + trouble,
+          "start the adapter, and give the path at which it listens");
+    } else if (talk_->wrong().empty()) {
+      add(false, "answers", "nothing has come back in 2 s",
+          "start it; it has to answer the program that has connected");
+    } else {
+      add(false, "answers", "what comes is no " + std::string(Subject::kSends) + ": " + wrong(),
+          "compare with common/link/adapter_datagram.hpp");
+    }
+    return false;
+  }
+
+  void private_to_the_user() {
+    const bool open = talk_->socket().open_to_others();
+    add(!open, "access", open ? "other users may connect to its path" : "other users cannot connect",
+        "listen with umask 077 or make the path's mode 0600, and close connections of other users");
+  }
+
+  /// One program at a time: when this one has gone. What is said commands nothing.
+  void knows_its_peer() {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() != 0) return;
+    Talk stranger(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
+    const bool answers = !stranger.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
+    add(!answers, "peer",
+        answers ? "it answers a program of another user (number 65534)"
+                : "does not answer a program of another user",
+        "ask getsockopt(SO_PEERCRED) after accept(), and close the connection unless it is of the adapter's "
+        "own "
+        "user or of root");
+  }
+
+  /// Two seconds of what every tick has.
+  void watch() {
+    const Seen seen = talk_->talk(2.0, [this](double) { return subject_.nothing(); });
+    add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is one" : wrong(),
+        "compare with common/link/adapter_datagram.hpp; a number that is not known is 0, and kOk is cleared");
+    judge_rate(seen);
+    judge_sequence(seen);
+    const bool works = std::ranges::all_of(seen, [](const auto& s) { return (s.in.flags & In::kOk) != 0; });
+    add(works, "works", works ? "it says so (kOk)" : "it says that it has failed: kOk is not always set",
+        "set kOk while the hardware works");
+  }
+
+  void judge_rate(const Seen& seen) {
+    std::vector<double> gaps_s;
+    for (std::size_t i = 1; i < seen.size(); ++i)
+      gaps_s.push_back(1e-9 * static_cast<double>(seen[i].at_ns - seen[i - 1].at_ns));
+    std::ranges::sort(gaps_s);
+    const double hz = static_cast<double>(seen.size()) / 2.0;
+    const double p99_s = gaps_s.empty() ? 2.0 : gaps_s[gaps_s.size() * 99 / 100];
+    const double longest_s = gaps_s.empty() ? 2.0 : gaps_s.back();
+    const std::string text =
+        in_text("%.0f a second", hz) + in_text(", 99 %% of gaps up to %.1f ms", 1e3 * p99_s);
+    add(hz >= kLeast_hz && hz <= kMost_hz && p99_s <= kLongGap_s, "rate", text,
+        "send 500 to 4000 times a second, evenly: with real-time priority, by absolute deadlines");
+    add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
+    if (longest_s < kWatchdog_s) return;
+    section_.findings.back().verdict = FindingVerdict::kWarning;
+    section_.findings.back().advice = "20 ms without a datagram are a fault: longreach holds then";
+  }
+
+  void judge_sequence(const Seen& seen) {
+    std::string trouble;
+    for (std::size_t i = 1; i < seen.size() && trouble.empty(); ++i) {
+      const adapter::Header &before = seen[i - 1].in.header, &h = seen[i].in.header;
+      if (h.session != before.session) trouble = "the session changes while it runs";
+      if (h.sequence != before.sequence + 1)
+        trouble = "number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
+    }
+    add(trouble.empty(), "sequence", trouble.empty() ? "counts by one in one session" : trouble,
+        "draw the session once at the start and count every datagram that is sent");
+    const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
+    const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
+    add(follows, "echo",
+        follows ? "follows what is sent"
+                : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " datagrams",
+        "echo the number of the newest datagram that was accepted");
+  }
+
+  void obeys() {
+    const Seen seen = ask(Subject::kSettle_s);
+    const bool does = !seen.empty() && subject_.does(seen.back().in);
+    add(does, Subject::kAsk,
+        does ? "follows: " + subject_.asked() : "asked " + subject_.asked() + ", but " + said(seen),
+        subject_.advice());
+  }
+
+  /// What nobody may take, each kind beside what is meant.
+  void ignores() {
+    using Spoil = std::function<void(Out&)>;
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const auto number = [](Out& out) -> double& {
+      if constexpr (requires { out.force_n; })
+        return out.force_n[0];
+      else
+        return out.joint_rad[0];
+    };
+    const std::pair<const char*, Spoil> kinds[] = {
+        {"another magic", [](Out& o) { o.header.magic[3] = 'X'; }},
+        {"another version", [](Out& o) { o.header.version = 9; }},
+        {"another kind", [](Out& o) { o.header.kind = 77; }},
+        {"another size in the header", [](Out& o) { o.header.size = 1; }},
+        {"session 0", [](Out& o) { o.header.session = 0; }},
+        {"a number that is not finite", [&number](Out& o) { number(o) = kNone; }},
+        {"an old number", [](Out& o) { o.header.sequence = 1; }},
+        {"another program's session", [](Out& o) { o.header.session ^= 0x5555U; }},
+    };
+    std::string taken;
+    const auto spoiled = [&](const char* what, const typename Talk::Beside& beside) {
+      if (!taken.empty()) return;
+      const Seen seen = ask(0.06, beside);
+      const bool fine = !seen.empty() && std::ranges::all_of(seen, [this](const auto& s) {
+        return s.excused || subject_.does(s.in);
+      });
+      if (!fine) taken = std::string("it does not ignore ") + what + ": " + said(seen);
+    };
+    for (const auto& [what, spoil] : kinds)
+      spoiled(what, [&, &spoil = spoil](const AdapterSocket& socket, const Out& meant) {
+        Out out = subject_.poison(meant);
+        out.header.sequence += 1'000'000;
+        spoil(out);
+        socket.send(std::as_bytes(std::span(&out, 1)));
+      });
+    spoiled("bytes of any length", [this](const AdapterSocket& socket, const Out& meant) {
+      std::array<std::byte, 1400> bytes{};
+      for (auto& b : bytes) b = static_cast<std::byte>(talk_->random().next());
+      const Out poison = subject_.poison(meant);
+      if (talk_->random().chance(0.5)) std::memcpy(bytes.data(), &poison, sizeof poison);
+      std::size_t size = 1 + talk_->random().next() % (bytes.size() - 1);  // none would end the talk
+      if (size == sizeof poison) ++size;
+      socket.send(std::span(bytes).first(size));
+    });
+    add(taken.empty(), "garbage", taken.empty() ? "ignores what is not meant for it" : taken,
+        "check size, magic, version, kind, session, number and that every number is finite (rules 1 and 3)");
+  }
+
+  void rests() {
+    ask(0.1);
+    const std::int64_t last_ns = talk_->last_sent_ns();
+    const Seen seen = talk_->talk(0.6, {});
+    const auto after_s = [last_ns](const auto& s) { return 1e-9 * static_cast<double>(s.at_ns - last_ns); };
+    double last_active_s = 0.0;
+    bool rested = false;
+    for (const auto& s : seen) {
+      if (subject_.rests(s.in))
+        rested = true;
+      else
+        last_active_s = std::max(last_active_s, after_s(s));
+    }
+    const bool in_time = last_active_s <= kWatchdog_s + kMargin_s;
+    const std::string silent_ms = in_text("%.0f ms", 1e3 * last_active_s);
+    std::string text = "after 20 ms of silence it " + std::string(Subject::kRests);
+    const bool heard = std::ranges::any_of(seen, [&](const auto& s) { return after_s(s) > 0.1; });
+    if (!heard)
+      text = "it does not go on sending when longreach is silent";
+    else if (!rested)
+      text = "it goes on for 0.6 s of silence as if longreach were there";
+    else if (!in_time)
+      text = "only after " + silent_ms + " of silence it " + Subject::kRests;
+    add(heard && rested && in_time, "watchdog", text,
+        "20 ms after the last datagram that counts (rule 4), and go on sending");
+  }
+
+  void goes_on() {
+    const Seen seen = ask(Subject::kSettle_s);
+    const bool does = !seen.empty() && subject_.does(seen.back().in);
+    add(does, "goes on",
+        does ? "works again with the next datagram"
+             : "after the silence it does not work again: " + said(seen),
+        "the watchdog ends with the next datagram that counts");
+  }
+
+  void restarts() {
+    talk_->talk(0.1, {});
+    talk_->begin();
+    const Seen seen = ask(Subject::kSettle_s);
+    const bool does = !seen.empty() && subject_.does(seen.back().in);
+    add(does, "restart",
+        does ? "takes a program that starts again"
+             : "a program that starts again is not taken: " + said(seen),
+        "after 20 ms of silence another session counts, from its number 1 on (rule 3)");
+  }
+
+  Seen ask(double seconds, const typename Talk::Beside& beside = {}) {
+    return talk_->talk(
+        seconds, [this](double t_s) { return subject_.ask(t_s); }, beside);
+  }
+  /// What was told instead of what was asked for.
+  [[nodiscard]] std::string said(const Seen& seen) const {
+    if (seen.empty()) return "nothing comes any more";
+    const auto other =
+        std::ranges::find_if(seen, [this](const auto& s) { return !s.excused && !subject_.does(s.in); });
+    return subject_.told(other == seen.end() ? seen.back().in : other->in);
+  }
+
+  std::string address_;
+  Subject subject_;
+  std::optional<Talk> talk_;
+  Section section_;
+};
+
+}  // namespace
+
+Section check_device_adapter(const std::string& address, double force_n) {
+  return AdapterCheck<DeviceSubject>(address, DeviceSubject(force_n)).run();
+}
+
+Section check_robot_adapter(const std::string& address, double move_rad) {
+  return AdapterCheck<RobotSubject>(address, RobotSubject(move_rad)).run();
+}
+
+}  // namespace longreach

@@ -1,0 +1,127 @@
+#pragma once
+// longreach's end of the talk with an adapter, as long as a check wants it and with what no longreach sends.
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/core/random.hpp"
+#include "common/link/adapter_datagram.hpp"
+#include "deploy/cli/adapter/adapter_socket.hpp"
+
+namespace longreach {
+
+/// What is wrong with bytes that should be a datagram; empty: nothing.
+template <class In>
+std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
+  In in;
+  if (size != sizeof in) return std::to_string(size) + " bytes instead of " + std::to_string(sizeof in);
+  std::memcpy(&in, bytes.data(), sizeof in);
+  const adapter::Header& h = in.header;
+  if (std::memcmp(h.magic, adapter::Header{}.magic, sizeof h.magic) != 0) return "the magic is not LRAP";
+  const auto says = [](const char* field, unsigned found, unsigned expected) {
+    return std::string(field) + " " + std::to_string(found) + " instead of " + std::to_string(expected);
+  };
+  if (h.version != adapter::kVersion) return says("version", h.version, adapter::kVersion);
+  if (h.kind != In::kKind) return says("kind", h.kind, In::kKind);
+  if (h.size != sizeof in) return says("size", h.size, sizeof in);
+  if (h.session == 0) return "session 0";
+  if (!adapter::finite(in)) return "a number is not finite, or the quaternion has not the length 1";
+  return "";
+}
+
+template <class Out, class In>
+class Conversation {
+ public:
+  struct Seen {
+    std::int64_t at_ns = 0;
+    In in{};
+    bool excused = false;  // this end was late itself: an adapter's watchdog may have acted
+  };
+  using Say = std::function<Out(double t_s)>;
+  using Beside = std::function<void(const AdapterSocket&, const Out&)>;
+
+  Conversation(const std::string& address, std::uint64_t seed, std::optional<uid_t> user = {})
+      : socket_(address, user), random_(seed) {
+    begin();
+  }
+
+  /// A program that starts again.
+  void begin() {
+    exchange_ = adapter::Exchange(random_.next() | 1U);
+    sent_ = 0;
+  }
+
+  /// Sends every millisecond what `say` says, and `beside` after it; without `say` only listens. What came.
+  std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
+    constexpr std::int64_t kPeriod_ns = 1'000'000;
+    std::vector<Seen> seen;
+    const std::int64_t begin_ns = AdapterSocket::now_ns();
+    const auto end_ns = begin_ns + static_cast<std::int64_t>(1e9 * seconds);
+    for (std::int64_t due_ns = begin_ns; due_ns < end_ns; due_ns += kPeriod_ns) {
+      // What was missed is not made up for.
+      due_ns = std::max(due_ns, AdapterSocket::now_ns() - kPeriod_ns);
+      if (say) {
+        Out out = say(1e-9 * static_cast<double>(due_ns - begin_ns));
+        exchange_.stamp(out);
+        book_send(socket_.send(std::as_bytes(std::span(&out, 1))));
+        ++sent_;
+        if (beside) beside(socket_, out);
+      }
+      while (const auto arrival = socket_.receive(due_ns + kPeriod_ns)) {
+        take(*arrival, say != nullptr, seen);
+        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // a flood
+      }
+    }
+    return seen;
+  }
+
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // of this session
+  [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
+  /// What came that is no datagram: why, and how often.
+  [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }
+  [[nodiscard]] const AdapterSocket& socket() const { return socket_; }
+  Random& random() { return random_; }
+
+ private:
+  static constexpr std::int64_t kMemory_ns = 60'000'000, kLate_ns = 12'000'000;
+
+  void book_send(std::int64_t at_ns) {
+    sends_ns_.push_back(at_ns);
+    while (sends_ns_.front() < at_ns - kMemory_ns) sends_ns_.pop_front();
+  }
+
+  /// A pause of this end shortly before.
+  [[nodiscard]] bool paused(std::int64_t at_ns) const {
+    std::int64_t before_ns = 0;
+    for (const std::int64_t send_ns : sends_ns_) {
+      if (before_ns != 0 && send_ns - before_ns > kLate_ns) return true;
+      before_ns = send_ns;
+    }
+    return sends_ns_.empty() || at_ns - sends_ns_.back() > kLate_ns;
+  }
+
+  void take(const AdapterSocket::Arrival& arrival, bool talking, std::vector<Seen>& seen) {
+    const std::string why = what_is_wrong<In>(arrival.bytes, arrival.size);
+    if (!why.empty()) {
+      ++wrong_[why];
+      return;
+    }
+    Seen one{arrival.at_ns, {}, talking && paused(arrival.at_ns)};
+    std::memcpy(&one.in, arrival.bytes.data(), sizeof one.in);
+    exchange_.accept(one.in.header, arrival.at_ns);
+    seen.push_back(one);
+  }
+
+  AdapterSocket socket_;
+  Random random_;
+  adapter::Exchange exchange_{1};
+  std::uint64_t sent_ = 0;
+  std::deque<std::int64_t> sends_ns_;
+  std::map<std::string, int> wrong_;
+};
+
+}  // namespace longreach

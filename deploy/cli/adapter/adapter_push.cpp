@@ -1,0 +1,128 @@
+#include "deploy/cli/adapter/adapter_push.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "deploy/cli/adapter/adapter_conversation.hpp"
+#include "deploy/cli/adapter/adapter_subject.hpp"
+#include "deploy/cli/adapter/described_robot.hpp"
+#include "deploy/cli/adapter/push_judgement.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kFelt_n = 4.0, kFelt_nm = 0.4;  // a push, beyond what was told at rest
+constexpr double kMoved = 0.02;                  // rad or m: the robot gave way
+constexpr double kStep_s = 0.05;
+
+using adapter::RobotDatagram;
+using adapter::SetpointDatagram;
+
+/// Means of what came.
+struct Told {
+  Vector6 joint_rad = Vector6::Zero();
+  Vector3 force_n = Vector3::Zero(), moment_nm = Vector3::Zero();
+  int count = 0;
+};
+
+class Pushing {
+ public:
+  Pushing(const std::string& address, const std::string& robot_file, double patience_s)
+      : robot_(robot_file),
+        patience_s_(patience_s),
+        talk_(address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {
+    section_.title = "robot adapter at " + address + ", pushed";
+  }
+
+  Section run() {
+    rest_ = listen(1.0);
+    if (rest_.count == 0) {
+      section_.findings.push_back({FindingVerdict::kFailure, "answers", nothing_came(),
+                                   "start it, and see what `longreach adapter check` says without --push"});
+      return std::move(section_);
+    }
+    judge_joints();
+    PushedSensor force{.what = "force", .unit = "N", .rest = rest_.force_n, .rest_max = 2.0};
+    PushedSensor moment{.what = "moment", .unit = "N m", .rest = rest_.moment_nm, .rest_max = 0.5};
+    for (std::size_t i = 0; i < 3; ++i)
+      force.push[i] = ask("PUSH the tool along +", "about 20 N, the weight of 2 kg", i, false);
+    for (std::size_t i = 0; i < 3; ++i)
+      moment.push[i] = ask("TURN the tool about +", "right-handed, about 2 N m", i, true);
+    for (const auto* sensor : {&force, &moment})
+      for (Finding& finding : judge_pushes(*sensor)) section_.findings.push_back(std::move(finding));
+    judge_way();
+    section_.findings.push_back(
+        {FindingVerdict::kOk, "unknown",
+         "a scale that is a little off, and an origin of the moments off the tool's, stay unknown"});
+    return std::move(section_);
+  }
+
+ private:
+  [[nodiscard]] std::string nothing_came() const {
+    const std::string trouble = talk_.socket().trouble();
+    return trouble.empty() ? "nothing has come back in 1 s" : "the adapter cannot be reached: " + trouble;
+  }
+  Told listen(double seconds) {
+    const auto seen = talk_.talk(seconds, [](double) { return SetpointDatagram{}; });
+    Told told;
+    for (const auto& s : seen) {
+      ++told.count;
+      const double share = 1.0 / told.count;
+      told.joint_rad += share * (Eigen::Map<const Vector6>(s.in.joint_rad) - told.joint_rad);
+      told.force_n += share * (Eigen::Map<const Vector3>(s.in.force_n) - told.force_n);
+      told.moment_nm += share * (Eigen::Map<const Vector3>(s.in.moment_nm) - told.moment_nm);
+    }
+    if (told.count > 0 && rest_.count > 0)
+      moved_ = std::max(moved_, (told.joint_rad - rest_.joint_rad).cwiseAbs().maxCoeff());
+    return told;
+  }
+  [[nodiscard]] Vector3 felt(const Told& told, bool turn) const {
+    return turn ? told.moment_nm - rest_.moment_nm : told.force_n - rest_.force_n;
+  }
+
+  Push ask(const char* what, const char* how, std::size_t i, bool turn) {
+    std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and hold it" << std::endl;
+    const double least = turn ? kFelt_nm : kFelt_n;
+    Push push;
+    for (double t_s = 0.0; t_s < patience_s_; t_s += kStep_s) {
+      if (felt(listen(kStep_s), turn).norm() < least) continue;
+      listen(0.3);  // until it is steady
+      const Told told = listen(0.4);
+      push.R_WE = robot_.orientation(told.joint_rad);
+      push.told = felt(told, turn);
+      break;
+    }
+    std::cout << (push.told.isZero(0.0) ? "  nothing was felt" : "  felt") << "; let go" << std::endl;
+    for (double t_s = 0.0; t_s < patience_s_ && felt(listen(kStep_s), turn).norm() > 0.5 * least;
+         t_s += kStep_s)
+      continue;
+    return push;
+  }
+
+  void judge_joints() {
+    const DescribedRobot::Wrong wrong = robot_.look(rest_.joint_rad);
+    if (!wrong.text.empty())
+      section_.findings.push_back({FindingVerdict::kFailure, "joints", wrong.text, wrong.advice, {}});
+  }
+  void judge_way() {
+    if (moved_ <= kMoved) return;
+    section_.findings.push_back({FindingVerdict::kWarning, "way",
+                                 in_text("the joints gave way by up to %.3f rad (or m)", moved_),
+                                 "without kMove a robot rests where it is, whatever pushes"});
+  }
+
+  DescribedRobot robot_;
+  double patience_s_;
+  Conversation<SetpointDatagram, RobotDatagram> talk_;
+  Told rest_{};
+  double moved_ = 0.0;
+  Section section_;
+};
+
+}  // namespace
+
+Section check_pushes(const std::string& address, const std::string& robot_file, double patience_s) {
+  return Pushing(address, robot_file, patience_s).run();
+}
+
+}  // namespace longreach

@@ -1,0 +1,113 @@
+#include "deploy/cli/adapter/push_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace longreach {
+namespace {
+
+constexpr double kAlike = 0.8;  // cosine: a person pushes within 37 degrees of an axis
+constexpr std::array kAxis{"x", "y", "z"};
+
+std::string in_text(const Vector3& v) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.1f %.1f %.1f", v.x(), v.y(), v.z());
+  return text;
+}
+
+/// True if what was told is `expected` of each push.
+template <class Expected>
+bool fits(const PushedSensor& sensor, const Expected& expected) {
+  for (int i = 0; i < 3; ++i) {
+    const Push& push = sensor.push[static_cast<std::size_t>(i)];
+    if (push.told.normalized().dot(expected(push, Vector3::Unit(i))) < kAlike) return false;
+  }
+  return true;
+}
+
+Vector3 in_tool(const Push& push, const Vector3& axis) { return push.R_WE.transpose() * axis; }
+
+/// Axes taken for each other: told = P f_E, with P a permutation with signs. Empty: it is none.
+std::string exchanged(const PushedSensor& sensor) {
+  std::array<int, 3> order{0, 1, 2};
+  do {
+    for (unsigned signs = 0; signs < 8; ++signs) {
+      Matrix3 P = Matrix3::Zero();
+      for (int i = 0; i < 3; ++i)
+        P(i, order[static_cast<std::size_t>(i)]) = (signs >> static_cast<unsigned>(i) & 1U) != 0 ? -1.0 : 1.0;
+      if (!fits(sensor,
+                [&P](const Push& push, const Vector3& axis) { return Vector3(P * in_tool(push, axis)); }))
+        continue;
+      std::string text;
+      for (int i = 0; i < 3; ++i) {
+        const int from = order[static_cast<std::size_t>(i)];
+        text += (i == 0 ? "" : ", ") + std::string(P(i, from) < 0.0 ? "-" : "") +
+                kAxis[static_cast<std::size_t>(from)];
+      }
+      return text;
+    }
+  } while (std::ranges::next_permutation(order).found);
+  return "";
+}
+
+Finding wrong(const PushedSensor& sensor, std::string text, std::string advice) {
+  return {FindingVerdict::kFailure, sensor.what, std::move(text), std::move(advice), {}};
+}
+
+Finding judge_direction(const PushedSensor& sensor) {
+  const auto in_base = [](const Push&, const Vector3& axis) { return axis; };
+  const auto against_base = [](const Push&, const Vector3& axis) { return Vector3(-axis); };
+  const auto against = [](const Push& push, const Vector3& axis) { return Vector3(-in_tool(push, axis)); };
+  const std::string name = sensor.what;
+  if (fits(sensor, in_tool)) {
+    if (!fits(sensor, in_base))
+      return {FindingVerdict::kOk, sensor.what, "has the sign and the axes of the tool"};
+    return {
+        FindingVerdict::kWarning, sensor.what,
+        "has the right sign, but the tool's axes are the base's in this pose",
+        "turn the tool by a quarter and check again: whether it is told along the tool cannot be known here"};
+  }
+  if (fits(sensor, against))
+    return wrong(sensor, "has the wrong sign",
+                 "tell the " + name + " of the environment on the tool, not of the tool");
+  if (fits(sensor, in_base))
+    return wrong(sensor, "is told along the axes of the base",
+                 "turn it into the axes of the tool: f_E = R^T f_W, R the orientation of the tool now");
+  if (fits(sensor, against_base))
+    return wrong(sensor, "is told along the axes of the base, and has the wrong sign",
+                 "turn it into the axes of the tool and change its sign");
+  if (const std::string axes = exchanged(sensor); !axes.empty())
+    return wrong(sensor, "axes are exchanged: told as x, y, z are " + axes + " of the tool",
+                 "tell them in the order x, y, z of the tool, right-handed");
+  std::string told;
+  for (std::size_t i = 0; i < 3; ++i)
+    told += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + " as " + in_text(sensor.push[i].told);
+  return wrong(sensor, "fits no axes: of the base, " + told + " " + sensor.unit,
+               "look at how the sensor is mounted, and that the robot's file is that of this robot and tool");
+}
+
+Finding judge_rest(const PushedSensor& sensor) {
+  const std::string text = "tells " + in_text(sensor.rest) + " " + sensor.unit + " while nobody touches it";
+  if (sensor.rest.norm() <= sensor.rest_max) return {FindingVerdict::kOk, "rest", text};
+  return {FindingVerdict::kFailure, "rest", text,
+          "take the tool's weight off in the adapter, or describe it in sensing.tool with gravity; whether "
+          "it is weight "
+          "or no zero shows when the tool is turned over"};
+}
+
+}  // namespace
+
+std::vector<Finding> judge_pushes(const PushedSensor& sensor) {
+  std::vector<Finding> found{judge_rest(sensor)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!sensor.push[i].told.isZero(0.0)) continue;
+    found.push_back(
+        wrong(sensor, std::string("tells nothing along ") + kAxis[i] + " of the base",
+              "a channel is dead, or its unit is not " + std::string(sensor.unit) + "; or push harder"));
+  }
+  if (found.size() == 1) found.push_back(judge_direction(sensor));
+  return found;
+}
+
+}  // namespace longreach

@@ -1,0 +1,132 @@
+#include "deploy/cli/view/view_feed.hpp"
+
+#include <google/protobuf/text_format.h>
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <optional>
+
+#include "deploy/cli/json_text.hpp"
+#include "proto/control.grpc.pb.h"
+
+namespace longreach {
+namespace {
+
+constexpr auto kFeedRetryAfter = std::chrono::milliseconds(500);
+constexpr auto kSlavePeriod = std::chrono::milliseconds(1000);
+constexpr auto kAnchorPeriod = std::chrono::milliseconds(100);  // while an engagement's anchor is missing
+constexpr double kFrameHz = 60.0;
+
+std::string told(const char* name, const std::string& sentence) {
+  return std::string("{\"") + name + "\":" + (sentence.empty() ? "null" : json_string(sentence)) + "}";
+}
+
+/// A part of the slave's configuration as JSON.
+template <class Part>
+std::string part_json(SideClient& slave, const char* path) {
+  Part part;
+  if (!google::protobuf::TextFormat::ParseFromString(slave.get(path), &part))
+    throw SideError(SideError::Kind::kRefused,
+                    "the slave's " + std::string(path) + " cannot be read: use programs of one version");
+  return json_object(part);
+}
+
+template <class Field>
+std::string vector_json(const Field& numbers) {
+  std::string text = "[";
+  for (const double number : numbers) text += (text.size() > 1 ? "," : "") + std::to_string(number);
+  return text + "]";
+}
+
+}  // namespace
+
+ViewFeed::ViewFeed(const Options& options, Talk talk) : options_(options), talk_(std::move(talk)) {
+  master_ = std::thread([this] { follow(); });
+  slave_ = std::thread([this] { ask_slave(); });
+}
+
+ViewFeed::~ViewFeed() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    if (open_ != nullptr) open_->TryCancel();
+    changed_.notify_all();
+  }
+  master_.join();
+  slave_.join();
+}
+
+bool ViewFeed::rest(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  return !changed_.wait_for(lock, time, [this] { return ended_; });
+}
+
+void ViewFeed::follow() {
+  do {
+    talk_.tell("down", told("down", read_frames()));
+  } while (rest(kFeedRetryAfter));
+}
+
+/// Until the stream ends; returns why.
+std::string ViewFeed::read_frames() {
+  try {
+    const auto stub = proto::Desk::NewStub(connect(Side::kMaster, options_));
+    grpc::ClientContext context;
+    {
+      const std::lock_guard lock(mutex_);
+      if (ended_) return "";
+      open_ = &context;
+    }
+    proto::FollowRequest request;
+    request.set_rate_hz(kFrameHz);
+    const auto stream = stub->Follow(&context, request);
+    bool first = true;
+    for (proto::Frame frame; stream->Read(&frame); first = false) {
+      if (first) talk_.tell("down", told("down", ""));
+      engagement_ = frame.engagement();
+      talk_.frame("{\"frame\":" + json_object(frame) + "}");
+    }
+    const grpc::Status end = stream->Finish();
+    const std::lock_guard lock(mutex_);
+    open_ = nullptr;
+    return failure(Side::kMaster, options_, context, end).what();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+void ViewFeed::ask_slave() {
+  std::optional<SideClient> slave;
+  double uptime_s = -1.0;
+  do {
+    try {
+      if (!slave) slave.emplace(Side::kSlave, options_);
+      uptime_s = look_at_slave(*slave, uptime_s);
+      talk_.tell("slave_down", told("slave_down", ""));
+    } catch (const std::exception& error) {
+      uptime_s = -1.0;
+      talk_.tell("slave_down", told("slave_down", error.what()));
+    }
+  } while (rest(anchored_ == engagement_ ? kSlavePeriod : kAnchorPeriod));
+}
+
+/// Returns how long it has been up.
+double ViewFeed::look_at_slave(SideClient& slave, double uptime_s) {
+  const proto::Status status = slave.status();
+  // It has restarted, perhaps with another robot.
+  if (uptime_s < 0.0 || status.uptime_s() < uptime_s) {
+    anchored_ = 0;
+    talk_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +
+                            ",\"scene\":" + part_json<proto::Scene>(slave, "scene") +
+                            ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
+  }
+  if (status.engagement() == engagement_ && status.engagement() != anchored_ && status.anchor_m_size() == 3) {
+    anchored_ = status.engagement();
+    talk_.tell("anchor", "{\"anchor\":{\"engagement\":" + std::to_string(anchored_) +
+                             ",\"position_m\":" + vector_json(status.anchor_m()) +
+                             ",\"rotation_rad\":" + vector_json(status.anchor_rad()) + "}}");
+  }
+  return status.uptime_s();
+}
+
+}  // namespace longreach

@@ -1,0 +1,284 @@
+#include "deploy/cli/view/view_server.hpp"
+
+#include <algorithm>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <charconv>
+#include <list>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "common/site/rpc_security.hpp"
+#include "deploy/cli/json_text.hpp"
+#include "deploy/cli/view/view_visitor.hpp"
+
+namespace longreach {
+namespace {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+using Tcp = net::ip::tcp;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kHandSilence = std::chrono::seconds(1);  // then others may have the hand
+constexpr auto kHandCheck = std::chrono::milliseconds(200);
+constexpr auto kAcceptRetry = std::chrono::milliseconds(100);
+constexpr int kSendBufferBytes = 65536;  // half a second of frames; more would be old news
+
+std::runtime_error cannot_listen(const std::string& listen, const std::string& why) {
+  return std::runtime_error("the view cannot listen on " + listen + " (" + why +
+                            "): give --listen as address:port of this machine, e.g. 127.0.0.1:0");
+}
+
+Tcp::endpoint to_endpoint(const std::string& listen) {
+  const std::size_t colon = listen.rfind(':');
+  if (colon == std::string::npos) throw cannot_listen(listen, "no port");
+  std::string host = listen.substr(0, colon);
+  if (host == "localhost") host = "127.0.0.1";
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  std::uint16_t port = 0;
+  const char* last = listen.data() + listen.size();
+  const auto [end, wrong] = std::from_chars(listen.data() + colon + 1, last, port);
+  beast::error_code error;
+  const auto address = net::ip::make_address(host, error);
+  if (error || wrong != std::errc{} || end != last) throw cannot_listen(listen, "no address");
+  return {address, port};
+}
+
+}  // namespace
+
+struct ViewServer::State {
+  explicit State(const std::string& listen) : acceptor(context) { open(listen, to_endpoint(listen)); }
+
+  void open(const std::string& listen, const Tcp::endpoint& endpoint) {
+    beast::error_code error;
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(net::socket_base::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
+    if (error) throw cannot_listen(listen, error.message());
+    const int port = acceptor.local_endpoint().port();
+    if (endpoint.address().is_loopback()) door.hosts = loopback_hosts(port);
+    door.token = draw_token();
+    address =
+        "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" + door.token + "/";
+  }
+
+  void accept() {
+    acceptor.async_accept([this](beast::error_code error, Tcp::socket socket) {
+      if (error) return accept_later();
+      if (connections < kConnectionsMax || make_room()) welcome(std::move(socket));
+      accept();
+    });
+  }
+
+  /// Out of descriptors, mostly: trying at once would try for ever.
+  void accept_later() {
+    retry.expires_after(kAcceptRetry);
+    retry.async_wait([this](beast::error_code error) {
+      if (!error) accept();
+    });
+  }
+
+  void welcome(Tcp::socket socket) {
+    beast::error_code ignored;
+    socket.set_option(Tcp::no_delay(true), ignored);
+    socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
+    ++connections;
+    const std::shared_ptr<void> seat(nullptr, [this](void*) { --connections; });
+    const auto visitor = std::make_shared<ViewVisitor>(std::move(socket), door, viewer_talk(), seat);
+    visitors.push_back(visitor);
+    visitor->read();
+  }
+
+  /// False: everybody here has shown the token.
+  bool make_room() {
+    visitors.remove_if([](const auto& visitor) { return visitor.expired(); });
+    const auto stranger =
+        std::ranges::find_if(visitors, [](const auto& visitor) { return !visitor.lock()->let_in(); });
+    if (stranger == visitors.end()) return false;
+    stranger->lock()->drop();
+    visitors.erase(stranger);
+    return true;
+  }
+
+  Viewer::Talk viewer_talk() {
+    return {.opened = [this](const auto& viewer) { on_opened(viewer); },
+            .wish = [this](const auto& viewer, const ViewWish& wish) { on_wish(viewer, wish); },
+            .closed = [this](const auto& viewer) { on_closed(viewer); }};
+  }
+
+  void on_opened(const std::shared_ptr<Viewer>& viewer) {
+    if (viewers.size() >= static_cast<std::size_t>(kViewersMax)) {
+      viewer->tell(std::make_shared<const std::string>(
+          R"({"full":"as many pages as may look are open already: close one of them"})"));
+      return;
+    }
+    viewers.insert(viewer);
+    for (const auto& [topic, text] : topics) viewer->tell(text);
+    tell_holders();
+  }
+
+  void on_closed(const std::shared_ptr<Viewer>& viewer) {
+    viewers.erase(viewer);
+    if (viewer == holder) let_go(true);
+    tell_holders();
+  }
+
+  void on_wish(const std::shared_ptr<Viewer>& viewer, const ViewWish& wish) {
+    using Kind = ViewWish::Kind;
+    // Whoever sees the danger may stop.
+    if (wish.kind == Kind::kStop) return talk.act(wish);
+    if (wish.kind == Kind::kTake) return take(viewer);
+    if (viewer != holder) {
+      // What was under way when the hand was lost is no mistake.
+      if (wish.kind != Kind::kAim && wish.kind != Kind::kGive)
+        viewer->tell(std::make_shared<const std::string>(
+            R"({"said":"take the hand first: only who has it may do that","refused":true})"));
+      return;
+    }
+    if (wish.kind == Kind::kGive) {
+      let_go(false);
+      return tell_holders();
+    }
+    if (wish.kind != Kind::kAim) return talk.act(wish);
+    aimed = Clock::now();
+    talk.aim(wish.aim);
+  }
+
+  void take(const std::shared_ptr<Viewer>& viewer) {
+    if (holder && holder != viewer) {
+      viewer->tell(std::make_shared<const std::string>(
+          R"({"said":"another page has the hand: it has to give it back first","refused":true})"));
+      return;
+    }
+    holder = viewer;
+    aimed = Clock::now();
+    tell_holders();
+  }
+
+  void let_go(bool lost) {
+    if (!holder) return;
+    holder.reset();
+    talk.let_go(lost);
+  }
+
+  /// A page that says nothing has lost the hand at the master long since; here others wait for it.
+  void check_hand() {
+    timer.expires_after(kHandCheck);
+    timer.async_wait([this](beast::error_code error) {
+      if (error) return;
+      if (holder && Clock::now() - aimed > kHandSilence) {
+        holder->tell(std::make_shared<const std::string>(
+            R"({"said":"this page was silent for 1 s, so its hand has let go","refused":true})"));
+        let_go(true);
+        tell_holders();
+      }
+      check_hand();
+    });
+  }
+
+  void tell_holders() {
+    const std::string viewers_text = std::to_string(viewers.size());
+    for (const auto& viewer : std::set<std::shared_ptr<Viewer>>(viewers)) {
+      const char* who = !holder ? "nobody" : holder == viewer ? "you" : "other";
+      viewer->tell(std::make_shared<const std::string>(std::string(R"({"desk":{"holder":")") + who +
+                                                       R"(","viewers":)" + viewers_text + "}}"));
+    }
+  }
+
+  template <class Do>
+  void for_all(Do what) {
+    // A copy: a viewer that is cut off leaves the set.
+    for (const auto& viewer : std::set<std::shared_ptr<Viewer>>(viewers)) what(*viewer);
+  }
+
+  void show_pending() {
+    std::optional<std::string> frame;
+    {
+      const std::lock_guard lock(mutex);
+      frame.swap(pending);
+    }
+    if (!frame) return;
+    const auto text = std::make_shared<const std::string>(*std::move(frame));
+    for_all([&](Viewer& viewer) { viewer.show(text); });
+  }
+
+  int connections = 0;  // until the last of them is gone with the context
+  net::io_context context{1};
+  ViewTalk talk;
+  Tcp::acceptor acceptor;
+  net::steady_timer timer{context}, retry{context};
+  ViewDoor door;
+  std::string address;
+  std::mutex mutex;
+  std::optional<std::string> pending;  // frame, not yet fetched by the thread
+  // The thread's.
+  std::set<std::shared_ptr<Viewer>> viewers;
+  std::list<std::weak_ptr<ViewVisitor>> visitors;  // oldest first; some are gone
+  std::map<std::string, Viewer::Text> topics;
+  std::shared_ptr<Viewer> holder;
+  Clock::time_point aimed{};
+  std::thread thread;
+};
+
+ViewServer::ViewServer(const std::string& listen) : state_(std::make_unique<State>(listen)) {}
+ViewServer::~ViewServer() { stop(); }
+
+void ViewServer::serve(ViewTalk talk) {
+  state_->talk = std::move(talk);
+  state_->accept();
+  state_->check_hand();
+  state_->thread = std::thread([state = state_.get()] { state->context.run(); });
+}
+
+void ViewServer::stop() {
+  state_->context.stop();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+const std::string& ViewServer::address() const { return state_->address; }
+
+void ViewServer::show(std::string frame) {
+  {
+    const std::lock_guard lock(state_->mutex);
+    const bool asked = state_->pending.has_value();
+    state_->pending = std::move(frame);
+    if (asked) return;
+  }
+  boost::asio::post(state_->context, [state = state_.get()] { state->show_pending(); });
+}
+
+void ViewServer::tell(const std::string& topic, std::string text) {
+  const auto shared = std::make_shared<const std::string>(std::move(text));
+  boost::asio::post(state_->context, [state = state_.get(), topic, shared] {
+    Viewer::Text& last = state->topics[topic];
+    if (last && *last == *shared) return;
+    last = shared;
+    state->for_all([&](Viewer& viewer) { viewer.tell(shared); });
+  });
+}
+
+void ViewServer::say(std::string text) {
+  const auto shared = std::make_shared<const std::string>(std::move(text));
+  boost::asio::post(state_->context, [state = state_.get(), shared] {
+    state->for_all([&](Viewer& viewer) { viewer.tell(shared); });
+  });
+}
+
+void ViewServer::revoke(const std::string& why) {
+  boost::asio::post(state_->context, [state = state_.get(), why] {
+    if (!state->holder) return;
+    state->holder->tell(
+        std::make_shared<const std::string>("{\"said\":" + json_string(why) + ",\"refused\":true}"));
+    state->let_go(true);
+    state->tell_holders();
+  });
+}
+
+}  // namespace longreach

@@ -1,0 +1,59 @@
+#pragma once
+// One page that is open: a WebSocket with a short queue. Lives in the server's thread.
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "deploy/cli/view/view_wish.hpp"
+
+namespace longreach {
+
+using ViewHttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+class Viewer : public std::enable_shared_from_this<Viewer> {
+ public:
+  struct Talk {
+    std::function<void(const std::shared_ptr<Viewer>&)> opened;
+    std::function<void(const std::shared_ptr<Viewer>&, const ViewWish&)> wish;
+    std::function<void(const std::shared_ptr<Viewer>&)> closed;  // once, if it was opened
+  };
+  using Text = std::shared_ptr<const std::string>;
+
+  Viewer(boost::beast::tcp_stream stream, Talk talk);
+
+  void accept(const ViewHttpRequest& request);
+  /// A frame: pushes out the oldest one that waits when there are too many.
+  void show(const Text& frame);
+  /// Not to be left out; a viewer that lets too many wait is cut off.
+  void tell(const Text& text);
+  void close();
+
+ private:
+  struct Waiting {
+    Text text;
+    bool frame = false;
+  };
+
+  void read();
+  void on_message(std::size_t bytes);
+  [[nodiscard]] bool too_many();
+  void push(Waiting waiting);
+  void write();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  Talk talk_;
+  boost::beast::flat_buffer buffer_;
+  std::deque<Waiting> queue_;  // the first one is being written
+  bool opened_ = false;
+  bool closed_ = false;
+  int said_ = 0;  // messages since `counted_since_`
+  std::chrono::steady_clock::time_point counted_since_{};
+};
+
+}  // namespace longreach

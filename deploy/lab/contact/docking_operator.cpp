@@ -1,0 +1,285 @@
+#include "deploy/lab/contact/docking_operator.hpp"
+
+#include <algorithm>
+
+namespace longreach {
+namespace {
+
+constexpr double kHand_n_per_m = 400.0;  // a firm grip
+constexpr double kPullMax_m = 0.04;      // the hand's target ahead of the handle: 16 N
+constexpr double kRoom_m = 0.055;        // of the handle about home, before it is relocated
+constexpr double kRelocation_s = 1.2;
+constexpr double kFast_m_per_s = 0.022, kFine_m_per_s = 0.015, kInsert_m_per_s = 0.01,
+                 kPress_m_per_s = 0.0015;
+constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
+constexpr double kCareful_m = 0.03;   // in front of the catch
+constexpr double kFelt_n = 0.8, kGone_n = 0.25;
+constexpr double kBeside_m = 0.155;  // the funnel's rim, seen from its middle
+constexpr double kTilt_rad = 0.15;   // more than the channel lets in
+
+}  // namespace
+
+std::string_view to_string(DockingMistake mistake) {
+  constexpr std::string_view kNames[] = {"none", "tilted", "misses_guide", "pushes_on"};
+  return kNames[static_cast<int>(mistake)];
+}
+
+DockingOperator::DockingOperator(const MappingConfig& mapping, double rate_stiffness_n_per_m,
+                                 const DockingGuide& guide, DockingMistake mistake, Random random)
+    : mapping_(mapping), rate_stiffness_(rate_stiffness_n_per_m), guide_(guide), mistake_(mistake) {
+  const auto error = [&random](double sd) {
+    return Vector3(sd * random.normal(), sd * random.normal(), sd * random.normal());
+  };
+  misjudged_m_ = error(0.002);
+  misjudged_rad_ = error(0.006);
+  reaction_s_ = std::max(0.15, 0.25 + 0.04 * random.normal());
+}
+
+void DockingOperator::enter(DockingPhase phase, const DockingOperatorInput& in) {
+  phase_ = phase;
+  entered_s_ = in.t_s;
+  there_s_.reset();
+  look_s_.reset();
+  rounds_ = 0;
+}
+
+void DockingOperator::choose(const DockingOperatorInput& in, MotionMode mode) {
+  if (mode == mode_) return;
+  mode_ = mode;
+  out_.requests.mode = mode;
+  hand_m_ = centre_m_ = in.master->p_MH;
+}
+
+bool DockingOperator::looked(const DockingOperatorInput& in) {
+  if (!look_s_) look_s_ = in.t_s;
+  return in.t_s - *look_s_ > in.rtt_s + reaction_s_ + 0.8;
+}
+
+// Rate mode: a deflection towards the target, none when the ghost is there.
+bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
+  choose(in, MotionMode::kRate);
+  const Vector3 error = target_m - in.ghost_m;
+  const double distance = error.norm();
+  hand_m_ = centre_m_;
+  if (distance < 0.006) return true;
+  const double v = std::clamp(distance / 1.5, 0.004, speed);
+  const double spring = (in.master->far.gripper.holds ? 1.5 : 1.0) * rate_stiffness_;
+  hand_m_ +=
+      (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kHand_n_per_m) / distance * error;
+  return false;
+}
+
+// Position mode: the hand goes on until the ghost is there, and relocates at the end of its room.
+bool DockingOperator::carry(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
+  choose(in, MotionMode::kPosition);
+  const Vector3 error = target_m - in.ghost_m;
+  if (relocating_s_ || (hand_m_.norm() > kRoom_m && error.norm() > 0.004)) {
+    if (!relocating_s_) relocate_to_ = -0.9 * kRoom_m * error.normalized();
+    relocate(in, *relocate_to_);
+    return false;
+  }
+  hand_m_ += in.dt_s / in.master->scale * clamp_norm(error / 0.8, speed);
+  hand_m_ = in.master->p_MH + clamp_norm(hand_m_ - in.master->p_MH, kPullMax_m);
+  if (error.norm() > 0.001) {
+    there_s_.reset();
+    return false;
+  }
+  if (!there_s_) there_s_ = in.t_s;
+  return in.t_s - *there_s_ > 0.3;
+}
+
+bool DockingOperator::relocate(const DockingOperatorInput& in, const Vector3& to_m) {
+  if (!relocating_s_) relocating_s_ = in.t_s;
+  const double t = in.t_s - *relocating_s_;
+  out_.requests.clutch = true;
+  if (t > 0.1) hand_m_ += clamp_norm(to_m - hand_m_, 0.15 * in.dt_s);
+  const bool there = (to_m - in.master->p_MH).norm() < 0.004;
+  if (t < kRelocation_s || (!there && t < 2.0 * kRelocation_s)) return false;  // a contact may push
+  hand_m_ = in.master->p_MH;
+  relocating_s_.reset();
+  return true;
+}
+
+void DockingOperator::turn(const DockingOperatorInput& in, const Vector3& target_rad) {
+  if (relocating_s_) return;
+  const Vector3 error = target_rad - in.ghost_rad;
+  hand_rad_ += in.dt_s / in.master->scale * clamp_norm(error / 1.0, 0.03);
+  hand_rad_ = clamp_norm(hand_rad_, 0.6);
+}
+
+Vector3 DockingOperator::striker_from_tool(const DockingOperatorInput& in) const {
+  return in.picture.striker_m - in.picture.tool.p;
+}
+
+// A hold is looked at, then he engages again where the robot is.
+bool DockingOperator::held(const DockingOperatorInput& in) {
+  if (phase_ == DockingPhase::kWait) return false;
+  if (in.master->state == SafetyState::kEngaged) {
+    if (held_s_) hand_m_ = centre_m_ = in.master->p_MH;
+    held_s_.reset();
+    return false;
+  }
+  relocating_s_.reset();
+  hand_m_ = in.master->p_MH;
+  if (!held_s_) held_s_ = in.t_s;
+  if (in.t_s - *held_s_ > in.rtt_s + reaction_s_ + 1.0) {
+    out_.requests.engage = true;
+    held_s_ = in.t_s;
+  }
+  return true;
+}
+
+DockingOperatorOutput DockingOperator::step(const DockingOperatorInput& in) {
+  out_ = {};
+  if (!held(in)) act(in);
+  if (closed_ != asked_) out_.requests.grip = asked_ = closed_;
+  out_.target.position_m = hand_m_;
+  out_.target.rotation_rad = hand_rad_;
+  out_.target.grip = Grip::kFirm;
+  return out_;
+}
+
+void DockingOperator::act(const DockingOperatorInput& in) {
+  switch (phase_) {
+    case DockingPhase::kWait:
+      if (in.master->state == SafetyState::kEngaged && in.t_s > 2.0 * in.rtt_s + 1.0)
+        enter(DockingPhase::kApproach, in);
+      return;
+    case DockingPhase::kApproach:
+      return approach(in);
+    case DockingPhase::kReach:
+      return reach(in);
+    case DockingPhase::kGrasp:
+      return grasp(in);
+    case DockingPhase::kDrag:
+      return drag(in);
+    case DockingPhase::kAlign:
+      return align(in);
+    case DockingPhase::kInsert:
+      return insert(in);
+    case DockingPhase::kPress:
+      return press(in);
+    case DockingPhase::kRelease:
+      return release(in);
+    case DockingPhase::kRetreat:
+      return retreat(in);
+    case DockingPhase::kDone:
+      return;
+  }
+}
+
+void DockingOperator::approach(const DockingOperatorInput& in) {
+  const Vector3 target = in.picture.fixture_m + misjudged_m_ - kStandoff_m * Vector3::UnitX();
+  if (drive(in, target, kFast_m_per_s) && looked(in)) enter(DockingPhase::kReach, in);
+}
+
+void DockingOperator::reach(const DockingOperatorInput& in) {
+  if (carry(in, in.picture.fixture_m + misjudged_m_, kFine_m_per_s) && looked(in))
+    enter(DockingPhase::kGrasp, in);
+}
+
+void DockingOperator::grasp(const DockingOperatorInput& in) {
+  if (!closed_) {
+    const bool near = (in.picture.fixture_m + misjudged_m_ - in.picture.tool.p).norm() < 0.008;
+    if (!near) return enter(DockingPhase::kReach, in);
+    closed_ = true;
+    ++grasps_;
+  }
+  if (!looked(in)) return;
+  if (in.picture.load) return enter(DockingPhase::kDrag, in);
+  closed_ = false;
+  enter(DockingPhase::kReach, in);
+}
+
+void DockingOperator::drag(const DockingOperatorInput& in) {
+  if (rounds_ == 0) {
+    if (!relocate(in, Vector3::Zero())) return;
+    aim_m_ = guide_.mouth_m + misjudged_m_ - striker_from_tool(in);
+    ++rounds_;
+  }
+  if (drive(in, aim_m_, kFast_m_per_s) && looked(in)) enter(DockingPhase::kAlign, in);
+}
+
+// Turns the target straight and puts its tip before the funnel, twice: the second time with what the first
+// one has shown.
+void DockingOperator::align(const DockingOperatorInput& in) {
+  if (rounds_ % 2 == 0) {
+    const Vector3 tilt_rad = (mistake_ == DockingMistake::kTilted ? kTilt_rad : 0.0) * Vector3::UnitZ();
+    const Quaternion straight = exp_rotation(tilt_rad - in.picture.turned_rad - misjudged_rad_);
+    const Quaternion change = straight * in.picture.tool.q;
+    aim_rad_ = log_rotation(change);
+    aim_m_ = guide_.mouth_m + misjudged_m_ - straight * striker_from_tool(in);
+    if (mistake_ == DockingMistake::kMissesGuide) aim_m_.z() += kBeside_m;
+    ++rounds_;
+  }
+  turn(in, aim_rad_);
+  const bool there = carry(in, aim_m_, kFine_m_per_s) && (aim_rad_ - in.ghost_rad).norm() < 0.003;
+  if (!there || !looked(in)) return;
+  look_s_.reset();
+  if (++rounds_ >= 4) enter(DockingPhase::kInsert, in);
+}
+
+void DockingOperator::insert(const DockingOperatorInput& in) {
+  if (rounds_ == 0) {
+    const double way = guide_.end_m - guide_.mouth_m.x() - kCareful_m;
+    aim_m_.x() += way;
+    ++rounds_;
+  }
+  turn(in, aim_rad_);
+  // What is felt here is a wrong contact: he gives up.
+  if (mistake_ == DockingMistake::kMissesGuide || mistake_ == DockingMistake::kTilted) {
+    if (in.master->spring_force_n.x() < -kFelt_n && !felt_s_) felt_s_ = in.t_s;
+    if (felt_s_ && in.t_s - *felt_s_ > 1.0) return enter(DockingPhase::kRetreat, in);
+  }
+  if (carry(in, aim_m_, kInsert_m_per_s) && looked(in)) enter(DockingPhase::kPress, in);
+}
+
+// Pushes until the force that has risen is gone.
+void DockingOperator::press(const DockingOperatorInput& in) {
+  if (rounds_ == 0) {
+    if (!relocate(in, {-0.03, 0.0, 0.0})) return;
+    aim_m_.x() += kCareful_m + 0.05;
+    ++rounds_;
+    felt_peak_n_ = 0.0;
+  }
+  turn(in, aim_rad_);
+  const double felt = -in.master->spring_force_n.x();
+  felt_peak_n_ = std::max(felt_peak_n_, felt);
+  if (felt_peak_n_ > kFelt_n && felt < kGone_n) {
+    if (!vanished_s_) vanished_s_ = in.t_s;
+  } else {
+    vanished_s_.reset();
+  }
+  if (!felt_success_ && vanished_s_ && in.t_s - *vanished_s_ > reaction_s_) {
+    felt_success_ = true;
+    felt_peak_n_ = 0.0;
+    if (mistake_ != DockingMistake::kPushesOn) return enter(DockingPhase::kRelease, in);
+  }
+  // Whoever pushes on meets the seat.
+  const bool pushed_on = felt_success_ && felt > kFelt_n;
+  if (pushed_on && !felt_s_) felt_s_ = in.t_s;
+  if ((felt_s_ && in.t_s - *felt_s_ > 1.0) || in.t_s - entered_s_ > 150.0)
+    return enter(DockingPhase::kRelease, in);
+  carry(in, aim_m_, kPress_m_per_s);
+}
+
+void DockingOperator::release(const DockingOperatorInput& in) {
+  if (rounds_ == 0) {
+    hand_m_ = in.master->p_MH;  // stops pushing
+    if (!looked(in)) return;
+    closed_ = false;
+    look_s_.reset();
+    ++rounds_;
+  }
+  if (looked(in)) enter(DockingPhase::kRetreat, in);
+}
+
+void DockingOperator::retreat(const DockingOperatorInput& in) {
+  if (rounds_ == 0) {
+    aim_m_ = in.ghost_m - 0.08 * Vector3::UnitX();
+    ++rounds_;
+  }
+  if (carry(in, aim_m_, kFine_m_per_s) && looked(in)) enter(DockingPhase::kDone, in);
+}
+
+}  // namespace longreach

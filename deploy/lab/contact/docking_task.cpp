@@ -1,0 +1,228 @@
+#include "deploy/lab/contact/docking_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "common/config/config.hpp"
+#include "deploy/lab/laboratory.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kEnd_s = 420.0;
+constexpr double kFrame_s = 1.0 / 30.0;
+constexpr double kGuardShare = 1.35;    // of the guard: the greatest force that it promises
+constexpr double kSlow_m_per_s = 0.05;  // a target that drifts no faster can be taken again
+// Of the slave's force: what a hand holds against, it lets run when the catch gives way.
+constexpr double kForceShare = 0.2;
+// What the load's inertia makes, 3 N, stays below what counts as a touch, and the force guard holds.
+constexpr double kLoadAcceleration = 0.1, kLoadSpeed = 0.025;
+
+SlaveConfig slave_config(const proto::LabConfig& lab) {
+  proto::SlaveConfig message = lab.slave();
+  message.set_scene_file("scenes/dock.txtpb");
+  message.clear_scene();
+  message.clear_robot();
+  message.clear_robot_file();
+  message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
+  message.mutable_command()->set_speed_max_m_per_s(kLoadSpeed);
+  message.mutable_command()->set_acceleration_max_rad_per_s2(0.1);
+  message.mutable_sensing()->set_touch_n(4.0);
+  message.mutable_sensing()->set_release_n(2.0);
+  resolve_files(message, find_deploy_folder());
+  return to_struct(message);
+}
+
+MasterConfig master_config(const proto::LabConfig& lab) {
+  MasterConfig config = to_struct(lab.master());
+  config.safety.engage_at_start = true;
+  config.mapping.mode = MotionMode::kPosition;
+  config.mapping.scale = 0.8;
+  config.hand.grip = Grip::kFirm;
+  config.rendering.ke = kForceShare;
+  return config;
+}
+
+// Not quite where and how it was expected, and drifting.
+void disturb(Bodies& bodies, Random random) {
+  const auto some = [&random](double sd) {
+    return Vector3(sd * random.normal(), sd * random.normal(), sd * random.normal());
+  };
+  const Pose& start = bodies.body(0).X_start;
+  bodies.place(
+      0, {start.p + clamp_norm(some(0.015), 0.03), exp_rotation(clamp_norm(some(0.03), 0.06)) * start.q});
+  bodies.push(0, some(2e-4), some(1e-4));
+}
+
+class Task {
+ public:
+  Task(const proto::LabConfig& config, std::uint64_t seed, DockingMistake mistake)
+      : slave_(slave_config(config)),
+        master_(master_config(config)),
+        lab_(master_, slave_, seed),
+        late_s_(config.master().link().impairment().delay_s() + kFrame_s),
+        mistake_(mistake),
+        person_(master_.mapping, master_.rendering.rate_stiffness_n_per_m, kGuide, mistake,
+                Random(seed).child("operator")) {
+    disturb(*lab_.arm().bodies(), Random(seed).child("target"));
+    energy_j_ = lab_.arm().bodies()->energy_j();
+  }
+
+  DockingOutcome run(Trace* trace) {
+    for (std::int64_t tick = 0; lab_.now_s() < kEnd_s && person_.phase() != DockingPhase::kDone; ++tick) {
+      show();
+      const DockingOperatorOutput hand = person_.step({.t_s = lab_.now_s(),
+                                                       .dt_s = lab_.period_s(),
+                                                       .master = &lab_.master(),
+                                                       .picture = pictures_.front().second,
+                                                       .ghost_m = ghost().p,
+                                                       .ghost_rad = log_rotation(ghost().q),
+                                                       .rtt_s = lab_.link().rtt_s.value_or(0.0)});
+      lab_.drive(hand.target);
+      lab_.requests() = hand.requests;
+      lab_.step();
+      watch();
+      if (trace != nullptr && tick % 50 == 0) row(*trace);
+    }
+    return conclude();
+  }
+
+ private:
+  // As dock.xml has it.
+  static constexpr double kMouth_m = 1.48, kBase_m = 1.6, kTouch_m = 0.29;
+  inline static const DockingGuide kGuide{{kMouth_m, -0.35, 0.1}, kBase_m + kTouch_m};
+  inline static const Vector3 kFixture{-0.3, 0.0, 0.0}, kStriker{0.55, 0.0, 0.0}, kMiddle{0.9, 0.1, 0.05};
+
+  [[nodiscard]] const Bodies& bodies() const { return *lab_.arm().bodies(); }
+  /// A point of the spacecraft, as dock.xml names it.
+  [[nodiscard]] Vector3 seen(const Vector3& p) const {
+    const Pose moved = bodies().displaced(0);
+    const Vector3 centre = bodies().body(0).X_start.p;
+    return centre + moved.p + moved.q * (kMiddle + p - centre);
+  }
+
+  /// The goal, from where the tool started.
+  [[nodiscard]] Pose ghost() const {
+    const MasterView& m = lab_.master();
+    if (lab_.slave().engagement == 0) return {m.goal_m, exp_rotation(m.goal_rad)};
+    const Pose &anchor = lab_.slave().X_WE_anchor, &start = lab_.arm().start_pose();
+    return {anchor.p - start.p + m.goal_m, exp_rotation(m.goal_rad) * anchor.q * start.q.conjugate()};
+  }
+
+  void show() {
+    DockingPicture now;
+    const Pose &tool = lab_.slave().X_WE, &start = lab_.arm().start_pose();
+    if (lab_.slave().engagement > 0) now.tool = {tool.p - start.p, tool.q * start.q.conjugate()};
+    now.fixture_m = seen(kFixture);
+    now.striker_m = seen(kStriker);
+    now.turned_rad = log_rotation(bodies().displaced(0).q);
+    pictures_.emplace_back(lab_.now_s(), now);
+    while (pictures_.size() > 1 && pictures_[1].first <= lab_.now_s() - late_s_) pictures_.pop_front();
+    pictures_.front().second.load = lab_.master().far.gripper.holds;  // telemetry, late as it comes
+  }
+
+  void watch() {
+    const MasterView& m = lab_.master();
+    const BodiesContact& met = bodies().contact();
+    const double against = -m.spring_force_n.x();
+    const double force = lab_.arm().true_wrench().force.norm(), speed = bodies().state(0).v_m_per_s.norm();
+    if (met.holds && !out_.grasped) out_.grasped = true, out_.grasped_s = lab_.now_s();
+    if (met.latched && out_.latched_s == 0.0) out_.latched_s = lab_.now_s();
+    out_.tool_force_max_n = std::max(out_.tool_force_max_n, force);
+    out_.target_speed_max_m_per_s = std::max(out_.target_speed_max_m_per_s, speed);
+    const bool pressing = person_.phase() == DockingPhase::kPress && !person_.felt_success();
+    if (pressing) out_.felt_success_n = std::max(out_.felt_success_n, against);
+    const bool wrong = mistake_ == DockingMistake::kPushesOn ? person_.felt_success()
+                                                             : person_.phase() >= DockingPhase::kInsert;
+    if (mistake_ != DockingMistake::kNone && wrong)
+      out_.felt_mistake_n = std::max(out_.felt_mistake_n, against);
+    out_.energy_created_j = std::max(
+        out_.energy_created_j, bodies().energy_j() + bodies().spent_j() - energy_j_ - bodies().tool_work_j());
+    const SafetyState s = lab_.slave().state;
+    stopped_ = stopped_ || s == SafetyState::kStopped || s == SafetyState::kFault;
+  }
+
+  DockingOutcome conclude() {
+    const BodiesContact& met = bodies().contact();
+    out_.ended_s = lab_.now_s();
+    out_.ended = person_.phase() == DockingPhase::kDone;
+    out_.felt_success = person_.felt_success();
+    out_.docked = met.latched && !met.holds && out_.ended;
+    out_.target_speed_end_m_per_s = bodies().state(0).v_m_per_s.norm();
+    out_.port_energy_min_j = lab_.master().port_energy_min_j;
+    out_.limit_violations = lab_.slave().limit_violations;
+    out_.unconverged = bodies().unconverged();
+    out_.safe = !stopped_ && out_.limit_violations == 0 &&
+                out_.tool_force_max_n <= kGuardShare * slave_.command.force_guard_n &&
+                out_.target_speed_max_m_per_s <= 0.1 && out_.target_speed_end_m_per_s <= kSlow_m_per_s &&
+                out_.unconverged == 0;
+    return out_;
+  }
+
+  void row(Trace& trace) const {
+    const MasterView& m = lab_.master();
+    const Vector3 tool = lab_.slave().X_WE.p - lab_.arm().start_pose().p, fixture = seen(kFixture),
+                  striker = seen(kStriker);
+    const Vector3 force = lab_.arm().true_wrench().force;
+    const BodiesContact& met = bodies().contact();
+    trace.row({lab_.now_s(),
+               static_cast<double>(person_.phase()),
+               static_cast<double>(m.mode),
+               tool.x(),
+               tool.y(),
+               tool.z(),
+               fixture.x(),
+               fixture.y(),
+               fixture.z(),
+               striker.x() - kGuide.end_m,
+               log_rotation(bodies().displaced(0).q).norm(),
+               force.x(),
+               force.norm(),
+               -m.spring_force_n.x(),
+               m.spring_force_n.norm(),
+               -m.F_H_M.force.x(),
+               met.holds ? 1.0 : 0.0,
+               met.latched ? 1.0 : 0.0,
+               m.p_MH.x(),
+               lab_.slave().in_contact ? 1.0 : 0.0,
+               bodies().energy_j(),
+               m.stiffness_n_per_m,
+               m.goal_m.x()});
+  }
+
+  SlaveConfig slave_;
+  MasterConfig master_;
+  Laboratory lab_;
+  double late_s_;
+  DockingMistake mistake_;
+  DockingOperator person_;
+  std::deque<std::pair<double, DockingPicture>> pictures_{};
+  double energy_j_ = 0.0;
+  bool stopped_ = false;
+  DockingOutcome out_{};
+};
+
+}  // namespace
+
+Trace docking_trace(const std::filesystem::path& folder, std::string_view name) {
+  return {folder, name, {"t_s",         "phase",
+                         "mode",        "tool_x_m",
+                         "tool_y_m",    "tool_z_m",
+                         "fixture_x_m", "fixture_y_m",
+                         "fixture_z_m", "striker_m",
+                         "turned_rad",  "force_x_n",
+                         "force_n",     "felt_n",
+                         "spring_n",    "hand_n",
+                         "holds",       "latched",
+                         "handle_x_m",  "in_contact",
+                         "energy_j",    "stiffness_n_per_m",
+                         "goal_x_m"}};
+}
+
+DockingOutcome dock(const proto::LabConfig& config, std::uint64_t seed, DockingMistake mistake,
+                    Trace* trace) {
+  return Task(config, seed, mistake).run(trace);
+}
+
+}  // namespace longreach

@@ -1,0 +1,156 @@
+// Loads that nobody described are dragged (200 at full size); loads of 5 kg meet a wall; a gripper closes on
+// nothing.
+
+#include <algorithm>
+#include <cmath>
+
+#include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/contact/drag.hpp"
+#include "deploy/lab/on_all_cores.hpp"
+#include "deploy/lab/trace.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kStop_m = 1e-3;  // beside where an empty gripper rests
+constexpr double kMass = 0.05;    // of the mass, where its inertia is well above the noise
+constexpr double kWell = 20.0;    // times the noise
+constexpr double kFound_s = 0.05;
+
+struct Loads {
+  std::vector<DragCell> cells;
+  std::vector<DragResult> results;
+
+  template <class Predicate>
+  [[nodiscard]] double count(Predicate p) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < cells.size(); ++i) sum += p(cells[i], results[i]) ? 1.0 : 0.0;
+    return sum;
+  }
+  template <class Value>
+  [[nodiscard]] double most(Value value) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < cells.size(); ++i) most = std::max(most, value(cells[i], results[i]));
+    return most;
+  }
+};
+
+bool told(const DragCell&, const DragResult& r) { return r.told_sd_kg > 0.0; }
+double mass_error(const DragCell& c, const DragResult& r) { return std::abs(r.told_kg / c.mass_kg - 1.0); }
+bool well(const DragCell& c, const DragResult& r) { return r.push_n >= kWell * c.noise_n; }
+
+void write(const ExperimentRun& run, const Loads& loads) {
+  Trace trace(run.out, "loads",
+              {"mass_kg", "speed_m_per_s", "acceleration_m_per_s2", "noise_n", "rate_mode", "held", "moved",
+               "phantoms", "holds", "overrun_m", "push_n", "told_kg", "told_sd_kg", "told_s", "found_s",
+               "mass_error_percent"});
+  for (std::size_t i = 0; i < loads.cells.size(); ++i) {
+    const DragCell& c = loads.cells[i];
+    const DragResult& r = loads.results[i];
+    trace.row({c.mass_kg, c.speed_m_per_s, c.acceleration_m_per_s2, c.noise_n,
+               c.mode == MotionMode::kRate ? 1.0 : 0.0, r.held ? 1.0 : 0.0, r.moved ? 1.0 : 0.0,
+               static_cast<double>(r.phantoms), static_cast<double>(r.holds), r.overrun_m, r.push_n,
+               r.told_kg, r.told_sd_kg, r.told_s, r.found_s,
+               c.mass_kg > 0.0 ? 100.0 * (r.told_kg / c.mass_kg - 1.0) : 0.0});
+  }
+  trace.close();
+}
+
+std::vector<Metric> of_loads(const Loads& loads) {
+  return {
+      {"drags", static_cast<double>(loads.cells.size()), ""},
+      {"dragged", loads.count([](const DragCell&, const DragResult& r) { return r.held && r.moved; }), ""},
+      {"phantom_contacts", loads.count([](const DragCell&, const DragResult& r) { return r.phantoms > 0; }),
+       ""},
+      {"holds", loads.count([](const DragCell&, const DragResult& r) { return r.holds > 0; }), ""},
+      {"stopped_as_without_load",
+       loads.count([](const DragCell&, const DragResult& r) { return r.overrun_m <= kStop_m; }), ""},
+      {"overrun_max_m", loads.most([](const DragCell&, const DragResult& r) { return r.overrun_m; }), "m"},
+      {"push_max_n", loads.most([](const DragCell&, const DragResult& r) { return r.push_n; }), "N"},
+      {"mass_told", loads.count(told), ""},
+      {"mass_within_3_sd", loads.count([](const DragCell& c, const DragResult& r) {
+         return told(c, r) && std::abs(r.told_kg - c.mass_kg) <= 3.0 * r.told_sd_kg;
+       }),
+       ""},
+      {"mass_above_noise", loads.count(well), ""},
+      {"mass_within_5_percent", loads.count([](const DragCell& c, const DragResult& r) {
+         return well(c, r) && told(c, r) && mass_error(c, r) <= kMass;
+       }),
+       ""},
+      {"mass_error_max",
+       loads.most([](const DragCell& c, const DragResult& r) { return well(c, r) ? mass_error(c, r) : 0.0; }),
+       ""},
+  };
+}
+
+std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
+  return {
+      {"walls", static_cast<double>(met.cells.size()), ""},
+      {"walls_found", met.count([](const DragCell&, const DragResult& r) {
+         return r.held && r.found_s > 0.0 && r.found_s <= kFound_s && r.phantoms == 0;
+       }),
+       ""},
+      {"wall_found_max_s", met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"},
+      {"closed_on_nothing", static_cast<double>(nothing.cells.size()), ""},
+      {"nothing_told", nothing.count([](const DragCell&, const DragResult& r) {
+         return !r.held && r.phantoms == 0 && r.told_kg == 0.0;
+       }),
+       ""},
+  };
+}
+
+}  // namespace
+
+std::vector<Plot> drag_plots() {
+  return {{.name = "drag",
+           .csv = "loads",
+           .title = "Loads that nobody described, dragged: their mass as it is identified",
+           .x_column = "mass_kg",
+           .x_label = "mass of the load (kg)",
+           .panels = {{"error of the mass (%)",
+                       {{.column = "mass_error_percent", .title = "a load", .points = true}},
+                       "set logscale x\nset yrange [-20:20]"},
+                      {"rest beside that of an empty gripper (mm)",
+                       {{.column = "overrun_m", .title = "a load", .factor = 1e3, .points = true}},
+                       "set logscale x"}}}};
+}
+
+std::vector<Metric> run_drag_study(const ExperimentRun& run) {
+  const auto drags = static_cast<std::size_t>(campaign(200, 24));
+  const std::size_t walls = 12, empty = 6;
+  Loads loads, met, nothing;
+  Random random = Random(run.seed).child("drag");
+  for (std::size_t i = 0; i < drags; ++i) loads.cells.push_back(draw_drag(random));
+  for (std::size_t i = 0; i < walls; ++i) {
+    DragCell cell = draw_drag(random);
+    cell.mass_kg = 5.0;
+    cell.speed_m_per_s = 0.01;
+    cell.acceleration_m_per_s2 = 1.25;
+    cell.noise_n = 0.05;
+    cell.wall = true;
+    met.cells.push_back(cell);
+  }
+  for (std::size_t i = 0; i < empty; ++i) {
+    DragCell cell = draw_drag(random);
+    cell.mass_kg = 0.0;
+    nothing.cells.push_back(cell);
+  }
+  for (Loads* all : {&loads, &met, &nothing}) {
+    all->results.resize(all->cells.size());
+    on_all_cores(
+        all->cells.size(),
+        [&](std::size_t i) {
+          ExperimentRun one;
+          one.config = run.config;
+          one.seed = run.seed + i;
+          all->results[i] = run_drag(one, all->cells[i]);
+        },
+        all == &loads ? run.progress : nullptr);
+  }
+  write(run, loads);
+  std::vector<Metric> metrics = of_loads(loads);
+  for (Metric& m : of_others(met, nothing)) metrics.push_back(std::move(m));
+  return metrics;
+}
+
+}  // namespace longreach

@@ -1,0 +1,43 @@
+#pragma once
+// A mass that hits a Hunt-Crossley contact and leaves it again, by one of the integrators, step after step of
+// dt.
+
+#include <string_view>
+
+#include "deploy/lab/contact/contact_integrator.hpp"
+
+namespace longreach {
+
+struct FreeImpact {
+  ContactMass contact{};
+  double speed_m_per_s = 0.1;  // > 0, at touch
+  double dt = 1e-3;            // > 0, s
+  double phase = 0.0;          // of the first step that passes before the touch, 0 to 1
+  Integrator integrator = Integrator::kDiscreteGradient;
+};
+
+struct FreeImpactOutcome {
+  bool left = false;         // false: it needed too many steps, or a number overflowed
+  double restitution = 0.0;  // speed of leaving / speed of touching
+  double penetration_max_m = 0.0;
+  double contact_time_s = 0.0;
+  double energy_error = 0.0;  // largest |H - H0|/H0 of a step (hunt_crossley.hpp)
+  double energy_rise = 0.0;  // largest rise of kinetic and elastic energy in a step / kinetic energy at touch
+  long evaluations = 0;      // of the contact's force
+};
+
+constexpr long kFreeImpactSteps = 10'000'000;  // at most
+
+FreeImpactOutcome run_free_impact(const FreeImpact& impact);
+
+struct NamedIntegrator {
+  std::string_view name;
+  Integrator integrator;
+};
+
+constexpr NamedIntegrator kIntegrators[] = {{"discrete_gradient", Integrator::kDiscreteGradient},
+                                            {"explicit_euler", Integrator::kExplicitEuler},
+                                            {"semi_implicit_euler", Integrator::kSemiImplicitEuler},
+                                            {"rk4", Integrator::kRk4}};
+
+}  // namespace longreach

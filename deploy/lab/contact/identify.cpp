@@ -1,0 +1,186 @@
+// How well each estimator identifies a Hunt-Crossley contact: materials from sponge to steel, three
+// exponents, three noises, three ways to move, 2 s at 1 kHz, 10 N at the deepest, against the Cramér-Rao
+// bound and a batch fit by Ceres Solver of the same records. The contact's law is fixed, so the configuration
+// of the nodes plays no part.
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "deploy/lab/contact/contact_batch.hpp"
+#include "deploy/lab/estimators/methods.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/trace.hpp"
+
+namespace longreach {
+namespace {
+
+using test::ContactCell;
+using test::Excitation;
+
+constexpr int kRecords = 20;
+constexpr std::size_t kMethods = std::size(kAllMethods) + 1;  // and the batch fit
+constexpr double kExponents[] = {1.0, 1.5, 2.0};
+constexpr double kNoises[] = {0.01, 0.05, 0.25};
+constexpr int kFirstDecade = 2, kLastDecade = 7;
+constexpr double kShownN = 1.5, kShownNoise = 0.05;
+constexpr const char* kExcitationNames[] = {"probe", "touch", "sine"};
+
+/// k, tangent stiffness at the deepest, λ; each as a fraction of the truth.
+using Errors = std::array<double, 3>;
+
+double stiffness_at(double depth, double k, double n) { return k * n * std::pow(depth, n - 1.0); }
+
+Errors errors(const ContactCell& cell, double k, double lambda, double n) {
+  const double x = cell.deepest_m();
+  return {k / cell.k - 1.0, stiffness_at(x, k, n) / stiffness_at(x, cell.k, cell.n) - 1.0,
+          lambda / cell.lambda() - 1.0};
+}
+
+Errors online(Method method, const ContactCell& cell, const test::Samples& record) {
+  Identifier identifier(by(method, {.exponent = 1.5}));
+  for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
+  const ContactAnswer a = identifier.answer();
+  const double n = method == Method::kKelvinVoigt ? 1.0 : a.n.value;
+  return a.valid ? errors(cell, a.k.value, a.lambda.value, n) : Errors{1.0, 1.0, 1.0};
+}
+
+struct CellResult {
+  std::array<Errors, kMethods> rms{};
+  Errors bound{};
+};
+
+CellResult study(const ContactCell& cell, Random random) {
+  CellResult result;
+  const test::Samples exact = test::exact_record(cell);
+  const test::ContactBound bound = test::cramer_rao(cell, exact);
+  result.bound = {bound.k, bound.stiffness, bound.lambda};
+  for (int r = 0; r < kRecords; ++r) {
+    const test::Samples record = test::with_noise(exact, cell.noise_n, random);
+    const test::ContactBatch batch = test::batch_fit(cell, record);
+    for (std::size_t m = 0; m < kMethods; ++m) {
+      const Errors e = m + 1 == kMethods ? errors(cell, batch.k, batch.lambda, batch.n)
+                                         : online(kAllMethods[m], cell, record);
+      for (std::size_t p = 0; p < e.size(); ++p) result.rms[m][p] += e[p] * e[p] / kRecords;
+    }
+  }
+  for (Errors& rms : result.rms)
+    for (double& value : rms) value = std::sqrt(value);
+  return result;
+}
+
+std::string metric_name(std::size_t method) {
+  std::string name = method + 1 == kMethods ? "batch" : std::string(name_of(kAllMethods[method]));
+  for (char& c : name) c = c == '-' ? '_' : c;
+  return name;
+}
+
+/// Over the cells of one way to move, of noise 0.05 N: worst error of the stiffness; of the best estimator:
+/// worst ratio to the batch fit where the bound says that it is identifiable.
+struct Summary {
+  std::array<double, kMethods> stiffness_worst{};
+  Errors ratio_worst{};
+
+  void add(const ContactCell& cell, const CellResult& result) {
+    constexpr double kIdentifiable[] = {0.05, 0.05, 0.2};
+    const std::size_t best = static_cast<std::size_t>(Method::kMaximumLikelihood);
+    for (std::size_t m = 0; m < kMethods && cell.noise_n == kShownNoise; ++m)
+      stiffness_worst[m] = std::max(stiffness_worst[m], result.rms[m][1]);
+    for (std::size_t p = 0; p < ratio_worst.size(); ++p) {
+      if (result.bound[p] > kIdentifiable[p]) continue;
+      ratio_worst[p] = std::max(ratio_worst[p], result.rms[best][p] / result.rms.back()[p]);
+    }
+  }
+};
+
+void write(Trace& trace, const ContactCell& cell, const CellResult& r) {
+  const auto& v = r.rms;
+  trace.row({cell.k,  r.bound[0], r.bound[1], r.bound[2],                                               //
+             v[0][0], v[0][1],    v[0][2],    v[1][0],    v[1][1], v[1][2], v[2][0], v[2][1], v[2][2],  //
+             v[3][0], v[3][1],    v[3][2],    v[4][0],    v[4][1], v[4][2], v[5][0], v[5][1], v[5][2]});
+}
+
+}  // namespace
+
+std::vector<Metric> run_identify(const ExperimentRun& run) {
+  std::vector<Metric> metrics;
+  const Random random = Random(run.seed).child("identify");
+  for (std::size_t e = 0; e < std::size(kExcitationNames); ++e) {
+    Trace trace(run.out, std::string("identify_") + kExcitationNames[e],
+                {"k",
+                 "k_bound",
+                 "stiffness_bound",
+                 "lambda_bound",
+                 "k_fixed",
+                 "stiffness_fixed",
+                 "lambda_fixed",
+                 "k_two_stage",
+                 "stiffness_two_stage",
+                 "lambda_two_stage",
+                 "k_log",
+                 "stiffness_log",
+                 "lambda_log",
+                 "k_voigt",
+                 "stiffness_voigt",
+                 "lambda_voigt",
+                 "k_likelihood",
+                 "stiffness_likelihood",
+                 "lambda_likelihood",
+                 "k_batch",
+                 "stiffness_batch",
+                 "lambda_batch"});
+    Summary summary;
+    for (const double n : kExponents) {
+      for (const double noise : kNoises) {
+        for (int decade = kFirstDecade; decade <= kLastDecade; ++decade) {
+          const ContactCell cell{std::pow(10.0, decade), n, 0.15, noise, static_cast<Excitation>(e)};
+          const CellResult result = study(cell, random.child(std::to_string(e * 1000 + decade)));
+          summary.add(cell, result);
+          if (n == kShownN && noise == kShownNoise) write(trace, cell, result);
+        }
+        if (run.progress) run.progress((static_cast<double>(e) + (n - 0.5) / 2.0) / 3.0);
+      }
+    }
+    trace.close();
+    const std::string way = std::string("_") + kExcitationNames[e];
+    for (std::size_t m = 0; m < kMethods; ++m)
+      metrics.push_back(
+          {"stiffness_error_worst_" + metric_name(m) + way, 100.0 * summary.stiffness_worst[m], "%"});
+    metrics.push_back({"k_over_batch_worst" + way, summary.ratio_worst[0], ""});
+    metrics.push_back({"stiffness_over_batch_worst" + way, summary.ratio_worst[1], ""});
+    metrics.push_back({"lambda_over_batch_worst" + way, summary.ratio_worst[2], ""});
+  }
+  return metrics;
+}
+
+std::vector<Plot> identify_plots() {
+  std::vector<Plot> plots;
+  for (const char* way : kExcitationNames) {
+    std::vector<Panel> panels;
+    for (const auto& [parameter, label] :
+         {std::pair{"k_", "error of k (%)"}, std::pair{"stiffness_", "error of stiffness (%)"},
+          std::pair{"lambda_", "error of λ (%)"}}) {
+      const auto curve = [&parameter](const char* of, const char* title, bool points, int mark, int colour) {
+        return Curve{std::string(parameter) + of, title, 100.0, points, mark, colour};
+      };
+      panels.push_back(
+          {label,
+           {curve("voigt", "Kelvin-Voigt", false, 0, 3), curve("two_stage", "two-stage", false, 0, 4),
+            curve("log", "log-linear", false, 0, 1), curve("fixed", "fixed n, the right one", false, 0, 5),
+            curve("likelihood", "maximum likelihood", false, 0, 0),
+            curve("batch", "batch fit (Ceres)", true, 6, 2), curve("bound", "Cramér-Rao bound", true, 2, 1)},
+           "set logscale xy\nset yrange [1e-2:1e4]\nset format y '%g'\nset ytics 100"});
+    }
+    plots.push_back(
+        {.name = std::string("identify_") + way,
+         .csv = std::string("identify_") + way,
+         .title = std::string("what each estimator learns in 2 s, n = 1.5, noise 0.05 N, motion: ") + way,
+         .x_column = "k",
+         .x_label = "k (N/m^{1.5})",
+         .panels = panels,
+         .panel_px = 240.0});
+  }
+  return plots;
+}
+
+}  // namespace longreach

@@ -1,0 +1,104 @@
+#pragma once
+// The grid of the delay sweep: every law x round trip x wall x hand, and what came out.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deploy/lab/delay/wall_press.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "master/config/device_config.hpp"
+#include "master/config/rendering_config.hpp"
+
+namespace longreach {
+
+struct LawName {
+  RenderingLaw law;
+  std::string_view column;  // of the traces
+  std::string_view title;   // in the plots
+};
+inline constexpr std::array<LawName, 6> kLawNames = {
+    {{RenderingLaw::kDirect, "direct", "direct force"},
+     {RenderingLaw::kPositionPosition, "position_position", "position-position"},
+     {RenderingLaw::kWave, "wave", "wave variables"},
+     {RenderingLaw::kTdpa, "tdpa", "passivity control"},
+     {RenderingLaw::kTank, "tank", "energy tank"},
+     {RenderingLaw::kStiffness, "stiffness", "estimated stiffness"}}};
+
+struct DelayGrid {
+  std::vector<double> rtt_s = {0.0, 0.03, 0.3, 0.85, 2.6, 3.0, 7.0};
+  std::vector<double> wall_n_per_m = {200.0, 500.0, 1000.0, 5000.0};
+  std::vector<Grip> grips = {Grip::kLight, Grip::kFirm, Grip::kReleased};
+
+  [[nodiscard]] bool has_rtt(double s) const;
+};
+
+struct DelayResult {
+  RenderingLaw law = RenderingLaw::kStiffness;
+  double rtt_s = 0.0;
+  double wall_n_per_m = 0.0;
+  Grip grip = Grip::kLight;
+  Pressed found{};
+  double error = 0.0;        // of the displayed stiffness, relative; 0 for a hand that has let go
+  double estimate_sd = 0.0;  // relative; of the law of this system alone
+};
+
+struct LawSummary {
+  int cases = 0;
+  int limit_cycles = 0;
+  int right = 0;  // calm, and displayed within 5 %
+  double error_max = 0.0;
+  double port_energy_min_j = 0.0;
+  double drawdown_max_j = 0.0;
+
+  void add(const DelayResult& r);
+};
+
+class DelayResults {
+ public:
+  void add(const DelayResult& r) { results_.push_back(r); }
+  [[nodiscard]] std::size_t size() const { return results_.size(); }
+
+  /// Throws std::out_of_range for a case that was not run.
+  [[nodiscard]] const Pressed& at(RenderingLaw law, double rtt_s, double wall_n_per_m, Grip grip) const;
+  /// Most that is displayed of any wall, but not more than the wall, without a limit cycle; 0: nothing.
+  [[nodiscard]] double displayable_n_per_m(RenderingLaw law, double rtt_s, Grip grip) const;
+  [[nodiscard]] LawSummary summary(RenderingLaw law) const;
+
+  /// All of it as sweep.csv, and for each wall WALL_n_per_m.csv: the light hand's curves over the delay.
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  std::vector<DelayResult> results_;
+};
+
+/// Coupling of position-position across this delay: 80 % of what its stability condition allows, at most 2
+/// N/mm.
+double tuned_coupling_n_per_m(const DeviceConfig& device, const ComparisonConfig& config, double rtt_s);
+
+DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const DeviceConfig& device);
+
+/// The link of the configuration with half of this round trip each way.
+proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
+
+/// The law of this system in the laboratory: displayed stiffness as touch measures it; a released hand lets
+/// go of the handle in the wall.
+DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
+                         Grip grip);
+
+/// The study of the experiment `delay-seeds`, or a slice of it: one link and one wall, every hand and seed.
+struct DelaySeeds {
+  std::string link;  // of a slice, as "moon" or "3 s"
+  double wall_n_per_m = 0.0;
+  LawSummary held, released;
+  double estimate_sd_max = 0.0;
+};
+std::size_t delay_seeds_slices(const ExperimentRun& run);
+DelaySeeds delay_seeds_slice(const ExperimentRun& run, std::size_t slice);
+
+/// "0.3", for names.
+std::string short_number(double x);
+
+}  // namespace longreach

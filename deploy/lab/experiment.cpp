@@ -1,0 +1,353 @@
+#include "deploy/lab/experiment.hpp"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "common/config/config.hpp"
+#include "common/recording/build_name.hpp"
+#include "deploy/lab/name_hash.hpp"
+
+namespace longreach {
+
+namespace {
+
+const std::vector<Experiment> kExperiments = {
+    {"touch", "Approach, touch, press and probe a wall across the link; is the stiffness in the hand right?",
+     "master slave duration_s trace_hz", run_touch, touch_plots, "",
+     "{displayed_stiffness_n_per_m} N/m in the hand where the wall has {reference_stiffness_n_per_m}, "
+     "{rtt_s} s away; found again within {wall_registration_error_m*1e6} µm"},
+    {"first-touch", "A wall met at 50 mm/s, 3 s away: what the hand feels then and at the second touch.",
+     "master slave -link.impairment -operator -hand -mapping.mode -mapping.scale -rendering.registration "
+     "-scene.material.stiffness_n_per_m -scene.surface",
+     run_first_touch, first_touch_plots, "",
+     "felt {felt_after_round_trip_s} s after the round trip of {round_trip_s} s, largest step "
+     "{force_step_max_n} N, wall registered within {registration_error_m*1e6} µm, without the touch sequence "
+     "{registration_error_without_touch_sequence_m*1e3} mm; the tool's force is at most "
+     "{guard_peak_over_guard_max} of its guard, without the guard {guard_peak_over_guard_max_without_guard}"},
+    {"spike", "In contact the delay steps from 0.8 to 12 s: force, energy, and the way back to work.",
+     "master slave -link.impairment -operator.rate_distance_m -operator.probe_cycles -scene.surface.plane",
+     run_spike, spike_plots, "",
+     "{stiffness_left_after_time_constant} of the stiffness is left after one time constant; force rises by "
+     "at most {force_rise_max_n} N; {engagements} engagements, pressed again: {pressed_again}"},
+    {"person",
+     "What people do: hold out, lean on limits, pass beside, clutch and stop in contact; five links, two "
+     "hands.",
+     "master slave -link.impairment -operator -hand -mapping.mode -scene", run_person_experiment,
+     person_plots, "",
+     "{rows} rows, {trials} trials over five links with light and firm hands: {failed} failed; without the "
+     "tool's place in the reports {controls_failed} of {controls}"},
+    {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against that of the slave.",
+     "master slave -operator -hand -mapping.mode -scene.surface.plane", run_rate_contact, rate_contact_plots,
+     "", "the hand feels {felt_over_tool_force} of the tool's force of {tool_force_n} N"},
+    {"six-dof-contact", "An oblique plane, corners and a stop against turning, that nobody described.",
+     "master slave -operator -hand -mapping.mode -mapping.scale -rendering.friction_n -rendering.friction_nm "
+     "-rendering.rotational_stiffness_nm_per_rad -scene",
+     run_six_dof_contact, six_dof_contact_plots, "",
+     "force off by {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} and "
+     "{corner_y_force_error*100} % in a corner, {diagonal_x_force_error*100} and "
+     "{diagonal_y_force_error*100} % "
+     "in one that is pressed diagonally; its slope by {oblique_displayed_error*100} %, "
+     "{corner_x_displayed_error*100} and {corner_y_displayed_error*100} %, {diagonal_x_displayed_error*100} "
+     "and "
+     "{diagonal_y_displayed_error*100} %, in torsion by {torque_displayed_error*100} %"},
+    {"tensor-rendering", "The same from reported surfaces alone: what the rendering adds to the error.",
+     "device mapping rendering -mapping.mode -mapping.scale -rendering.friction_n "
+     "-rendering.rotational_stiffness_nm_per_rad",
+     run_tensor_rendering, tensor_rendering_plots, "",
+     "off by {oblique_displayed_error*100} % on an oblique plane, {corner_displayed_error_x*100} and "
+     "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},
+    {"hostile-updates", "Half a million hostile stiffness reports in four hands: passive, limited?",
+     "device rendering mapping -device.delay_samples -rendering.law", run_hostile_updates,
+     hostile_updates_plots, "",
+     "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; least port energy "
+     "{port_energy_min_j*1e3} mJ, "
+     "without the rules {naive_port_energy_min_j} J"},
+    {"idle", "A hand that nobody moves: energy, ripple and limit cycles, free, pressed and let go.",
+     "mapping rendering -mapping.mode -mapping.scale -rendering.home_spring", run_idle, idle_plots, "",
+     "{draws} draws of devices, places, grips and walls: {bad} bad; at most {energy_out_max_j*1e3} mJ comes "
+     "out beyond the store, the "
+     "force ripples by at most {ripple_beyond_a_count_max_n*1e3} mN beyond one count; with damping on the "
+     "encoders' velocity {control_bad} of {control_draws} bad"},
+    {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.", "device",
+     run_home_rotation, home_rotation_plots, "Fig. 9, 10",
+     "settling within {settling_difference_max*100} % of the closed form; overshoot {overshoot_at_0.5*100} % "
+     "at a damping ratio of {zeta_at_0.5}, none at 1"},
+    {"home-translation", "The translational handle returns home: on a spring, and gliding.", "device",
+     run_home_translation, home_translation_plots, "Fig. 17",
+     "settling within {settling_difference_max*100} % of the closed form; {left_gliding*1e3} mm left after "
+     "gliding home"},
+    {"wall-rotation", "Turning into a virtual wall.", "device", run_wall_rotation, wall_rotation_plots,
+     "Fig. 11, 12", "at 20 mN m depth {depth_at_20} degrees, expected {depth_expected_at_20}"},
+    {"wall-translation",
+     "The stiffest stable virtual wall against sample time, hand, delay, encoders and friction.", "device",
+     run_wall_translation, wall_translation_plots, "Fig. 18",
+     "stability limit within {limit_difference_max*100} % of the sampled model; 5 N/mm at 1 kHz is stable, "
+     "limit {paper_wall_limit_light*1e-3}, {paper_wall_limit_firm*1e-3}, {paper_wall_limit_released*1e-3} "
+     "N/mm (light, firm, released)"},
+    {"gravity", "Torques that carry the translational device, and where it goes when let go.", "device",
+     run_gravity, gravity_plots, "Fig. 15, 16",
+     "{torque_home_1} mN m at home, {torque_paper_home_1} to {torque_paper_home_3} in the paper; drift "
+     "{drift_real_max*1e6} µm, without compensation {drift_without_compensation*1e3} mm"},
+    {"rate-mapping", "Rate control: deflection and speed of the robot, both laws, dead zone.",
+     "master slave -operator -hand -mapping.mode -mapping.rate_law", run_rate_mapping, rate_mapping_plots,
+     "Fig. 13, 14",
+     "at the edge of the dead zone the speed steps by {speed_step_translation_continuous*1e3} mm/s, with the "
+     "literal law by {speed_step_translation_literal*1e3} mm/s"},
+    {"scale-steps", "The buttons step the scale in motion: do goal and force step, is friction f / k_scale?",
+     "master slave -operator -mapping.mode", run_scale_steps, scale_steps_plots, "",
+     "{scale_steps} steps of the scale: the goal steps by {goal_step_max_m} m, the force by "
+     "{force_step_max_n} N; friction within {friction_error_max*100} % of f / k_scale"},
+    {"path-task",
+     "Simulated operators on a path to targets: rate, position and hybrid, across the delay, with a ghost.",
+     "master slave -link.impairment -operator -mapping.mode -mapping.base_rotation_rad -robot -scene",
+     run_path_task, path_task_plots, "Fig. 19, Table 2",
+     "{operators} simulated operators, 2.6 s away: rate {rate_time_s_at_2.6} s and "
+     "{rate_error_m_at_2.6*1e3} mm off the way, position {position_time_s_at_2.6} s and "
+     "{position_error_m_at_2.6*1e3} mm, hybrid {hybrid_time_s_at_2.6} s and {hybrid_error_m_at_2.6*1e3} mm; "
+     "with the ghost {ghost_hybrid_time_s_at_2.6} s; in the mean hybrid is faster than position at "
+     "{hybrid_gains_on_position_delays} and nearer to the way than rate at {hybrid_gains_on_rate_delays} "
+     "of 4 delays (p < 0.05 at {hybrid_gains_on_position_delays_surely} and "
+     "{hybrid_gains_on_rate_delays_surely})"},
+    {"mapping-trade",
+     "The trade of the mapping: time against error over kv, k_scale, the dead zone and where hybrid changes.",
+     "master slave -link.impairment -operator -mapping.kv_per_s -mapping.scale -mapping.dead_zone_m "
+     "-mapping.mode -mapping.base_rotation_rad -robot -scene",
+     run_mapping_trade, mapping_trade_plots, "",
+     "{rtt_s} s away: rate {rate_kv_per_s_error_m_at_0.5*1e3} mm off the way at kv 0.5/s, "
+     "{rate_kv_per_s_error_m_at_4*1e3} mm at 4/s; position {position_k_scale_time_s_at_0.2} s and "
+     "{position_k_scale_error_m_at_0.2*1e3} mm at k_scale 0.2, {position_k_scale_time_s_at_1} s and "
+     "{position_k_scale_error_m_at_1*1e3} mm at 1; hybrid {hybrid_near_sd_time_s_at_0} s and "
+     "{hybrid_near_sd_error_m_at_0*1e3} mm in rate up to the target, {hybrid_near_sd_time_s_at_4} s and "
+     "{hybrid_near_sd_error_m_at_4*1e3} mm if left 4 sd before"},
+    {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every way to solve it.", "",
+     run_fk_network, fk_network_plots, "",
+     "largest error: tracking {tracking_error_max_rad} rad, network {network_error_max_rad} rad, network and "
+     "one step {network_newton_error_max_rad} rad"},
+    {"identify",
+     "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
+     "to steel",
+     "", run_identify, identify_plots, "",
+     "worst error of the stiffness while probing: maximum likelihood "
+     "{stiffness_error_worst_maximum_likelihood_probe} %, batch fit {stiffness_error_worst_batch_probe} %, "
+     "two-stage {stiffness_error_worst_two_stage_probe} %, log-linear "
+     "{stiffness_error_worst_log_linear_probe} %"},
+    {"synthesis",
+     "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?", "",
+     run_synthesis, synthesis_plots, "",
+     "worst conditioning in a 60 mm cube {a_conditioning}, the reconstructed device has "
+     "{catalog_conditioning}"},
+    {"delay-sweep",
+     "Which stiffness reaches the hand across which delay: this law and five textbook laws, and their "
+     "limits.",
+     "master slave -link.impairment.delay_s -hand -rendering.law -scene.material.stiffness_n_per_m",
+     run_delay_sweep, delay_sweep_plots, "",
+     "{stiffness_within_5_percent} of {stiffness_cases} cases within 5 %; direct force displays at most "
+     "{direct_limit_at_3*1e-3} N/mm at 3 s, wave variables {wave_limit_at_3*1e-3} N/mm"},
+    {"press-wall",
+     "One wall across one link: each textbook law over time, or the one that rendering.law names.",
+     "device hand rendering.law link.impairment.delay_s link.impairment.jitter_s link.impairment.loss "
+     "scene.material.stiffness_n_per_m",
+     run_press_wall, press_wall_plots, "",
+     "{wall_n_per_m} N/m across {rtt_s} s: direct force gives the hand {direct_port_energy_min_j*-1} J; "
+     "passivity observer {tdpa_displayed_n_per_m} N/m, position-position "
+     "{position_position_displayed_n_per_m} N/m",
+     fit_press_wall},
+    {"delay-seeds", "The worst of many seeds, over every round trip and every named link that has no outage.",
+     "master slave -link.impairment -hand -rendering.law -scene.material.stiffness_n_per_m", run_delay_seeds,
+     delay_seeds_plots, "",
+     "{held_within_5_percent} of {held_runs} runs within 5 %, worst {displayed_error_max*100} %; limit "
+     "cycles {held_limit_cycles}, of a handle let go {released_limit_cycles} of {released_runs}"},
+    {"singular-paths",
+     "The tool straight through the wrist, elbow and shoulder singularities of a PUMA 560: its error, the "
+     "joints' "
+     "speeds.",
+     "", run_singular_paths, singular_paths_plots, "",
+     "off the goal by at most {wrist_off_goal_max_m*1e3} (wrist), {elbow_off_goal_max_m*1e3} (elbow), "
+     "{shoulder_off_goal_max_m*1e3} mm (shoulder)"},
+    {"sensor-faults",
+     "A force sensor that lies, on four arms in every state: how far does the robot go, how hard does it "
+     "press?",
+     "", run_sensor_faults, sensor_faults_plots, "",
+     "{runs} runs: at most {way_max_m*1e3} mm that nobody commanded, {true_force_over_guard} of the guard; "
+     "one "
+     "that drifts in contact answers as a wall that comes does: {faked_answer_way_max_m*1e3} mm, "
+     "{faked_answer_true_force_over_guard}; told at most {told_late_max_s} s late, false faults "
+     "{false_faults}; a force that answers to the way, though it is none, moves {control_way_m*1e3} mm"},
+    {"moving-wall",
+     "A wall comes towards a robot that is held still, four arms, 0.1 to 50 mm/s, 200 to 20,000 N/m; walls "
+     "of "
+     "layers, hands that move; and the same with a force sensor of the wrong sign.",
+     "", run_moving_wall, moving_wall_plots, "",
+     "{runs} walls: at most {force_over_guard_max} of the guard up to 250 N/s, {force_over_bound_max} of the "
+     "formula's bound beyond, {layers_force_over_guard_max} where layers make it four times as stiff, "
+     "{hand_moves_force_over_guard_max} and {hand_moves_layers_force_over_guard_max} under {hand_moves_runs} "
+     "hands that move; told within {told_beside_stop_max_s} s of the stop, sign faults {false_signs}; a "
+     "wrong "
+     "sign found in {wrong_sign_found} of {wrong_sign_pressed}, at rest at "
+     "{wrong_sign_at_rest_force_over_guard} of the guard; with 20 mm of way {control_force_over_guard}"},
+    {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
+     "", run_impact, impact_plots, "",
+     "{impacts} impacts; restitution right in {discrete_gradient_right} % by the discrete gradient (error "
+     "{discrete_gradient_error_max}), {rk4_right} % by Runge-Kutta, {semi_implicit_euler_right} % by "
+     "semi-implicit Euler"},
+    {"unknown-contact", "Materials that nobody described, drawn from a seed: is what the hand feels right?",
+     "master slave -link.impairment -hand -mapping.scale -operator.press_n -operator.probe_n "
+     "-operator.probe_cycles -sensing.force_noise_n -scene",
+     run_unknown_contact, unknown_contact_plots, "",
+     "{right} of {cells} within 5 % in slope and 10 % in mean force, worst {slope_error_max*100} and "
+     "{force_error_max*100} %; the error is within 3 sd in {covered}, the sd {sd_over_bound_median} times "
+     "the "
+     "Cramér-Rao bound; of {outside_cells} that no power law describes {outside_tangent_within_15_percent} "
+     "within 15 %"},
+    {"material-steps", "Slide from soft to hard, press through layers: how soon is the new material known?",
+     "master slave -operator -hand -mapping.mode -mapping.scale -estimator.kind -scene", run_material_steps,
+     material_steps_plots, "",
+     "{layers_maximum_likelihood_followed} of {layers_maximum_likelihood_changes} layers told within "
+     "{layers_maximum_likelihood_slowest_s} s and {layers_maximum_likelihood_farthest_m*1e3} mm, the hard "
+     "tile "
+     "within {soft_to_hard_maximum_likelihood_slowest_s} s, the soft one within "
+     "{hard_to_soft_maximum_likelihood_slowest_s} s, pressed; with the exponent given within "
+     "{layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
+     "{hard_to_soft_fixed_exponent_slowest_s} s"},
+    {"drag",
+     "Loads that nobody described are dragged: is their inertia taken for a contact, is their mass found?",
+     "", run_drag_study, drag_plots, "",
+     "{dragged} of {drags} dragged, {phantom_contacts} with a contact that was none, {holds} with a hold; "
+     "mass within "
+     "5 % in {mass_within_5_percent} of {mass_above_noise} whose inertia is above 20 times the noise, within "
+     "3 sd in "
+     "{mass_within_3_sd} of {mass_told}; a wall that the load meets is found within {wall_found_max_s} s"},
+    {"docking",
+     "A free-floating spacecraft is grasped, dragged and docked across the link; three "
+     "mistakes.",
+     "master slave -operator -hand -mapping.mode -mapping.scale -rendering.ke "
+     "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "
+     "-sensing.touch_n -sensing.release_n -robot -scene",
+     run_docking, docking_plots, "Fig. 20, 21",
+     "{docked} of {seeds} docked, felt as a force of at least {felt_least_n} N that rises and vanishes; "
+     "{mistakes_felt} of {mistakes} mistakes felt, {mistakes_safe} safe; the tool's force at most "
+     "{tool_force_max_n} N"},
+    {"extremes",
+     "Every quantity at its extremes, from 1 N/m to 1e9, 1 g to 100 t, 1 mm to 20 m: stable, or refused?", "",
+     run_extremes, extremes_plots, "",
+     "{cells} cells of {quantities} quantities: {stable} stable, {refused} refused with a message, {bad} "
+     "bad; of {controls} controls, which are wrong, {controls_bad} bad"},
+    {"faults",
+     "Everything that can go wrong in virtual time, drawn at random and overlapping, under an oracle that "
+     "trusts no node.",
+     "", run_fault_campaign, faults_plots, "",
+     "{seeds} seeds, {kinds} kinds of fault: {violations} violations of {invariants} invariants"},
+    {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", "", run_scenes_cost,
+     scenes_cost_plots},
+    {"trade",
+     "What each way to do a stage costs against how far off it is: fronts, and where the defaults are on "
+     "them.",
+     "device", run_trade, trade_plots, "",
+     "presets FAST, BALANCED, EXACT: walls of 500 to 4000 N/m feel {accuracy_stiffness_fast_error}, "
+     "{accuracy_stiffness_balanced_error}, {accuracy_stiffness_exact_error} % wrong, the tool is off by "
+     "{accuracy_tracking_fast_error}, {accuracy_tracking_balanced_error}, {accuracy_tracking_exact_error} mm "
+     "(rms); inverse of the arm within {arm_inverse_closed_form_error} of its reach, restitution within "
+     "{contact_discrete_gradient_1000us_error}"},
+};
+
+}  // namespace
+
+const std::vector<Experiment>& experiments() { return kExperiments; }
+
+const Experiment* find_experiment(std::string_view name) {
+  for (const Experiment& e : experiments()) {
+    if (e.name == name) return &e;
+  }
+  return nullptr;
+}
+
+std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics) {
+  std::vector<Plot> plots = experiment.plots();
+  for (Plot& plot : plots) {
+    if (experiment.fit != nullptr) experiment.fit(plot, metrics);
+  }
+  return plots;
+}
+
+std::string_view outcome_of(const std::vector<Metric>& metrics) {
+  const auto contact = std::ranges::find(metrics, "contact", &Metric::name);
+  return contact != metrics.end() && contact->value == 0.0 ? "no contact" : "";
+}
+
+namespace {
+
+/// Every field is set, also to its default, and no file is named: what they said is in it.
+proto::LabConfig spelled_out(const proto::LabConfig& config) {
+  proto::LabConfig out;
+  *out.mutable_master() = to_message(to_struct(config.master()));
+  *out.mutable_slave() = to_message(to_struct(config.slave()));
+  out.mutable_master()->clear_device_file();
+  out.mutable_slave()->clear_robot_file();
+  out.mutable_slave()->clear_scene_file();
+  out.set_duration_s(config.duration_s());
+  out.set_trace_hz(config.trace_hz());
+  return out;
+}
+
+}  // namespace
+
+std::string config_hash(const proto::LabConfig& config) {
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    spelled_out(config).SerializeToCodedStream(&coded);
+  }
+  return name_hash(bytes);
+}
+
+std::string_view commit() { return build_commit(); }
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && !std::filesystem::is_directory(folder))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw ConfigError("cannot make the folder " + folder.string() + ": " + error.message() +
+                      "; choose another with --out");
+}
+
+std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
+                                   const std::function<void(const std::string&)>& trouble) {
+  if (!run.out.empty()) make_folder(run.out);
+  std::vector<Metric> metrics = experiment.run(run);
+  if (run.out.empty()) return metrics;
+  std::ofstream file(run.out / "metrics.json", std::ios::trunc);
+  file << metrics_json(experiment.name, run, metrics);
+  if (!file.flush()) throw std::runtime_error("cannot write " + (run.out / "metrics.json").string());
+  for (const Plot& plot : plots_of(experiment, metrics)) {
+    if (plot.panels.empty()) continue;  // the experiment has drawn it
+    if (const std::string why = draw(run.out, plot); !why.empty()) trouble(why);
+  }
+  return metrics;
+}
+
+std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
+                         const std::vector<Metric>& metrics) {
+  nlohmann::ordered_json json;
+  json["experiment"] = experiment;
+  json["commit"] = commit();
+  json["seed"] = run.seed;
+  json["config_hash"] = config_hash(run.config);
+  if (const std::string_view outcome = outcome_of(metrics); !outcome.empty()) json["outcome"] = outcome;
+  json["metrics"] = nlohmann::ordered_json::object();
+  for (const Metric& m : metrics) {
+    json["metrics"][m.name] = {{"value", m.value}, {"unit", m.unit}};
+    if (m.of_machine) json["metrics"][m.name]["of_machine"] = true;
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace longreach

@@ -1,0 +1,155 @@
+#pragma once
+// What an experiment of the laboratory is: a name, a sentence, a function from (config, seed) to metrics that
+// may write traces into its folder, and the plots that are drawn of them.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deploy/lab/plot.hpp"
+#include "proto/config.pb.h"
+
+namespace longreach {
+
+struct Metric {
+  std::string name;
+  double value = 0.0;
+  std::string unit;         // "" for a pure number
+  bool of_machine = false;  // a time, or a ratio of times: not the same in every run
+};
+
+struct ExperimentRun {
+  proto::LabConfig config;  // complete: files and profile resolved
+  std::uint64_t seed = 1;
+  std::filesystem::path out;                  // folder for traces, exists; empty: write none
+  std::function<void(double done)> progress;  // share of the work, 0 to 1; may be empty
+};
+
+struct Experiment {
+  std::string_view name;
+  std::string_view summary;
+  // What it takes from the configuration: paths of groups and fields, on both sides where none is named; with
+  // a minus what it sets itself or never reads inside of them (settings_used.hpp). Empty: nothing.
+  std::string_view uses;
+  std::vector<Metric> (*run)(const ExperimentRun&);
+  std::vector<Plot> (*plots)();
+  std::string_view figure{};  // of the source paper (Liu et al. 2019) that it repeats; empty: none
+  std::string_view answer{};  // sentence of the report: {NAME} stands for a metric, {NAME*1e3} for a multiple
+  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // each plot to what was found; may be empty
+};
+
+/// Its plots, fitted to what a run has found.
+std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics);
+
+/// All experiments, in the order in which `longreach-lab list` shows them.
+const std::vector<Experiment>& experiments();
+const Experiment* find_experiment(std::string_view name);
+
+/// A complete configuration from settings "path=value": first those that name files (profile, robot_file,
+/// scene_file) or choose others (accuracy), then what the files say, then the other settings in their order.
+/// Relative names of files count from `from` first. Throws ConfigError.
+proto::LabConfig configure(const std::vector<std::string>& settings,
+                           const std::filesystem::path& deploy_folder,
+                           const std::filesystem::path& from = std::filesystem::current_path());
+
+/// "no contact" for metrics of a run that was to touch something and did not; else empty.
+std::string_view outcome_of(const std::vector<Metric>& metrics);
+
+/// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
+std::string config_hash(const proto::LabConfig& config);
+
+/// Commit that the program was built from, with "-dirty" if the tree differed.
+std::string_view commit();
+
+/// Makes it if it is missing. Throws ConfigError that names --out.
+void make_folder(const std::filesystem::path& folder);
+
+/// Runs it. Into `run.out`, unless that is empty, go the traces, metrics.json and the plots; `trouble` is
+/// told of plots that could not be drawn. Throws std::runtime_error when a file cannot be written,
+/// ConfigError when the folder cannot be made.
+std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
+                                   const std::function<void(const std::string&)>& trouble);
+
+std::string metrics_json(std::string_view experiment, const ExperimentRun& run,
+                         const std::vector<Metric>& metrics);
+
+// The experiments.
+std::vector<Metric> run_touch(const ExperimentRun& run);
+std::vector<Plot> touch_plots();
+std::vector<Metric> run_hostile_updates(const ExperimentRun& run);
+std::vector<Plot> hostile_updates_plots();
+std::vector<Metric> run_idle(const ExperimentRun& run);
+std::vector<Plot> idle_plots();
+std::vector<Metric> run_first_touch(const ExperimentRun& run);
+std::vector<Plot> first_touch_plots();
+std::vector<Metric> run_person_experiment(const ExperimentRun& run);
+std::vector<Plot> person_plots();
+std::vector<Metric> run_spike(const ExperimentRun& run);
+std::vector<Plot> spike_plots();
+std::vector<Metric> run_rate_contact(const ExperimentRun& run);
+std::vector<Plot> rate_contact_plots();
+std::vector<Metric> run_six_dof_contact(const ExperimentRun& run);
+std::vector<Plot> six_dof_contact_plots();
+std::vector<Metric> run_tensor_rendering(const ExperimentRun& run);
+std::vector<Plot> tensor_rendering_plots();
+std::vector<Metric> run_home_rotation(const ExperimentRun& run);
+std::vector<Plot> home_rotation_plots();
+std::vector<Metric> run_home_translation(const ExperimentRun& run);
+std::vector<Plot> home_translation_plots();
+std::vector<Metric> run_wall_rotation(const ExperimentRun& run);
+std::vector<Plot> wall_rotation_plots();
+std::vector<Metric> run_wall_translation(const ExperimentRun& run);
+std::vector<Plot> wall_translation_plots();
+std::vector<Metric> run_gravity(const ExperimentRun& run);
+std::vector<Plot> gravity_plots();
+std::vector<Metric> run_rate_mapping(const ExperimentRun& run);
+std::vector<Plot> rate_mapping_plots();
+std::vector<Metric> run_scale_steps(const ExperimentRun& run);
+std::vector<Plot> scale_steps_plots();
+std::vector<Metric> run_path_task(const ExperimentRun& run);
+std::vector<Plot> path_task_plots();
+std::vector<Metric> run_mapping_trade(const ExperimentRun& run);
+std::vector<Plot> mapping_trade_plots();
+std::vector<Metric> run_fk_network(const ExperimentRun& run);
+std::vector<Plot> fk_network_plots();
+std::vector<Metric> run_identify(const ExperimentRun& run);
+std::vector<Plot> identify_plots();
+std::vector<Metric> run_synthesis(const ExperimentRun& run);
+std::vector<Plot> synthesis_plots();
+
+std::vector<Metric> run_delay_sweep(const ExperimentRun& run);
+std::vector<Plot> delay_sweep_plots();
+std::vector<Metric> run_press_wall(const ExperimentRun& run);
+std::vector<Plot> press_wall_plots();
+void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics);
+std::vector<Metric> run_delay_seeds(const ExperimentRun& run);
+std::vector<Plot> delay_seeds_plots();
+std::vector<Metric> run_singular_paths(const ExperimentRun& run);
+std::vector<Plot> singular_paths_plots();
+std::vector<Metric> run_sensor_faults(const ExperimentRun& run);
+std::vector<Plot> sensor_faults_plots();
+std::vector<Metric> run_moving_wall(const ExperimentRun& run);
+std::vector<Plot> moving_wall_plots();
+std::vector<Metric> run_impact(const ExperimentRun& run);
+std::vector<Plot> impact_plots();
+std::vector<Metric> run_unknown_contact(const ExperimentRun& run);
+std::vector<Plot> unknown_contact_plots();
+std::vector<Metric> run_material_steps(const ExperimentRun& run);
+std::vector<Plot> material_steps_plots();
+std::vector<Metric> run_scenes_cost(const ExperimentRun& run);
+std::vector<Plot> scenes_cost_plots();
+std::vector<Metric> run_trade(const ExperimentRun& run);
+std::vector<Plot> trade_plots();
+std::vector<Metric> run_drag_study(const ExperimentRun& run);
+std::vector<Plot> drag_plots();
+std::vector<Metric> run_docking(const ExperimentRun& run);
+std::vector<Plot> docking_plots();
+std::vector<Metric> run_extremes(const ExperimentRun& run);
+std::vector<Plot> extremes_plots();
+std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
+std::vector<Plot> faults_plots();
+
+}  // namespace longreach

@@ -1,0 +1,148 @@
+#pragma once
+// Both nodes, the link between them, robot and device, in one process and in virtual time. The same nodes,
+// ports, codecs and impairments as in the programs; only channel, clock and device are simulated. A run is
+// named by (commit, config, seed): the same name gives the same bytes.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "common/wire/memory_channel.hpp"
+#include "common/wire/port.hpp"
+#include "deploy/lab/meddler.hpp"
+#include "master/master_node.hpp"
+#include "master/simulation/scripted_operator.hpp"
+#include "master/simulation/simulated_devices.hpp"
+#include "slave/simulation/simulated_arm.hpp"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+class LabRecording;
+
+/// What the slave has sent of the one haptic quantity.
+struct HapticReturn {
+  std::uint64_t datagrams = 0;
+  std::uint64_t bytes = 0;  // without header and tag
+};
+
+class Laboratory {
+ public:
+  /// Configurations complete, files resolved, link profile already in the impairments. Throws
+  /// std::invalid_argument for a comparison law, which has a bench of its own.
+  Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
+
+  ~Laboratory();
+
+  /// One tick of both sides.
+  void step();
+
+  [[nodiscard]] double now_s() const { return to_seconds(elapsed_); }
+  [[nodiscard]] double period_s() const { return to_seconds(period_); }
+  [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
+  [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
+  [[nodiscard]] const SimulatedArm& arm() const { return arm_; }
+  [[nodiscard]] SimulatedArm& arm() { return arm_; }
+  [[nodiscard]] const SimulatedDevices& devices() const { return devices_; }
+  [[nodiscard]] const ScriptedOperator& script() const { return script_; }
+  [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
+  [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
+  /// What the network does to what arrives at a side, from now on.
+  void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
+  void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
+  /// Datagrams that came out of the network at both sides.
+  [[nodiscard]] std::uint64_t arrived() {
+    return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
+  }
+  /// Another session begins, at the side that it is handed to.
+  void hand_slave(const Session& session) { slave_port_.follow(session); }
+  void hand_master(const Session& session) { master_port_.follow(session); }
+  void configure_slave(const SlaveConfig& config) { slave_node_.configure(config); }
+  void configure_master(const MasterConfig& config) { master_node_.configure(config); }
+  [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
+  /// What the slave hears of the master.
+  [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
+  /// What the slave last told the arm; none: it was not commanded.
+  [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
+  [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
+  /// Where the stiffness which the master renders now belongs to, in W; zero before the first.
+  [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
+  /// What the person does from now on, instead of the script.
+  void drive(const HandTarget& target) { driven_ = target; }
+  /// Asked for in the next tick, besides what the script does.
+  OperatorRequests& requests() { return requests_; }
+  /// The person lets go of the handles, for good unless the hand returns.
+  void let_go(bool away = true) { let_go_ = away; }
+  /// One side ends from now on, as a program does that is killed; robot and devices go on by themselves.
+  void kill_slave() { slave_lives_ = false; }
+  void kill_master() { master_lives_ = false; }
+  /// One side's loop stands still for this long from now on, as a program that is stopped: what comes lies in
+  /// its socket, and then a tick comes late. Robot, devices, hand and the other side go on.
+  void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
+  void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
+  /// Must live as long as the laboratory steps.
+  void let_meddle(Meddler& meddler) { meddler_ = &meddler; }
+  /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
+  void record(const std::filesystem::path& file);
+  /// Ends the file. Throws RecordingError when it could not be written.
+  void end_recording();
+  /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
+  /// slave).
+  void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
+  /// For tests: called before the first step of every laboratory, in its thread, with what it runs with.
+  struct Begun {
+    const MasterConfig& master;
+    const SlaveConfig& slave;
+    bool driven;  // by drive(): the script moves nothing
+  };
+  inline static std::function<void(const Begun&)> on_first_step{};
+  /// What stands between the robot and the slave: may change what the robot says of itself, in each tick.
+  void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
+
+ private:
+  [[nodiscard]] Time master_now() const {
+    return Time{std::chrono::seconds(100)} + (meddler_ ? meddler_->master_clock(elapsed_) : elapsed_);
+  }
+  [[nodiscard]] Time slave_now() const {
+    return Time{std::chrono::seconds(77777)} + (meddler_ ? meddler_->slave_clock(elapsed_) : elapsed_);
+  }
+  void step_slave();
+  void step_master();
+
+  Duration period_;
+  double send_hz_;
+  MasterConfig master_config_;
+  SlaveConfig slave_config_;
+  std::uint64_t seed_;
+  Duration elapsed_{0};
+  MemoryChannelPair channels_;
+  Random random_;
+  MasterPort master_port_;
+  SlavePort slave_port_;
+  SlaveNode slave_node_;
+  MasterNode master_node_;
+  SimulatedArm arm_;
+  SimulatedDevices devices_;
+  ScriptedOperator script_;
+  std::optional<HandTarget> driven_{};
+  OperatorRequests requests_{};
+  std::optional<double> rtt_s_{};
+  bool let_go_ = false;
+  bool slave_lives_ = true, master_lives_ = true;
+  Duration slave_thaws_{0}, master_thaws_{0};
+  std::uint64_t slave_overdue_ = 0, master_overdue_ = 0;
+  std::function<void(MemoryChannelPair&)> intruder_{};
+  std::function<void(Time, RobotState&)> tamperer_{};
+  Meddler* meddler_ = nullptr;
+  std::unique_ptr<LabRecording> recording_{};
+  Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
+  std::uint64_t last_report_ = 0;
+  std::optional<JointVector> setpoint_rad_{};
+  HapticReturn haptic_return_{};
+  Vector3 rendered_at_m_ = Vector3::Zero();
+};
+
+}  // namespace longreach

@@ -1,0 +1,86 @@
+// What people do whom our other experiments do not imitate: hands that yield and rest, over five links,
+// judged by scene truth.
+
+#include <algorithm>
+#include <fstream>
+
+#include "common/config/config.hpp"
+#include "common/config/link_profile.hpp"
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/on_all_cores.hpp"
+#include "deploy/lab/person/person_rows.hpp"
+
+namespace longreach {
+namespace {
+
+const std::vector<std::string> kLinks = {"lab", "kontur", "gateway", "moon", "etsvii"};
+
+struct Trial {
+  const PersonRow* row;
+  std::string link;
+  Grip grip;
+  bool blind;  // the control
+  std::vector<PersonCheck> checks{};
+  [[nodiscard]] bool holds() const {
+    return std::ranges::all_of(checks, [](const PersonCheck& c) { return c.value <= c.most; });
+  }
+};
+
+void run_trial(const ExperimentRun& run, Trial& trial) {
+  proto::LabConfig config = run.config;
+  const proto::LinkProfile link = load_link_profile(find_deploy_folder(), trial.link);
+  take_profile(*config.mutable_master()->mutable_link(), link);
+  take_profile(*config.mutable_slave()->mutable_link(), link);
+  PersonScenario scenario;
+  scenario.master = to_struct(config.master());
+  scenario.slave = to_struct(config.slave());
+  scenario.grip = scenario.master.hand.grip = trial.grip;
+  scenario.rtt_s = link.up().delay_s() + link.down().delay_s();
+  scenario.seed = run.seed;
+  scenario.blind = trial.blind;
+  trial.row->prepare(scenario);
+  trial.checks = trial.row->judge(scenario, run_person(scenario));
+}
+
+void write_table(const std::filesystem::path& out, const std::vector<Trial>& trials) {
+  if (out.empty()) return;
+  std::ofstream file(out / "person.csv", std::ios::trunc);
+  file << "row,link,hand,control,check,value,most,holds\n";
+  for (const Trial& t : trials)
+    for (const PersonCheck& c : t.checks)
+      file << t.row->name << ',' << t.link << ',' << (t.grip == Grip::kFirm ? "firm" : "light") << ','
+           << (t.blind ? 1 : 0) << ",\"" << c.what << "\"," << c.value << ',' << c.most << ','
+           << (c.value <= c.most ? 1 : 0) << '\n';
+  if (!file.flush()) throw std::runtime_error("cannot write " + (out / "person.csv").string());
+}
+
+}  // namespace
+
+std::vector<Metric> run_person_experiment(const ExperimentRun& run) {
+  std::vector<Trial> trials;
+  for (const PersonRow& row : person_rows())
+    for (const std::string& link : kLinks)
+      for (const Grip grip : {Grip::kLight, Grip::kFirm})
+        for (const bool blind : {false, true})
+          if (!blind || row.by_place) trials.push_back({&row, link, grip, blind});
+  on_all_cores(
+      trials.size(), [&](std::size_t i) { run_trial(run, trials[i]); }, run.progress);
+  write_table(run.out, trials);
+  const auto count = [&](const auto& which) {
+    return static_cast<double>(std::ranges::count_if(trials, which));
+  };
+  std::vector<Metric> metrics;
+  for (const PersonRow& row : person_rows())
+    metrics.push_back({"failed_" + std::string(row.name),
+                       count([&](const Trial& t) { return t.row == &row && !t.blind && !t.holds(); }), ""});
+  metrics.push_back({"rows", static_cast<double>(person_rows().size()), ""});
+  metrics.push_back({"trials", count([](const Trial& t) { return !t.blind; }), ""});
+  metrics.push_back({"failed", count([](const Trial& t) { return !t.blind && !t.holds(); }), ""});
+  metrics.push_back({"controls", count([](const Trial& t) { return t.blind; }), ""});
+  metrics.push_back({"controls_failed", count([](const Trial& t) { return t.blind && !t.holds(); }), ""});
+  return metrics;
+}
+
+std::vector<Plot> person_plots() { return {}; }
+
+}  // namespace longreach

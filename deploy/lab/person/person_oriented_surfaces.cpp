@@ -1,0 +1,198 @@
+// Surfaces with a sense: what a hand feels of the second side of a slot, of a wall behind it, of one that was
+// met before its engagement, of laws that are no straight lines, and of stops. What is due is the true force
+// at the tool, divided by the scale where the hand moves further than the tool.
+
+#include <algorithm>
+#include <cmath>
+
+#include "deploy/lab/person/person_scenes.hpp"
+#include "master/simulation/hand_model.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kSide_m = 0.02;
+constexpr double kShare = 0.2;
+constexpr double kNoise_n = 0.1;
+constexpr double kCalm_n = 0.3;
+constexpr double kStop_nm_per_rad = 10.0;
+
+/// As far as the store, or what the hand was not given of it before, pays for a wall that was learnt late,
+/// and the limits let through.
+double most_n(const PersonScenario& s, double k, double more = 0.0, double given_j = 0.0) {
+  const double hand = hand_model(s.grip).stiffness_n_per_m + more;
+  const double left_j = std::max(0.0, s.master.rendering.store_j - std::max(0.0, given_j));
+  return std::min(s.master.rendering.force_max_n, std::sqrt(2.0 * left_j / (1.0 / k + 1.0 / hand)));
+}
+
+/// At the end of this move the hand feels what the tool presses with.
+PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double k, double least_n = 0.5) {
+  const double due_n = m.tool_n / s.master.mapping.scale;
+  const double most = most_n(s, k, 0.0, m.given_j);
+  return {{"the tool presses too little to judge, N", least_n - m.tool_n, 0.0},
+          {"shortfall of the force, N", (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
+          {"force over the tool's, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
+          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+}
+
+void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }
+
+// A slot: one side, then the other, then the first again.
+void slot(PersonScenario& s) {
+  clear(s);
+  in_mode(s, MotionMode::kPosition);
+  add_wall(s, kSide_m, 1000.0);
+  add_wall(s, -kSide_m, 1000.0, Vector3::UnitX());
+  s.depth_m = [](const Vector3& p) { return std::abs(p.x()) - kSide_m; };
+  for (const double to_m : {0.036, -0.036, 0.036})
+    s.moves.push_back({.to_m = {to_m, 0, 0}, .wait_s = 5.0, .wait_rtt = 2.0});
+}
+PersonChecks judge_slot(const PersonScenario& s, const PersonSeen& seen) {
+  PersonChecks all{in_front(seen)};
+  for (const MoveSeen& m : seen.move) add(all, felt_as_pressed(s, m, 1000.0));
+  return all;
+}
+void slot_in_rate_mode(PersonScenario& s) {
+  slot(s);
+  in_mode(s, MotionMode::kRate);
+  s.moves.clear();
+  for (const double to_m : {0.03, -0.03})
+    s.moves.push_back({.to_m = {to_m, 0, 0}, .wait_s = 15.0, .wait_rtt = 3.0});
+}
+PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
+  const double rate = s.master.rendering.rate_stiffness_n_per_m, hand = hand_model(s.grip).stiffness_n_per_m;
+  const double borne_n = k * hand * std::abs(s.moves[0].to_m.x()) / (k + hand + rate);
+  const double due_n = std::min({m.tool_n, most_n(s, k, rate, m.given_j), borne_n});
+  return {{"the tool presses too little to judge, N", 0.5 - m.tool_n, 0.0},
+          {"shortfall of the force, N", (1.0 - kShare) * due_n - m.felt_n, kNoise_n},
+          {"force over the tool's, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
+          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+}
+PersonChecks judge_slot_in_rate_mode(const PersonScenario& s, const PersonSeen& seen) {
+  PersonChecks all{in_front(seen)};
+  for (const MoveSeen& m : seen.move) add(all, judge_rate(s, m, 1000.0));
+  return all;
+}
+
+// A wall behind the start.
+void behind(PersonScenario& s) {
+  clear(s);
+  in_mode(s, MotionMode::kPosition);
+  add_wall(s, -kSide_m, 1000.0, Vector3::UnitX());
+  s.moves = {{.to_m = {-0.031, 0, 0}, .wait_s = 5.0, .wait_rtt = 2.0}};
+}
+PersonChecks judge_pressed(const PersonScenario& s, const PersonSeen& seen) {
+  PersonChecks all = felt_as_pressed(s, seen.move.back(), s.slave.scene.material[0].stiffness_n_per_m);
+  all.push_back(in_front(seen));
+  return all;
+}
+
+// A master that engages where another one left off: it begins with nothing, its handle at home.
+void new_master(PersonScenario& s) {
+  only_wall(s, 0.02, 1000.0);
+  in_mode(s, MotionMode::kPosition);
+  s.moves = {{.to_m = {0.04, 0, 0}, .wait_s = 5.0, .wait_rtt = 2.0},
+             {.to_m = {0.04, 0, 0}, .wait_s = 0.5, .stop = true},
+             {.to_m = {0, 0, 0}, .wait_s = 1.0},
+             {.to_m = {0, 0, 0}, .wait_s = 5.0, .wait_rtt = 4.0, .engage = true}};
+}
+PersonChecks judge_new_master(const PersonScenario& s, const PersonSeen& seen) {
+  const MoveSeen& m = seen.move[3];
+  PersonChecks all = felt_as_pressed(s, m, 1000.0, 0.2);  // the handle was driven back from home
+  all.push_back({"not engaged", m.engaged ? 0.0 : 1.0, 0.0});
+  // Engaging takes a round trip itself, and the list comes with its answer.
+  all.push_back({"felt after, s", m.felt_s < 0.0 ? 1e3 : m.felt_s, 2.0 * s.rtt_s + 1.5});
+  return all;
+}
+
+// A slave that starts in contact: nothing is known of it until the tool has moved.
+void started_in_contact(PersonScenario& s) {
+  only_wall(s, -0.002, 1000.0);
+  in_mode(s, MotionMode::kPosition);
+  s.moves = {{.to_m = {0.002, 0, 0}, .speed_m_per_s = 0.005, .wait_s = 5.0, .wait_rtt = 2.0}};
+}
+
+// Laws that are no straight lines: the slave is told their exponent. Slowly, then at rest.
+void curved(PersonScenario& s, double exponent, double stiffness_n_per_m, MotionMode mode) {
+  only_wall(s, 0.02, stiffness_n_per_m);
+  s.slave.scene.material[0].exponent = exponent;
+  s.slave.estimator.exponent = exponent;
+  in_mode(s, mode);
+  if (mode == MotionMode::kPosition) {
+    s.moves = {{.to_m = {0.0275, 0, 0}, .wait_s = 2.0},
+               {.to_m = {0.0315, 0, 0}, .speed_m_per_s = 2e-3, .wait_s = 5.0, .wait_rtt = 6.0}};
+  } else {
+    s.moves = {{.to_m = {0.03, 0, 0}, .wait_s = 20.0, .wait_rtt = 3.0}};
+  }
+}
+PersonChecks judge_curved(const PersonScenario& s, const PersonSeen& seen) {
+  // The slope at 3 N.
+  return felt_as_pressed(s, seen.move.back(), 1500.0);
+}
+PersonChecks judge_curved_rate(const PersonScenario& s, const PersonSeen& seen) {
+  return judge_rate(s, seen.move.back(), 1500.0);
+}
+
+// Stops of a hinge: rendered softer by ke_rotation, which the device can bear.
+void hinge(PersonScenario& s, MotionMode mode, double turn_rad, double first_s, double second_s) {
+  clear(s);
+  in_mode(s, mode);
+  s.slave.scene.needs = NeedsConfig{.rotation = true};
+  s.slave.scene.material[0].stiffness_n_per_m = 1000.0;
+  s.master.rendering.ke_rotation = 0.02;
+  for (const double side : {1.0, -1.0}) {
+    SurfaceConfig stop;
+    stop.name = side > 0.0 ? "left" : "right";
+    stop.material = s.slave.scene.material[0].name;
+    stop.hinge = HingeConfig{.axis = {0.0, 0.0, side}, .angle_rad = 0.05, .arm_m = 0.1};
+    s.slave.scene.surface.push_back(stop);
+  }
+  s.depth_m = [](const Vector3&) { return 0.0; };
+  s.moves = {{.wait_s = first_s, .wait_rtt = 2.0, .turn_rad = {0.0, 0.0, turn_rad}},
+             {.wait_s = second_s, .wait_rtt = 5.0, .turn_rad = {0.0, 0.0, -turn_rad}}};
+}
+PersonChecks judge_hinge(const PersonScenario& s, const PersonSeen& seen) {
+  PersonChecks all;
+  const RenderingConfig& rendering = s.master.rendering;
+  const bool position = s.master.mapping.mode == MotionMode::kPosition;
+  const double k = rendering.ke_rotation * kStop_nm_per_rad, wrist = wrist_model(s.grip).stiffness_nm_per_rad;
+  for (std::size_t i = 0; i < seen.move.size(); ++i) {
+    const MoveSeen& m = seen.move[i];
+    const double ke = rendering.ke_rotation / (position ? s.master.mapping.scale : 1.0);
+    double due_nm = std::min(ke * m.tool_nm, rendering.moment_max_nm);
+    // In rate mode the wall is not felt beyond the centre.
+    if (!position)
+      due_nm = std::min(due_nm, k * wrist * s.moves[i].turn_rad.norm() /
+                                    (k + wrist + rendering.rotational_stiffness_nm_per_rad));
+    add(all, {{"the tool presses too little to judge, N m", 0.05 - m.tool_nm, 0.0},
+              {"shortfall of the moment, N m", (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
+              {"moment over the tool's, N m", m.felt_nm - (1.0 + kShare) * ke * m.tool_nm, 1e-3}});
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_oriented_surfaces(std::vector<PersonRow>& rows) {
+  constexpr MotionMode kPosition = MotionMode::kPosition, kRate = MotionMode::kRate;
+  const std::vector<PersonRow> more = {
+      {"slot", "presses on both sides of a slot", slot, judge_slot},
+      {"slot-rate", "likewise in rate mode", slot_in_rate_mode, judge_slot_in_rate_mode},
+      {"behind", "a wall behind the start, met and pressed", behind, judge_pressed},
+      {"new-master", "engages where another master left off in contact", new_master, judge_new_master},
+      {"starts-in-contact", "the slave starts in contact", started_in_contact, judge_pressed},
+      {"curved-1.5", "a law with exponent 1.5", [](PersonScenario& s) { curved(s, 1.5, 600.0, kPosition); },
+       judge_curved},
+      {"curved-2", "a law with exponent 2", [](PersonScenario& s) { curved(s, 2.0, 300.0, kPosition); },
+       judge_curved},
+      {"curved-2-rate", "likewise in rate mode", [](PersonScenario& s) { curved(s, 2.0, 300.0, kRate); },
+       judge_curved_rate},
+      {"hinge", "turns into both stops of a hinge",
+       [](PersonScenario& s) { hinge(s, kPosition, 0.12, 5.0, 5.0); }, judge_hinge},
+      {"hinge-rate", "likewise in rate mode", [](PersonScenario& s) { hinge(s, kRate, 0.25, 4.0, 16.0); },
+       judge_hinge},
+  };
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+}  // namespace longreach

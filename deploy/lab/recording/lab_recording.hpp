@@ -1,0 +1,49 @@
+#pragma once
+// A recording of a laboratory run, both sides in one file, as the programs write them: the same tapes, but
+// written between the ticks, so that a run by the same name makes the same bytes. The file's time is the
+// run's.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "common/recording/mcap_writer.hpp"
+#include "common/recording/recording_file.hpp"
+#include "master/recording/master_tape.hpp"
+#include "slave/recording/slave_tape.hpp"
+
+namespace longreach {
+
+class LabRecording {
+ public:
+  /// When the clocks of the sides began.
+  struct Clocks {
+    Time master{}, slave{};
+  };
+  /// Throws RecordingError.
+  LabRecording(const std::filesystem::path& file, const MasterConfig& master, const SlaveConfig& slave,
+               std::uint64_t seed, const Clocks& clocks);
+  ~LabRecording();
+  LabRecording(const LabRecording&) = delete;
+  LabRecording& operator=(const LabRecording&) = delete;
+
+  void add_slave_tick(const SlaveInput& input, const SlaveOutput& output, const SlaveView& view);
+  void add_master_tick(const MasterInput& input, const MasterOutput& output, const MasterView& view,
+                       std::optional<double> rtt_s);
+
+  /// Writes the rest. Throws RecordingError when anything could not be written.
+  void finish();
+
+ private:
+  void drain();
+
+  RecordingFile file_;
+  McapWriter writer_;
+  MasterTape master_;
+  SlaveTape slave_;
+  std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
+  std::uint64_t undrained_ = 0;  // records, at most
+  bool finished_ = false;
+};
+
+}  // namespace longreach

@@ -1,0 +1,165 @@
+#include "deploy/lab/recording/node_replay.hpp"
+
+#include "common/config/config.hpp"
+#include "common/recording/recorded_values.hpp"
+#include "common/recording/recording_error.hpp"
+#include "deploy/lab/recording/message_difference.hpp"
+#include "master/recording/master_tape.hpp"
+#include "slave/recording/slave_tape.hpp"
+
+namespace longreach {
+namespace {
+
+template <class Message>
+void parse(std::string_view bytes, Message& out) {
+  if (!out.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    throw RecordingError("a message does not follow the schema " + out.GetTypeName());
+}
+
+template <class Message>
+auto parsed(std::string_view bytes) {
+  Message message;
+  parse(bytes, message);
+  return read(message);
+}
+
+template <class Message>
+auto struct_of(const std::string& config) {
+  Message message;
+  load_text("the recorded configuration", config, message);
+  return to_struct(message);
+}
+
+}  // namespace
+
+NodeReplay::NodeReplay(std::string side) { result_.side = std::move(side); }
+
+void NodeReplay::take(std::string_view name, std::string_view bytes) {
+  if (over()) return;
+  if (name == "config") {
+    recording::Config config;
+    parse(bytes, config);
+    configs_[config.number()] = config.text();
+  } else {
+    take_own(name, bytes);
+  }
+}
+
+bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete) {
+  if (!began() && tick != 0) {
+    stop("the recording begins at tick " + std::to_string(tick) +
+         ", and what the node knew then is not in it: a replay needs a recording from the start (--record)");
+    return false;
+  }
+  if (tick != next_tick_) {
+    stop("ticks " + std::to_string(next_tick_) + " to " + std::to_string(tick - 1) +
+         " are not in the recording: it could not be written as fast");
+    return false;
+  }
+  if (!complete) {
+    stop("messages that tick " + std::to_string(tick) + " took are not in the recording");
+    return false;
+  }
+  if (!began() || config != config_) {
+    const auto text = configs_.find(config);
+    if (text == configs_.end()) {
+      stop("configuration " + std::to_string(config) + " is not in the recording");
+      return false;
+    }
+    began() ? configure(text->second) : begin(text->second);
+    config_ = config;
+  }
+  if (tick == 0) first_ns_ = now_ns;
+  now_ns_ = now_ns;
+  next_tick_ = tick + 1;
+  return true;
+}
+
+void NodeReplay::compare(const char* what, const google::protobuf::Message& recorded,
+                         const google::protobuf::Message& replayed) {
+  recorded.SerializeToString(&recorded_bytes_);
+  replayed.SerializeToString(&replayed_bytes_);
+  if (recorded_bytes_ == replayed_bytes_) return;
+  auto difference = first_difference(recorded, replayed);
+  if (!difference) return;
+  result_.difference =
+      ReplayDifference{next_tick_ - 1, to_seconds(Duration(now_ns_ - first_ns_)),
+                       std::string(what) + "." + difference->field, difference->a, difference->b};
+}
+
+void NodeReplay::book_tick(std::size_t messages) {
+  if (over()) return;
+  ++result_.ticks;
+  result_.messages += messages;
+  result_.seconds = to_seconds(Duration(now_ns_ - first_ns_));
+}
+
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::begin(const std::string& config) {
+  node_ = std::make_unique<Node>(struct_of<Config>(config));
+}
+
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::configure(const std::string& config) {
+  node_->configure(struct_of<Config>(config));
+}
+
+template <class Node, class Config, class Tick, class Output, class View>
+void ReplayOf<Node, Config, Tick, Output, View>::take_own(std::string_view name, std::string_view bytes) {
+  if (name == "tick") {
+    parse(bytes, tick_);
+    step();
+  } else if (name == "view") {
+    parse(bytes, view_);
+    if (!is_last_tick(view_.tick())) return;
+    shown_.Clear();
+    write(node_->view(), shown_);
+    shown_.set_tick(view_.tick());
+    compare("view", view_, shown_);
+  } else {
+    take_received(name, bytes);
+  }
+}
+
+template <class Node, class Config, class Tick, class Output, class View>
+template <class Input>
+void ReplayOf<Node, Config, Tick, Output, View>::step_node(const Input& in, std::size_t messages) {
+  const auto out = node_->step(in);
+  output_.Clear();
+  write(out, output_);
+  compare("output", tick_.output(), output_);
+  book_tick(messages);
+}
+
+void MasterReplay::take_received(std::string_view name, std::string_view bytes) {
+  if (name == "received_report") reports_.push_back(parsed<recording::ReceivedReport>(bytes));
+  if (name == "received_telemetry") telemetry_.push_back(parsed<recording::ReceivedTelemetry>(bytes));
+}
+
+void MasterReplay::step() {
+  const recording::MasterInput& recorded = tick_.input();
+  const bool complete = reports_.size() == recorded.reports() && telemetry_.size() == recorded.telemetry();
+  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
+  MasterInput in = read(recorded);
+  in.reports = reports_;
+  in.telemetry = telemetry_;
+  step_node(in, reports_.size() + telemetry_.size());
+  reports_.clear();
+  telemetry_.clear();
+}
+
+void SlaveReplay::take_received(std::string_view name, std::string_view bytes) {
+  if (name == "received_command") commands_.push_back(parsed<recording::ReceivedCommand>(bytes));
+}
+
+void SlaveReplay::step() {
+  const recording::SlaveInput& recorded = tick_.input();
+  const bool complete = commands_.size() == recorded.commands();
+  if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
+  SlaveInput in = read(recorded);
+  in.commands = commands_;
+  step_node(in, commands_.size());
+  commands_.clear();
+}
+
+}  // namespace longreach

@@ -1,0 +1,109 @@
+#pragma once
+// One side of a replay: fed with the messages of a recording in their order.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/recording/mcap_reader.hpp"
+#include "deploy/lab/recording/replay.hpp"
+#include "master/master_node.hpp"
+#include "proto/config.pb.h"
+#include "proto/recording.pb.h"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+class NodeReplay {
+ public:
+  explicit NodeReplay(std::string side);
+  virtual ~NodeReplay() = default;
+  NodeReplay(const NodeReplay&) = delete;
+  NodeReplay& operator=(const NodeReplay&) = delete;
+
+  /// `name`: of the topic, without the side. Ignored once there is a difference, or it was stopped.
+  void take(std::string_view name, std::string_view bytes);
+  [[nodiscard]] const SideReplay& result() const { return result_; }
+
+ protected:
+  /// A message of the node's own topics.
+  virtual void take_own(std::string_view name, std::string_view bytes) = 0;
+  virtual void begin(const std::string& config) = 0;
+  virtual void configure(const std::string& config) = 0;
+  [[nodiscard]] virtual bool began() const = 0;
+
+  /// Whether the node is ready for this tick: begun, in order, with its configuration and its messages.
+  bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete);
+  /// Books a difference, if there is one.
+  void compare(const char* what, const google::protobuf::Message& recorded,
+               const google::protobuf::Message& replayed);
+  void book_tick(std::size_t messages);
+  [[nodiscard]] bool over() const { return result_.difference || !result_.stopped.empty(); }
+  [[nodiscard]] bool is_last_tick(std::uint64_t tick) const { return began() && tick + 1 == next_tick_; }
+
+ private:
+  void stop(std::string why) { result_.stopped = std::move(why); }
+
+  SideReplay result_{};
+  std::map<std::uint32_t, std::string> configs_;
+  std::uint32_t config_ = 0;  // that the node has
+  std::uint64_t next_tick_ = 0;
+  std::int64_t first_ns_ = 0, now_ns_ = 0;
+  std::string recorded_bytes_, replayed_bytes_;
+};
+
+/// What both sides do alike.
+template <class Node, class Config, class Tick, class Output, class View>
+class ReplayOf : public NodeReplay {
+ public:
+  using NodeReplay::NodeReplay;
+
+ protected:
+  /// Steps the node with the recorded input and compares what comes out.
+  virtual void step() = 0;
+  /// A message that the next tick takes.
+  virtual void take_received(std::string_view name, std::string_view bytes) = 0;
+  template <class Input>
+  void step_node(const Input& in, std::size_t messages);
+
+  Tick tick_;
+  std::unique_ptr<Node> node_;
+
+ private:
+  void take_own(std::string_view name, std::string_view bytes) override;
+  void begin(const std::string& config) override;
+  void configure(const std::string& config) override;
+  [[nodiscard]] bool began() const override { return node_ != nullptr; }
+
+  Output output_;
+  View view_, shown_;
+};
+
+class MasterReplay : public ReplayOf<MasterNode, proto::MasterConfig, recording::MasterTick,
+                                     recording::MasterOutput, recording::MasterView> {
+ public:
+  MasterReplay() : ReplayOf("master") {}
+
+ private:
+  void step() override;
+  void take_received(std::string_view name, std::string_view bytes) override;
+
+  std::vector<Received<StiffnessReport>> reports_;
+  std::vector<Received<Telemetry>> telemetry_;
+};
+
+class SlaveReplay : public ReplayOf<SlaveNode, proto::SlaveConfig, recording::SlaveTick,
+                                    recording::SlaveOutput, recording::SlaveView> {
+ public:
+  SlaveReplay() : ReplayOf("slave") {}
+
+ private:
+  void step() override;
+  void take_received(std::string_view name, std::string_view bytes) override;
+
+  std::vector<Received<MotionCommand>> commands_;
+};
+
+}  // namespace longreach

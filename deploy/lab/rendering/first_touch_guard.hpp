@@ -1,0 +1,14 @@
+#pragma once
+// The slave's part of a first touch: what the force guard makes of 50 mm/s on 5 N/mm, over the robots that it
+// has to hold, and what comes of the same touches without it.
+
+#include "deploy/lab/experiment.hpp"
+#include "deploy/lab/plot.hpp"
+
+namespace longreach {
+
+/// Writes the trace `first-touch-guard` to `out`.
+std::vector<Metric> run_first_touch_guard(const std::filesystem::path& out);
+Plot first_touch_guard_plot();
+
+}  // namespace longreach

@@ -1,0 +1,17 @@
+#pragma once
+// The draws of the campaign `idle`: devices, places, grips, modes, delays, walls.
+
+#include <vector>
+
+#include "deploy/lab/rendering/idle_draw.hpp"
+#include "proto/config.pb.h"
+
+namespace longreach {
+
+/// The masters of the device files that are drawn from, complete.
+std::vector<MasterConfig> idle_masters(const proto::LabConfig& config);
+
+/// The draw with this number: the same for the same seed and number.
+IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed, std::size_t number);
+
+}  // namespace longreach

@@ -1,0 +1,12 @@
+#pragma once
+// The DELTA's part of `longreach-lab solve`: one request, one answer. Throws BadRequest or GeometryError.
+
+#include "deploy/lab/solve/solve_json.hpp"
+
+namespace longreach {
+
+solve_json::Json solve_delta_ik(const solve_json::Json& request);
+solve_json::Json solve_delta_fk(const solve_json::Json& request);
+solve_json::Json solve_delta_statics(const solve_json::Json& request);
+
+}  // namespace longreach

@@ -1,0 +1,67 @@
+#pragma once
+// Searches for the best design of a SynthesisProblem, each within a budget of evaluations (one evaluation:
+// all slacks of one design; those for gradients count). Deterministic from the seed.
+//
+//   genetic     pagmo's `sga`: simulated binary crossover, polynomial mutation, tournament. A genetic
+//               algorithm proper; NLopt's evolutionary methods are evolution strategies. Constraints by Deb's
+//               rule (2000): feasible before infeasible, these by violation.
+//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until it converges. Gradients by central
+//               differences.
+//   restarted   the same from further random starts until the budget is spent.
+//   genetic, then sequential: the first with four fifths of the budget, its best design starts the second.
+//
+// The libraries are behind `run_genetic` and `run_sequential`, one file each.
+
+#include <vector>
+
+#include "common/core/random.hpp"
+#include "deploy/lab/synthesis/synthesis_problem.hpp"
+
+namespace longreach {
+
+/// Everything a search has evaluated, and where its budget ends.
+class SearchLog {
+ public:
+  using Variables = SynthesisProblem::Variables;
+  struct Step {
+    int evaluations = 0;
+    double value = 0.0;  // best feasible one from here on
+  };
+
+  SearchLog(const SynthesisProblem& problem, int budget) : problem_(problem), budget_(budget) {}
+
+  /// Evaluates and keeps the best: feasible before infeasible, then by value, or by violation.
+  SynthesisProblem::Evaluation evaluate(const Variables& x);
+
+  [[nodiscard]] const SynthesisProblem& problem() const { return problem_; }
+  [[nodiscard]] int left() const { return budget_ - evaluations_; }
+  [[nodiscard]] int evaluations() const { return evaluations_; }
+  [[nodiscard]] bool feasible() const { return violation_ <= SynthesisProblem::kTolerance; }
+  [[nodiscard]] const Variables& best() const { return best_; }
+  [[nodiscard]] double value() const { return feasible() ? value_ : 0.0; }
+  [[nodiscard]] double violation() const { return violation_; }
+  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+
+ private:
+  SynthesisProblem problem_;
+  int budget_;
+  int evaluations_ = 0;
+  Variables best_ = Variables::Zero();
+  double value_ = 0.0;
+  double violation_ = 1e300;
+  std::vector<Step> steps_;
+};
+
+constexpr int kGradientEvaluations = 11;  // of one step of the sequential method
+
+void run_genetic(SearchLog& log, int evaluations, Random random);
+/// One run of the method: ends when it converges, fails or has spent the budget.
+void run_sequential(SearchLog& log, const SearchLog::Variables& start);
+
+SearchLog::Variables random_start(const SynthesisProblem& problem, Random& random);
+
+enum class SearchMethod : std::uint8_t { kGenetic, kSequential, kRestarted, kGeneticThenSequential };
+
+SearchLog search(SearchMethod method, const SynthesisProblem& problem, std::uint64_t seed, int budget);
+
+}  // namespace longreach

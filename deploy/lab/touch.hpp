@@ -1,0 +1,13 @@
+#pragma once
+// The main experiment with a recording of both sides: OUT/touch.mcap. The run is the same.
+
+#include <vector>
+
+#include "deploy/lab/experiment.hpp"
+
+namespace longreach {
+
+/// Throws RecordingError.
+std::vector<Metric> run_touch_recorded(const ExperimentRun& run);
+
+}  // namespace longreach

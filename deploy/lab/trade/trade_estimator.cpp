@@ -1,0 +1,101 @@
+// What an estimator learns of a contact in 2 s at 1 kHz (k 1e4 N/m^1.5, λ/k 0.15 s/m, noise 0.05 N), against
+// what a sample costs it; FIXED_EXPONENT with the right exponent and with the default of 1; Ceres Solver's
+// batch fit beside them.
+
+#include <cmath>
+
+#include "deploy/lab/contact/contact_batch.hpp"
+#include "deploy/lab/estimators/methods.hpp"
+#include "deploy/lab/trade/cost.hpp"
+#include "deploy/lab/trade/trade.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kRecords = 20;
+constexpr int kCounted = 16;  // samples
+
+struct Way {
+  const char* name;
+  IdentifierConfig config;
+  bool standard = false;
+};
+
+const Way kWays[] = {
+    {"fixed_exponent", by(Method::kFixedExponent, {.exponent = 1.5})},
+    {"fixed_exponent_1", by(Method::kFixedExponent, {.exponent = 1.0, .surface_known = false}), true},
+    {"two_stage", by(Method::kTwoStage)},
+    {"log_linear", by(Method::kLogLinear)},
+    {"kelvin_voigt", by(Method::kKelvinVoigt)},
+    {"maximum_likelihood", by(Method::kMaximumLikelihood)},
+};
+
+double tangent(double k, double n, double x) { return k * n * std::pow(x, n - 1.0); }
+
+TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vector<test::Samples>& records) {
+  TradePoint point{way.name, ""};
+  point.standard = way.standard;
+  // Where the hand works: the depth of half of the force.
+  const double x = std::pow(5.0 / cell.k, 1.0 / cell.n), right = tangent(cell.k, cell.n, x);
+  for (const test::Samples& record : records) {
+    Identifier identifier(way.config);
+    for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
+    if (!identifier.answer().valid) {
+      point.error += 1.0 / kRecords;
+      continue;
+    }
+    const double error =
+        identifier.answer_at(way.config.surface_known ? x : identifier.depth_of(5.0)).stiffness.value /
+            right -
+        1.0;
+    point.error += error * error / kRecords;
+  }
+  point.error = 100.0 * std::sqrt(point.error);
+  const test::Samples& record = records.front();
+  Identifier identifier(way.config);
+  const auto step = [&](int i) {
+    identifier.step(record[static_cast<std::size_t>(i) % record.size()], 1e-3);
+  };
+  point.cost = cost_ns(static_cast<int>(record.size()), step);
+  point.instructions = instructions(kCounted, step);
+  return point;
+}
+
+std::vector<TradePoint> measure(const ExperimentRun& run) {
+  const test::ContactCell cell;
+  const test::Samples exact = test::exact_record(cell);
+  Random random = Random(run.seed).child("trade estimator");
+  std::vector<test::Samples> records;
+  for (int i = 0; i < kRecords; ++i) records.push_back(test::with_noise(exact, cell.noise_n, random));
+  std::vector<TradePoint> points;
+  for (const Way& way : kWays) points.push_back(of_way(way, cell, records));
+
+  TradePoint batch{"batch_fit", ""};
+  const double x = std::pow(5.0 / cell.k, 1.0 / cell.n), right = tangent(cell.k, cell.n, x);
+  for (const test::Samples& record : records) {
+    const test::ContactBatch fit = test::batch_fit(cell, record);
+    const double error = tangent(fit.k, fit.n, x) / right - 1.0;
+    batch.error += error * error / kRecords;
+  }
+  batch.error = 100.0 * std::sqrt(batch.error);
+  batch.cost = cost_ns(3, [&](int i) { test::batch_fit(cell, records[static_cast<std::size_t>(i)]); }) /
+               static_cast<double>(exact.size());
+  points.push_back(batch);
+  return points;
+}
+
+}  // namespace
+
+TradeStage trade_estimator() {
+  return {.name = "estimator",
+          .title = "Stiffness of a contact (n = 1.5) after 2 s",
+          .cost = "time of a sample",
+          .cost_unit = "ns",
+          .error = "error of the stiffness at 5 N",
+          .error_unit = "%",
+          .series = {"fixed_exponent", "fixed_exponent_1", "two_stage", "log_linear", "kelvin_voigt",
+                     "maximum_likelihood", "batch_fit"},
+          .measure = measure};
+}
+
+}  // namespace longreach

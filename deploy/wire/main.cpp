@@ -1,0 +1,71 @@
+// longreach-wire: delays and drops whole IP packets between two hosts: handshakes, segments and
+// acknowledgements of TCP as well as datagrams. They come from the rule `-j NFQUEUE` in its own network
+// namespace, or, with --relay, it is the cable between two namespaces. It shares no code with
+// common/link/impairment, which it checks. Ends on SIGTERM, SIGINT or SIGHUP and says what it did.
+//
+// Not here: jitter, reordering, rate. A packet waits at least the delay, and longer by as much as this
+// program is scheduled late: it asks for the priority that the programs at its ends have, since beside a busy
+// machine it would be silent for longer than they forgive. What is on its way when it ends is lost.
+
+#include <sched.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "deploy/wire/packet_queue.hpp"
+#include "deploy/wire/packet_relay.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t ended = 0;
+void end(int) { ended = 1; }
+
+template <class Wire>
+void serve(Wire wire) {
+  std::puts("ready");
+  std::fflush(stdout);
+  while (ended == 0) wire->step();
+  std::fprintf(stderr, "longreach-wire: packets=%llu dropped=%llu\n",
+               static_cast<unsigned long long>(wire->packets()),
+               static_cast<unsigned long long>(wire->dropped()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Delays and drops packets between two hosts.", "longreach-wire"};
+  longreach::WireConfig config;
+  std::uint16_t queue = 0;
+  std::vector<pid_t> hosts;
+  app.add_option("--delay", config.delay_s, "how long each packet waits, s")->check(CLI::Range(0.0, 100.0));
+  app.add_option("--loss", config.loss, "fraction that is dropped")->check(CLI::Range(0.0, 1.0));
+  app.add_option("--seed", config.seed, "of the choice what is dropped");
+  auto* number = app.add_option("--queue", queue, "number of the queue, as in iptables --queue-num");
+  app.add_option("--relay", hosts, "be the cable between the network namespaces of two processes: PID PID")
+      ->expected(2)
+      ->excludes(number);
+  CLI11_PARSE(app, argc, argv);
+
+  struct sigaction action {};
+  action.sa_handler = end;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);
+  const sched_param priority{.sched_priority = 50};
+  sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
+  try {
+    if (hosts.empty())
+      serve(std::make_unique<longreach::PacketQueue>(config, queue));
+    else
+      serve(std::make_unique<longreach::PacketRelay>(config, std::array{hosts[0], hosts[1]}));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "longreach-wire: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,105 @@
+#include "deploy/wire/packet_relay.hpp"
+
+#include <fcntl.h>
+#include <linux/if.h>
+#include <linux/if_tun.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace longreach {
+namespace {
+
+constexpr std::size_t kParcelsMax = 65'536;  // under way, each way; what comes beyond is dropped
+constexpr auto kLongestWait = std::chrono::milliseconds(100);
+
+Descriptor opened(const std::string& file, int flags) {
+  const int number = ::open(file.c_str(), flags | O_CLOEXEC);
+  if (number < 0) throw std::runtime_error(file + ": " + std::strerror(errno));
+  return Descriptor(number);
+}
+
+void enter(const Descriptor& network_namespace, const std::string& whose) {
+  if (::setns(network_namespace.number(), CLONE_NEWNET) != 0)
+    throw std::runtime_error("no way into the network namespace of " + whose + ": " + std::strerror(errno));
+}
+
+/// One end of the cable, in the network namespace of a process.
+Descriptor cable_end(pid_t host) {
+  const std::string process = std::to_string(host);
+  const Descriptor here = opened("/proc/self/ns/net", O_RDONLY);
+  const Descriptor there = opened("/proc/" + process + "/ns/net", O_RDONLY);
+  enter(there, "process " + process);
+  // An interface is made in the namespace in which its file was opened.
+  Descriptor tunnel = opened("/dev/net/tun", O_RDWR | O_NONBLOCK);
+  ifreq request{};
+  request.ifr_flags = IFF_TUN | IFF_NO_PI;
+  std::strncpy(request.ifr_name, "cable", IFNAMSIZ - 1);
+  const bool made = ::ioctl(tunnel.number(), TUNSETIFF, &request) == 0;
+  const std::string why = std::strerror(errno);
+  enter(here, "this process");
+  if (!made) throw std::runtime_error("no interface for the cable at process " + process + ": " + why);
+  return tunnel;
+}
+
+}  // namespace
+
+Descriptor::~Descriptor() {
+  if (number_ >= 0) ::close(number_);
+}
+
+PacketRelay::PacketRelay(const WireConfig& config, std::array<pid_t, 2> hosts)
+    : config_(config),
+      delay_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(config.delay_s))),
+      random_(config.seed),
+      cable_{cable_end(hosts[0]), cable_end(hosts[1])} {}
+
+void PacketRelay::read(std::size_t from) {
+  std::array<std::byte, 65'536> packet;
+  for (;;) {
+    const ssize_t size = ::read(cable_[from].number(), packet.data(), packet.size());
+    if (size <= 0) return;
+    ++packets_;
+    if (std::bernoulli_distribution(config_.loss)(random_) || parcels_[from].size() >= kParcelsMax) {
+      ++dropped_;
+      continue;
+    }
+    parcels_[from].push_back({Clock::now() + delay_, {packet.begin(), packet.begin() + size}});
+  }
+}
+
+void PacketRelay::release(std::size_t from) {
+  const auto now = Clock::now();
+  auto& parcels = parcels_[from];
+  while (!parcels.empty() && parcels.front().due <= now) {
+    const auto& packet = parcels.front().packet;
+    // An end that takes none is a loss like any other.
+    if (::write(cable_[1 - from].number(), packet.data(), packet.size()) < 0) ++dropped_;
+    parcels.pop_front();
+  }
+}
+
+void PacketRelay::step() {
+  using std::chrono::nanoseconds;
+  const auto now = Clock::now();
+  nanoseconds wait = kLongestWait;
+  for (const auto& parcels : parcels_)
+    if (!parcels.empty()) wait = std::clamp<nanoseconds>(parcels.front().due - now, nanoseconds(0), wait);
+  timespec timeout{};
+  timeout.tv_nsec = static_cast<long>(wait.count());
+  std::array<pollfd, 2> ends{{{cable_[0].number(), POLLIN, 0}, {cable_[1].number(), POLLIN, 0}}};
+  ::ppoll(ends.data(), ends.size(), &timeout, nullptr);
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+    read(end);
+    release(end);
+  }
+}
+
+}  // namespace longreach

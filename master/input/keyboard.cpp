@@ -1,0 +1,105 @@
+#include "master/input/keyboard.hpp"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "master/input/terminal_guard.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr int kRatePolls = 100;  // 2 s
+constexpr int kReadsMax = 16;    // a poll, so that a flood of input cannot keep it
+
+/// Input, its end or an error: read() tells which.
+bool readable(int fd) {
+  pollfd waiting{fd, POLLIN, 0};
+  return ::poll(&waiting, 1, 0) > 0;
+}
+
+}  // namespace
+
+Keyboard::Keyboard(const KeyboardConfig& config, int fd) : config_(config), fd_(fd) {
+  if (!in_background(fd_)) set_raw();
+}
+
+Keyboard::~Keyboard() {
+  if (raw_) give_back_terminal_mode();
+}
+
+// Again after each time in the background, since a shell sets the mode that it likes.
+void Keyboard::set_raw() {
+  termios mode{};
+  if (::tcgetattr(fd_, &mode) != 0 || (raw_ && (mode.c_lflag & ICANON) == 0)) return;
+  keep_terminal_mode(fd_, mode);
+  mode.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  mode.c_iflag &= ~static_cast<tcflag_t>(IXON);  // ctrl-S must not stop the view
+  mode.c_cc[VSUSP] = _POSIX_VDISABLE;            // nor ctrl-Z a program that steers a robot
+  mode.c_cc[VMIN] = 1;
+  mode.c_cc[VTIME] = 0;
+  raw_ = ::tcsetattr(fd_, TCSANOW, &mode) == 0;
+}
+
+KeyboardState Keyboard::poll(MotionMode mode) {
+  const bool clutch = state_.requests.clutch;
+  state_.requests = {};
+  state_.requests.clutch = clutch;
+  if (ended_) return state_;
+  trouble_.clear();
+  if (in_background(fd_)) {
+    trouble_ = "longreach-master is in the background; bring it to the foreground (fg), then engage";
+  } else {
+    set_raw();
+    read_all(mode);
+  }
+  // A terminal reports no release of a key, and in rate mode a deflection drives the robot without end.
+  if (++idle_polls_ >= kRatePolls && mode == MotionMode::kRate && !state_.target_m.isZero(0.0)) {
+    state_.target_m.setZero();
+    let_go_ = true;
+  }
+  if (trouble_.empty()) return state_;
+  state_.target_m.setZero();
+  state_.requests.clutch = false;
+  return state_;
+}
+
+void Keyboard::read_all(MotionMode mode) {
+  std::array<char, 256> bytes{};
+  parser_.tick();
+  for (int i = 0; i < kReadsMax && readable(fd_); ++i) {
+    const ssize_t n = ::read(fd_, bytes.data(), bytes.size());
+    if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (n == 0) return end(raw_ ? "its terminal was closed" : "end of input");
+    if (n < 0) return end(std::strerror(errno));
+    used_ = true;
+    if (!parser_.overdue()) {
+      idle_polls_ = 0;
+      let_go_ = false;
+    }
+    for (const Key& key : parser_.feed({bytes.data(), static_cast<std::size_t>(n)})) {
+      apply(key, config_, mode, state_);
+    }
+  }
+}
+
+std::string_view Keyboard::notice() const {
+  if (!trouble_.empty()) return "";
+  if (parser_.overdue())
+    return "a paste or a control string at the keyboard has no end: of its keys only x (stop) acts; press "
+           "Esc";
+  if (let_go_) return "no key came for 2 s in rate mode: the hand went home; Enter held keeps it where it is";
+  return "";
+}
+
+void Keyboard::end(const std::string& why) {
+  ended_ = true;
+  trouble_ = (used_ ? "the keyboard has ended" : "no keyboard is there") + (" (" + why) +
+             "); start longreach-master in a terminal, or use another operator";
+}
+
+}  // namespace longreach

@@ -1,0 +1,100 @@
+#include "master/program/hand_poll.hpp"
+
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "common/loop/real_time_loop.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr auto kPollPeriod = std::chrono::milliseconds(20);
+
+bool asks(const OperatorRequests& r) {
+  return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0 ||
+         r.grip.has_value() || r.turns_gripper;
+}
+
+/// What keys and pad ask for together; a stop wins.
+OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
+  keys.stop = keys.stop || pad.stop;
+  keys.engage = (keys.engage || pad.engage) && !keys.stop;
+  if (!keys.mode) keys.mode = pad.mode;
+  keys.turns_gripper = keys.turns_gripper != pad.turns_gripper;
+  keys.scale_steps += pad.scale_steps;
+  return keys;
+}
+
+}  // namespace
+
+HandPoll::HandPoll(const MasterConfig& config, MasterShell& shell, MasterService& service)
+    : config_(config), shell_(shell), service_(service) {
+  const bool pad = PadOperator::is_for(config.operator_.kind);
+  if (pad) {
+    pad_.emplace(config);
+    shell.hand().write({.present = false});  // until it has been looked for
+  }
+  if (!pad && config.operator_.kind != OperatorKind::kKeyboard) return;
+  keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
+  polled_ = monotonic_now();
+  thread_ = std::thread([this] { run(); });
+  (void)::pthread_setname_np(thread_.native_handle(), "hand");
+}
+
+HandPoll::~HandPoll() {
+  ended_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+HandPoll::Seen HandPoll::seen() const {
+  const std::lock_guard lock(seeing_);
+  return seen_;
+}
+
+void HandPoll::run() {
+  LoopConfig behind = config_.loop;
+  behind.priority -= behind.priority > 0 ? 1 : 0;
+  (void)ask_for_real_time(behind);  // what is not permitted the loop has said
+  while (!ended_) {
+    std::this_thread::sleep_for(kPollPeriod);
+    poll();
+  }
+}
+
+void HandPoll::poll() {
+  const MasterView view = service_.snapshot().view;
+  const KeyboardState state = keyboard_->poll(view.mode);
+  OperatorRequests requests = state.requests;
+  if (pad_) {
+    requests = poll_pad(view, requests);
+  } else {
+    shell_.hand().write({.target_m = state.target_m,
+                         .clutch = requests.clutch,
+                         .present = keyboard_->trouble().empty(),
+                         .said = monotonic_now()});
+  }
+  if (asks(requests)) {
+    if (const auto refusal = service_.request(requests)) spdlog::warn("key refused=\"{}\"", refusal->message);
+  }
+  const std::lock_guard lock(seeing_);
+  seen_.show_keys = state.show_keys;
+  seen_.notice = keyboard_->notice();
+  seen_.quit = seen_.quit || state.quit;
+  seen_.trouble = pad_ ? pad_->trouble() : keyboard_->trouble();
+  if (pad_) seen_.pad_keys = pad_->key_line();
+}
+
+OperatorRequests HandPoll::poll_pad(const MasterView& view, OperatorRequests keys) {
+  const Time now = monotonic_now();
+  const double felt = view.spring_force_n.norm() / config_.rendering.force_max_n;
+  const AxisHandState& pad = pad_->poll(view.mode, felt, to_seconds(now - std::exchange(polled_, now)));
+  HandLevel level = pad.level;
+  level.clutch = level.clutch || keys.clutch;
+  level.said = monotonic_now();
+  shell_.hand().write(level);
+  return both(std::move(keys), pad.requests);
+}
+
+}  // namespace longreach

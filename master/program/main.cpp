@@ -1,0 +1,232 @@
+// longreach-master: the operator's side. Reads the hands, commands the slave, renders what it touches.
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <exception>
+#include <sstream>
+#include <thread>
+
+#include "common/loop/real_time_loop.hpp"
+#include "common/loop/stop_signal.hpp"
+#include "common/net/adapter_channel.hpp"
+#include "common/program/log.hpp"
+#include "common/program/program.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "master/console/formatted.hpp"
+#include "master/console/summary.hpp"
+#include "master/desk/desk.hpp"
+#include "master/program/housekeeping.hpp"
+#include "master/simulation/simulated_devices.hpp"
+
+namespace longreach {
+namespace {
+
+struct MasterOptions : ProgramOptions {
+  std::string operator_kind;
+  std::string mode;
+  std::string adapter;
+  std::string view = "auto";
+  bool engage = false;
+  bool take = false;
+  std::optional<double> wall_n_per_m{};
+};
+
+/// As people write them.
+std::vector<std::string> names_of(const google::protobuf::EnumDescriptor& values) {
+  std::vector<std::string> names;
+  for (int i = 0; i < values.value_count(); ++i) {
+    names.push_back(values.value(i)->name());
+    for (char& c : names.back()) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return names;
+}
+
+/// The shorthands are settings like any other.
+ProgramOptions with_shorthands(const MasterOptions& options) {
+  ProgramOptions out = options;
+  if (!options.operator_kind.empty()) out.settings.push_back("operator.kind=" + options.operator_kind);
+  if (!options.mode.empty()) out.settings.push_back("mapping.mode=" + options.mode);
+  if (!options.adapter.empty()) out.settings.push_back("device_adapter.address=" + options.adapter);
+  if (options.engage) out.settings.push_back("safety.engage_at_start=true");
+  return out;
+}
+
+ViewKind view_kind(const std::string& name) {
+  if (name == "none") return ViewKind::kNone;
+  return name == "plain" ? ViewKind::kPlain : ViewKind::kAuto;
+}
+
+/// The newest one, for RPC threads.
+ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, double seconds) {
+  ConsoleSnapshot out = picture(service.snapshot(), config);
+  out.trouble = service.trouble();
+  out.seconds = seconds;
+  return out;
+}
+
+SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_n_per_m) {
+  return {.ke = config.rendering.ke,
+          .contact_expected = scripted(config),
+          .wall_n_per_m = wall_n_per_m,
+          .store_j = config.rendering.store_j,
+          .outages = config.link.impairment.blackout_duration_s > 0.0};
+}
+
+/// The verdict counts for a run that was given its length; one that ends by a signal has just ended.
+int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
+          const MasterConfig& config, const std::vector<HandTrouble>& hand) {
+  const Summary result = summary.finish(picture(last, config), hand);
+  if (options.view != "none") put(STDOUT_FILENO, result.text());
+  const LoopFigures& loop = last.side.loop;
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
+               loop.ticks, loop.missed_ticks, loop.ticks_late_100ms, 1e6 * loop.lateness_quantile_s(0.99),
+               result.passed() ? "ok" : "failed");
+  return options.seconds && !result.passed() ? kExitFailed : 0;
+}
+
+/// All of them outlive it.
+std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shell,
+                                       const MasterConfig& config) {
+  return std::make_unique<DeskService>(
+      DeskService::Reach{config.device.delta.workspace_m,
+                         config.device.turns ? config.device.spherical.workspace_rad : 0.0},
+      [&, began = monotonic_now()] { return picture(service, config, to_seconds(monotonic_now() - began)); },
+      [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
+}
+
+/// What the configuration means for the operator, each line after `before`.
+std::string notes_on(const MasterConfig& config, const std::string& before) {
+  const double most_n_per_m = MasterNode(config).view().stiffness_max_n_per_m;
+  std::string text = before + "device " + config.device.name +
+                     formatted(": renders at most %.3g N/mm, ", 1e-3 * most_n_per_m) +
+                     formatted("workspace up to %.3g mm", 1e3 * config.device.delta.workspace_m) + "\n";
+  if (!config.device.turns)
+    text += before + "the handle does not turn: the robot keeps its orientation, and no moment is rendered\n";
+  return text;
+}
+
+/// What ranges cannot tell: whether the mechanisms close their loops.
+void require_device(const DeviceConfig& device) {
+  try {
+    SimulatedDevices{device};
+  } catch (const GeometryError& e) {
+    throw ConfigError(std::string("device: ") + e.what());
+  }
+}
+
+/// A file that nobody has chosen is not that of a real device.
+void log_device(const MasterConfig& config, bool chosen) {
+  std::istringstream notes(notes_on(config, ""));
+  for (std::string note; std::getline(notes, note);) spdlog::info("device note=\"{}\"", note);
+  if (config.device_adapter.address.empty()) return;
+  spdlog::info("device adapter={}", config.device_adapter.address);
+  if (!chosen)
+    spdlog::warn(
+        "device file=default because=\"device_file is not set: what is rendered relies on the damping, mass "
+        "and "
+        "encoders of {}\" do=\"set device_file to that of your device\"",
+        config.device.name);
+}
+
+int print_check(const std::vector<FileRead>& files, const proto::MasterConfig& config) {
+  const std::string notes = notes_on(to_struct(config), "# ");
+  std::fputs((files_text(files, "# ", "\n") + notes + get_field(config, "", &config)).c_str(), stdout);
+  return 0;
+}
+
+int operate(const MasterOptions& options) {
+  std::vector<FileRead> files;
+  const auto config = load_config<proto::MasterConfig>(with_shorthands(options), files);
+  require_device(to_struct(config).device);
+  if (options.check) return print_check(files, config);
+  refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
+  auto& stop = stop_requested();
+  set_up_log("master", options.log);
+  const MasterConfig plain = to_struct(config);
+  const RpcSecurity security = security_of(options, RpcRole::kMaster);
+  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
+  MasterShell shell(plain, seed);
+  MasterService service(shell, config, {options.recordings, seed});
+  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
+  const Time began = monotonic_now();
+  const auto desk = make_desk(service, shell, plain);
+  RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
+  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
+               rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
+  log_device(plain, config.has_device_file());
+  Housekeeping housekeeping({view_kind(options.view), options.seconds}, plain, shell, service);
+  // The live view owns the terminal; it shows what the log would say.
+  if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();
+
+  RunSummary summary(summary_of(plain, options.wall_n_per_m));
+  std::atomic<bool> end{false};
+  std::exception_ptr failure;
+  std::thread loop_thread([&] {
+    try {
+      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
+      RealTimeLoop loop(plain.loop.rate_hz);
+      shell.meet_device();
+      loop.run(end, [&](Time now, const LoopFigures& figures) {
+        shell.tick(now, figures);
+        summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);
+      });
+    } catch (...) {
+      failure = std::current_exception();
+      stop = true;
+    }
+  });
+  std::optional<SessionSeeker> seeker(
+      std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
+      sent_hz(plain.link),
+      [&service, &plain]() -> SessionSeeker::Present {
+        const SideFigures side = service.snapshot().side;
+        // Both directions have the same, or the slave's is not known here.
+        const ImpairmentConfig& down = plain.link.impairment;
+        return {side.session, side.link.silence_s, plain.link.slave,
+                2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
+      },
+      [&service](const Session& session) { return service.adopt(session); });
+  housekeeping.run(stop, *seeker);
+  end = true;
+  loop_thread.join();
+  seeker.reset();
+  rpc.stop();
+  if (failure) std::rethrow_exception(failure);
+  return judge(options, summary, service.snapshot(), plain, housekeeping.hand_troubles());
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "The operator's side of longreach: reads the hands, commands the slave, renders what it touches.",
+      "longreach-master"};
+  longreach::MasterOptions options;
+  longreach::add_program_options(app, options, "longreach-master " LONGREACH_VERSION);
+  app.add_option(
+         "--operator", options.operator_kind,
+         "Who moves the hand: script, keyboard, gamepad (or joystick), spacemouse or none (operator.kind)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember(longreach::names_of(*longreach::proto::Operator::Kind_descriptor()),
+                            CLI::ignore_case));
+  app.add_option("--adapter", options.adapter,
+                 "A real haptic device: where its adapter listens (device_adapter.address); without it a "
+                 "simulated one")
+      ->type_name("unix:/PATH");
+  app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
+  app.add_flag("--engage", options.engage, "Engage when the slave is first heard (safety.engage_at_start)");
+  app.add_flag("--take", options.take,
+               "Take the robot from a master that has it; it holds until this one engages");
+  app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
+      ->transform(CLI::IsMember({"auto", "plain", "none"}, CLI::ignore_case))
+      ->capture_default_str();
+  app.add_option("--wall", options.wall_n_per_m,
+                 "True stiffness of what will be touched, where it is known: the summary judges by it")
+      ->type_name("N_PER_M")
+      ->check(longreach::number_above_zero());
+  return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });
+}

@@ -1,0 +1,225 @@
+#include "master/program/master_service.hpp"
+
+#include <google/protobuf/util/message_differencer.h>
+
+#include "common/config/config.hpp"
+#include "common/link/estimate_words.hpp"
+#include "common/rpc/status_fields.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+
+void add_view(proto::Status& out, const MasterView& view) {
+  out.set_state(std::string(to_string(view.state)));
+  out.set_cause(std::string(to_string(view.cause)));
+  if (view.refusal != HoldCause::kNone)
+    out.set_refusal((view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal));
+  out.set_far_state(std::string(to_string(view.far_state)));
+  out.set_engagement(view.engagement);
+  out.set_mode(view.mode == MotionMode::kRate ? "rate" : "position");
+  out.set_scale(view.scale);
+  assign(view.p_MH, *out.mutable_hand_m());
+  assign(view.goal_m, *out.mutable_goal_m());
+  if (view.far_known) {
+    assign(view.far.X_WE.p, *out.mutable_tool_m());
+    out.set_gripper(in_words(view.far.gripper));
+  }
+  out.set_in_contact(view.in_contact);
+  out.set_stiffness_n_per_m(view.stiffness_n_per_m);
+  out.set_force_n(view.F_H_M.force.norm());
+  out.set_contact_n(view.spring_force_n.norm());
+  out.set_energy_j(view.port_energy_j);
+  out.set_energy_min_j(view.port_energy_min_j);
+  if (view.force_clamped) out.add_clamped("force at the hand");
+  if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
+  if (view.rotational_stiffness_clamped) out.add_clamped("rotational stiffness at the hand");
+  if (view.damping_injected) out.add_clamped("energy at the hand");
+  if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps);
+}
+
+void add_view_counts(proto::Status& out, const MasterView& view) {
+  add_count(out, "reports", view.reports);
+  add_count(out, "rejected_values", view.rejected_values);
+  add_count(out, "false_holds", view.false_holds);
+  if (view.far_known) add_count(out, "limit_violations", view.far.limit_violations);
+}
+
+bool begins_with(const std::string& path, std::string_view group) {
+  return std::string_view(path).substr(0, group.size()) == group;
+}
+
+/// The script plans with what these say.
+bool moves_script(const Assignments& assignments) {
+  for (const auto& [path, value] : assignments) {
+    if (begins_with(path, "operator.") || begins_with(path, "mapping.")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings)
+    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("master", log_end) {}
+
+MasterSnapshot MasterService::snapshot() {
+  const std::lock_guard lock(reading_);
+  return shell_.snapshots().read();
+}
+
+proto::Status MasterService::status() {
+  const MasterSnapshot s = snapshot();
+  proto::Status out;
+  out.set_side("master");
+  out.set_version(LONGREACH_VERSION);
+  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
+  *out.mutable_impairment() = link();
+  add_view(out, s.view);
+  fill(out, s.side);
+  fill(out, recording_.status());
+  add_view_counts(out, s.view);
+  add_counts(out, s.adapter);
+  const std::lock_guard lock(troubling_);
+  out.set_trouble(trouble_);
+  out.set_lease(taken_by_);
+  return out;
+}
+
+std::shared_ptr<const google::protobuf::Message> MasterService::config() { return config_.present(); }
+
+std::shared_ptr<const google::protobuf::Message> MasterService::start_config() { return config_.start(); }
+
+std::optional<Refusal> MasterService::set_config(const Assignments& assignments) {
+  const auto before = config_.present();
+  auto planned = plan_change({*config_.start(), *before}, assignments);
+  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
+  const auto& change = std::get<ConfigChange>(planned);
+  const auto& after = static_cast<const proto::MasterConfig&>(*change.after);
+  MasterChange command{to_struct(after), !change.not_while_engaged.empty(),
+                       !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
+                       moves_script(assignments), config_number_ + 1};
+  recording_.add_config(++config_number_, recorded_text(after));
+  auto refusal = post(shell_.mailbox(), MasterCommand(std::move(command)), change.not_while_engaged);
+  if (!refusal) config_.put(after);
+  return refusal;
+}
+
+proto::Impairment MasterService::link() { return config_.present()->link().impairment(); }
+
+std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairment) {
+  auto refusal = post(shell_.mailbox(), MasterCommand(to_struct(impairment)));
+  if (!refusal) {
+    proto::MasterConfig after = *config_.present();
+    *after.mutable_link()->mutable_impairment() = impairment;
+    config_.put(std::move(after));
+    recording_.add_event("link impaired: " + impairment.ShortDebugString());
+  }
+  return refusal;
+}
+
+std::optional<Refusal> MasterService::set_mode(proto::Mapping::Mode mode) {
+  OperatorRequests requests;
+  requests.mode = mode == proto::Mapping::RATE ? MotionMode::kRate : MotionMode::kPosition;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::set_scale(double scale) {
+  if (!(scale >= kScaleMin && scale <= kScaleMax)) {
+    return Refusal{Refusal::Kind::kInvalid, "the scale must be from 0.05 to 1"};
+  }
+  OperatorRequests requests;
+  requests.scale = scale;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::engage() {
+  {
+    const std::lock_guard lock(troubling_);
+    if (!trouble_.empty()) return Refusal{Refusal::Kind::kPrecondition, trouble_};
+  }
+  const double silence_s = snapshot().side.link.silence_s;
+  if (!(silence_s <= config_.present()->safety().silence_s())) {
+    return Refusal{Refusal::Kind::kPrecondition,
+                   "the slave is not heard; check that longreach-slave runs and that link.slave and "
+                   "link.slave_rpc lead to "
+                   "it; the master's log says more"};
+  }
+  if (snapshot().view.hand_missing) {
+    return Refusal{
+        Refusal::Kind::kPrecondition,
+        "no hand is on the handle; take hold of it and engage then, or set safety.presence to IGNORE"};
+  }
+  OperatorRequests requests;
+  requests.engage = true;
+  return request(requests);
+}
+
+std::optional<Refusal> MasterService::stop() { return ask(shell_.stops()); }
+
+std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
+  if (requests.stop) return stop();  // what else is asked for with it does not count
+  return post(shell_.mailbox(), MasterCommand(requests));
+}
+
+std::string MasterService::trouble() {
+  const std::lock_guard lock(troubling_);
+  return trouble_;
+}
+
+void MasterService::put_trouble(const std::string& trouble, const std::string& taken_by) {
+  const bool robbed = !taken_by.empty();
+  {
+    const std::lock_guard lock(troubling_);
+    if (trouble == trouble_ && taken_by == taken_by_) return;
+    trouble_ = trouble;
+    taken_by_ = taken_by;
+  }
+  if (robbed) (void)post(shell_.mailbox(), MasterCommand(MasterRobbed{}));
+}
+
+bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }
+
+std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
+    const proto::OpenSessionRequest&, const std::string&) {
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are opened at the slave"};
+}
+
+std::optional<Refusal> MasterService::close_session(std::uint64_t) {
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are closed at the slave"};
+}
+
+SideRecording<MasterTape>::Request MasterService::recording_request(double max_mb) const {
+  SideRecording<MasterTape>::Request request;
+  request.max_mb = max_mb;
+  request.rate_hz = config_.present()->loop().rate_hz();
+  request.seed = recordings_.seed;
+  request.config_number = config_number_;
+  request.config_text = recorded_text(*config_.present());
+  return request;
+}
+
+bool MasterService::attach(MasterTape* tape) {
+  return !post(shell_.mailbox(), MasterCommand(MasterTaping{tape}));
+}
+
+std::variant<std::string, Refusal> MasterService::start_recording(const std::string& name, double max_mb) {
+  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "master",
+                                    [this](MasterTape* tape) { return attach(tape); });
+}
+
+std::variant<std::string, Refusal> MasterService::stop_recording() {
+  return longreach::stop_recording(recording_, [this](MasterTape* tape) { return attach(tape); });
+}
+
+void MasterService::record_from_start(const std::string& file, double max_mb) {
+  auto request = recording_request(max_mb);
+  request.file = file;
+  recording_.start(request, [this](MasterTape* tape) {
+    shell_.record(tape);
+    return true;
+  });
+  log_start(recording_.status());
+}
+
+}  // namespace longreach

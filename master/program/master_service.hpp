@@ -1,0 +1,65 @@
+#pragma once
+// What RPC clients and keys may do at the master: look, set, impair, change mode and scale, engage, stop.
+
+#include <chrono>
+#include <mutex>
+
+#include "common/rpc/control_backend.hpp"
+#include "common/rpc/recording_answers.hpp"
+#include "common/rpc/side_config.hpp"
+#include "master/program/master_shell.hpp"
+
+namespace longreach {
+
+class MasterService : public ControlBackend {
+ public:
+  /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
+  MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
+
+  proto::Status status() override;
+  std::shared_ptr<const google::protobuf::Message> config() override;
+  std::shared_ptr<const google::protobuf::Message> start_config() override;
+  std::optional<Refusal> set_config(const Assignments& assignments) override;
+  proto::Impairment link() override;
+  std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
+  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override;
+  std::optional<Refusal> set_scale(double scale) override;
+  std::optional<Refusal> engage() override;
+  std::optional<Refusal> stop() override;
+  std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
+                                                                 const std::string& caller) override;
+  std::optional<Refusal> close_session(std::uint64_t session) override;
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
+  std::variant<std::string, Refusal> stop_recording() override;
+
+  /// Before the loop begins: from its first tick on, as a replay needs it. Throws RecordingError.
+  void record_from_start(const std::string& file, double max_mb);
+
+  /// The newest picture of the loop; callable from any thread but the loop's.
+  MasterSnapshot snapshot();
+  /// Hands what keys asked for to the loop; callable from any thread but the loop's.
+  std::optional<Refusal> request(const OperatorRequests& requests);
+  /// Hands a session to the loop; false: it did not answer. Callable from any thread but the loop's.
+  bool adopt(const Session& session);
+  /// Why there is no session; empty: there is one.
+  std::string trouble();
+  /// Why there is no session, and who has taken the robot (its address); empty: there is one, nobody has.
+  void put_trouble(const std::string& trouble, const std::string& taken_by);
+
+ private:
+  SideRecording<MasterTape>::Request recording_request(double max_mb) const;
+  /// Hands a tape to the loop; false: it did not answer.
+  bool attach(MasterTape* tape);
+
+  MasterShell& shell_;
+  SideConfig<proto::MasterConfig> config_;
+  std::uint32_t config_number_ = 0;  // of those that the loop was handed
+  RecordingPlace recordings_;
+  SideRecording<MasterTape> recording_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::mutex reading_;  // among those who read snapshots
+  std::mutex troubling_;
+  std::string trouble_, taken_by_;
+};
+
+}  // namespace longreach

@@ -1,0 +1,199 @@
+#include "master/program/master_shell.hpp"
+
+#include "common/loop/meeting.hpp"
+#include "common/net/adapter_channel.hpp"
+#include "master/input/pad_operator.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kHandSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
+constexpr double kHandSpeed_rad_per_s = 1.0;
+
+std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterConfig& config) {
+  if (channel == nullptr) return std::nullopt;
+  return std::optional<DeviceAdapter>(std::in_place, *channel,
+                                      told_in_time(config.device_adapter, config.loop.rate_hz),
+                                      draw_session(Cipher::kChaCha20Poly1305).number);
+}
+
+/// By more than friction leaves, and nearly as much as the dead zones of rate mode; or on its way.
+bool away(const HandLevel& level, const HandleState& handle, bool turns) {
+  constexpr double kFar_m = 0.004, kFar_rad = 0.04, kMoves_m_per_s = 0.01, kMoves_rad_per_s = 0.1;
+  return norm(level.target_m - handle.p_MH) > kFar_m ||
+         (turns && norm(level.target_rad - log_rotation(handle.q_MH)) > kFar_rad) ||
+         norm(handle.velocity_m_per_s) > kMoves_m_per_s || norm(handle.angular_rad_per_s) > kMoves_rad_per_s;
+}
+
+}  // namespace
+
+MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
+    : config_(config),
+      channel_(config.link.listen, config.link.slave),
+      port_(channel_, config.link.impairment, Random(seed).child("down")),
+      devices_(config.device),
+      adapter_channel_(open_adapter_channel(config.device_adapter)),
+      adapter_(device_adapter(adapter_channel_.get(), config)),
+      device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
+      script_(config.operator_, config.mapping, config.hand.grip),
+      script_grip_(config.hand.grip),
+      node_(config),
+      lost_(PadOperator::is_for(config.operator_.kind)),
+      remote_(1.0 / config.loop.rate_hz) {
+  port_.limit(config.link.budget_kbit_per_s);
+}
+
+void MasterShell::meet_device() {
+  if (adapter_) meet(*adapter_);
+}
+
+void MasterShell::tick(Time now, const LoopFigures& loop) {
+  OperatorRequests requests;
+  const bool stop = stops_.take();
+  if (const MasterCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, requests));
+
+  port_.receive(now, node_.stalled(now));
+  const Endpoint& endpoint = port_.endpoint();
+  MasterInput in;
+  in.now = now;
+  in.handle = device_.read(now);
+  HandTarget target = operate(now, in.handle, requests);
+  if (!config_.device.turns) target.rotation_rad.setZero();
+  devices_.set_target(target);
+  // The hand has nothing to hold any more: a device that has failed.
+  if (lost_) in.handle.ok = false;
+  in.reports = port_.reports();
+  in.telemetry = port_.telemetry();
+  in.requests = requests;
+  in.requests.stop = stop || requests.stop;
+  in.last_heard = endpoint.monitor().last_heard();
+  in.peer_restarts = endpoint.restarts();
+  in.taken = robbed_;
+  in.hand_stale = hand_stale_;
+  in.rtt_s = snapshot_.side.link.rtt_s;
+  in.may_send = port_.may_send(now);
+  in.overdue_ticks = loop.overdue_ticks;
+
+  const MasterOutput out = node_.step(in);
+  device_.write(out.F_H_M);
+  if (out.command) port_.send(now, out.sequence, *out.command);
+
+  snapshot_.side = observer_.observe(now, port_, channel_, loop);
+  snapshot_.view = node_.view();
+  snapshot_.phase = script_.phase();
+  snapshot_.hand_outside = remote_.holds();
+  snapshot_.hand_lost = lost_;
+  if (adapter_) {
+    snapshot_.adapter = adapter_->figures();
+    snapshot_.adapter.stranger = adapter_channel_->stranger();
+  }
+  snapshots_.write(snapshot_);
+  write_down(in, out);
+}
+
+void MasterShell::write_down(const MasterInput& in, const MasterOutput& out) {
+  const std::uint64_t tick = ticks_++;
+  if (tape_ == nullptr) return;
+  tape_->add_tick(tick, config_number_, in, out, node_.view());
+  if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
+}
+
+LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
+  if (const auto* asked = std::get_if<OperatorRequests>(&command)) {
+    requests = *asked;
+  } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
+    port_.impairment().configure(*impairment, now);
+  } else if (const auto* session = std::get_if<Session>(&command)) {
+    port_.follow(*session);
+    robbed_ = false;
+  } else if (std::holds_alternative<MasterRobbed>(command)) {
+    robbed_ = true;
+  } else if (const auto* taping = std::get_if<MasterTaping>(&command)) {
+    tape_ = taping->tape;
+  } else {
+    const auto& change = std::get<MasterChange>(command);
+    if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
+    config_ = change.config;
+    node_.configure(config_);
+    config_number_ = change.number;
+    if (change.impairment) port_.impairment().configure(config_.link.impairment, now);
+    if (change.script) {
+      script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
+      script_grip_ = config_.hand.grip;
+    }
+  }
+  return LoopAnswer::kDone;
+}
+
+HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
+  hand_stale_ = false;
+  const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
+  // A hand from outside moves the simulated handle, whoever had it.
+  if (const auto target = adapter_ ? std::nullopt : remote_.step(remote, requests)) {
+    lost_ = false;
+    hand_stale_ = remote_.fell_silent();
+    return displaced(*target);
+  }
+  const OperatorKind kind = config_.operator_.kind;
+  if (kind == OperatorKind::kKeyboard || PadOperator::is_for(kind)) {
+    const HandLevel& level = hand_.read();
+    hand_stale_ = to_seconds(now - level.said) > kHandAgeMax_s;
+    // Taken again, it counts when the hand has brought the handle to where it wants it: else the robot would
+    // move by what was left of the deflection.
+    lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle, config_.device.turns)));
+    requests.clutch = level.clutch;
+    return hold(level, handle);
+  }
+  if (kind == OperatorKind::kNone || adapter_) {
+    HandTarget nobody;
+    nobody.grip = Grip::kReleased;
+    return nobody;
+  }
+  const MasterView& view = node_.view();
+  const ScriptOutput script = script_.step({.now = now,
+                                            .handle_m = handle.p_MH,
+                                            .felt_n = view.spring_force_n.norm(),
+                                            .goal_m = view.goal_m,
+                                            .scale = view.scale,
+                                            .engaged = view.state == SafetyState::kEngaged,
+                                            .engagement = view.engagement,
+                                            .surface_known = view.surface_known,
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+  if (script.mode && !requests.mode) requests.mode = script.mode;
+  HandTarget target = script.target;
+  // The grip may change while the script goes on; where the script itself lets go, it stays let go.
+  if (target.grip == script_grip_) target.grip = config_.hand.grip;
+  return target;
+}
+
+/// Whoever is configured goes on from where the hand from outside leaves the handle.
+HandTarget MasterShell::displaced(const HandTarget& target) {
+  held_m_ = target.position_m;
+  held_rad_ = target.rotation_rad;
+  if (script_.phase() != ScriptPhase::kWaiting) {
+    script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
+    script_grip_ = config_.hand.grip;
+  }
+  return target;
+}
+
+HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) {
+  HandTarget target;
+  if (!level.present || hand_stale_) {  // taken again, the handle is where it then is
+    target.grip = Grip::kReleased;
+    held_m_ = handle.p_MH;
+    held_rad_ = log_rotation(handle.q_MH);
+    return target;
+  }
+  const double period_s = 1.0 / config_.loop.rate_hz;
+  const Vector3 step = clamp_norm(level.target_m - held_m_, kHandSpeed_m_per_s * period_s);
+  held_m_ += step;
+  held_rad_ += clamp_norm(level.target_rad - held_rad_, kHandSpeed_rad_per_s * period_s);
+  target.position_m = held_m_;
+  target.velocity_m_per_s = step / period_s;
+  target.rotation_rad = held_rad_;
+  target.grip = config_.hand.grip;
+  return target;
+}
+
+}  // namespace longreach

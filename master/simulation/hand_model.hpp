@@ -1,0 +1,31 @@
+#pragma once
+// A passive hand at the handle: a mass that moves with it, coupled by spring and damper to where the person
+// wants it. Figures of the translation: of a light and a firm grip as measured on people; of the rotation:
+// assumed, a wrist of the handle's own order of magnitude.
+
+#include "master/config/device_config.hpp"
+
+namespace longreach {
+
+struct HandModel {
+  double mass_kg = 0.0;
+  double damping_n_s_per_m = 0.0;
+  double stiffness_n_per_m = 0.0;
+};
+
+struct WristModel {
+  double damping_nm_s_per_rad = 0.0;
+  double stiffness_nm_per_rad = 0.0;
+};
+
+constexpr HandModel hand_model(Grip grip) {
+  if (grip == Grip::kReleased) return {};
+  return grip == Grip::kFirm ? HandModel{1.7, 16.0, 400.0} : HandModel{0.55, 6.5, 135.0};
+}
+
+constexpr WristModel wrist_model(Grip grip) {
+  if (grip == Grip::kReleased) return {};
+  return grip == Grip::kFirm ? WristModel{0.06, 1.8} : WristModel{0.02, 0.6};
+}
+
+}  // namespace longreach

@@ -1,0 +1,52 @@
+#pragma once
+// A DELTA device that moves: mechanism, drives, the mechanical edge of its workspace, and the hand on it.
+//
+//   (M + m_hand) a = F_hand + F_weight + F_edge + Wᵀ (τ_motor + τ_friction - b W v - I β)
+//
+// Integrated by velocity Verlet with the damping taken implicitly in the second half: second order, energy
+// does not drift without friction. Steps of 1 ms at most; torques of the motors are held between commands.
+
+#include "master/devices/delta/delta_dynamics.hpp"
+#include "master/devices/drive/drives.hpp"
+#include "master/simulation/hand_model.hpp"
+
+namespace longreach {
+
+class SimulatedDelta {
+ public:
+  /// Throws GeometryError, also where the workspace is not wholly reachable.
+  explicit SimulatedDelta(const DeviceConfig& config);
+
+  /// Puts the handle at rest `x_m` from home. False, and nothing is changed, where it cannot be.
+  bool place(const Vector3& x_m);
+
+  /// Moves on by `dt_s` > 0 with the hand at `hand_m` (from home) and its velocity at the beginning.
+  void step(double dt_s, const HandModel& hand, const Vector3& hand_m, const Vector3& hand_m_per_s);
+
+  void command(const Vector3& tau_nm) { drives_.command(tau_nm); }
+  [[nodiscard]] Vector3 encoder_rad() const { return drives_.encoder(pose_.theta_rad); }
+
+  [[nodiscard]] const DeltaDynamics& dynamics() const { return dynamics_; }
+  [[nodiscard]] Vector3 position_m() const { return pose_.p_m - dynamics_.home_m(); }  // true, from home
+  [[nodiscard]] const Vector3& velocity_m_per_s() const { return v_; }
+  [[nodiscard]] double energy_j() const;  // kinetic and potential of the mechanism, without hand
+
+ private:
+  struct Hand {
+    HandModel model;
+    Vector3 position_m, velocity_m_per_s;
+  };
+  void move(double dt_s, const Hand& hand);
+  [[nodiscard]] Vector3 edge_force() const;
+  void require_workspace() const;
+
+  DeltaDynamics dynamics_;
+  Drives drives_;
+  Vector3 gravity_;
+  double workspace_m_;
+  DeltaPose pose_{};
+  Vector3 v_ = Vector3::Zero();
+  Vector3 friction_nm_ = Vector3::Zero();
+};
+
+}  // namespace longreach

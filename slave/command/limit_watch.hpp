@@ -1,0 +1,41 @@
+#pragma once
+// The watch over the setpoints: their differences against every limit, as the robot sees them. A limit counts
+// as exceeded by more than 1 %, a position limit by anything.
+
+#include <cstdint>
+
+#include "slave/command/limit_violations.hpp"
+#include "slave/config/command_config.hpp"
+#include "slave/config/robot_config.hpp"
+
+namespace longreach {
+
+class LimitWatch {
+ public:
+  explicit LimitWatch(const RobotConfig& robot) : robot_(robot) {}
+
+  /// Begins at rest.
+  void reset(const JointVector& joint_rad, const Pose& X_WE);
+  void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt);
+
+  [[nodiscard]] std::uint64_t violations() const { return violations_; }  // ticks
+  [[nodiscard]] const LimitViolations& by_limit() const { return by_limit_; }
+
+ private:
+  using JointFlags = Eigen::Array<bool, kMaxJoints, 1>;
+
+  void book(Limit limit, const JointFlags& exceeded);
+
+  RobotConfig robot_;
+  // Of the tick before.
+  Pose X_WE_{};
+  Twist V_WE_{};
+  JointVector joint_rad_ = JointVector::Zero();
+  JointVector joint_rad_per_s_ = JointVector::Zero();
+  JointVector joint_rad_per_s2_ = JointVector::Zero();
+  std::uint64_t violations_ = 0;
+  LimitViolations by_limit_{};
+  bool violated_ = false;  // in this tick
+};
+
+}  // namespace longreach

@@ -1,0 +1,162 @@
+#include "slave/command/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace longreach {
+namespace {
+
+constexpr double kFarRad = 0.1;        // a solution farther off than this is not one tick away
+constexpr double kAside = 5e-3;        // of the length: so far the tool may leave its way there
+constexpr double kTurningShare = 0.8;  // of what a joint may do, on its way to another solution
+
+bool touches(const MotionInput& input) { return input.contact.in_contact || input.moment.in_contact; }
+
+}  // namespace
+
+SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
+    : command_(command),
+      robot_(robot),
+      inverse_(robot),
+      limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
+      joints_(robot),
+      watch_(robot),
+      patience_(inverse_.kinematics().motion_length_m()) {
+  reset(start_joints(robot));
+}
+
+void SlaveMotion::configure(const CommandConfig& command) {
+  command_ = command;
+  limiter_.configure(command);
+}
+
+void SlaveMotion::reset(const JointVector& joint_rad) {
+  joints_.reset(joint_rad);
+  X_WE_ = inverse_.kinematics().forward(joints_.setpoint_rad());
+  limiter_.reset(X_WE_);
+  watch_.reset(joints_.setpoint_rad(), X_WE_);
+  patience_.reset();
+  stands_.reset();
+  conditioning_ = 1.0;
+  turning_ = false;
+  no_relief_ = false;
+  home_rad_ = joints_.path_rad();
+}
+
+Clamps SlaveMotion::step(const MotionInput& input) {
+  const bool waits = input.X_WE_goal && !touches(input);
+  const bool ends = waits && patience_.ends(X_WE_, *input.X_WE_goal, input.dt);
+  if (!ends) stands_.reset();
+  if (!waits) patience_.reset();
+  Clamps clamps = stands_.value_or(Clamps{});
+  const LimiterOutput wanted = limiter_.step(
+      {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment});
+  clamps.tool_speed = wanted.tool_speed;
+  clamps.acceleration = wanted.acceleration;
+  clamps.workspace = wanted.workspace;
+  clamps.force_guard = wanted.force_guard;
+  clamps.moment_guard = wanted.moment_guard;
+  no_relief_ = wanted.no_relief;
+
+  if (!limiter_.at_rest()) {
+    const InverseResult found = invert(wanted.X_WE, input);
+    const bool plain = found.status == InverseStatus::kFound && joints_.reaches(found.joint_rad, input.dt);
+    const JointsLimited limited = joints_.step(found.joint_rad, plain ? ToolBound{} : tool_bound(), input.dt);
+    conditioning_ = found.conditioning;
+    if (plain && conditioning_ >= kSingularBand) home_rad_ = joints_.path_rad();
+    clamps.joint_speed = limited.speed;
+    clamps.acceleration |= limited.acceleration;
+    clamps.joint_position |= limited.position || found.at_joint_limit;
+    clamps.unreachable |= found.status == InverseStatus::kNearest;
+    clamps.singularity |= found.status == InverseStatus::kSingular || conditioning_ < kSingularBand;
+    if (found.status == InverseStatus::kNearest) ++failures_;
+    if (limited.any()) {
+      limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
+    } else if (found.status != InverseStatus::kFound || found.rotation_ignored) {
+      limiter_.correct(found.X_WE, input.dt);
+    }
+  } else {
+    const bool moves = !joints_.at_rest();  // the joints brake for a tool that has stopped
+    joints_.step(joints_.path_rad(), moves ? tool_bound() : ToolBound{}, input.dt);
+    if (moves) limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
+  }
+  if (ends && (clamps.unreachable || clamps.joint_position || clamps.singularity)) {
+    stands_ = clamps;
+    stands_->unreachable = true;  // from here
+  }
+  if (!joints_.settled()) X_WE_ = kinematics().forward(joints_.setpoint_rad());
+  watch_.step(joints_.setpoint_rad(), X_WE_, command_, input.dt);
+  return clamps;
+}
+
+// In how many ticks the joints go this way alike, and can stop at its end.
+double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
+  double ticks = 1.0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
+    const double left = std::abs(way_rad[i]);
+    const double speed = std::min(kTurningShare * j.speed_max_rad_per_s,
+                                  braking_speed(left, kTurningShare * j.acceleration_max_rad_per_s2, dt));
+    if (left > 0.0) ticks = std::max(ticks, left / (speed * dt));
+  }
+  return ticks;
+}
+
+// True if the tool is nowhere on this way of the joints farther from the goal than it is now, by more than
+// `aside_m`.
+bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const {
+  const Kinematics& arm = kinematics();
+  const auto off = [&](double share) {
+    const Rigid X = arm.rigid_forward(joints_.path_rad() + share * way_rad);
+    if (!limiter_.within(X.p)) return std::numeric_limits<double>::infinity();
+    return std::hypot(arm.motion_length_m() * rotation_between(X.R, X_WE_goal.R).norm(),
+                      (X_WE_goal.p - X.p).norm());
+  };
+  const double now = off(0.0);
+  for (const double share : {0.125, 0.25, 0.5, 0.75}) {
+    if (off(share) > now + aside_m) return false;
+  }
+  return true;
+}
+
+// The joints for a pose one tick away. At a singular pose, or where the arm is in its own way, the joints go
+// straight to those at the goal, or at the nearest pose, if the tool only comes nearer on that way and
+// touches nothing. At a singular pose the branch that the arm was last in goes before the nearest.
+InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
+  const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
+  const JointVector& q = joints_.path_rad();
+  InverseResult found = inverse_.follow(X_WE, q, tolerance);
+  const bool singular =
+      conditioning_ < kSingularBand || (found.joint_rad - q).cwiseAbs().maxCoeff() > kFarRad;
+  if (!singular && !turning_ && found.status != InverseStatus::kNearest) return found;
+  const bool turned = turning_;
+  turning_ = false;
+  if (touches(input)) return found;
+  const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
+  const double aside_m = singular || turned ? kAside * kinematics().motion_length_m() : 0.0;
+  const bool homes = singular && inverse_.closed().applies();  // a search would not come back in time
+  for (const bool home : {true, false}) {
+    if (home && !homes) continue;
+    const InverseResult there = inverse_.solve(X_WE_goal, home ? home_rad_ : q,
+                                               {command_.tolerance_m, home ? 1 : command_.iterations_max});
+    const bool exact = there.status != InverseStatus::kNearest;
+    const JointVector way = there.joint_rad - q;
+    const bool stuck = found.status == InverseStatus::kNearest || way.cwiseAbs().maxCoeff() > kFarRad;
+    turning_ = (singular || stuck) && (exact || !home) && leads_nearer(way, to_rigid(X_WE_goal), aside_m);
+    if (!turning_) continue;
+    found.joint_rad = q + way / ticks_for(way, input.dt);
+    found.X_WE = kinematics().forward(found.joint_rad);
+    found.status = exact ? InverseStatus::kSingular : InverseStatus::kNearest;
+    break;
+  }
+  return found;
+}
+
+ToolBound SlaveMotion::tool_bound() const {
+  constexpr double kMean = 0.98;  // the tool at a mean of joints may be so much swifter than at each of them
+  return {kinematics().rigid_with_jacobian(joints_.path_rad()).J, kMean * command_.speed_max_rad_per_s,
+          kMean * command_.speed_max_m_per_s};
+}
+
+}  // namespace longreach

@@ -1,0 +1,110 @@
+#pragma once
+// What the robot can meet, as the scene's file describes it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/spatial/spatial.hpp"
+#include "slave/config/bodies_config.hpp"
+
+namespace longreach {
+
+/// Hunt-Crossley F = k p^n (1 + a v); stiffness is the secant F/p at the reference depth.
+struct MaterialConfig {
+  std::string name;
+  double stiffness_n_per_m = 1000.0;
+  double reference_depth_m = 0.001;
+  double exponent = 1.0;
+  double damping_s_per_m = 0.1;  // a = lambda/k
+};
+
+/// Infinite plane; the solid lies behind it.
+struct PlaneConfig {
+  Vector3 point_m = Vector3::Zero();
+  Vector3 normal = -Vector3::UnitX();  // outward; need not be unit
+  bool from_tool_start = true;         // the point is measured from where the tool starts
+};
+
+struct SphereConfig {
+  Vector3 centre_m = Vector3::Zero();
+  double radius_m = 0.02;
+  bool from_tool_start = true;
+};
+
+struct BoxConfig {
+  Vector3 centre_m = Vector3::Zero();
+  Vector3 size_m = Vector3::Constant(0.04);  // lengths of the edges
+  Vector3 rotation_rad = Vector3::Zero();    // rotation vector in W
+  bool from_tool_start = true;
+};
+
+/// Solid, with flat ends.
+struct CylinderConfig {
+  Vector3 centre_m = Vector3::Zero();
+  Vector3 axis = Vector3::UnitZ();  // need not be unit
+  double radius_m = 0.02;
+  double length_m = 0.1;
+  bool from_tool_start = true;
+};
+
+/// Stop against rotation: a lever on the tool meets it beyond an angle from the tool's start.
+struct HingeConfig {
+  Vector3 axis = Vector3::UnitZ();  // in W; need not be unit
+  double angle_rad = 0.05;
+  double arm_m = 0.1;  // length of the lever
+};
+
+/// p(t) = p + velocity t + amplitude sin(2π frequency t)
+struct MovementConfig {
+  Vector3 velocity_m_per_s = Vector3::Zero();
+  Vector3 amplitude_m = Vector3::Zero();
+  double frequency_hz = 0.0;
+};
+
+/// One of the shapes.
+struct SurfaceConfig {
+  std::string name;
+  std::string material;  // by name
+  std::optional<PlaneConfig> plane{};
+  std::optional<SphereConfig> sphere{};
+  std::optional<BoxConfig> box{};
+  std::optional<CylinderConfig> cylinder{};
+  std::optional<HingeConfig> hinge{};
+  std::string body{};  // surfaces of one body are a union; empty: on its own
+  std::optional<MovementConfig> movement{};
+};
+
+/// What the slave has to build for the scene.
+struct NeedsConfig {
+  bool contact = false;   // force sensor, detection, identification
+  bool rotation = false;  // contact by rotation
+};
+
+struct WaypointConfig {
+  Vector3 point_m = Vector3::Zero();
+};
+
+/// Straight from point to point, with quarter turns between.
+struct PathConfig {
+  std::vector<WaypointConfig> waypoint;
+  double turn_radius_m = 0.02;
+  bool from_tool_start = true;
+};
+
+struct SceneConfig {
+  std::string name;
+  std::vector<MaterialConfig> material;
+  std::vector<SurfaceConfig> surface;
+  std::string basis;
+  std::optional<NeedsConfig> needs{};  // none: what the surfaces need
+  std::string robot_file;              // the robot that it is made for
+  double tool_radius_m = 0.0;          // 0: the tool is a point
+  std::optional<PathConfig> path{};
+  std::optional<BodiesConfig> bodies{};
+};
+
+/// What is built: what the scene states, else what its surfaces need.
+NeedsConfig needs(const SceneConfig& scene);
+
+}  // namespace longreach

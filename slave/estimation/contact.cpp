@@ -1,0 +1,239 @@
+#include "slave/estimation/contact.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
+constexpr std::size_t kBefore = 256;  // samples before the touch that are kept: a slow one takes so long
+constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured otherwise
+constexpr double kAcross = 0.5;    // sine, 30 degrees: of another surface's force with those that are pressed
+constexpr double kUnknown = 3.0;   // sd of the normal: as much of the force may be across it by that alone
+constexpr double kFriction = 0.6;  // the greatest coefficient of friction
+constexpr double kStickM = 5e-4;   // by which friction is at its greatest
+constexpr double kGrown = 1.5;     // of what is no friction, though as small, as the way doubles
+constexpr double kLeastShare = 0.1;  // of the largest, that an error of its normal may make
+
+}  // namespace
+
+SensingConfig rotational(SensingConfig s) {
+  s.force_noise_n = s.moment_noise_nm;
+  s.touch_n = s.touch_nm;
+  s.release_n = s.release_nm;
+  return s;
+}
+
+SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
+    : sensing_(sensing),
+      detector_(sensing),
+      surfaces_{Surface(sensing, estimator), Surface(sensing, estimator), Surface(sensing, estimator)},
+      before_(kBefore) {}
+
+void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
+  sensing_ = sensing;
+  detector_.configure(sensing);
+  for (Surface& s : surfaces_) s.configure(sensing, estimator);
+}
+
+void SlaveContact::step(const ContactInput& input) {
+  reading_ = detector_.step(input.force_n, input.dt, input.doubt_n);
+  force_ = {};
+  if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
+  if (reading_.in_contact) {
+    press(input);
+  } else {
+    for (Surface& s : surfaces_) {
+      if (s.pressed()) s.release();
+    }
+    before_.push({input.p_WE, input.v_WE, input.force_n});
+    if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_ = input.p_WE;
+  }
+  forget_what_is_free(input);
+}
+
+void SlaveContact::begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset) {
+  bool again = false;
+  Surface* surface = place_for(force_n.stableNormalized(), onset, input.p_WE, again);
+  if (surface == nullptr) return;
+  surface->begin({++touches_, force_n, input.p_WE, onset, input.played_sequence, input.scale}, again,
+                 before_);
+  foremost_ = static_cast<std::size_t>(surface - surfaces_.data());
+  before_.clear();
+  aside_ = {input.p_WE};
+  turning_ = true;
+}
+
+Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool,
+                                 bool& again) {
+  Surface* place = nullptr;
+  for (Surface& s : surfaces_) {
+    if (!s.there() || s.pressed()) continue;
+    if (s.met(normal, onset, tool)) {
+      again = true;
+      return &s;
+    }
+    if (s.normal().dot(normal) > kBeside) s.forget();
+  }
+  for (Surface& s : surfaces_) {
+    if (s.pressed()) continue;
+    if (!s.there()) return &s;
+    if (place == nullptr || s.touch() < place->touch()) place = &s;  // the one that was left longest ago
+  }
+  return place;
+}
+
+void SlaveContact::press(const ContactInput& input) {
+  if (pressed() > 1) {
+    press_several(input);
+  } else {
+    for (Surface& s : surfaces_) {
+      if (!s.pressed()) continue;
+      if (turning_) s.turn(reading_.filtered_n, input.dt);
+      const Vector3 outward = reading_.filtered_n.stableNormalized();
+      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s});
+    }
+  }
+  look_aside(input);
+  // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
+  const Vector3& normal = reading_.normal;
+  force_ = {true, normal, std::max(normal.dot(input.force_n), normal.dot(reading_.filtered_n)),
+            stiffness_along(normal)};
+}
+
+void SlaveContact::press_several(const ContactInput& input) {
+  turn_several(input.dt);
+  const Vector3 filtered_n = shares(reading_.filtered_n), raw_n = shares(input.force_n);
+  foremost_ = 0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    Surface& s = surfaces_[i];
+    if (!s.pressed()) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    if (pressed() > 1 && filtered_n[at] < std::max(sensing_.release_n, kLeastShare * filtered_n.maxCoeff())) {
+      s.release();
+      continue;
+    }
+    s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded,
+             input.news_age_s});
+    if (!surfaces_[foremost_].pressed() || filtered_n[at] > filtered_n[static_cast<Eigen::Index>(foremost_)])
+      foremost_ = i;
+  }
+}
+
+/// Each by what the laws of the others leave.
+void SlaveContact::turn_several(double dt) {
+  for (Surface& s : surfaces_) {
+    if (!s.pressed()) continue;
+    Vector3 rest = reading_.filtered_n;
+    bool foreseen = true;
+    for (const Surface& other : surfaces_) {
+      if (&other == &s || !other.pressed()) continue;
+      const auto force_n = other.foreseen_n();
+      foreseen = foreseen && force_n;
+      rest -= force_n.value_or(0.0) * other.normal();
+    }
+    if (foreseen && rest.stableNorm() > sensing_.touch_n) s.turn(rest, dt);
+  }
+}
+
+Vector3 SlaveContact::shares(const Vector3& force_n) const {
+  constexpr double kRegular = 1e-9;  // normals in a plane have no shares of their own
+  Matrix3 normals = Matrix3::Zero();
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    if (surfaces_[i].pressed()) normals.col(static_cast<Eigen::Index>(i)) = surfaces_[i].normal();
+  }
+  const Matrix3 gram = normals.transpose() * normals + kRegular * Matrix3::Identity();
+  return gram.llt().solve(normals.transpose() * force_n);
+}
+
+// What the laws of the surfaces do not foresee. On a ball the force turns with the way, on another surface
+// against it.
+void SlaveContact::look_aside(const ContactInput& input) {
+  turning_ = true;
+  if (pressed() == 0 || pressed() == kSurfaces) return;
+  const Vector3 share_n = shares(reading_.filtered_n);
+  Vector3 rest = reading_.filtered_n, across = reading_.filtered_n;
+  double borne_n = 0.0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const Surface& s = surfaces_[i];
+    if (!s.pressed()) continue;
+    const double share = share_n[static_cast<Eigen::Index>(i)];
+    rest -= s.foreseen_n().value_or(share) * s.normal();
+    across -= share * s.normal();
+    borne_n += std::abs(share);
+  }
+  const double across_n = across.stableNorm();
+  if (across_n < kOnsetShare * sensing_.touch_n + kUnknown * surfaces_[foremost_].normal_sd() * borne_n) {
+    aside_ = {input.p_WE};
+    for (Surface& s : surfaces_) s.mark();
+    return;
+  }
+  const double way_m = -across.dot(input.p_WE - aside_.p_WE) / across_n;
+  if (way_m <= 0.0) return;
+  turning_ = false;
+  if (across_n <= reading_.touch_n || across_n < kAcross * rest.stableNorm()) return;
+  const double share = across_n / borne_n;
+  const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);
+  if (share > kFriction || (judged && further && share > kGrown * aside_.share)) {
+    for (Surface& s : surfaces_) s.straighten(aside_.p_WE);
+    return begin(input, rest, aside_.p_WE);
+  }
+  if (further) aside_.way_m = way_m, aside_.share = share;
+}
+
+// The filtered force lags behind a tool that comes fast.
+void SlaveContact::forget_what_is_free(const ContactInput& input) {
+  const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
+  const auto beside = [](const Surface& one) {
+    return [&one](const Surface& s) { return s.pressed() && s.normal().dot(one.normal()) > kBeside; };
+  };
+  for (Surface& s : surfaces_) {
+    if (!s.there() || s.pressed()) continue;
+    const bool free = s.normal().dot(reading_.filtered_n) < sensing_.touch_n;
+    if ((free && std::min(s.depth_of(felt_at), s.depth_of(input.p_WE)) > s.proof_depth_m()) ||
+        std::ranges::any_of(surfaces_, beside(s)))
+      s.forget();
+  }
+}
+
+std::size_t SlaveContact::pressed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(surfaces_, &Surface::pressed));
+}
+
+double SlaveContact::stiffness_along(const Vector3& n) const {
+  double sum = 0.0;
+  for (const Surface& s : surfaces_) {
+    if (s.pressed()) sum += std::pow(n.dot(s.normal()), 2) * s.told().stiffness_n_per_m();
+  }
+  return sum;
+}
+
+void SlaveContact::locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence) {
+  for (Surface& s : surfaces_) s.locate(playout, anchor, played_sequence);
+}
+
+void SlaveContact::forget_goals() {
+  for (Surface& s : surfaces_) s.forget_goals();
+}
+
+void SlaveContact::move_origin(const Vector3& by) {
+  if (onset_) *onset_ -= by;
+  aside_.p_WE -= by;
+  before_.clear();
+  for (Surface& s : surfaces_) s.move_origin(by);
+}
+
+std::array<ReportedSurface, kSurfaces> SlaveContact::report(const Vector3& anchor) const {
+  std::array<ReportedSurface, kSurfaces> all{};
+  std::size_t count = 0;
+  for (const bool pressed : {true, false}) {
+    for (const Surface& s : surfaces_) {
+      if (s.there() && s.pressed() == pressed) all[count++] = s.report(anchor);
+    }
+  }
+  return all;
+}
+
+}  // namespace longreach

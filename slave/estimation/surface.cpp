@@ -1,0 +1,300 @@
+#include "slave/estimation/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace longreach {
+namespace {
+
+constexpr double kDirectionMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
+constexpr std::size_t kLast = 64;          // samples before the touch that count in any case
+constexpr double kStraight = 1.33;         // squared, way over its depth: 30 degrees
+constexpr double kSamePlaceM = 0.003;      // the surface that was met before is met again
+constexpr double kSameNormal = 0.9;
+constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
+constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
+constexpr double kReplacedSd = 3.0;       // sd: the surface is not where it was at the touch before
+constexpr double kSlideM = 1e-3;          // along the surface: its place is another one
+constexpr double kRefined = 0.1;          // rad, by which a normal becomes better known
+constexpr double kSharpestM = 2e-3;       // radius of curvature
+constexpr double kUsualPress = 10.0;      // times the touch threshold, a hand presses with
+constexpr double kLocal = 2.0;            // times the memory of the depth
+constexpr double kGoalAtM = 1e-3;         // of a goal that lies at the surface
+constexpr double kValidSd = 0.5;          // fraction
+constexpr double kBeforeM = 5e-3;         // deeper than the tool has gone; that twice
+
+WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
+  return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
+}
+
+}  // namespace
+
+Surface::Surface(const SensingConfig& sensing, const EstimatorConfig& estimator)
+    : sensing_(sensing),
+      estimator_(estimator),
+      identifier_(identifier(estimator, sensing)),
+      told_(estimator) {}
+
+void Surface::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
+  const bool other = estimator.kind != estimator_.kind || estimator.exponent != estimator_.exponent ||
+                     estimator.forgetting != estimator_.forgetting;
+  if (other) identifier_ = identifier(estimator, sensing);
+  sensing_ = sensing;
+  estimator_ = estimator;
+  told_.configure(estimator);
+}
+
+bool Surface::met(const Vector3& normal, const Vector3& from, const Vector3& to) const {
+  return known_ && normal.dot(known_normal_) > kSameNormal &&
+         known_normal_.dot(from - known_point_m_) > -kSamePlaceM &&
+         known_normal_.dot(to - known_point_m_) < kSamePlaceM;
+}
+
+void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& before) {
+  there_ = pressed_ = true;
+  known_ = again;
+  touch_ = touch.number;
+  sum_n_ = touch.force_n;
+  normal_ = touch.force_n.stableNormalized();
+  normal_variance_n2_ = sensing_.force_noise_n * sensing_.force_noise_n;
+  identifier_.begin();
+  local_.begin();
+  if (!again) working_.begin();
+  told_.begin(again);
+  local_told_ = {};
+  answer_ = {};
+  tool_m_ = touch.p_WE;
+  inward_m_ = marked_m_ = 0.0;
+  surface_m_ = -normal_.dot((known_ ? known_point_m_ : touch.onset) - tool_m_);
+  least_m_ = std::min(surface_m_, 0.0);
+  most_m_ = 0.0;
+  // As far in front of the onset as the tool is behind it.
+  const double first_m = -2.0 * normal_.dot(touch.onset - tool_m_);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const TouchSample& at = before[i];
+    const Vector3 way_m = tool_m_ - at.p_WE;
+    const double x_m = normal_.dot(way_m);
+    // A normal that is known roughly makes a depth of what the tool went across.
+    const bool across = before.size() - i > kLast && way_m.squaredNorm() > kStraight * x_m * x_m;
+    if (x_m >= first_m && !across)
+      identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
+  }
+  if (!again) placed_sd_m_ = told_s_ = 0.0;
+  touched_anew_ = again;
+  pushes_ = told_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
+  scale_ = touch.scale;
+  played_at_touch_ = touch.played_sequence;
+  touch_sequence_ = 0.0;
+}
+
+// What the tool goes against the force is depth, so that neither a slide along
+// the surface nor its curvature counts as that, which a mean direction would
+// have a long lever for.
+void Surface::press(const Press& press) {
+  const Vector3 outward = pushes_.believed(press.outward, press.p_WE, known_);
+  const double out_m = outward.dot(press.p_WE - tool_m_);
+  const bool possible = std::abs(out_m) < kStepMaxM;
+  if (possible) {
+    inward_m_ -= out_m;
+    least_m_ = std::min(least_m_, inward_m_);
+    most_m_ = std::max(most_m_, inward_m_);
+    tool_m_ = press.p_WE;
+  }
+  speed_m_per_s_ = -outward.dot(press.v_WE);
+  identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, outward.dot(press.force_n)},
+                   press.dt);
+  if (possible)
+    local_.step({inward_m_, speed_m_per_s_, outward.dot(press.force_n)}, surface_m_,
+                kLocal * estimator_.depth_memory_s, press.dt);
+  identify(press);
+}
+
+void Surface::identify(const Press& press) {
+  answer_ = identifier_.answer();
+  const double present_m = inward_m_ - answer_.surface.value;
+  if (answer_.changes != changes_) settled_ = false;
+  changes_ = answer_.changes;
+  if (!settled_ && well_known(answer_)) {
+    working_.begin_at(present_m);
+    settled_ = true;
+  }
+  // A depth that the operator has gone to before feeling the surface, or at
+  // which the guard holds the tool, is not the operator's choice.
+  const double usual_m = this->usual_m();
+  bool elsewhere = false;
+  if (told_.stiffness_n_per_m() > 0.0) told_s_ += press.dt;
+  const bool chosen = told_s_ > press.news_age_s && !press.guarded;
+  if (well_known(answer_) && (chosen || changes_ > 0))
+    elsewhere = working_.follow(usual_m, present_m, answer_.n.value, estimator_.depth_memory_s, press.dt);
+  const bool fits = identifier_.told().law_fits();
+  if (!fits) elsewhere = beside(possible(answer_.surface.value) ? answer_.surface.value : least_m_);
+  double asked_m = working_.depth_m(usual_m);
+  ContactAnswer told = fits ? identifier_.told().answer_at(asked_m) : local_told_;
+  // Rather than to extrapolate far, the nearest depth that was visited.
+  if (fits && told.valid && !well_known(told))
+    told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
+  if (!possible(told.surface.value)) told.valid = false;
+  // What is told of another contact does not count.
+  if (!fits || told_changes_ != changes_) asked_m = told.depth_m;
+  const bool anew = tell(told, asked_m, elsewhere);
+  if (!well_known(answer_)) return;
+  known_ = true;
+  known_normal_ = normal_;
+  surface_m_ = answer_.surface.value;
+  known_point_m_ = point();
+  const double moved_m = std::abs(normal_.dot(known_point_m_ - place_m_));
+  const bool elsewhere_now = touched_anew_ && moved_m > kReplacedSd * answer_.surface.sd;
+  if (anew || placed_sd_m_ <= 0.0 || answer_.surface.sd < 0.5 * placed_sd_m_ || elsewhere_now ||
+      across_m(placed_at_m_) > kSlideM)
+    place();
+  constexpr double kTwice = 2.0, kMost = 0.1, kRounding = 1.05, kSd = 3.0;
+  const double twice_m = std::pow(kTwice * sensing_.touch_n / answer_.k.value, 1.0 / answer_.n.value);
+  proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
+}
+
+double Surface::usual_m() const {
+  return identifier_.told().depth_of(kUsualPress * scale_ * sensing_.touch_n);
+}
+
+bool Surface::tell(const ContactAnswer& answer, double asked_m, bool elsewhere) {
+  if (!told_.step(answer, told_normal_.believed(normal_, tool_m_, known_), asked_m, elsewhere)) return false;
+  told_changes_ = changes_;
+  told_at_m_ = tool_m_ + (inward_m_ - answer.surface.value - told_.depth_m()) * normal_;
+  return true;
+}
+
+/// Where no law fits, the line by the samples alone, held until the mean depth
+/// has gone elsewhere. True when it is another one.
+bool Surface::beside(double surface_m) {
+  const ContactAnswer now = local_.answer(surface_m);
+  if (!now.valid) return false;
+  const double off = std::abs(now.stiffness.value / std::max(local_told_.stiffness.value, 1e-12) - 1.0);
+  if (local_told_.valid && off < estimator_.deadband) return false;
+  local_told_ = now;
+  local_told_.k = local_told_.n = {1.0, 0.0, Verdict::kNoPowerLaw};
+  return true;
+}
+
+void Surface::place() {
+  place_m_ = known_point_m_;
+  placed_at_m_ = tool_m_;
+  placed_sd_m_ = answer_.surface.sd;
+  touched_anew_ = false;
+  told_.place(identifier_.told().law_fits() ? identifier_.told().answer_at(told_.depth_m()) : local_told_);
+}
+
+double Surface::across_m(const Vector3& from) const { return Vector3(tool_m_ - from).cross(normal_).norm(); }
+
+// A force that turns more than a tool can have slid round an edge is not the
+// surface's: the sensor's zero.
+Vector3 Surface::Direction::believed(const Vector3& n, const Vector3& tool, bool known) {
+  const double way_m = Vector3(tool - at_m).cross(normal).norm();
+  if (known && normal.cross(n).norm() > kRefined + way_m / kSharpestM) return normal;
+  if (!known || way_m > kSlideM) *this = {n, tool};
+  return n;
+}
+
+void Surface::turn(const Vector3& force_n, double dt) {
+  const double kept = std::exp(-dt / kDirectionMemoryS);
+  sum_n_ = kept * sum_n_ + force_n;
+  normal_variance_n2_ = kept * kept * normal_variance_n2_ + sensing_.force_noise_n * sensing_.force_noise_n;
+  normal_ = sum_n_.stableNormalized();
+}
+
+double Surface::normal_sd() const {
+  const double sum_n = sum_n_.stableNorm();
+  return sum_n > 0.0 ? std::sqrt(normal_variance_n2_) / sum_n : 1.0;
+}
+
+void Surface::release() {
+  pressed_ = false;
+  const double usual_m = this->usual_m();
+  working_.leave(usual_m);
+  const double asked_m = working_.depth_m(usual_m);
+  tell(identifier_.told().answer_at(asked_m), asked_m, true);
+  there_ = known_ && told_.stiffness_n_per_m() > 0.0;
+  normal_ = known_normal_;
+  answer_ = {};
+}
+
+void Surface::move_origin(const Vector3& by) {
+  for (Vector3* place :
+       {&known_point_m_, &tool_m_, &told_at_m_, &place_m_, &placed_at_m_, &pushes_.at_m, &told_normal_.at_m})
+    *place -= by;
+}
+
+/// Noise and a change of the material may leave a fit without a sample in front of the surface, and so with a
+/// surface anywhere.
+bool Surface::possible(double surface_m) const {
+  return inward_m_ - surface_m < kBeforeM + 2.0 * (most_m_ - least_m_);
+}
+
+bool Surface::well_known(const ContactAnswer& a) const {
+  return a.valid && possible(a.surface.value) && a.k.value > 0.0 && a.n.value > 0.0 &&
+         a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
+}
+
+void Surface::locate(const Playout& playout, const Vector3& anchor, double played_sequence) {
+  if (played_sequence - played_at_touch_ > kHistoryGoals) return forget_goals();
+  if (!pressed_ || played_at_touch_ <= 0.0) return;
+  const bool placed = placed_sd_m_ > 0.0;
+  const Vector3 normal = placed ? told_.normal() : normal_, at = placed ? place_m_ : point();
+  const auto crossing = playout.crossing(-normal, at - anchor, played_at_touch_, kGoalAtM);
+  touch_sequence_ = crossing.value_or(0.0);  // none: it was met before the goals began, or it moves
+}
+
+double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface_m_, 0.0) : 0.0; }
+
+double Surface::proof_depth_m() const { return proof_m_; }
+
+std::optional<double> Surface::foreseen_n() const {
+  if (!pressed_ || !well_known(answer_)) return std::nullopt;
+  const double shape = std::pow(depth_m(), answer_.n.value);
+  return std::max(0.0, shape * (answer_.k.value + answer_.lambda.value * speed_m_per_s_));
+}
+
+ContactEstimate Surface::estimate() const {
+  ContactEstimate result;
+  ContactAnswer a = answer_;
+  if (!identifier_.told().law_fits() && local_told_.valid) {
+    a.stiffness = local_told_.stiffness;
+    a.secant = local_told_.secant;
+    a.depth_m = local_told_.depth_m;
+  }
+  result.valid = pressed_ && a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
+  if (!result.valid) return result;
+  result.stiffness_n_per_m = a.stiffness.value;
+  result.stiffness_sd_n_per_m = a.stiffness.sd;
+  result.secant_n_per_m = a.secant.value;
+  result.k = a.k.value;
+  result.lambda = a.lambda.value;
+  result.n = a.n.value;
+  result.k_sd = a.k.sd;
+  result.lambda_sd = a.lambda.sd;
+  result.n_sd = a.n.sd;
+  result.correlation = a.correlation;
+  result.stiffness_verdict = a.stiffness.verdict;
+  result.k_verdict = a.k.verdict;
+  result.lambda_verdict = a.lambda.verdict;
+  result.n_verdict = a.n.verdict;
+  result.depth_m = a.depth_m;
+  return result;
+}
+
+ReportedSurface Surface::report(const Vector3& anchor) const {
+  const bool told = told_.stiffness_n_per_m() > 0.0;
+  ReportedSurface result{.normal = told ? told_.normal() : normal_,
+                         .stiffness = told_.stiffness_n_per_m(),
+                         .foot = told_.foot_m(),
+                         .touch_sequence = touch_sequence_,
+                         .touch = touch_,
+                         .pressed = pressed_};
+  if (touch_sequence_ <= 0.0)
+    result.offset = result.normal.dot((placed_sd_m_ > 0.0 ? place_m_
+                                       : known_           ? known_point_m_
+                                                          : point()) -
+                                      anchor);
+  return result;
+}
+
+}  // namespace longreach

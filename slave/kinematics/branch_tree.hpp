@@ -1,0 +1,108 @@
+#pragma once
+// The branches of a closed form as they are found: two ways at each square root, and six angles at the end of
+// each way. If only the nearest branch is wanted, the nearer way is taken first, and another one is left out
+// when its angle alone is farther off than what was found.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/spatial/arc_tangent.hpp"
+#include "slave/kinematics/closed_inverse.hpp"
+#include "slave/kinematics/turn.hpp"
+
+namespace longreach {
+
+class BranchTree {
+ public:
+  using Role = ArmLoop::Role;
+  static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
+
+  BranchTree(const ArmLoop& loop, const KnownJoints& before, Branches& out, bool nearest)
+      : joint_(loop.joint), before_(before), out_(out), nearest_(nearest) {
+    out.count = 0;
+  }
+
+  /// Both signs of the sine of `aside` (>= 0), that on the side of `here` first: the angle before, from the
+  /// middle of both.
+  template <typename Then>
+  void fork(const Turn& here, const Turn& aside, const Then& then) {
+    const Turn nearer{aside.c, std::copysign(aside.s, here.s)};
+    then(nearer);
+    if (!nearest_ || probing_ || !too_far(likeness(reversed(nearer), here))) then(reversed(nearer));
+  }
+
+  [[nodiscard]] bool too_far(Role role, const Turn& t) const {
+    return nearest_ && too_far(likeness(t, before(role)));
+  }
+
+  /// The turn from one vector to another; where one of them vanishes, the angle before.
+  [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) const {
+    const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
+    if (!(std::min(square, other) > kFreeSquare)) return before(role);
+    const double scale = 1.0 / sqrt(square * other);
+    return {(from.x * to.x + from.y * to.y) * scale, (from.x * to.y - from.y * to.x) * scale};
+  }
+
+  [[nodiscard]] Turn before(Role role) const { return {before_.cos[role], before_.sin[role]}; }
+
+  /// Least miss of the branches that `then` finds, which are not kept.
+  template <typename Then>
+  [[nodiscard]] double probe(const Then& then) {
+    const double before = std::exchange(least_miss_, std::numeric_limits<double>::infinity());
+    probing_ = true;
+    then();
+    probing_ = false;
+    return std::exchange(least_miss_, before);
+  }
+
+  void set(Role role, const Turn& t) { cos_[role] = t.c, sin_[role] = t.s; }
+
+  void add(double miss) {
+    least_miss_ = std::min(least_miss_, miss);
+    if (probing_) return;
+    if (out_.count == Branches::kMax || (nearest_ && miss > ClosedInverse::kMissMax)) return;
+    double angle[6];
+    angles(angle);
+    if (nearest_) {
+      double square = 0.0;
+      for (const double a : angle) square += a * a;
+      if (!(square < found_)) return;
+      found_ = square;
+      out_.count = 0;
+    }
+    Branch& branch = out_.branch[static_cast<std::size_t>(out_.count)];
+    for (std::size_t role = 0; role < 6; ++role) {
+      const LoopJoint& j = joint_[role];
+      branch.joint_rad[j.joint] = before_.joint_rad[j.joint] + j.sign * angle[role];
+    }
+    branch.miss = miss;
+    ++out_.count;
+  }
+
+ private:
+  // From those before: next to them a sine is enough.
+  void angles(double (&angle)[6]) const {
+    double s[6], c[6];
+    for (std::size_t role = 0; role < 6; ++role) {
+      s[role] = sin_[role] * before_.cos[role] - cos_[role] * before_.sin[role];
+      c[role] = cos_[role] * before_.cos[role] + sin_[role] * before_.sin[role];
+    }
+    const double least = std::min(std::min(std::min(c[0], c[2]), c[4]), std::min(std::min(c[1], c[3]), c[5]));
+    if (!(least >= kLike)) return arc_tangents(s, c, angle);
+    for (std::size_t role = 0; role < 6; ++role) angle[role] = arc_of_small_sine(s[role]);
+  }
+
+  static constexpr double kLike = 0.996;  // the sine is within kSmallSine
+  [[nodiscard]] bool too_far(double likeness) const { return 2.0 * (1.0 - likeness) >= found_; }  // <= x²
+  const std::array<LoopJoint, 6>& joint_;
+  const KnownJoints& before_;
+  Branches& out_;
+  bool nearest_, probing_ = false;
+  double least_miss_ = std::numeric_limits<double>::infinity();
+  double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest so far, rad²
+  double sin_[6], cos_[6];                                  // by role
+};
+
+}  // namespace longreach

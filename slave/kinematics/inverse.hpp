@@ -1,0 +1,104 @@
+#pragma once
+// Joint angles for a tool pose: the one inverse of the slave. Closed form where the arm has one
+// (closed_inverse.hpp), linear for a Cartesian robot, numeric search else.
+//
+// Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
+// the tool is within Refinement::kExact of the goal (rad, and share of the reach). Of those within the joint
+// limits, each angle taken from the turn that is nearest to the measured joints, the preferred one is chosen.
+// Where there is none, the damped iteration of numeric_inverse.hpp goes to the nearest pose within the
+// limits.
+//
+// kFound     the tool reaches the goal
+// kSingular  it does, but in `lost` it cannot move from there
+// kNearest   it does not: the goal is out of reach, or only beyond joint limits; the errors say by how much.
+//            A search (restarts_max > 0) never says so while all() lists a solution within the limits
+// A robot without a wrist (Cartesian) ignores the rotation of the goal and says so in `rotation_ignored`.
+
+#include <cstdint>
+#include <string_view>
+
+#include "slave/kinematics/closed_inverse.hpp"
+#include "slave/kinematics/numeric_inverse.hpp"
+#include "slave/kinematics/refinement.hpp"
+
+namespace longreach {
+
+enum class InverseStatus : std::uint8_t { kFound, kNearest, kSingular };
+
+constexpr std::string_view to_string(InverseStatus status) {
+  return status == InverseStatus::kFound     ? "FOUND"
+         : status == InverseStatus::kNearest ? "NEAREST"
+                                             : "SINGULAR";
+}
+
+struct InverseResult {
+  InverseStatus status = InverseStatus::kNearest;
+  JointVector joint_rad = JointVector::Zero();  // within the joint limits; finite if `near_rad` was
+  Pose X_WE{};                                  // of joint_rad
+  double position_error_m = 0.0;                // of X_WE from the goal
+  double rotation_error_rad = 0.0;
+  double conditioning = 0.0;       // joint_step.hpp: 0 at a singular pose, about 0.3 at a good one
+  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times length; linear]; else zero
+  bool at_joint_limit = false;     // a joint limit was in the way
+  bool rotation_ignored = false;
+  std::uint32_t iterations = 0;  // of the numeric inverse
+};
+
+/// All solutions of one pose, without regard to joint limits, each angle the one nearest to the joints
+/// before.
+struct InverseSolutions {
+  static constexpr int kMax = 16;  // of any arm with six revolute joints (Primrose 1986)
+  int count = 0;
+  std::array<JointVector, kMax> joint_rad;
+};
+
+class Inverse {
+ public:
+  static constexpr double kSingular = 1e-7;  // conditioning below which a direction is lost
+
+  explicit Inverse(const RobotConfig& robot);
+
+  /// `near_rad`: finite; where to continue from. `tolerance` is for the numeric inverse. A goal that is not
+  /// finite is answered with `near_rad` and kNearest.
+  [[nodiscard]] InverseResult solve(const Pose& X_WE_goal, const JointVector& near_rad,
+                                    const InverseTolerance& tolerance) const;
+
+  /// As solve, for a goal one tick away: a solution farther off than a joint can have meant to go (another
+  /// branch, or the near side of a singular pose) is not jumped to but approached by the damped iteration.
+  [[nodiscard]] InverseResult follow(const Pose& X_WE_goal, const JointVector& joint_rad,
+                                     const InverseTolerance& tolerance) const;
+
+  /// In closed form all, else those that `tolerance.restarts_max` runs of the search come upon.
+  [[nodiscard]] InverseSolutions all(const Pose& X_WE_goal, const JointVector& near_rad,
+                                     const InverseTolerance& tolerance) const;
+
+  /// Which kind of inverse this is, for people.
+  [[nodiscard]] std::string_view words() const;
+  [[nodiscard]] const Kinematics& kinematics() const { return numeric_.kinematics(); }
+  [[nodiscard]] const ClosedInverse& closed() const { return closed_; }
+
+ private:
+  [[nodiscard]] bool choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
+  [[nodiscard]] bool stay(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
+  [[nodiscard]] bool inside(const JointVector& joint_rad, double slack_rad) const;
+  [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
+  [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;
+  [[nodiscard]] bool place(const JointVector& solution, JointVector& placed) const;
+  [[nodiscard]] bool choose_exact(const Pose& X_WE_goal, const JointVector& near_rad,
+                                  const InverseTolerance& tolerance, Placed& placed) const;
+  [[nodiscard]] double cost(const JointVector& joint_rad, const JointVector& near_rad) const;
+  [[nodiscard]] InverseResult report(const Placed& placed, double enough_m) const;
+  [[nodiscard]] InverseResult iterate(const Rigid& goal, const JointVector& near_rad,
+                                      const InverseTolerance& tolerance) const;
+  [[nodiscard]] InverseResult slide(const Rigid& goal, const JointVector& near_rad) const;
+
+  NumericInverse numeric_;
+  ClosedInverse closed_;
+  BranchPreference prefer_;
+  JointVector per_speed_s_;                  // 1 / speed limit, s/rad
+  bool cartesian_ = false;                   // three prismatic joints, the others fixed
+  std::array<int, 3> slider_{};              // which
+  Matrix3 from_position_ = Matrix3::Zero();  // m of the sliders per m of the tool
+};
+
+}  // namespace longreach

@@ -1,0 +1,80 @@
+#pragma once
+// Where the tool is, and how it moves, for a chain of six joints.
+//   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α)     (Denavit, Hartenberg 1955)
+//   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o, [0; z] of a prismatic joint
+// B = 1 in the standard convention. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); Rx Tx moves behind
+// the joint before it, that of the first row becomes B. E is the tool frame.
+// The robot's base S is the world W. Does not know limits, speeds or singularities.
+
+#include <array>
+
+#include "slave/config/robot_config.hpp"
+#include "slave/kinematics/rigid.hpp"
+
+namespace longreach {
+
+using Jacobian = Eigen::Matrix<double, 6, kMaxJoints>;  // rows: angular, linear; m and rad
+
+struct ToolKinematics {
+  Pose X_WE{};
+  Jacobian J;
+};
+
+/// The same with the rotation as matrix, for solvers.
+struct RigidKinematics {
+  Rigid X_WE{};
+  Jacobian J;
+};
+
+/// Row of a table in the standard convention, whatever the file's.
+struct DhLink {
+  double a_m = 0.0, alpha_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
+};
+
+/// Joint values at which the robot starts, rad or m.
+JointVector start_joints(const RobotConfig& robot);
+
+class Kinematics {
+ public:
+  explicit Kinematics(const RobotConfig& robot);
+
+  [[nodiscard]] Pose forward(const JointVector& joint_rad) const { return to_pose(rigid_forward(joint_rad)); }
+  [[nodiscard]] Rigid rigid_forward(const JointVector& joint_rad) const;
+  [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
+  [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
+
+  /// Sum of all link lengths, offsets and slides of the table, tool included, at least 1 mm: the size of the
+  /// numbers that are added up, and so of their rounding.
+  [[nodiscard]] double reach_m() const { return reach_m_; }
+  static constexpr double kMotion = 1.1;  // of a long arm it is the sum of its links
+  /// The length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean
+  /// square of how far the tool moves per rad, over all joints and all their angles; of a slide, its travel.
+  /// It depends on how the tool moves and on nothing else: not on where the base is, nor on which table says
+  /// it.
+  [[nodiscard]] double motion_length_m() const { return motion_length_m_; }
+  [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
+  [[nodiscard]] const Rigid& base() const { return base_; }  // B
+  [[nodiscard]] const Rigid& tool() const { return tool_; }  // E
+  [[nodiscard]] bool all_revolute() const { return all_revolute_; }
+
+ private:
+  // A = Rz(turns q + θ) Tz(slides q + d) Tx(a) Rx(α)
+  struct Link {
+    double turns, slides, theta_rad, d_m, a_m, cos_alpha, sin_alpha;
+  };
+  struct Frame;
+  template <typename Visit>
+  Rigid walk(const JointVector& joint_rad, const Visit& visit) const;
+  Rigid forward_into(const JointVector& joint_rad, Jacobian& J) const;
+  [[nodiscard]] double motion_m(const RobotConfig& robot) const;
+
+  std::array<Link, kMaxJoints> link_{};
+  std::array<DhLink, kMaxJoints> row_{};
+  Rigid base_{}, tool_{};
+  Rigid last_{};  // behind the last joint: its Tz(d) Tx(a) Rx(α), then the tool
+  double reach_m_ = 0.0;
+  double motion_length_m_ = 0.0;
+  bool all_revolute_ = true;
+};
+
+}  // namespace longreach

@@ -1,0 +1,214 @@
+// longreach-slave: the robot's side. Follows an engaged master, acts alone when it must.
+
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+
+#include "common/loop/real_time_loop.hpp"
+#include "common/loop/stop_signal.hpp"
+#include "common/net/adapter_channel.hpp"
+#include "common/program/log.hpp"
+#include "common/program/program.hpp"
+#include "common/program/service_watch.hpp"
+#include "common/rpc/pairing_desk.hpp"
+#include "common/rpc/pairing_rpc.hpp"
+#include "common/rpc/rpc_server.hpp"
+#include "common/rpc/status_fields.hpp"
+#include "slave/command/motion.hpp"
+#include "slave/kinematics/inverse.hpp"
+#include "slave/program/slave_service.hpp"
+
+namespace longreach {
+namespace {
+
+/// Logs what has changed since the last call.
+class Chronicle {
+ public:
+  explicit Chronicle(std::string adapter) : adapter_(std::move(adapter)) {}
+
+  void write(const SlaveSnapshot& s) {
+    const SlaveView& now = s.view;
+    if (now.state != last_.view.state) {
+      spdlog::info("state from={} to={} cause=\"{}\" engagement={}{}", to_string(last_.view.state),
+                   to_string(now.state), to_string(now.cause), now.engagement, because(now.cause));
+    }
+    if (now.touch != last_.view.touch)
+      spdlog::info("touch number={} sequence={:.2f}", now.touch, now.touch_sequence);
+    if (s.side.session != last_.side.session) spdlog::info("session number={:016x}", s.side.session);
+    if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
+      spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
+                   s.side.loop.missed_ticks);
+    }
+    if (s.watchdog_stopped && !last_.watchdog_stopped) spdlog::warn("robot stopped=\"no setpoint\"");
+    if (now.limit_violations > 0 && last_.view.limit_violations == 0)
+      spdlog::warn("limit violated first=\"{}\" joint={}", name_of(now.violations_by_limit.first),
+                   now.violations_by_limit.joint);
+    const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
+    if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
+    if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);
+    if (now.refused != 0 && now.refusal != last_.view.refusal)
+      spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.refused, to_string(now.refusal),
+                   with_remedy(now.refusal));
+    trouble_ = trouble;
+    last_ = s;
+  }
+
+ private:
+  std::string adapter_;  // its address
+  SlaveSnapshot last_{};
+  std::string trouble_;
+};
+
+/// A real robot begins where it is.
+void warn_of_singular_start(const SlaveConfig& config) {
+  if (!config.robot_adapter.address.empty()) return;
+  const Inverse inverse(config.robot);
+  JointVector start_rad;
+  for (std::size_t i = 0; i < config.robot.joint.size(); ++i)
+    start_rad[static_cast<int>(i)] = config.robot.joint[i].start_rad;
+  const InverseResult at = inverse.solve(inverse.kinematics().forward(start_rad), start_rad, {});
+  if (at.conditioning >= kSingularBand) return;
+  spdlog::warn(
+      "start pose=singular conditioning={:.3f} below={} because=\"in some directions the tool cannot move "
+      "from "
+      "there; choose another robot.joint.start_rad\"",
+      at.conditioning, kSingularBand);
+}
+
+/// What is real, and what of the scene is not there then.
+void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& files) {
+  const std::string& address = config.robot_adapter().address();
+  if (address.empty()) return;
+  spdlog::info(
+      "robot adapter={} scene={} scene_left_out=\"surfaces, materials and bodies: the robot is real\"",
+      address, config.scene().name());
+  const bool from_file = std::ranges::find(files, "robot_file", &FileRead::field) != files.end();
+  if (from_file && !config.has_robot_file())
+    spdlog::warn(
+        "robot file=default because=\"robot_file is not set: joints, limits and kinematics are those of {}\" "
+        "do=\"set "
+        "robot_file to that of your robot\"",
+        config.robot().name());
+}
+
+void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
+               const RpcServer& rpc) {
+  spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
+               rpc.address(), config.loop().rate_hz(), config.robot().name(), config.scene().name(),
+               config.scene().surface_size(), files_text(files, " ", ""));
+  spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
+               Inverse(to_struct(config).robot).words());
+  log_adapter(config, files);
+  warn_of_singular_start(to_struct(config));
+  const NeedsConfig needed = needs(to_struct(config).scene);
+  std::string left_out;
+  if (!needed.contact) left_out = "contact, estimation";
+  if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
+  if (!config.scene().has_bodies()) left_out += left_out.empty() ? "free bodies" : ", free bodies";
+  if (!left_out.empty())
+    spdlog::info("left out=\"{}\" because=\"the scene {} needs none\"", left_out, config.scene().name());
+}
+
+struct SlaveOptions : ProgramOptions {
+  bool pair = false;
+  std::string pair_listen{kPairingAddress};
+  std::string adapter;
+};
+
+/// The log goes to a file in the site folder unless told otherwise: it stays, and the person reads the rest.
+int pair(const SlaveOptions& options) {
+  const auto& stop = stop_requested();
+  const std::filesystem::path site = site_of(options);
+  (void)site_authority(site);
+  ::umask(077);
+  set_up_log("slave", options.log.empty() ? (site / "pairing.log").string() : options.log);
+  return run_pairing_desk(site, options.pair_listen, stop) ? 0 : kExitFailed;
+}
+
+ProgramOptions with_shorthands(const SlaveOptions& options) {
+  ProgramOptions out = options;
+  if (!options.adapter.empty()) out.settings.push_back("robot_adapter.address=" + options.adapter);
+  return out;
+}
+
+int serve(const SlaveOptions& options) {
+  if (options.pair) return pair(options);
+  std::vector<FileRead> files;
+  const auto config = load_config<proto::SlaveConfig>(with_shorthands(options), files);
+  if (options.check) {
+    std::fputs((files_text(files, "# ", "\n") + get_field(config, "", &config)).c_str(), stdout);
+    return 0;
+  }
+  refuse_insecure(options.insecure, to_struct(config).robot_adapter, "robot");
+  auto& stop = stop_requested();
+  set_up_log("slave", options.log);
+  const SlaveConfig plain = to_struct(config);
+  const RpcSecurity security = security_of(options, RpcRole::kSlave);
+  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
+  SlaveShell shell(plain, seed);
+  SlaveService service(shell, config, {options.recordings, seed});
+  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
+  RpcServer rpc(plain.rpc.listen, service, "slave", security);
+  log_start(config, files, shell, rpc);
+
+  std::atomic<bool> end{false};
+  std::exception_ptr failure;
+  std::thread loop_thread([&] {
+    try {
+      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
+      RealTimeLoop loop(plain.loop.rate_hz);
+      shell.meet_robot();
+      loop.run(end, [&shell](Time now, const LoopFigures& figures) { shell.tick(now, figures); });
+    } catch (...) {
+      failure = std::current_exception();
+      stop = true;
+    }
+  });
+  Chronicle chronicle(plain.robot_adapter.address);
+  ServiceWatch watch;
+  const Time began = monotonic_now();
+  const auto over = [&] {
+    return options.seconds && to_seconds(monotonic_now() - began) >= *options.seconds;
+  };
+  while (!stop && !over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const SlaveSnapshot now = service.snapshot();
+    chronicle.write(now);
+    watch.look(now.side.loop.ticks);
+  }
+  end = true;
+  loop_thread.join();
+  rpc.stop();
+  if (failure) std::rethrow_exception(failure);
+  const SlaveSnapshot last = service.snapshot();
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} limit_violations={}",
+               last.side.loop.ticks, last.side.loop.missed_ticks, last.side.loop.ticks_late_100ms,
+               1e6 * last.side.loop.lateness_quantile_s(0.99), last.view.limit_violations);
+  return 0;
+}
+
+}  // namespace
+}  // namespace longreach
+
+int main(int argc, char** argv) {
+  CLI::App app{"The robot's side of longreach: follows an engaged master, and acts alone when it must.",
+               "longreach-slave"};
+  longreach::SlaveOptions options;
+  longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
+  app.add_flag(
+      "--pair", options.pair,
+      "Do not drive the robot: print a token by which another host becomes master and client of this "
+      "site, and wait for it (log: pairing.log in the site folder)");
+  app.add_option(
+         "--adapter", options.adapter,
+         "A real robot: where its adapter listens (robot_adapter.address); without it a simulated one")
+      ->type_name("unix:/PATH");
+  app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
+      ->type_name("ADDRESS:PORT")
+      ->check(longreach::address_by_its_form())
+      ->capture_default_str();
+  return longreach::guarded_main(app, argc, argv, [&options] { return longreach::serve(options); });
+}

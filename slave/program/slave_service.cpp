@@ -1,0 +1,241 @@
+#include "slave/program/slave_service.hpp"
+
+#include <google/protobuf/util/message_differencer.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include <cmath>
+
+#include "common/config/config.hpp"
+#include "common/config/number_text.hpp"
+#include "common/link/estimate_words.hpp"
+#include "common/net/adapter_channel.hpp"
+#include "common/rpc/status_fields.hpp"
+
+namespace longreach {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+
+Refusal at_the_master(const std::string& what) {
+  return {Refusal::Kind::kPrecondition, what + " is decided at the master; the slave only follows"};
+}
+
+/// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
+std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
+  constexpr double kPeriods = 3.0;
+  const double least_s = kPeriods / send_hz;
+  if (!(safety.gap_s() > 0.0) || safety.gap_s() >= least_s) return "";
+  return "safety.gap_s = " + format_number(safety.gap_s()) +
+         " is less than three send periods of a master with "
+         "link.send_hz = " +
+         format_number(send_hz) + ": set it to " + format_number(least_s) +
+         " or more at the slave, or link.send_hz higher at the master";
+}
+
+/// limit_violations_LIMIT each, as limit_violations_joint_speed.
+void add_limits(proto::Status& out, const LimitViolations& violations) {
+  for (std::size_t i = 0; i < violations.ticks.size(); ++i) {
+    std::string name = "limit_violations_" + std::string(name_of(static_cast<Limit>(i)));
+    std::ranges::replace(name, ' ', '_');
+    add_count(out, name, violations.ticks[i]);
+  }
+}
+
+}  // namespace
+
+std::string robot_trouble(const SlaveView& view) {
+  const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
+  const bool known = view.robot_seen && view.unready != HoldCause::kSensorZeroing;
+  return idle && known ? with_remedy(view.unready) : "";
+}
+
+SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)
+    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("slave", log_end) {}
+
+SlaveSnapshot SlaveService::snapshot() {
+  const std::lock_guard lock(reading_);
+  return shell_.snapshots().read();
+}
+
+proto::Status SlaveService::status() {
+  const SlaveSnapshot s = snapshot();
+  const SlaveView& view = s.view;
+  proto::Status out;
+  out.set_side("slave");
+  out.set_version(LONGREACH_VERSION);
+  out.set_state(std::string(to_string(view.state)));
+  out.set_cause(std::string(to_string(view.cause)));
+  out.set_engagement(view.engagement);
+  out.set_lease(lease());
+  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
+  *out.mutable_impairment() = link();
+  assign(view.X_WE.p, *out.mutable_tool_m());
+  assign(view.X_WE_goal.p, *out.mutable_goal_m());
+  assign(view.X_WE_anchor.p, *out.mutable_anchor_m());
+  assign(log_rotation(view.X_WE_anchor.q), *out.mutable_anchor_rad());
+  out.set_in_contact(view.in_contact);
+  out.set_stiffness_n_per_m(view.reported_stiffness_n_per_m);
+  if (view.reported_stiffness_nm_per_rad > 0.0) {
+    out.set_rotational_stiffness_nm_per_rad(view.reported_stiffness_nm_per_rad);
+  }
+  const bool turns = view.turn_estimate.valid;
+  const ContactEstimate& estimate = turns ? view.turn_estimate : view.estimate;
+  if (estimate.valid) {
+    out.set_estimate(stiffness_in_words(estimate, turns ? "N m/rad" : "N/m") + ", " + law_in_words(estimate));
+  }
+  out.set_force_n(view.F_E_W.force.norm());
+  out.set_gripper(in_words(view.gripper));
+  add_clamps(*out.mutable_clamped(), view.clamps);
+  if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
+  fill(out, s.side);
+  fill(out, recording_.status());
+  add_count(out, "touches", view.touch);
+  add_count(out, "false_holds", view.false_holds);
+  add_count(out, "limit_violations", view.limit_violations);
+  add_limits(out, view.violations_by_limit);
+  add_count(out, "rejected_values", view.rejected_values);
+  add_count(out, "ik_failures", view.ik_failures);
+  add_count(out, "rejected_setpoints", s.rejected_setpoints);
+  add_counts(out, s.adapter);
+  out.set_trouble(adapter_trouble(s.adapter, "robot", config_.present()->robot_adapter().address()));
+  if (out.trouble().empty()) out.set_trouble(robot_trouble(view));
+  return out;
+}
+
+std::shared_ptr<const google::protobuf::Message> SlaveService::config() { return config_.present(); }
+
+std::shared_ptr<const google::protobuf::Message> SlaveService::start_config() { return config_.start(); }
+
+std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) {
+  const auto before = config_.present();
+  auto planned = plan_change({*config_.start(), *before}, assignments);
+  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
+  const auto& change = std::get<ConfigChange>(planned);
+  const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
+  if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
+    return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
+  SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
+                      !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
+                      config_number_ + 1};
+  recording_.add_config(++config_number_, recorded_text(after));
+  auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
+  if (!refusal) config_.put(after);
+  return refusal;
+}
+
+proto::Impairment SlaveService::link() { return config_.present()->link().impairment(); }
+
+std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairment) {
+  auto refusal = post(shell_.mailbox(), SlaveCommand(to_struct(impairment)));
+  if (!refusal) {
+    proto::SlaveConfig after = *config_.present();
+    *after.mutable_link()->mutable_impairment() = impairment;
+    config_.put(std::move(after));
+    recording_.add_event("link impaired: " + impairment.ShortDebugString());
+  }
+  return refusal;
+}
+
+std::optional<Refusal> SlaveService::set_mode(proto::Mapping::Mode) { return at_the_master("the mode"); }
+
+std::optional<Refusal> SlaveService::set_scale(double) { return at_the_master("the scale"); }
+
+std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement"); }
+
+std::optional<Refusal> SlaveService::stop() { return ask(shell_.stops()); }
+
+std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
+    const proto::OpenSessionRequest& request, const std::string& caller) {
+  proto::OpenSessionResponse response;
+  if (request.session() != 0 && request.session() == snapshot().side.session) {
+    response.set_session(request.session());
+    return response;
+  }
+  const double send_hz = request.send_hz();
+  if (!(send_hz >= 50.0 && send_hz <= 4000.0)) {
+    return Refusal{Refusal::Kind::kInvalid, "a master sends 50 to 4000 times a second, not " +
+                                                format_number(send_hz) + "; use programs of one version"};
+  }
+  if (std::string why = too_short(config_.present()->safety(), send_hz); !why.empty())
+    return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
+  const bool aes = request.aes256gcm() && has_aes256gcm();
+  const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
+  const std::string before = lease();
+  if (auto refusal = post(shell_.mailbox(), SlaveCommand(SlaveLease{session, request.take(), send_hz}))) {
+    return refusal->kind == Refusal::Kind::kPrecondition ? occupied(caller) : *std::move(refusal);
+  }
+  spdlog::info("lease holder={} before=\"{}\" taken={}", caller, before, request.take());
+  recording_.add_event("lease to " + caller + (request.take() ? ", taken" : ""));
+  set_lease(caller);
+  response.set_session(session.number);
+  response.set_secret(session.secret.data(), session.secret.size());
+  response.set_aes256gcm(aes);
+  return response;
+}
+
+Refusal SlaveService::occupied(const std::string& caller) {
+  const std::string holder = lease();
+  // Who is refused asks again every 2 s.
+  if (caller != refused_) spdlog::warn("lease refused={} holder={}", caller, holder);
+  refused_ = caller;
+  return {Refusal::Kind::kPrecondition,
+          "another master has the robot (" + holder +
+              "); end that one, wait until it has been silent for 1 s, or start this one with --take",
+          holder};
+}
+
+std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
+  if (post(shell_.mailbox(), SlaveCommand(SlaveReturn{session})))
+    return Refusal{Refusal::Kind::kPrecondition, "this master does not have the robot"};
+  spdlog::info("lease returned by={}", lease());
+  recording_.add_event("lease returned by " + lease());
+  set_lease("");
+  return std::nullopt;
+}
+
+SideRecording<SlaveTape>::Request SlaveService::recording_request(double max_mb) const {
+  SideRecording<SlaveTape>::Request request;
+  request.max_mb = max_mb;
+  request.rate_hz = config_.present()->loop().rate_hz();
+  request.seed = recordings_.seed;
+  request.config_number = config_number_;
+  request.config_text = recorded_text(*config_.present());
+  return request;
+}
+
+bool SlaveService::attach(SlaveTape* tape) {
+  return !post(shell_.mailbox(), SlaveCommand(SlaveTaping{tape}));
+}
+
+std::variant<std::string, Refusal> SlaveService::start_recording(const std::string& name, double max_mb) {
+  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "slave",
+                                    [this](SlaveTape* tape) { return attach(tape); });
+}
+
+std::variant<std::string, Refusal> SlaveService::stop_recording() {
+  return longreach::stop_recording(recording_, [this](SlaveTape* tape) { return attach(tape); });
+}
+
+void SlaveService::record_from_start(const std::string& file, double max_mb) {
+  auto request = recording_request(max_mb);
+  request.file = file;
+  recording_.start(request, [this](SlaveTape* tape) {
+    shell_.record(tape);
+    return true;
+  });
+  log_start(recording_.status());
+}
+
+std::string SlaveService::lease() const {
+  const std::lock_guard lock(leasing_);
+  return lease_;
+}
+
+void SlaveService::set_lease(const std::string& holder) {
+  const std::lock_guard lock(leasing_);
+  lease_ = holder;
+}
+
+}  // namespace longreach

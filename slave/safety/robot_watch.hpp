@@ -1,0 +1,58 @@
+#pragma once
+// Does the robot do what its setpoints say? From measured joints q alone:
+//   x' = 2π f (s - x)   where a servo of bandwidth f has the joint, s the setpoint
+//   astray    a joint is off x by more than 0.1 rad (or m) for half a second on end
+//   restless  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f) on end, while
+//             its setpoint rests
+// That is more than what a joint gives way by, and longer than a stop by the robot's own watchdog after a
+// late tick. After this side has stood still a joint that is off by so much was moved meanwhile: it is astray
+// at once, so that nothing calls it back. What is between the two stays unnoticed: a robot that drifts slowly
+// is first noticed when it is astray.
+
+#include <cmath>
+#include <numbers>
+
+#include "slave/config/robot_config.hpp"
+
+namespace longreach {
+
+class RobotWatch {
+ public:
+  explicit RobotWatch(const RobotConfig& robot)
+      : rate_per_s_(2.0 * std::numbers::pi * robot.servo_hz),
+        settling_s_(rate_per_s_ > 0.0 ? 3.0 / rate_per_s_ : 0.0) {
+    for (int i = 0; i < kMaxJoints; ++i)
+      brisk_rad_per_s_[i] = 0.1 * robot.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
+  }
+
+  /// `commanded`: the setpoint matters; else the robot may be anywhere. `rests`: it does not change.
+  /// `dt` > 0, s, since the setpoint before. `stood`: no setpoint came for longer than the gap timer.
+  void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt,
+            bool stood = false) {
+    if (!commanded) expected_rad_ = robot.joint_rad;
+    if (rate_per_s_ > 0.0) {
+      expected_rad_ -= std::expm1(-rate_per_s_ * dt) * (setpoint_rad - expected_rad_);
+    } else {
+      expected_rad_ = setpoint_rad;
+    }
+    const bool off = ((robot.joint_rad - expected_rad_).cwiseAbs().array() > kOff).any();
+    off_s_ = commanded && off ? off_s_ + (stood ? kLong_s : 0.0) + dt : 0.0;
+    const bool moves = (robot.joint_rad_per_s.cwiseAbs().array() > brisk_rad_per_s_.array()).any();
+    moves_s_ = rests && moves ? moves_s_ + dt : 0.0;
+  }
+
+  [[nodiscard]] bool astray() const { return off_s_ > kLong_s; }
+  [[nodiscard]] bool restless() const { return moves_s_ > kLong_s + settling_s_; }
+
+ private:
+  static constexpr double kOff = 0.1;
+  static constexpr double kLong_s = 0.5;
+
+  double rate_per_s_;
+  double settling_s_;
+  JointVector brisk_rad_per_s_ = JointVector::Zero();
+  JointVector expected_rad_ = JointVector::Zero();
+  double off_s_ = 0.0, moves_s_ = 0.0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,39 @@
+#pragma once
+// A simulated six-axis force/torque sensor: what it tells of the wrench that acts on it. Each of the six
+// channels, in the sensor's own frame:
+//   y += (1 - exp(-2π f dt)) (w - y)                        bandwidth f
+//   b += drift √dt ξ                                        bias, a random walk from where it begins
+//   reading = clamp(round((y + b + noise ξ)/res) res)       resolution, range
+// with ξ normal, of deviation 1. Cross talk, hysteresis and temperature are not modelled: they are a bias
+// that nobody zeroed.
+
+#include "common/core/random.hpp"
+#include "common/spatial/spatial.hpp"
+#include "slave/config/sensing_config.hpp"
+
+namespace longreach {
+
+class ForceSensor {
+ public:
+  ForceSensor(const SensingConfig& config, Random random);
+
+  /// The reading, `dt` (>= 0, s) after the last. A wrench that is not finite is read as the last one.
+  Wrench step(const Wrench& wrench, double dt);
+
+  [[nodiscard]] const Wrench& bias() const { return bias_; }
+
+ private:
+  struct Channel {
+    double noise, drift, resolution, range;
+  };
+  [[nodiscard]] Vector3 read(const Vector3& felt, const Channel& channel);
+
+  Channel force_, moment_;
+  double bandwidth_hz_;
+  Random random_;
+  Wrench bias_{};
+  Wrench felt_{};
+  bool begun_ = false;
+};
+
+}  // namespace longreach

@@ -1,0 +1,85 @@
+#pragma once
+// A robot that is not there: six joints with first-order servos, the tool by forward kinematics, the scene's
+// force on the tool, a force sensor at E that carries the tool.
+//   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick; 0 Hz: q̇
+//   only limited
+// A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
+// gives way to what the tool touches, so that the contact creates no energy however stiff it is
+// (yielding.hpp); the others do not (their motion is imposed). Joints are measured at the link, exactly. Its
+// time is what read() is given. Without a setpoint, or when nobody has written for 20 ms, its servos brake by
+// their acceleration limits and then hold, whatever pushes, until the next one. The accessors that begin with
+// true_ and displace() are for the laboratory alone.
+
+#include <cstdint>
+#include <optional>
+
+#include "common/core/random.hpp"
+#include "slave/config/slave_config.hpp"
+#include "slave/kinematics/kinematics.hpp"
+#include "slave/scene/bodies.hpp"
+#include "slave/scene/scene.hpp"
+#include "slave/sensing/tool_load.hpp"
+#include "slave/simulation/force_sensor.hpp"
+
+namespace longreach {
+
+class SimulatedArm : public Robot {
+ public:
+  /// Throws std::invalid_argument as Scene and Bodies do.
+  SimulatedArm(const SlaveConfig& config, Random random);
+
+  RobotState read(Time now) override;
+  /// A setpoint that is not finite is ignored and counted.
+  void write(const std::optional<JointVector>& joint_setpoint_rad) override;
+  void grip(bool closed) override {
+    if (bodies_) bodies_->grip(closed);
+  }
+
+  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // forward kinematics of start_rad
+  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // at the last read
+  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
+  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // without noise
+  [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
+  /// Static dF/dp of all that is touched at `p_WE`, along the way out, by differences; N/m, 0 in free space.
+  [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
+  /// What floats freely; null in a scene without.
+  [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
+  [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
+  /// Somebody else moves it: its joints are there now, at rest.
+  void displace(const JointVector& joint_rad);
+  /// The surroundings are these from now on. Throws std::invalid_argument as Scene does.
+  void surround(const SceneConfig& scene) { scene_ = Scene(scene, X_WE_start_); }
+  [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
+  [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
+
+ private:
+  void move(double dt);
+  void feel(double dt);
+  Wrench sense(double dt);
+
+  RobotConfig robot_;
+  SensingConfig sensing_;
+  Kinematics kinematics_;
+  Pose X_WE_start_;
+  Scene scene_;
+  std::optional<Bodies> bodies_;
+  ForceSensor sensor_;
+  SensorMotionEstimate motion_{};
+  std::optional<Time> now_{};
+  double t_s_ = 0.0;  // since the first read
+  std::optional<Time> written_{};
+  JointVector joint_rad_;
+  JointVector joint_rad_per_s_ = JointVector::Zero();
+  JointVector servo_rad_;
+  JointVector servo_rad_per_s_ = JointVector::Zero();
+  std::optional<JointVector> setpoint_rad_{};
+  bool flexible_;  // has joints with a stiffness
+  Pose X_WE_{};
+  Twist V_WE_{};
+  Wrench F_E_W_{};
+  SceneContact contact_{};
+  bool stopped_ = false;
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace longreach

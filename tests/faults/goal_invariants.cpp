@@ -1,0 +1,113 @@
+// I31, I32: the goal does not run away from a robot that stands, and where nothing is nothing is felt.
+
+#include <algorithm>
+#include <deque>
+
+#include "tests/faults/invariant.hpp"
+
+namespace longreach {
+namespace {
+
+bool both_engaged(const Moment& m) {
+  return m.claimed == SafetyState::kEngaged && m.shown == SafetyState::kEngaged && m.slave_ran &&
+         m.master_ran;
+}
+/// Nothing has happened for so long by which goal and robot may be apart for a reason.
+bool undisturbed(const Moment& m, double for_s) {
+  for (const Spoils what : {Spoils::kJoints, Spoils::kRobot, Spoils::kSlaveTime, Spoils::kMasterTime,
+                            Spoils::kMaster, Spoils::kSlave, Spoils::kLease})
+    if (m.since(what) < for_s) return false;
+  return true;
+}
+
+/// While the tool stands the goal leads it by what it has moved within a round trip, and by little more. What
+/// a fault of the link has held back may come for half a minute, and the playout is late by it.
+class BoundedLead : public Invariant {
+ public:
+  explicit BoundedLead(const Scenario& s)
+      : Invariant("I31", "the goal does not run away from a robot that stands"),
+        news_s_(s.round_trip_s + 0.5),
+        news_(static_cast<std::size_t>(news_s_ / 0.001)) {}
+  void see(const Moment& m) override {
+    const bool stands = both_engaged(m) && m.since(Spoils::kLink) > kLate_s &&
+                        undisturbed(m, kRecovers_s + news_s_) && m.engagement == engagement_ &&
+                        (m.X_WE.p - stands_m_).norm() < kStands_m;
+    engagement_ = m.engagement;
+    if (!stands) {
+      stands_m_ = m.X_WE.p;
+      way_m_ = 0.0;
+      ways_m_.clear();
+    }
+    way_m_ += ways_m_.empty() ? 0.0 : (m.goal_m - goal_m_).norm();
+    goal_m_ = m.goal_m;
+    ways_m_.push_back(way_m_);
+    if (ways_m_.size() <= news_) return;
+    ways_m_.pop_front();
+    at_most(m, (m.anchor_m + m.goal_m - m.X_WE.p).norm(), kLead_m + way_m_ - ways_m_.front(),
+            "m ahead of a robot that stands");
+  }
+
+ private:
+  static constexpr double kStands_m = 1e-3, kRecovers_s = 2.0, kLate_s = 30.0;
+  static constexpr double kLead_m = 5e-3 + kStands_m;
+
+  double news_s_;
+  std::size_t news_;  // ticks
+  std::uint32_t engagement_ = 0;
+  Vector3 stands_m_ = Vector3::Zero(), goal_m_ = Vector3::Zero();
+  double way_m_ = 0.0;         // of the goal since the tool stands
+  std::deque<double> ways_m_;  // likewise, in the past
+};
+
+/// In a scene of planes, which tells where nothing is. What was touched while the scene, the sensor or the
+/// robot was not what it is may be remembered until the next engagement.
+class FreeSpace : public Invariant {
+ public:
+  explicit FreeSpace(const Scenario& s)
+      : Invariant("I32", "where nothing is nothing is felt"),
+        start_m_(start_pose(s).p),
+        surfaces_(s.slave.scene.surface),
+        radius_m_(s.slave.scene.tool_radius_m) {}
+  void see(const Moment& m) override {
+    for (const Spoils what : {Spoils::kScene, Spoils::kSensor, Spoils::kJoints, Spoils::kRobot,
+                              Spoils::kSlave, Spoils::kMaster, Spoils::kHandle})
+      doubtful_ = doubtful_ || m.since(what) < kDecays_s;
+    if (m.engagement != engagement_) doubtful_ = false;
+    engagement_ = m.engagement;
+    if (doubtful_ || !both_engaged(m) || depth_m(m.anchor_m + m.goal_m) > -kPlace_m) return;
+    at_most(m, m.contact_n, kNothing_n, "N where nothing is");
+  }
+
+ private:
+  static constexpr double kPlace_m = 1e-3;  // of a surface that was found
+  static constexpr double kNothing_n = 0.2, kDecays_s = 1.0;
+
+  /// Of the point behind the nearest plane; negative: in front of all.
+  [[nodiscard]] double depth_m(const Vector3& p_W) const {
+    double most = -1e9;
+    for (const SurfaceConfig& surface : surfaces_) {
+      if (!surface.plane) continue;
+      const Vector3 point =
+          surface.plane->point_m + (surface.plane->from_tool_start ? start_m_ : Vector3::Zero());
+      most = std::max(most, radius_m_ + surface.plane->normal.normalized().dot(point - p_W));
+    }
+    return most;
+  }
+
+  Vector3 start_m_;
+  std::vector<SurfaceConfig> surfaces_;
+  double radius_m_;
+  std::uint32_t engagement_ = 0;
+  bool doubtful_ = false;
+};
+
+}  // namespace
+
+void add_goal_invariants(const Scenario& s, Invariants& all) {
+  all.push_back(std::make_unique<BoundedLead>(s));
+  const bool told = std::ranges::all_of(
+      s.slave.scene.surface, [](const SurfaceConfig& surface) { return surface.plane || surface.hinge; });
+  if (told) all.push_back(std::make_unique<FreeSpace>(s));
+}
+
+}  // namespace longreach

@@ -1,0 +1,65 @@
+#pragma once
+// What must hold whatever happens, judged by what an outsider has seen (moment.hpp) and by nothing that a
+// node says of itself; states and causes count as claims, which are judged too. Each counts how often it was
+// judged: one that never was has proved nothing.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/faults/moment.hpp"
+#include "tests/faults/scenario.hpp"
+
+namespace longreach {
+
+struct Breach {
+  std::string invariant;  // its name
+  double t_s = 0.0;
+  std::string words;
+};
+
+class Invariant {
+ public:
+  Invariant(std::string_view name, std::string_view says) : name_(name), says_(says) {}
+  virtual ~Invariant() = default;
+
+  virtual void see(const Moment& moment) = 0;
+
+  [[nodiscard]] std::string_view name() const { return name_; }
+  [[nodiscard]] std::string_view says() const { return says_; }
+  [[nodiscard]] std::uint64_t judged() const { return judged_; }
+  [[nodiscard]] std::uint64_t violated() const { return violated_; }
+  [[nodiscard]] const Breach& first() const { return first_; }
+
+ protected:
+  /// `value` is at most `bound`; NaN is not.
+  void at_most(const Moment& moment, double value, double bound, const char* what);
+  void that(const Moment& moment, bool good, const char* what);
+
+ private:
+  void break_it(const Moment& moment, std::string words);
+
+  std::string_view name_, says_;
+  std::uint64_t judged_ = 0, violated_ = 0;
+  Breach first_{};
+};
+
+using Invariants = std::vector<std::unique_ptr<Invariant>>;
+
+// Each file adds its own.
+void add_joint_invariants(const Scenario& scenario, Invariants& all);
+void add_tool_invariants(const Scenario& scenario, Invariants& all);
+void add_right_invariants(const Scenario& scenario, Invariants& all);
+void add_state_invariants(const Scenario& scenario, Invariants& all);
+void add_command_invariants(const Scenario& scenario, Invariants& all);
+void add_contact_invariants(const Scenario& scenario, Invariants& all);
+void add_hand_invariants(const Scenario& scenario, Invariants& all);
+void add_goal_invariants(const Scenario& scenario, Invariants& all);
+void add_display_invariants(const Scenario& scenario, Invariants& all);
+void add_liveness(const Scenario& scenario, Invariants& all);
+
+Invariants all_invariants(const Scenario& scenario);
+
+}  // namespace longreach

@@ -1,0 +1,117 @@
+#pragma once
+// A laboratory in which things go wrong: it stands between the nodes and everything around them, lets the
+// faults of a schedule act there, and writes down what really happened.
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "deploy/lab/laboratory.hpp"
+#include "tests/faults/kind.hpp"
+#include "tests/faults/moment.hpp"
+#include "tests/faults/person.hpp"
+#include "tests/faults/sabotage.hpp"
+#include "tests/faults/scenario.hpp"
+#include "tests/faults/wire.hpp"
+
+namespace longreach {
+
+/// What the faults of a tick ask for together; begins anew in each.
+struct Levels {
+  ImpairmentConfig up{}, down{};  // the link's own, made worse
+  WayMeddling wire_up{}, wire_down{};
+  bool slave_sleeps = false, master_sleeps = false;
+  double slave_ppm = 0.0, master_ppm = 0.0;  // of the clocks
+  bool let_go = false, impatient = false, clutch = false;
+};
+
+class World : public Meddler {
+ public:
+  World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage = Sabotage::kNone,
+        const Clocks& clocks = {});
+
+  /// One tick; what happened in it.
+  const Moment& step();
+
+  // For the kinds of fault.
+  Levels levels{};
+  OperatorRequests requests{};
+  bool stop_slave = false;
+  bool taken = false;
+  Laboratory& lab() { return lab_; }
+  WireWay& up() { return up_; }
+  WireWay& down() { return down_; }
+  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const Moment& moment() const { return moment_; }
+  [[nodiscard]] const std::vector<Bytes>& past_life() const { return past_life_; }
+  Ghost& ghost() { return ghost_; }
+  /// Both sides, or the slave alone, follow another session from now on.
+  void lease(bool to_master);
+  /// A client asks a side for a change; the rules of the programs decide.
+  void set_slave(std::string_view path, const std::string& value);
+  void set_master(std::string_view path, const std::string& value);
+  [[nodiscard]] std::uint64_t refused_changes() const { return refused_changes_; }
+  void surround(const SceneConfig& scene) { lab_.arm().surround(scene); }
+
+  [[nodiscard]] const std::vector<std::uint64_t>& injected() const { return injected_; }  // by kind
+  Person& person() { return person_; }
+  [[nodiscard]] const Laboratory& laboratory() const { return lab_; }
+
+  Duration slave_clock(Duration elapsed) override { return elapsed + slave_ahead_; }
+  Duration master_clock(Duration elapsed) override { return elapsed + master_ahead_; }
+  bool slave_sleeps() override { return levels.slave_sleeps; }
+  bool master_sleeps() override { return levels.master_sleeps; }
+  void robot_told(RobotState& told) override;
+  void slave_asked(SlaveInput& input) override;
+  void slave_answered(SlaveOutput& out) override;
+  void handle_told(HandleState& told) override;
+  void master_asked(MasterInput& input) override;
+  void master_answered(MasterOutput& out) override;
+
+ private:
+  struct Running {
+    const FaultKind* kind;
+    Active active;
+  };
+  void begin_faults(double now_s);
+  void act();
+  /// The first of these is as it should not be, in this tick.
+  void spoil(unsigned first);
+  void apply_levels();
+  void end_faults();
+  void on_wire(MemoryChannelPair& wire);
+  void take_all(Channel& end, WireWay& way);
+  bool change(google::protobuf::Message& present, const google::protobuf::Message& start,
+              std::string_view path, const std::string& value, bool engaged);
+  void finish();
+  void live_before();
+  template <class Hook, class Value>
+  void hook(Hook FaultKind::*which, Value& value);
+
+  Scenario scenario_;
+  Schedule schedule_;
+  Laboratory lab_;
+  WireWay up_, down_;
+  Saboteur saboteur_;
+  Person person_;
+  Ghost ghost_;
+  proto::SlaveConfig slave_config_;
+  proto::MasterConfig master_config_;
+  MemoryChannelPair* channels_ = nullptr;
+  Random sessions_;
+  std::uint64_t leases_ = 1;
+  std::map<std::pair<std::uint64_t, std::byte>, std::uint64_t> numbers_;  // greatest, by session and type
+  std::size_t next_fault_ = 0;
+  std::vector<Running> running_;
+  std::vector<std::uint64_t> injected_;
+  std::vector<Bytes> past_life_;
+  Duration slave_ahead_, master_ahead_;
+  ImpairmentConfig up_now_{}, down_now_{};
+  Moment moment_{};
+  std::map<std::uint64_t, double> reports_s_;  // when the last of them left, by number
+  double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
+  std::uint64_t refused_changes_ = 0;
+  bool slave_turn_ = true;  // the next who has spoken on the wire
+};
+
+}  // namespace longreach

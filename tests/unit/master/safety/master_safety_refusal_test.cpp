@@ -1,0 +1,89 @@
+// Why an engagement that was asked for is not granted: when the operator is told, and by whom.
+
+#include <gtest/gtest.h>
+
+#include "master/safety/master_safety.hpp"
+
+namespace longreach {
+namespace {
+
+using Cause = HoldCause;
+using std::chrono::milliseconds;
+
+struct Machine {
+  MasterSafety safety{
+      MasterSafetyConfig{.silence_s = 0.5, .resume_s = 1.0, .presence = Presence::kHold, .presence_s = 0.3}};
+  MasterSafetyInput in{};
+
+  void step(int ms = 1) {
+    in.now += milliseconds(ms);
+    safety.step(in);
+    in.engage = false;
+  }
+  void hear(int ms = 1) {
+    in.last_heard = in.now + milliseconds(ms);
+    step(ms);
+  }
+};
+
+Machine observing(bool asking) {
+  Machine m;
+  m.in.now = Time{std::chrono::hours(1)};
+  m.in.rtt_s = 0.1;
+  m.hear();
+  m.in.engage = asking;
+  m.hear();
+  return m;
+}
+
+TEST(MasterSafetyRefusal, ARequestThatIsNotGrantedHasAReasonASecondAfterTheRoundTrip) {
+  for (const double rtt_s : {0.0, 0.6, 11.0}) {
+    for (const bool says_why : {false, true}) {
+      Machine m = observing(true);
+      m.in.rtt_s = rtt_s;
+      const Time asked = m.in.now;
+      const Reason why{Cause::kJointLimit, 5, 2.15, 2.094};
+      while (to_seconds(m.in.now - asked) < rtt_s) m.hear(10);
+      EXPECT_EQ(m.safety.refusal(), Cause::kNone);
+      if (says_why) m.safety.on_report({.engagement = 0, .refused = m.safety.engagement(), .refusal = why});
+      while (to_seconds(m.in.now - asked) < rtt_s + 1.02) m.hear(10);
+      EXPECT_TRUE(m.safety.pending()) << "it may yet be granted";
+      EXPECT_EQ(m.safety.refusal(), says_why ? Cause::kJointLimit : Cause::kUnanswered);
+      EXPECT_EQ(m.safety.refusal().value, says_why ? 2.15 : 0.0);
+      EXPECT_EQ(m.safety.refusal_is_far(), says_why);
+      while (m.safety.pending()) m.hear(10);
+      EXPECT_EQ(m.safety.cause(), says_why ? Cause::kJointLimit : Cause::kUnanswered);
+      EXPECT_EQ(m.safety.cause_is_far(), says_why);
+    }
+  }
+}
+
+TEST(MasterSafetyRefusal, ARequestThatThisSideDoesNotPassOnHasItsReasonAtOnce) {
+  struct Row {
+    Cause why;
+    void (*spoil)(MasterSafetyInput&);
+  };
+  const Row rows[] = {
+      {Cause::kDeviceFault, [](MasterSafetyInput& in) { in.device_ok = false; }},
+      {Cause::kTaken, [](MasterSafetyInput& in) { in.taken = true; }},
+      {Cause::kLinkSilent, [](MasterSafetyInput& in) { in.last_heard = in.now - milliseconds(600); }},
+      {Cause::kHandleLetGo, [](MasterSafetyInput& in) { in.held = false; }},
+      {Cause::kHandStale, [](MasterSafetyInput& in) { in.hand_stale = true; }},
+      {Cause::kStalled, [](MasterSafetyInput& in) { in.stalled_since = in.now; }}};
+  for (const Row& row : rows) {
+    Machine m = observing(false);
+    row.spoil(m.in);
+    m.in.engage = true;
+    m.step();
+    EXPECT_EQ(m.safety.refusal(), row.why) << text_of(row.why).name;
+    EXPECT_FALSE(m.safety.refusal_is_far());
+    EXPECT_FALSE(m.safety.pending());
+    m.in = {.now = m.in.now, .engage = true, .rtt_s = 0.1};
+    m.hear();
+    EXPECT_EQ(m.safety.refusal(), Cause::kNone) << "it is asked for anew";
+    EXPECT_TRUE(m.safety.pending());
+  }
+}
+
+}  // namespace
+}  // namespace longreach

@@ -1,0 +1,247 @@
+// Several surfaces at once and after each other: which there are, what each bears, when they are forgotten.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "common/core/random.hpp"
+#include "slave/estimation/contact.hpp"
+#include "tests/unit/slave/space_arm.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+/// A plane that pushes along `normal` wherever the tool is behind it.
+struct Plane {
+  Vector3 normal;
+  double place_m;  // along the normal
+  double stiffness_n_per_m;
+};
+
+/// A tool that goes from place to place at 5 mm/s, among planes or what else there is.
+struct Bench {
+  explicit Bench(std::vector<Plane> all) : planes(std::move(all)) {
+    force = [this](const Vector3& p) {
+      Vector3 sum = Vector3::Zero();
+      for (const Plane& plane : planes)
+        sum += plane.stiffness_n_per_m * std::max(0.0, plane.place_m - plane.normal.dot(p)) * plane.normal;
+      return sum;
+    };
+  }
+
+  void go(const Vector3& to, double speed = 5e-3) {
+    while ((to - p_m).norm() > 1e-12) {
+      const Vector3 step = clamp_norm(Vector3(to - p_m), speed * kDt);
+      p_m += step;
+      feel(step / kDt);
+    }
+  }
+  void rest(double seconds) {
+    for (double t = 0.0; t < seconds; t += kDt) feel(Vector3::Zero());
+  }
+  void feel(const Vector3& v) {
+    const Vector3 noise(0.02 * random.normal(), 0.02 * random.normal(), 0.02 * random.normal());
+    contact.step({p_m, v, force(p_m) + noise, 0.0, 1.0, kDt});
+  }
+  /// Those that there are, and how many of them are pressed.
+  [[nodiscard]] int there() const {
+    return count([](const ReportedSurface& s) { return s.touch > 0; });
+  }
+  [[nodiscard]] int pressed() const {
+    return count([](const ReportedSurface& s) { return s.pressed; });
+  }
+  [[nodiscard]] ReportedSurface facing(const Vector3& normal) const {
+    for (const ReportedSurface& s : contact.report(Vector3::Zero())) {
+      if (s.touch > 0 && s.normal.dot(normal) > 0.98) return s;
+    }
+    return {};
+  }
+
+  std::vector<Plane> planes;
+  std::function<Vector3(const Vector3&)> force;
+  Random random{1};
+  Vector3 p_m = Vector3::Zero();
+  SlaveContact contact{SensingConfig{}, EstimatorConfig{}};
+
+ private:
+  template <class Which>
+  int count(Which which) const {
+    const auto all = contact.report(Vector3::Zero());
+    return static_cast<int>(std::ranges::count_if(all, which));
+  }
+};
+
+const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY();
+
+void expect_surface(const Bench& b, const Plane& plane, bool pressed) {
+  const ReportedSurface s = b.facing(plane.normal);
+  EXPECT_GT(s.touch, 0U);
+  EXPECT_EQ(s.pressed, pressed);
+  EXPECT_NEAR(s.stiffness, plane.stiffness_n_per_m, 0.05 * plane.stiffness_n_per_m);
+  const Vector3 below = b.p_m + (plane.place_m - plane.normal.dot(b.p_m)) * plane.normal;
+  EXPECT_NEAR(s.offset, s.normal.dot(below), 2e-4);
+  EXPECT_NEAR(s.foot, 0.0, 1.5e-4);  // n is not known to be 1
+  EXPECT_NEAR(s.offset - s.foot, s.normal.dot(below), 2e-4);
+}
+
+TEST(Surfaces, BothSidesOfASlotAreRememberedWithTheirSense) {
+  const Plane front{-kX, -0.01, 1000.0}, back{kX, -0.01, 2000.0};
+  Bench b({front, back});
+  b.go(0.014 * kX);
+  expect_surface(b, front, true);
+  b.go(-0.012 * kX);
+  EXPECT_EQ(b.there(), 2);
+  expect_surface(b, front, false);
+  expect_surface(b, back, true);
+  b.go(0.012 * kX);
+  expect_surface(b, front, true);
+  expect_surface(b, back, false);
+}
+
+TEST(Surfaces, ACornerIsTwo) {
+  const Plane front{-kX, -0.01, 1000.0}, side{-kY, -0.01, 3000.0};
+  Bench b({front, side});
+  b.go({0.014, 0.0, 0.0});
+  b.go({0.014, 0.012, 0.0});  // along the one into the other
+  EXPECT_EQ(b.pressed(), 2);
+  b.go({0.0125, 0.0115, 0.0}, 1e-3);
+  b.go({0.0135, 0.0122, 0.0}, 1e-3);
+  expect_surface(b, front, true);
+  expect_surface(b, side, true);
+  b.go({0.008, 0.012, 0.0});
+  expect_surface(b, front, false);
+  expect_surface(b, side, true);
+}
+
+// The edge of a step that the tool rides over pushes against its way at first.
+TEST(Surfaces, AnEdgeThatTurnsIntoAWallIsOne) {
+  Bench b({{-kX, -0.01, 1000.0}});
+  const auto wall = b.force;
+  b.force = [&](const Vector3& p) {
+    const double over_m = p.y() - 0.005;
+    if (over_m < 0.0) return Vector3(wall(p));
+    const double angle = test::kPi / 3.0 * std::max(0.0, 1.0 - over_m / 0.005);
+    return Vector3(-(4.0 + 1000.0 * std::min(over_m, 0.01)) * Vector3(std::cos(angle), std::sin(angle), 0.0));
+  };
+  b.go({0.014, 0.0, 0.0});
+  b.go({0.014, 0.015, 0.0});
+  EXPECT_EQ(b.there(), 1);
+  EXPECT_GT(b.facing(-kX).touch, 0U);
+}
+
+TEST(Surfaces, AnObtuseCornerIsTwo) {
+  const Vector3 oblique = Vector3(-0.5, -std::sqrt(0.75), 0.0);
+  const Plane front{-kX, -0.01, 1000.0}, side{oblique, -0.012, 1500.0};
+  Bench b({front, side});
+  b.go({0.014, 0.0, 0.0});
+  b.go({0.0135, 0.010, 0.0});
+  b.go({0.014, 0.0105, 0.0}, 1e-3);
+  EXPECT_EQ(b.pressed(), 2);
+  EXPECT_GT(b.facing(-kX).touch, 0U);
+}
+
+TEST(Surfaces, ABallIsOne) {
+  constexpr double kRadius_m = 0.05;
+  Bench b({});
+  b.force = [](const Vector3& p) {
+    const Vector3 from = p - Vector3(0.06, 0.0, 0.0);
+    return Vector3(1000.0 * std::max(0.0, kRadius_m - from.norm()) * from.normalized());
+  };
+  b.go({0.013, 0.0, 0.0});
+  for (int i = 0; i < 4; ++i) {
+    const double to = i % 2 == 0 ? 0.02 : -0.02;
+    const double depth = 0.047;
+    b.go({0.06 - std::sqrt(depth * depth - to * to), to, 0.0}, 0.01);
+    EXPECT_EQ(b.there(), 1) << i;
+  }
+}
+
+TEST(Surfaces, FrictionIsNone) {
+  Bench b({{-kX, -0.01, 1000.0}});
+  const auto wall = b.force;
+  double way = 0.0;
+  Vector3 last = Vector3::Zero();
+  b.force = [&](const Vector3& p) {
+    Vector3 f = wall(p);
+    way += p.y() - last.y();
+    last = p;
+    const double most = 0.5 * f.norm();
+    way = std::clamp(way, -most / 2e4, most / 2e4);  // sticks to 20 N/mm, then slides
+    f.y() -= 2e4 * way;
+    return f;
+  };
+  b.go({0.014, 0.0, 0.0});
+  for (const double y : {0.01, -0.01, 0.02}) {
+    b.go({0.014, y, 0.0});
+    EXPECT_EQ(b.there(), 1) << y;
+  }
+}
+
+TEST(Surfaces, FreeSpaceDisprovesASurfaceAndOnlyThat) {
+  Bench b({{-kX, -0.01, 1000.0}});
+  b.go(0.014 * kX);
+  b.go(0.005 * kX);
+  EXPECT_EQ(b.there(), 1);
+  b.planes.clear();  // twice the threshold
+  const double proof_m = 2.0 * SensingConfig{}.touch_n / 1000.0;
+  b.go((0.01 + 0.8 * proof_m) * kX);
+  EXPECT_EQ(b.there(), 1);
+  b.go((0.01 + 1.3 * proof_m) * kX);
+  EXPECT_EQ(b.there(), 0);
+}
+
+// Faster than the filtered force follows.
+TEST(Surfaces, AKnownWallIsMetAgainHoweverFast) {
+  Bench b({{-kX, -0.01, 7000.0}});
+  b.go(0.0115 * kX);
+  b.go(Vector3::Zero());
+  ASSERT_EQ(b.there(), 1);
+  const std::uint32_t first = b.facing(-kX).touch;
+  b.go(0.0115 * kX, 0.25);
+  EXPECT_EQ(b.facing(-kX).touch, first + 1);
+  EXPECT_NEAR(b.facing(-kX).stiffness, 7000.0, 350.0);
+}
+
+TEST(Surfaces, ATouchElsewhereOfTheSameDirectionReplacesIt) {
+  Bench b({{-kX, -0.01, 1000.0}});
+  b.go(0.014 * kX);
+  b.go(Vector3::Zero());
+  b.planes = {{-kX, -0.005, 500.0}};  // a step nearer
+  b.go(0.011 * kX, 2e-3);
+  EXPECT_EQ(b.there(), 1);
+  expect_surface(b, b.planes[0], true);
+}
+
+TEST(Surfaces, WhatIsPressedFromTheStartIsIdentifiedOnceTheToolMoves) {
+  Bench b({{-kX, 0.003, 1000.0}});  // 3 mm deep
+  b.rest(0.5);
+  EXPECT_EQ(b.pressed(), 1);
+  b.go(0.001 * kX);
+  b.go(Vector3::Zero());
+  expect_surface(b, b.planes[0], true);
+}
+
+TEST(Surfaces, ACurvedLawIsToldByItsTangentFromTheFootOn) {
+  Bench b({});
+  b.force = [](const Vector3& p) {  // 3 N at 3.16 mm
+    const double depth = std::max(0.0, p.x() - 0.01);
+    return Vector3(-3e5 * depth * depth, 0.0, 0.0);
+  };
+  EstimatorConfig config;
+  config.exponent = 2.0;
+  b.contact = SlaveContact(SensingConfig{}, config);
+  b.go(0.0131 * kX);
+  b.go(0.0125 * kX);
+  b.go(0.0131 * kX);
+  const ReportedSurface s = b.facing(-kX);
+  const double depth = b.contact.foremost().told().depth_m();
+  EXPECT_NEAR(s.stiffness, 6e5 * depth, 0.05 * 6e5 * depth);
+  EXPECT_NEAR(s.foot, 0.5 * depth, 0.05 * depth);
+}
+
+}  // namespace
+}  // namespace longreach
