@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks what the compiler does not: floors, purity of floors 0 to 3, names, sizes, layout and form.
+"""Checks what the compiler does not: layers, purity of the stages, names, one definition, sizes, layout and form.
 
 Usage: check.py [ROOT]. Prints PATH:LINE: MESSAGE for each finding; exit status 1 if one of them is an error.
 """
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True   # the source tree stays as it is
-import floors  # noqa: E402
+import layers  # noqa: E402
 import source  # noqa: E402
 
 TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
@@ -22,13 +22,17 @@ IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # what builds, run
 GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build
 CPP = ('.hpp', '.cpp')
 FUNCTION_LINES, FILE_LINES, FILE_LINES_WISHED = 60, 400, 300
+PLACES = {'ARCHITECTURE.md', 'deploy/guide/code.md', 'deploy/guide/link.md'}
+PRODUCT = {'common', 'master', 'slave', 'deploy'}
+FOLDER_FILES_USUAL = 40
+FOLDER_FILES = {'common/config': 60, 'master': 10, 'slave': 10}
 
 BANNED = {'manager', 'util', 'helper', 'handler', 'data', 'info', 'process'}
 TYPE = re.compile(r'\b(?:class|struct|union|enum(?:\s+class|\s+struct)?|concept|message|service)\s+([A-Za-z_]\w*)'
                   r'|\busing\s+([A-Za-z_]\w*)\s*=|\btypedef\b[^;]*?\b(\w+)\s*;')
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
-# Floors 0 to 3 compute; clocks, threads, output and luck belong to the floors above.
+# Stages and nodes compute; clocks, threads, output and luck belong to the layers above.
 IMPURE_HEADERS = re.compile(r'(?:thread|mutex|shared_mutex|atomic|condition_variable|future|stop_token|semaphore|latch|'
                             r'barrier|iostream|fstream|sstream|cstdio|stdio\.h|random|ctime|time\.h|filesystem|'
                             r'spdlog/.*|fmt/.*|google/protobuf/.*|grpc.*|asio.*|.*\.pb\.h)$')
@@ -113,6 +117,42 @@ def check_name(path, found):
             return
 
 
+def check_folders(paths, found):
+    """Products only: a folder that nobody can look through has an idea without a name."""
+    count = {}
+    for path in paths:
+        if path.split('/')[0] in PRODUCT:
+            count[os.path.dirname(path)] = count.get(os.path.dirname(path), 0) + 1
+    for folder, files in sorted(count.items()):
+        most = FOLDER_FILES.get(folder, FOLDER_FILES_USUAL)
+        if files > most:
+            found.error(folder, 1, f'{files} files, over {most}')
+
+
+def check_definitions(codes, found):
+    """`codes`: path -> code without comments. A type of the namespace is defined once: the linker sees no second one."""
+    first = {}
+    for path in sorted(codes):
+        for scope, name, line in source.types(codes[path]):
+            if (scope, name) in first and first[scope, name] != path:
+                found.error(path, line, f'{name} is defined in {first[scope, name]} as well')
+            first.setdefault((scope, name), path)
+
+
+def check_paths(path, text, paths, found):
+    """A document that says where something is: each path in it is a file, a header and its source, or a folder."""
+    known = set(paths)
+    for name in paths:
+        known.add(name.rsplit('.', 1)[0])
+        while '/' in name:
+            name = os.path.dirname(name)
+            known.add(name)
+    for number, line in enumerate(text.split('\n'), 1):
+        for name in re.findall(r'`([\w./-]+/[\w./-]+)`', line):
+            if name.split('/')[0] in TOP_FOLDERS and name.rstrip('/') not in known:
+                found.error(path, number, f'{name} is not there')
+
+
 def check_lines(path, text, found):
     for number, line in enumerate(text.split('\n'), 1):
         if '\t' in line:
@@ -146,20 +186,20 @@ def check_types(path, code, found):
 
 
 def check_includes(root, path, text, found):
-    pure = (floors.floor(path) or 0) < floors.PURE_BELOW and path not in ALLOWED_IMPURE
+    pure = layers.is_pure(path) and path not in ALLOWED_IMPURE
     for number, line in enumerate(text.split('\n'), 1):
         match = INCLUDE.match(line)
         if not match:
             continue
         kind, included = match.groups()
         if pure and IMPURE_HEADERS.match(included):
-            found.error(path, number, f'floors 0 to 3 may not include {included}')
+            found.error(path, number, f'stages and nodes may not include {included}')
         if kind == '<':
             continue
         if '..' in included.split('/'):
             found.error(path, number, f'{included} is not a path from the root')
         elif GENERATED.match(included) or os.path.isfile(os.path.join(root, included)):
-            reason = floors.refused(path, included)
+            reason = layers.refused(path, included)
             if reason:
                 found.error(path, number, reason)
         else:
@@ -173,10 +213,10 @@ def check_cpp(root, path, text, found):
     for match in re.finditer(r'\busing\s+namespace\s+std\s*;', code):
         found.error(path, line_of(code, match.start()), 'using namespace std')
     check_includes(root, path, text, found)
-    if (floors.floor(path) or 0) < floors.PURE_BELOW and path not in ALLOWED_IMPURE:
+    if layers.is_pure(path) and path not in ALLOWED_IMPURE:
         for pattern, what in IMPURE_CODE:
             for match in pattern.finditer(code):
-                found.error(path, line_of(code, match.start()), f'{what}, which floors 0 to 3 never do')
+                found.error(path, line_of(code, match.start()), f'{what}, which stages and nodes never do')
     for first, last in source.functions(text):
         if last - first + 1 > FUNCTION_LINES:
             found.error(path, first, f'a function of {last - first + 1} lines, over {FUNCTION_LINES}')
@@ -219,20 +259,26 @@ def check(root, form=True):
     found = Findings()
     check_layout(root, found)
     paths = tree(root)
+    check_folders(paths, found)
+    codes = {}
     for path in paths:
         check_name(path, found)
         text = read(root, path)
         if text is None:
             continue
         check_lines(path, text, found)
+        if path in PLACES:
+            check_paths(path, text, paths, found)
         if path.endswith((*CPP, '.py')):
             check_length(path, text, found)
         if path.endswith((*CPP, '.py', '.proto')):
             check_types(path, source.code_only(text), found)
         if path.endswith(CPP):
             check_cpp(root, path, text, found)
+            codes[path] = source.code_only(text)
         if path.endswith('.py'):
             check_python(path, text, found)
+    check_definitions(codes, found)
     if form:
         check_format(root, [path for path in paths if path.endswith(CPP)], found)
     return found

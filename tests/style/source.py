@@ -74,3 +74,31 @@ def functions(text):
             begin = match.start() - len(head)
             found.append((bisect.bisect_left(breaks, begin) + 1, bisect.bisect_left(breaks, end) + 1))
         head_start = at
+
+
+TYPE_HEAD = re.compile(r'\b(?:class|struct|union|enum(?:\s+class|\s+struct)?)\s+(\w+)(?:\s+final)?\s*(?::(?!:)[^;{}()=]*)?$')
+NAMESPACE_HEAD = re.compile(r'namespace(?:\s+([\w:]+))?\s*$')
+
+
+def types(code):
+    """(namespace, name, line) of each type that is defined in a named namespace, in code without comments and strings."""
+    found, scopes, since = [], [], 0
+    for brace in re.compile(r'[{};]').finditer(code):
+        at = brace.start()
+        head = code[since:at].strip()
+        since = at + 1
+        if brace.group() == ';':
+            continue
+        if brace.group() == '}':
+            if scopes:
+                scopes.pop()
+            continue
+        space = NAMESPACE_HEAD.search(head)
+        if space:
+            scopes.append(space.group(1))
+            continue
+        kind = TYPE_HEAD.search(head)
+        if kind and all(scopes):
+            found.append(('::'.join(scopes), kind.group(1), code.count('\n', 0, at) + 1))
+        scopes.append(None)   # what is inside belongs to it
+    return found

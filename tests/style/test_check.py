@@ -9,7 +9,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import check  # noqa: E402
-import floors  # noqa: E402
+import layers  # noqa: E402
 import source  # noqa: E402
 
 HEADER = '#pragma once\n\nnamespace longreach {\nstruct %s {};\n}  // namespace longreach\n'
@@ -19,9 +19,9 @@ SOUND = {
     'common/config/c.hpp': HEADER % 'C',
     'master/devices/d.hpp': HEADER % 'D',
     'master/rendering/e.hpp': HEADER % 'E',
-    'master/rendering/e_config.hpp': HEADER % 'EConfig',
+    'master/config/e_config.hpp': HEADER % 'EConfig',
     'master/master_node.hpp': HEADER % 'MasterNode',
-    'slave/robot/r.hpp': HEADER % 'R',
+    'slave/kinematics/r.hpp': HEADER % 'R',
     'slave/config/slave_config.hpp': HEADER % 'SlaveConfig',
     'proto/config.proto': 'syntax = "proto2";\n',
     'deploy/config/master.txtpb': 'rpc { listen: "127.0.0.1:1" }\n',
@@ -61,52 +61,74 @@ class Planted(unittest.TestCase):
         result = self.findings({})
         self.assertEqual(result.errors + result.warnings, [])
 
-    def test_higher_floors(self):
-        self.found('common/core/x.cpp', include('common/link/b.hpp'), 'floor 0', 'floor 1')
+    def test_higher_layers(self):
+        self.found('common/core/x.cpp', include('common/link/b.hpp'), 'layer 0', 'layer 1')
         self.found('common/link/x.cpp', include('master/devices/d.hpp'), 'only that side')
-        self.found('master/rendering/x.cpp', include('master/master_node.hpp'), 'floor 3')
-        self.found('common/link/x.cpp', include('common/config/c.hpp'), 'floor 4')
-        self.found('master/x.cpp', include('proto/config.pb.h'), 'floors 0 to 3')
+        self.found('master/rendering/x.cpp', include('master/master_node.hpp'), 'includes master/master_node.hpp')
+        self.found('common/link/x.cpp', include('common/config/c.hpp'), 'includes common/config/c.hpp')
+        self.found('master/x.cpp', include('proto/config.pb.h'), 'stages and nodes')
 
     def test_stages_see_only_what_comes_before_them(self):
-        self.found('master/devices/x.cpp', include('master/rendering/e.hpp'), 'floor 2')
+        self.found('master/devices/x.cpp', include('master/rendering/e.hpp'), 'includes master/rendering/e.hpp')
         self.sound('master/rendering/x.cpp', include('master/devices/d.hpp'))
-        self.sound('master/devices/x.cpp', include('master/rendering/e_config.hpp'))
-        self.sound('slave/robot/x.cpp', include('slave/config/slave_config.hpp'))
+        self.sound('master/devices/x.cpp', include('master/config/e_config.hpp'))
+        self.sound('slave/kinematics/x.cpp', include('slave/config/slave_config.hpp'))
         self.found('common/core/x.cpp', include('slave/config/slave_config.hpp'), 'only that side')
 
-    def test_a_shell_stands_above_its_node(self):
-        self.assertGreater(floors.floor('master/program/master_shell.hpp'), floors.floor('master/master_node.hpp'))
-
     def test_the_sides_do_not_see_each_other(self):
-        self.found('master/rendering/x.cpp', include('slave/robot/r.hpp'), 'only that side')
-        self.found('slave/robot/x.cpp', include('master/devices/d.hpp'), 'only that side')
-        self.found('common/config/x.cpp', include('slave/robot/r.hpp'), 'only that side')
+        self.found('master/rendering/x.cpp', include('slave/kinematics/r.hpp'), 'only that side')
+        self.found('slave/kinematics/x.cpp', include('master/devices/d.hpp'), 'only that side')
+        self.found('common/config/x.cpp', include('slave/kinematics/r.hpp'), 'only that side')
         self.found('common/wire/x.cpp', include('slave/config/slave_config.hpp'), 'only that side')
         self.sound('common/config/x.cpp', include('slave/config/slave_config.hpp'))
-        self.sound('tests/loop/x.cpp', include('slave/robot/r.hpp') + include('master/master_node.hpp'))
+        self.sound('tests/loop/x.cpp', include('slave/kinematics/r.hpp') + include('master/master_node.hpp'))
+        self.sound('deploy/lab/x.cpp', include('slave/kinematics/r.hpp') + include('master/master_node.hpp'))
 
-    def test_a_node_does_not_see_its_service(self):
-        files = {'slave/program/slave_service.hpp': HEADER % 'S', 'slave/slave_node.cpp': include('slave/program/slave_service.hpp')}
+    def test_no_product_includes_tests(self):
+        files = {'tests/loop/t.hpp': HEADER % 'T', 'deploy/lab/x.cpp': include('tests/loop/t.hpp')}
+        self.assertTrue(any('deploy/lab/x.cpp' in error for error in self.findings(files).errors))
+
+    def test_a_node_does_not_see_its_program(self):
+        files = {'slave/program/s.hpp': HEADER % 'S', 'slave/slave_node.cpp': include('slave/program/s.hpp')}
         self.assertTrue(any('slave_node.cpp' in error for error in self.findings(files).errors))
-        files = {'slave/program/slave_service.hpp': HEADER % 'S', 'slave/program/main.cpp': include('slave/program/slave_service.hpp')}
+        files = {'slave/slave_node.hpp': HEADER % 'SlaveNode', 'slave/program/s.cpp': include('slave/slave_node.hpp')}
         self.assertEqual(self.findings(files).errors, [])
 
-    def test_every_folder_has_a_floor(self):
-        self.found('common/extra/x.cpp', include('common/core/a.hpp'), 'no floor')
+    def test_every_folder_has_a_layer(self):
+        self.found('common/extra/x.cpp', include('common/core/a.hpp'), 'no layer')
+
+    def test_a_type_is_defined_once(self):
+        self.found('common/link/x.hpp', HEADER % 'A', 'A is defined in common/core/a.hpp as well')
+        self.found('tests/unit/x.hpp', HEADER % 'A', 'A is defined in common/core/a.hpp as well')
+        for text in ('namespace longreach {\nnamespace {\nstruct A {};\n}\n}\n',
+                     'namespace longreach {\nstruct O {\n  struct A {};\n};\n}\n',
+                     'namespace longreach::test {\nstruct A {};\n}\n', 'namespace longreach {\nstruct A;\n}\n'):
+            self.sound('common/link/x.cpp', text)
+
+    def test_documents_name_files_that_exist(self):
+        for place in ('common/core/a.hpp', 'common/core/a', 'common/core', 'proto/config.proto', 'build/x', 'a/b'):
+            self.sound('ARCHITECTURE.md', f'see `{place}`\n')
+        for place in ('common/core/b', 'common/link/a.hpp', 'slave/gone'):
+            self.found('ARCHITECTURE.md', f'see\n`{place}`\n', 'is not there')
+
+    def test_folders_stay_small(self):
+        many = {f'master/devices/m{i}.cpp': '' for i in range(40)}
+        self.assertEqual(self.findings(many).errors, ['master/devices:1: 41 files, over 40'])
+        self.assertTrue(self.findings({f'slave/m{i}.cpp': '' for i in range(11)}).errors)
+        self.assertEqual(self.findings({f'tests/loop/m{i}.cpp': '' for i in range(50)}).errors, [])
 
     def test_include_paths(self):
         self.found('common/link/x.cpp', include('b.hpp'), 'not a file seen from the root')
         self.found('common/link/x.cpp', include('../core/a.hpp'), 'not a path from the root')
 
-    def test_floors_0_to_3_are_pure(self):
+    def test_stages_are_pure(self):
         for line in ('auto t = std::chrono::steady_clock::now();', 'auto t = Clock::now();', 'std::mutex m;',
                      'int i = rand();', 'std::mt19937 g;', 'void f() { printf("x"); }', 'void f() { std::cout << 1; }'):
-            self.found('master/rendering/x.cpp', line + '\n', 'floors 0 to 3')
+            self.found('master/rendering/x.cpp', line + '\n', 'stages and nodes')
         for header in ('thread', 'mutex', 'atomic', 'iostream', 'random', 'spdlog/spdlog.h', 'google/protobuf/message.h'):
-            self.found('slave/robot/x.cpp', f'#include <{header}>\n', 'may not include')
-        self.sound('common/io/x.cpp', '#include <mutex>\n#include <thread>\nauto t = Clock::now();\n')
-        self.sound('slave/robot/x.cpp', '// Clock::now() and rand()\nconst char* s = "printf(";\nint operand(int);\n')
+            self.found('slave/kinematics/x.cpp', f'#include <{header}>\n', 'may not include')
+        self.sound('common/rpc/x.cpp', '#include <mutex>\n#include <thread>\nauto t = Clock::now();\n')
+        self.sound('slave/kinematics/x.cpp', '// Clock::now() and rand()\nconst char* s = "printf(";\nint operand(int);\n')
 
     def test_names_that_say_nothing(self):
         for name in ('link_manager', 'util', 'string_utils', 'process', 'wire_data'):
@@ -121,7 +143,7 @@ class Planted(unittest.TestCase):
 
     def test_text(self):
         self.found('common/link/x.cpp', 'using namespace std;\n', 'using namespace std')
-        self.sound('common/io/x.cpp', 'using namespace std::chrono_literals;\n')
+        self.sound('common/rpc/x.cpp', 'using namespace std::chrono_literals;\n')
         self.found('common/link/x.cpp', 'int a;\t\n', 'tab')
         self.found('README.md', 'text \n', 'trailing blank')
         self.found('README.md', 'text', 'no newline')
@@ -173,13 +195,16 @@ class Functions(unittest.TestCase):
         self.assertEqual(self.lines('void f() {\n  s = "}"; // }\n  c = \'}\'; n = 1\'000;\n  r = R"(})";\n}\n'), [(1, 5)])
 
 
-class Floors(unittest.TestCase):
+class Layers(unittest.TestCase):
     def test_the_table_follows_the_design(self):
         order = ['common/core/x.hpp', 'common/link/x.hpp', 'master/mapping/x.hpp', 'master/master_node.hpp',
                  'common/wire/x.hpp', 'master/program/main.cpp']
-        self.assertEqual(sorted(order, key=floors.floor), order)
-        self.assertEqual(floors.floor('slave/program/slave_service.cpp'), floors.floor('master/console/x.cpp'))
-        self.assertIsNone(floors.floor('elsewhere/x.hpp'))
+        self.assertEqual(sorted(order, key=layers.layer), order)
+        self.assertIsNone(layers.layer('elsewhere/x.hpp'))
+
+    def test_a_folder_has_one_layer(self):
+        folders = [folder for row in layers.LAYERS for folder in row]
+        self.assertEqual(len(folders), len(set(folders)))
 
 
 if __name__ == '__main__':

@@ -1,0 +1,84 @@
+"""The layers: which folder may include which. A file includes its own folder and folders of lower layers only.
+
+A folder of the table stands for what lies in it, subfolders included unless they have a row of their own. Folders of one
+layer do not see each other. Within a side the stages are in the order of the flow: a stage sees those whose output it takes
+and none of those that it feeds.
+"""
+
+import posixpath
+
+LAYERS = [
+    ['common/core', 'common/spatial'],
+    ['common/link'],
+    ['common/safety', 'common/crypto'],
+    ['slave/robot'],
+    ['master/config', 'slave/config'],
+    # Stages, and the node that strings them together.
+    ['master/devices/drive', 'slave/scene', 'slave/kinematics', 'slave/comparison', 'master/safety', 'slave/safety'],
+    ['master/devices/delta', 'master/devices/spherical', 'slave/sensing'],
+    ['master/devices', 'slave/command', 'slave/simulation'],
+    ['master/mapping', 'master/simulation', 'slave/estimation'],
+    ['master/rendering'],
+    ['master', 'slave'],
+    # Bytes, files, threads.
+    ['proto'],
+    ['common/wire'],
+    ['common/config', 'common/loop'],
+    ['common/recording', 'common/net', 'common/site'],
+    ['common/program'],
+    ['common/rpc'],
+    ['master/recording', 'slave/recording', 'master/drivers', 'slave/drivers', 'master/input'],
+    ['master/console'],
+    ['master/desk'],
+    # Programs.
+    ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab'],
+    ['tests'],
+]
+LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in folders}
+PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clock, thread, output, luck
+BOTH_SIDES = {'deploy/lab', 'tests'}             # see master and slave
+SHARED = {'master/config', 'slave/config'}       # what common/config sees of the sides
+ADAPTER = 'common/link/adapter_datagram.hpp'
+
+
+def room(path):
+    """The folder of the table in which a file or an included path lies; none where the table has none."""
+    folder = posixpath.dirname(path)
+    while folder and folder not in LAYER:
+        folder = posixpath.dirname(folder)
+    return folder or None
+
+
+def layer(path):
+    """None where the table has no folder for it."""
+    return LAYER.get(room(path))
+
+
+def is_pure(path):
+    return room(path) in PURE
+
+
+def side(path):
+    first = path.split('/')[0]
+    return first if first in ('master', 'slave') else None
+
+
+def refused(path, included):
+    """Why `path` may not include `included`; none if it may."""
+    if included == 'commit.hpp':   # written by the build
+        return None
+    if path.startswith('deploy/adapters/') and included != ADAPTER:
+        return f'is copied by vendors and may include {ADAPTER} alone'
+    if layer(path) is None:
+        return 'lies in a folder that has no layer'
+    if room(path) == 'tests':
+        return None
+    if layer(included) is None:
+        return f'includes {included}, whose folder has no layer'
+    other_side = side(included)
+    if other_side and side(path) != other_side and room(path) not in BOTH_SIDES:
+        if not (room(path) == 'common/config' and room(included) in SHARED):
+            return f'includes {included} of the {other_side}, which only that side, the laboratory and tests/ may see'
+    if room(included) == room(path) or layer(included) < layer(path):
+        return None
+    return f'is in {room(path)}, layer {layer(path)}, and includes {included} of layer {layer(included)}'
