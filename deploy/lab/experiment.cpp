@@ -232,16 +232,6 @@ const std::vector<Experiment> kExperiments = {
      "{docked} of {seeds} docked, felt as a force of at least {felt_least_n} N that rises and vanishes; "
      "{mistakes_felt} of {mistakes} mistakes felt, {mistakes_safe} safe; the tool's force at most "
      "{tool_force_max_n} N"},
-    {"extremes",
-     "Every quantity at its extremes, from 1 N/m to 1e9, 1 g to 100 t, 1 mm to 20 m: stable, or refused?", "",
-     run_extremes, extremes_plots, "",
-     "{cells} cells of {quantities} quantities: {stable} stable, {refused} refused with a message, {bad} "
-     "bad; of {controls} controls, which are wrong, {controls_bad} bad"},
-    {"faults",
-     "Everything that can go wrong in virtual time, drawn at random and overlapping, under an oracle that "
-     "trusts no node.",
-     "", run_fault_campaign, faults_plots, "",
-     "{seeds} seeds, {kinds} kinds of fault: {violations} violations of {invariants} invariants"},
     {"scenes-cost", "Microseconds a step of each scene, and with 1 to 10,000 surfaces.", "", run_scenes_cost,
      scenes_cost_plots},
     {"trade",

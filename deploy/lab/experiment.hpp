@@ -147,9 +147,5 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run);
 std::vector<Plot> drag_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);
 std::vector<Plot> docking_plots();
-std::vector<Metric> run_extremes(const ExperimentRun& run);
-std::vector<Plot> extremes_plots();
-std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
-std::vector<Plot> faults_plots();
 
 }  // namespace longreach

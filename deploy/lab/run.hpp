@@ -5,14 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "deploy/lab/experiment.hpp"
+
 namespace longreach {
 
-struct RunOptions {
+struct LabRunOptions {
   std::string name;
   std::uint64_t seed = 1;
-  bool seeded = false;   // --seed was given
-  std::string schedule;  // of faults, a file
-  std::string seeds;     // likewise, FIRST:COUNT
   std::vector<std::string> settings;
   std::string out;
   bool record = false;
@@ -21,7 +20,10 @@ struct RunOptions {
 
 /// Exit status: 0, or 3 when there was no contact. Throws ConfigError for an experiment or a setting that is
 /// none, or that the experiment does not use.
-int run(const RunOptions& options);
+int run(const LabRunOptions& options);
+
+/// Runs it with a line of progress; then prints, unless quiet, the outcome, the metrics and the run's name.
+std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun run, bool quiet);
 
 void list_experiments();
 

@@ -10,7 +10,6 @@
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
 #include "common/core/geometry_error.hpp"
-#include "deploy/lab/experiment.hpp"
 #include "tests/extremes/extremes_table.hpp"
 
 namespace longreach {

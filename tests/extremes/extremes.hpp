@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "deploy/lab/experiment.hpp"
+
 namespace longreach {
 
 enum class ExtremeOutcome : std::uint8_t { kStable, kRefused, kBad };
@@ -47,6 +49,10 @@ ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed);
 
 /// All rows; those of a stage stand together.
 const std::vector<ExtremeRow>& extreme_rows();
+
+/// All of them, as metrics; the table goes to `run.out`.
+std::vector<Metric> run_extremes(const ExperimentRun& run);
+std::vector<Plot> extremes_plots();
 
 // Of each stage.
 std::vector<ExtremeRow> extreme_impacts();      // slave/scene

@@ -61,7 +61,7 @@ bool repeat_faults(const Schedule& schedule, std::string& said) {
     char when[32];
     std::snprintf(when, sizeof when, "%.3f", v.t_s);
     said += "\n" + v.invariant + " is violated at " + when + " s: " + v.words +
-            "\nThe faults that matter; `longreach-lab run faults --schedule FILE` repeats them:\n" +
+            "\nThe faults that matter; `faults --schedule FILE` repeats them:\n" +
             to_text(shrink(schedule, v.invariant));
   }
   const Besides other = besides(schedule.seed);

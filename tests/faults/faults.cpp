@@ -8,7 +8,6 @@
 
 #include "deploy/lab/campaign/campaign_folder.hpp"
 #include "deploy/lab/campaign/plan.hpp"
-#include "deploy/lab/experiment.hpp"
 #include "tests/faults/faults_table.hpp"
 #include "tests/faults/kind.hpp"
 
@@ -75,7 +74,7 @@ void say_failures(const Tally& tally) {
   constexpr std::size_t kMost = 20;
   for (std::size_t i = 0; i < std::min(kMost, tally.failures.size()); ++i) {
     const Failure& f = tally.failures[i];
-    std::fprintf(stderr, "%s violated at %.3f s: %s; repeat it: longreach-lab run faults --seed %llu\n",
+    std::fprintf(stderr, "%s violated at %.3f s: %s; repeat it: faults --seed %llu\n",
                  f.violation.invariant.c_str(), f.violation.t_s, f.violation.words.c_str(),
                  static_cast<unsigned long long>(f.seed));
   }

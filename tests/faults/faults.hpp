@@ -1,5 +1,5 @@
 #pragma once
-// The campaign of faults: `longreach-lab run faults`. How it hangs together:
+// The campaign of faults: program `faults`. How it hangs together:
 //
 //   schedule   what goes wrong and when, drawn from a seed; a list that can be printed, read, shortened
 //   scenario   where: robot, scene, device, link, limits, habits of the operator
@@ -10,8 +10,7 @@
 //   moment     one tick as an outsider saw it; all that the oracle reads
 //   invariant  the oracle; *_invariants.cpp and liveness.cpp, a class an invariant
 //   trial      one schedule under the oracle; shrink: the few faults of it that matter
-//   tally      many trials; faults.cpp runs them on all cores, in blocks that are kept in the folder --out,
-//   so
+//   tally      many trials; faults.cpp runs them on all cores, in blocks that are kept in the folder --out, so
 //              that a campaign that was broken off goes on; faults_table draws what came of it
 //
 // What needs real programs is in tests/process and not here: kill -9 and restarts, descriptors, disks, pipes,
@@ -22,12 +21,17 @@
 #include <functional>
 #include <string>
 
+#include "deploy/lab/experiment.hpp"
 #include "tests/faults/tally.hpp"
 
 namespace longreach {
 
 /// Seeds `first` to `first + count - 1`, on all cores.
 Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<void(double)>& progress = {});
+
+/// The whole campaign, from `run.seed` on: half a virtual hour, or 400 with LONGREACH_FULL.
+std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
+std::vector<Plot> faults_plots();
 
 /// The first of the failures, on standard error: each with the command that repeats it.
 void say_failures(const Tally& tally);

@@ -17,7 +17,8 @@
 #include "deploy/lab/campaign/results.hpp"
 #include "deploy/lab/campaign/sweep.hpp"
 #include "deploy/lab/experiment.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

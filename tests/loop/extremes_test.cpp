@@ -1,4 +1,4 @@
-// Every cell of the experiment `extremes` comes out as it says, and every row can come out bad.
+// Every cell of the program `extremes` comes out as it says, and every row can come out bad.
 #include <gtest/gtest.h>
 
 #include <cctype>

@@ -18,7 +18,7 @@ namespace {
 void expect_holds(const Tally& tally) {
   for (const Failure& f : tally.failures) {
     ADD_FAILURE() << f.violation.invariant << " at " << f.violation.t_s << " s: " << f.violation.words
-                  << "; repeat it: longreach-lab run faults --seed " << f.seed;
+                  << "; repeat it: faults --seed " << f.seed;
   }
 }
 

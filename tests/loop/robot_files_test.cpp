@@ -10,7 +10,7 @@
 #include "common/config/config.hpp"
 #include "deploy/lab/robot/random_arm.hpp"
 #include "deploy/lab/solve/solve.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

@@ -212,7 +212,7 @@ TEST_F(SettingsUsed, WhatAnExperimentSetsItselfIsRefused) {
            {"gravity", "accuracy=FAST"},
            {"touch", "slave.rpc.listen=127.0.0.1:1"},
            {"spike", "duration_s=30"},
-           {"faults", "profile=lab"},
+           {"scenes-cost", "profile=lab"},
            {"moving-wall", "command.force_guard_n=10"}})
     EXPECT_TRUE(refused(experiment, setting).starts_with(std::string(experiment) + " does not use "))
         << experiment << " " << setting;

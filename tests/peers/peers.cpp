@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <kdl/chainiksolverpos_lma.hpp>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "deploy/lab/trade/cost.hpp"
+#include "deploy/lab/trade/arm_goals.hpp"
 #include "slave/scene/bodies.hpp"
 #include "slave/scene/scene.hpp"
+#include "tests/oracle/kdl_chain.hpp"
 #include "tests/oracle/simbody/simbody_ball.hpp"
 
 namespace longreach {
@@ -22,7 +24,7 @@ const Vector3 kPressing_m(0.441, -0.45, 0.05);  // of scene `dock`: the striker 
 
 double cost_of(const std::vector<TradePoint>& points, std::string_view series) {
   const auto found = std::ranges::find(points, series, &TradePoint::series);
-  if (found == points.end()) throw std::logic_error("trade: there is no series " + std::string(series));
+  if (found == points.end()) throw std::logic_error("peers: there is no series " + std::string(series));
   return found->cost;
 }
 
@@ -63,7 +65,7 @@ double mujoco_over_ours() {
   const std::string file = find_deploy_folder() / message.scene().bodies().mjcf_file();
   const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
       mj_loadXML(file.c_str(), nullptr, why, sizeof why), mj_deleteModel);
-  if (!model) throw std::runtime_error("trade: " + file + ": " + why);
+  if (!model) throw std::runtime_error("peers: " + file + ": " + why);
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()), mj_deleteData);
   model->opt.timestep = 1e-3;
   const int spacecraft = mj_name2id(model.get(), mjOBJ_BODY, "spacecraft");
@@ -79,13 +81,38 @@ double mujoco_over_ours() {
   return theirs_ns / ours_ns;
 }
 
+/// KDL on the goals of the stage `arm_inverse`.
+TradePoint kdl_inverse(std::uint64_t seed) {
+  TradePoint point{"kdl", ""};
+  const auto arms = test::ready_arms();
+  for (const test::NamedArm& arm : arms) {
+    const Inverse inverse(arm.robot);
+    const ArmGoals g = arm_goals(inverse.kinematics(), Random(seed).child("trade " + arm.name));
+    const KDL::Chain chain = oracle::kdl_chain(arm.robot);
+    KDL::ChainIkSolverPos_LMA kdl(chain);
+    KDL::JntArray out(kMaxJoints);
+    const auto solve = [&](const Pose& goal, const JointVector& from, JointVector& q) {
+      const auto& r = goal.q;
+      kdl.CartToJnt(
+          oracle::kdl_joints(from),
+          {KDL::Rotation::Quaternion(r.x(), r.y(), r.z(), r.w()), {goal.p.x(), goal.p.y(), goal.p.z()}}, out);
+      for (int i = 0; i < q.size(); ++i) q[i] = out(static_cast<unsigned>(i));
+    };
+    measure_inverse(point, inverse.kinematics(), g, 1.0 / static_cast<double>(arms.size()), solve);
+  }
+  return point;
+}
+
 }  // namespace
 
-std::vector<Metric> peer_ratios(const std::vector<TradePoint>& arm,
-                                const std::vector<TradePoint>& estimator) {
+std::vector<Metric> run_peers(const ExperimentRun& run) {
   const auto metric = [](const char* name, double ratio) { return Metric{name, ratio, "times ours", true}; };
+  const std::vector<TradePoint> arm = trade_arm_inverse().measure(run);
+  const std::vector<TradePoint> estimator = trade_estimator().measure(run);
+  const TradePoint kdl = kdl_inverse(run.seed);
   return {
-      metric("kdl_inverse", cost_of(arm, "kdl") / cost_of(arm, "closed_form")),
+      metric("kdl_inverse", kdl.cost / cost_of(arm, "closed_form")),
+      {"kdl_inverse_error", kdl.error, "of the reach"},
       metric("ceres_batch_fit", cost_of(estimator, "batch_fit") / cost_of(estimator, "maximum_likelihood")),
       metric("simbody_contact_force", simbody_over_ours()),
       metric("mujoco_contact_step", mujoco_over_ours())};

@@ -5,8 +5,8 @@
 
 namespace longreach {
 
-/// KDL's inverse (LMA) and Ceres Solver's fit from the points of those stages; Simbody's Hunt-Crossley force
-/// and MuJoCo's step measured here.
-std::vector<Metric> peer_ratios(const std::vector<TradePoint>& arm, const std::vector<TradePoint>& estimator);
+/// KDL's inverse (LMA) and Ceres Solver's fit against ours on the data of the stages `arm_inverse` and `estimator` of
+/// the experiment `trade`; Simbody's Hunt-Crossley force and MuJoCo's step.
+std::vector<Metric> run_peers(const ExperimentRun& run);
 
 }  // namespace longreach

@@ -73,7 +73,9 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"run", "touch", "--out", "/etc/passwd"}, "cannot make the folder /etc/passwd");
   expect({"run", "first-touch", "--set", "profile=lab"},
          "first-touch does not use profile, so nothing would change");
-  expect({"run", "faults", "--set", "profile=lab"}, "faults does not use profile, nor any other setting");
+  expect({"run", "scenes-cost", "--set", "profile=lab"},
+         "scenes-cost does not use profile, nor any other setting");
+  expect({"run", "faults"}, "run `build/release/bin/faults`");
   expect({"run", "press-wall", "--set", "rendering.law=STIFFNESS"},
          "press-wall shows the textbook laws; rendering.law = STIFFNESS runs in the experiment touch");
   expect({"report", "--out", "/proc/longreach"}, "choose another with --out");

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/rendering/guard_touch.hpp"
 #include "slave/config/guard_config.hpp"
-#include "tests/property/guard_touch.hpp"
 
 namespace longreach::test {
 namespace {

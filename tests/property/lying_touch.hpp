@@ -4,8 +4,8 @@
 // lie begins, and the master goes on, falls silent or stops. What is judged is the plant: its place and the
 // true force.
 
+#include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/robot/lying_sensor.hpp"
-#include "tests/property/guard_touch.hpp"
 
 namespace longreach::test {
 

@@ -17,8 +17,8 @@ HeldHandle held_handle(const DeviceConfig& device, Grip grip);
 /// The mass must be above that of the arms.
 DeviceConfig ideal_handle(const DeviceConfig& device, double mass_kg, double n_s_per_m);
 
-/// Delay margin of direct force reflection: the least K at which  m s² + b s + k + K exp(-s τ)  has a root
-/// jω,
+/// Delay margin of direct force reflection: the least K at which  m s² + b s + k + K exp(-s τ)
+/// has a root jω,
 ///   K = |k - m ω² + j b ω|  over the ω with  ω τ + arg(k - m ω² + j b ω) = π, 3π, 5π ...
 /// τ is the whole delay of the loop, with half a sample for the held force.
 double direct_limit_n_per_m(const HeldHandle& handle, double loop_delay_s);

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/trace.hpp"
 #include "slave/config/guard_config.hpp"
-#include "tests/property/guard_touch.hpp"
 
 namespace longreach {
 namespace {

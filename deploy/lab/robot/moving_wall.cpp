@@ -6,8 +6,7 @@
 //
 // The bound, k the stiffness, of layers the deepest, v the wall's speed, a the tool's acceleration:
 //   while k v <= 250 N/s    1.35 G
-//   else                    0.8 G + k (v t_d + v²/(2 a)), at least that;  t_d = 40 ms from the force to the
-//   tool
+//   else                    0.8 G + k (v t_d + v²/(2 a)), at least that;  t_d = 40 ms from force to tool
 // It holds for v with the hand's speed added, and not for layers, which are judged by their own metrics.
 
 #include <algorithm>

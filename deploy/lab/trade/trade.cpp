@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "deploy/lab/trace.hpp"
-#include "tests/peers/peers.hpp"
 
 namespace longreach {
 namespace {
@@ -106,17 +104,14 @@ std::vector<Plot> trade_plots() {
 
 std::vector<Metric> run_trade(const ExperimentRun& run) {
   std::vector<Metric> metrics;
-  std::map<std::string_view, std::vector<TradePoint>> points_of;
   double on = 0.0, done = 0.0;
   for (const TradeStage& stage : stages()) {
-    const std::vector<TradePoint>& points = points_of[stage.name] = stage.measure(run);
+    const std::vector<TradePoint> points = stage.measure(run);
     write(run, stage, points);
     add_metrics(metrics, stage, points);
     on += metrics.back().value;
     if (run.progress) run.progress(++done / static_cast<double>(stages().size()));
   }
-  const std::vector<Metric> peers = peer_ratios(points_of["arm_inverse"], points_of["estimator"]);
-  metrics.insert(metrics.end(), peers.begin(), peers.end());
   metrics.push_back({"stages", static_cast<double>(stages().size()), ""});
   metrics.push_back({"defaults_on_front", on, "", true});
   return metrics;

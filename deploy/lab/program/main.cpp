@@ -26,7 +26,7 @@ constexpr int kBadUsage = 2;
 
 /// What the command line says, of all subcommands.
 struct Options {
-  RunOptions run;
+  LabRunOptions run;
   SweepOptions sweep;
   MergeOptions merge;
   std::vector<std::string> recordings;
@@ -37,7 +37,7 @@ struct Options {
   std::string train_out = "spherical_network.txtpb";
 };
 
-void add_run(CLI::App& app, RunOptions& o) {
+void add_run(CLI::App& app, LabRunOptions& o) {
   CLI::App* run = app.add_subcommand(
       "run",
       "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. A setting that the "
@@ -45,10 +45,9 @@ void add_run(CLI::App& app, RunOptions& o) {
       "Exit status: 0 done, 1 it failed, 2 an option or a setting is wrong and nothing was "
       "run, 3 there was no contact (touch).");
   run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of every random stream; of faults: the one run to repeat")
+  run->add_option("--seed", o.seed, "Seed of every random stream")
       ->check(whole_number())
-      ->capture_default_str()
-      ->each([&o](const std::string&) { o.seeded = true; });
+      ->capture_default_str();
   run->add_option("--set", o.settings,
                   "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
                   "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
@@ -59,10 +58,6 @@ void add_run(CLI::App& app, RunOptions& o) {
   run->add_flag("--record", o.record,
                 "Record both sides as the programs do, into DIR/touch.mcap (only touch, with --out); "
                 "`longreach-lab replay` can run it again");
-  run->add_option("--schedule", o.schedule, "Faults to inject, as a failing run prints them (only faults)")
-      ->type_name("FILE");
-  run->add_option("--seeds", o.seeds, "Seeds to run, COUNT from FIRST on (only faults)")
-      ->type_name("FIRST:COUNT");
   run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 
