@@ -42,7 +42,7 @@ ContactReport report_of(const ContactAtPlace& at) {
 
 }  // namespace
 
-bool Pace::due(Time now, double rate_hz) {
+bool SendSchedule::due(Time now, double rate_hz) {
   if (next_ && now < *next_) return false;
   const Duration period = from_seconds(1.0 / rate_hz);
   next_ = next_ && now < *next_ + period ? *next_ + period : now + period;

@@ -11,7 +11,7 @@
 namespace longreach {
 
 /// A steady pace: late calls do not shift it, a long pause does not pile up.
-class Pace {
+class SendSchedule {
  public:
   bool due(Time now, double rate_hz);
   void hurry() { next_.reset(); }
@@ -51,11 +51,11 @@ class SlaveReports {
 
  private:
   SlaveLinkConfig link_;
-  Pace reports_;
+  SendSchedule reports_;
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};
   Time reported_at_{};
-  Pace telemetry_;
+  SendSchedule telemetry_;
   std::uint64_t telemetry_sequence_ = 0;
   Clamps clamps_{};  // since the last telemetry
 };

@@ -1,9 +1,10 @@
 #pragma once
 // Pairing: another host joins the site by a token that the slave prints and a person carries over.
 //
-//   request = its name, certificate requests (PKCS #10) for master and client   tag_q = HMAC(token; "request"
-//   | request) answer  = the authority's certificate and those two certificates            tag_a =
-//   HMAC(token; "answer" | tag_q | answer)
+//   request = its name, certificate requests (PKCS #10) for master and client
+//   answer  = the authority's certificate and those two certificates
+//   tag_q   = HMAC(token; "request" | request)
+//   tag_a   = HMAC(token; "answer" | tag_q | answer)
 //
 // Only the token is secret, and it never crosses the link: private keys are made where they stay, and
 // requests and certificates may be read by anybody. So the connection needs no encryption. Without the token

@@ -19,7 +19,7 @@
 //   Engaged           half of a second's ticks came late            Holding    overrun               hold
 //   Engaged           the slave says that it holds                  Holding    as the slave says     engage
 //   active            the slave says that it is engaged             Engaged    -                     engage
-//   active Observing  not granted for a round trip and 3 s          Observing  as refused, unanswered hold
+//   active Observing  not granted for a round trip and 3 s          Observing  as refused, unanswered  hold
 //   Idle              the slave is heard                            Observing  -                     hold
 //
 // Active: in Observing, Engaged or Holding, while an engagement is requested. A hold for longer than resume_s

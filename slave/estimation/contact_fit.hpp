@@ -1,7 +1,7 @@
 #pragma once
 // What an estimator of slave/estimation takes and gives.
-//   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;  m = 0:
-//   Kelvin-Voigt
+//   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;
+//                                              m = 0: Kelvin-Voigt
 // The parameters are those at a depth that was visited, so that none of them depends on the unit of length: k
 // in N/mⁿ is an extrapolation to a depth of one metre.
 

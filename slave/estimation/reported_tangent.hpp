@@ -4,8 +4,8 @@
 // Each change moves the felt wall a little, so the value appears when its sd is below `first_sd`, and then
 // changes only
 //   by more than max(deadband, 3 sd);
-//   by more than max(2 %, 3 sd), of its own or by its direction, at most three times a touch, when its sd has
-//   halved since it was taken;
+//   by more than max(2 %, 3 sd), of its own or by its direction, at most three times a touch, when its sd
+//       has halved since it was taken;
 //   when it is taken for another depth,
 // in the Frobenius norm of S n nᵀ: a direction that was learnt better is a change as well. It never gives way
 // to one that is farther from the depth that is asked for, but if it is surely wrong: over 30 % and 5 sd off

@@ -1,11 +1,10 @@
 #pragma once
 // Is the robot commanded in this tick?
-//   Engaged, Holding                        yes
-//   Stopped, Fault    while it brakes, and 0.5 s on until its servos have come after; not if it is the robot
-//   that
-//                     is at fault
+//   Engaged, Holding  yes
+//   Stopped, Fault    while it brakes, and 0.5 s on until its servos have come after; not if it is the
+//                     robot that is at fault
 //   else              no: it rests by its own brakes, whoever moves it, and the setpoint follows what is
-//   measured
+//                     measured
 // An engagement of a robot that is not commanded begins where it is, so it has to be at rest, in its
 // workspace (the node sees to that), and within 1 mrad (mm) of its position limits; one that is commanded
 // goes on from its setpoint, so it has to be there.

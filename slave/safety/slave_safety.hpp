@@ -3,14 +3,14 @@
 // the first row that applies is taken, so the most severe demand wins:
 //
 //   state                      condition                                 next       cause
-//   any                        the robot is not ok                       Fault      robot fault, or which
-//   joint any                        the force sensor says what no contact does Fault   force sensor fault
-//   Engaged, Holding, Stopped  a force grows by what should relieve it   Fault    force sensor sign
-//   Holding, Stopped, Fault    the robot moves on, its setpoint does not Fault      robot does not rest
-//   Engaged, Holding, Stopped  the robot is not where its setpoints lead Fault      robot does not follow
+//   any                        the robot is not ok                       Fault      robot fault, or which joint
+//   any                        the force sensor says what no contact does  Fault    force sensor fault
+//   Engaged, Holding, Stopped  a force grows by what should relieve it   Fault      force sensor sign
+//   Holding, Stopped, Fault    the robot moves on, its setpoint does not  Fault     robot does not rest
+//   Engaged, Holding, Stopped  the robot is not where its setpoints lead  Fault     robot does not follow
 //   any but Fault              a stop is asked for, on either side       Stopped    operator
 //   any                        a new engagement is asked for             Engaged    -
-//   Engaged, Holding           the force does not fall as the robot      Holding  no relief, or wall comes
+//   Engaged, Holding           the force does not fall as the robot      Holding    no relief, or wall comes
 //                              gives way, or the way is used up
 //   Engaged                    another master has taken the robot        Holding    taken by another master
 //   Engaged                    the master began a new session            Holding    other side restarted

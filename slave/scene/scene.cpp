@@ -149,7 +149,7 @@ Scene::Nearest Scene::nearest(const Body& body, const ToolMotion& tool) const {
                  Vector3::Zero(), -1};
   for (const Part& part : body.parts) {
     const Moved by = part.moves ? moved(part.movement, tool.t_s) : Moved{Vector3::Zero(), Vector3::Zero()};
-    const Side out = side(part.shape, tool.p_WE - by.by_m);
+    const SurfaceSide out = side(part.shape, tool.p_WE - by.by_m);
     const double depth = tool_radius_m_ - out.distance_m;
     if (depth > result.depth_m) result = {depth, -out.normal, by.by_m, by.v_m_per_s, part.surface};
   }

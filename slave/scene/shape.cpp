@@ -5,13 +5,13 @@
 
 namespace longreach {
 
-Side Ball::side(const Vector3& p) const {
+SurfaceSide Ball::side(const Vector3& p) const {
   const Vector3 out = p - centre_m;
   const double r = out.norm();
   return {r - radius_m, r > 0.0 ? Vector3(out / r) : Vector3::UnitZ()};
 }
 
-Side Block::side(const Vector3& p) const {
+SurfaceSide Block::side(const Vector3& p) const {
   const Vector3 q = R.transpose() * (p - centre_m);
   const Vector3 beyond = q.cwiseAbs() - half_m;
   if ((beyond.array() <= 0.0).all()) {
@@ -25,7 +25,7 @@ Side Block::side(const Vector3& p) const {
   return {distance, R * out / distance};
 }
 
-Side Rod::side(const Vector3& p) const {
+SurfaceSide Rod::side(const Vector3& p) const {
   const Vector3 q = p - centre_m;
   const double along = q.dot(axis);
   const Vector3 across = q - along * axis;
@@ -33,7 +33,8 @@ Side Rod::side(const Vector3& p) const {
   const double end = std::abs(along) - half_m, round = r - radius_m;
   const Vector3 end_normal = along < 0.0 ? Vector3(-axis) : axis;
   const Vector3 round_normal = r > 0.0 ? Vector3(across / r) : axis.unitOrthogonal();
-  if (end <= 0.0 && round <= 0.0) return end > round ? Side{end, end_normal} : Side{round, round_normal};
+  if (end <= 0.0 && round <= 0.0)
+    return end > round ? SurfaceSide{end, end_normal} : SurfaceSide{round, round_normal};
   if (end <= 0.0) return {round, round_normal};
   if (round <= 0.0) return {end, end_normal};
   const double distance = std::hypot(end, round);

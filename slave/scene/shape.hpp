@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-struct Side {
+struct SurfaceSide {
   double distance_m = 0.0;
   Vector3 normal = Vector3::UnitZ();  // unit, outwards
 };
@@ -19,20 +19,20 @@ struct Side {
 struct HalfSpace {
   Vector3 point_m = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, outwards
-  [[nodiscard]] Side side(const Vector3& p) const { return {normal.dot(p - point_m), normal}; }
+  [[nodiscard]] SurfaceSide side(const Vector3& p) const { return {normal.dot(p - point_m), normal}; }
 };
 
 struct Ball {
   Vector3 centre_m = Vector3::Zero();
   double radius_m = 1.0;
-  [[nodiscard]] Side side(const Vector3& p) const;
+  [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 
 struct Block {
   Vector3 centre_m = Vector3::Zero();
   Matrix3 R = Matrix3::Identity();   // of the block in W
   Vector3 half_m = Vector3::Ones();  // half of the edges
-  [[nodiscard]] Side side(const Vector3& p) const;
+  [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 
 /// With flat ends.
@@ -41,12 +41,12 @@ struct Rod {
   Vector3 axis = Vector3::UnitZ();  // unit
   double radius_m = 1.0;
   double half_m = 1.0;  // half of the length
-  [[nodiscard]] Side side(const Vector3& p) const;
+  [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 
 using Shape = std::variant<HalfSpace, Ball, Block, Rod>;
 
-inline Side side(const Shape& shape, const Vector3& p) {
+inline SurfaceSide side(const Shape& shape, const Vector3& p) {
   return std::visit([&p](const auto& solid) { return solid.side(p); }, shape);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // A tool that gives way to what it touches, over one step: with the wrench w that acts on average it ends at
-//   free ∘ C w,   C symmetric, positive semidefinite: what the wrench moves it by (a mass: dt²/(2 m), joints:
-//   J c Jᵀ)
+//   free ∘ C w,   C symmetric, positive semidefinite: what the wrench moves it by (a mass: dt²/(2 m),
+//                 joints: J c Jᵀ)
 // and w is the mean of the scene over that very move (Scene::mean_contact): implicit, one equation in w, by
 // Newton. So whatever stands behind C, the contacts take as much energy as they get, for any stiffness, also
 // several at once.

@@ -9,8 +9,7 @@
 //   leap       compensated force, away from  more than G + 10 σ + 2 r + u + T (k_hard v + k_max   1 sample
 //              what it was, or from none     0.1 m/s), k_hard = 1e7 N/m: steel on steel
 //   saturated  each channel                  at its range without a break                         50 ms
-//   frozen     all channels, σ > r/2         the same to the last digit, not zero, while the      50 ms and 1
-//   mm
+//   frozen     all channels, σ > r/2         the same to the last digit, not zero, while the      50 ms and 1 mm
 //                                            tool goes on
 // u is what the tool's acceleration explains where it is not known (tool_load.hpp). A force may vanish at
 // once: a latch, an edge. Not revealed by any of these, with what it can do: a sensor that is frozen in free

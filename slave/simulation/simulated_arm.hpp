@@ -1,8 +1,8 @@
 #pragma once
 // A robot that is not there: six joints with first-order servos, the tool by forward kinematics, the scene's
 // force on the tool, a force sensor at E that carries the tool.
-//   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick; 0 Hz: q̇
-//   only limited
+//   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
+//                                                                   0 Hz: q̇ only limited
 // A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
 // gives way to what the tool touches, so that the contact creates no energy however stiff it is
 // (yielding.hpp); the others do not (their motion is imposed). Joints are measured at the link, exactly. Its

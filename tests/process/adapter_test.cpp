@@ -54,7 +54,7 @@ class Adapters : public Station {
     start_master({"--adapter", device_address_, "--set", "device_adapter.silence_s=" + silence_s});
   }
   /// The last silence in the loop's own time: within 20 ms, but for what this machine was late.
-  void expect_told_in_time(Side& side) {
+  void expect_told_in_time(StationSide& side) {
     const std::uint64_t after_us = side.counter("adapter_silent_after_us");
     std::printf("told after %.1f ms of silence\n", 1e-3 * static_cast<double>(after_us));
     EXPECT_GE(after_us, 19'000u);

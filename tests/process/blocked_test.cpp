@@ -88,7 +88,7 @@ class Blocked : public Station {
         },
         kSoon);
   }
-  bool comes_to(Side& side, const std::string& state) {
+  bool comes_to(StationSide& side, const std::string& state) {
     return eventually([&] { return side.state() == state; }, kSoon);
   }
 };

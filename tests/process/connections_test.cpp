@@ -30,7 +30,7 @@ class Connections : public Station {
   /// A new client's stop, and how long the answer took.
   double stop_s() {
     const auto began = std::chrono::steady_clock::now();
-    EXPECT_EQ(Side(RpcRole::kSlave, ports_.slave_rpc).stop(), "");
+    EXPECT_EQ(StationSide(RpcRole::kSlave, ports_.slave_rpc).stop(), "");
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   }
 
@@ -85,8 +85,8 @@ TEST_F(Connections, ThatNeverEndTheirHandshakeAreBounded) {
     // The first bytes of a TLS record that never comes.
     for (int i = 0; i < count; ++i)
       (void)::send(half.socket(static_cast<std::size_t>(i)), "\x16\x03\x01\x02", 4, MSG_NOSIGNAL);
-    EXPECT_TRUE(slave_.status());                                   // who is inside stays
-    EXPECT_TRUE(Side(RpcRole::kSlave, ports_.slave_rpc).status());  // and who comes is let in
+    EXPECT_TRUE(slave_.status());                                          // who is inside stays
+    EXPECT_TRUE(StationSide(RpcRole::kSlave, ports_.slave_rpc).status());  // and who comes is let in
     std::this_thread::sleep_for(seconds(1));
     EXPECT_LT(resident_mb(slave), before_mb + 25.0);
     EXPECT_EQ(slave_.stop(), "");

@@ -206,7 +206,7 @@ BareLoops::Figures BareLoops::end() {
 
 void Disturbance::expect_none(const std::string& load) {
   const BareLoops::Figures machine = bare_.end();
-  const auto judge = [&](const char* name, Side& side, const Counts& before) {
+  const auto judge = [&](const char* name, StationSide& side, const Counts& before) {
     const Counts after(side);
     const std::uint64_t late = after.late - before.late;
     EXPECT_LE(late, machine.stalls) << load << ", " << name;

@@ -67,7 +67,7 @@ class BareLoops {
 /// What a load may not do to both sides while this lives, beyond what the machine did to itself.
 class Disturbance {
  public:
-  Disturbance(Side& slave, Side& master) : slave_(slave), master_(master) {}
+  Disturbance(StationSide& slave, StationSide& master) : slave_(slave), master_(master) {}
   /// Ends it: no tick late by over 100 ms and no false hold but where the machine stood still, no violated
   /// limit. Prints what was seen.
   void expect_none(const std::string& load);
@@ -75,14 +75,14 @@ class Disturbance {
  private:
   struct Counts {
     std::uint64_t late = 0, false_holds = 0, violations = 0;
-    explicit Counts(Side& side)
+    explicit Counts(StationSide& side)
         : late(side.counter("ticks_late_100ms")),
           false_holds(side.counter("false_holds")),
           violations(side.counter("limit_violations")) {}
   };
 
-  Side& slave_;
-  Side& master_;
+  StationSide& slave_;
+  StationSide& master_;
   BareLoops bare_;
   const Counts slave_before_{slave_}, master_before_{master_};
 };

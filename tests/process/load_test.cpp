@@ -80,7 +80,7 @@ class UnderLoad : public Station {
     // One call, known and new: each is given 5 s.
     const auto after = slave_.status();
     EXPECT_TRUE(after) << outputs();
-    EXPECT_TRUE(Side(RpcRole::kSlave, ports_.slave_rpc).status()) << outputs();
+    EXPECT_TRUE(StationSide(RpcRole::kSlave, ports_.slave_rpc).status()) << outputs();
     if (!after) return;
     EXPECT_EQ(after->state(), "Engaged") << after->cause();
     EXPECT_EQ(after->engagement(), before->engagement());

@@ -19,7 +19,7 @@
 namespace longreach {
 namespace {
 
-std::vector<double> tool(Side& slave) {
+std::vector<double> tool(StationSide& slave) {
   const auto status = slave.status();
   return status ? std::vector<double>(status->tool_m().begin(), status->tool_m().end())
                 : std::vector<double>{};
@@ -180,7 +180,8 @@ TEST_F(Station, ElevenHundredIdleConnectionsDisturbNothing) {
   }
   // Known connections and new ones are served.
   EXPECT_EQ(slave_.state(), "Engaged");
-  EXPECT_TRUE(eventually([this] { return Side(RpcRole::kSlave, ports_.slave_rpc).state() == "Engaged"; }));
+  EXPECT_TRUE(
+      eventually([this] { return StationSide(RpcRole::kSlave, ports_.slave_rpc).state() == "Engaged"; }));
   for (const int one : idle) ::close(one);
   disturbance.expect_none("1100 connections");
   EXPECT_EQ(master_.state(), "Engaged");

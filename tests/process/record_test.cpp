@@ -95,7 +95,7 @@ TEST_F(Recording, OnAFullDiskEndsWithAnEventAndChangesNothingElse) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   Disturbance disturbance(slave_, master_);
   ASSERT_TRUE(both_engaged()) << outputs();
-  for (Side* side : {&slave_, &master_}) {
+  for (StationSide* side : {&slave_, &master_}) {
     ASSERT_TRUE(eventually([side] {
       const auto status = side->status();
       return status && status->has_recording() && !status->recording().running();
@@ -217,7 +217,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   EXPECT_TRUE(again.starts_with("1 ")) << again;
   EXPECT_NE(again.find("is being recorded"), std::string::npos) << again;
   EXPECT_NE(client({"status"}).find("drill-master.mcap, "), std::string::npos);
-  for (Side* side : {&slave_, &master_})
+  for (StationSide* side : {&slave_, &master_})
     ASSERT_TRUE(eventually([side] {
       const auto status = side->status();
       return status && status->recording().bytes() > 300'000;

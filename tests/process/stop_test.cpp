@@ -77,7 +77,7 @@ class Crowd {
 class StopAtOnce : public Station {
  protected:
   /// Stops it again and again; the longest time an answer took, beyond what a sleeper is late by.
-  void expect_stops(Side& side, const std::string& load) {
+  void expect_stops(StationSide& side, const std::string& load) {
     const Sleeper sleeper;
     double longest_s = 0.0;
     for (int i = 0; i < 20; ++i) {
@@ -91,7 +91,7 @@ class StopAtOnce : public Station {
     EXPECT_LT(longest_s, kStop_s + kTurns * sleeper.late_s()) << load;
   }
 
-  [[nodiscard]] Side another(RpcRole role) const {
+  [[nodiscard]] StationSide another(RpcRole role) const {
     return {role, role == RpcRole::kSlave ? ports_.slave_rpc : ports_.master_rpc};
   }
 };
@@ -114,12 +114,12 @@ TEST_F(StopAtOnce, WhileClientsSetThousandsOfFieldsOnALargeScene) {
   std::filesystem::remove(scene);
   Crowd crowd;
   for (const std::size_t fields : {3000U, 3000U, 256U, 256U}) {
-    crowd.add([fields, side = std::make_shared<Side>(another(RpcRole::kSlave))] {
+    crowd.add([fields, side = std::make_shared<StationSide>(another(RpcRole::kSlave))] {
       (void)side->set(
           std::vector<std::pair<std::string, std::string>>(fields, {"estimator.forgetting", "0.995"}));
     });
   }
-  crowd.add([side = std::make_shared<Side>(another(RpcRole::kSlave))] { (void)side->get(""); });
+  crowd.add([side = std::make_shared<StationSide>(another(RpcRole::kSlave))] { (void)side->get(""); });
   ASSERT_TRUE(eventually([&] { return crowd.acts() > 5; })) << outputs();
   expect_stops(slave_, "3000 fields on a large scene");
 }

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "tests/process/running_program.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach {
 namespace {

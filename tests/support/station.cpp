@@ -19,34 +19,36 @@ void limit(grpc::ClientContext& context) {
 
 }  // namespace
 
-Side::Side(RpcRole role, int port)
+StationSide::StationSide(RpcRole role, int port)
     : stub_(proto::Control::NewStub(
           connect_rpc("127.0.0.1:" + std::to_string(port), role, test_site(RpcRole::kClient)))) {}
 
-std::optional<proto::Status> Side::status() {
+std::optional<proto::Status> StationSide::status() {
   grpc::ClientContext context;
   limit(context);
   proto::Status status;
   return stub_->GetStatus(&context, {}, &status).ok() ? std::optional(status) : std::nullopt;
 }
 
-std::string Side::engage() {
+std::string StationSide::engage() {
   grpc::ClientContext context;
   limit(context);
   proto::Outcome outcome;
   return stub_->Engage(&context, {}, &outcome).error_message();
 }
 
-std::string Side::stop() {
+std::string StationSide::stop() {
   grpc::ClientContext context;
   limit(context);
   proto::Outcome outcome;
   return stub_->Stop(&context, {}, &outcome).error_message();
 }
 
-std::string Side::set(const std::string& path, const std::string& value) { return set({{path, value}}); }
+std::string StationSide::set(const std::string& path, const std::string& value) {
+  return set({{path, value}});
+}
 
-std::string Side::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
+std::string StationSide::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
   grpc::ClientContext context;
   limit(context);
   proto::SetConfigRequest request;
@@ -59,7 +61,7 @@ std::string Side::set(const std::vector<std::pair<std::string, std::string>>& as
   return stub_->SetConfig(&context, request, &outcome).error_message();
 }
 
-std::string Side::get(const std::string& path) {
+std::string StationSide::get(const std::string& path) {
   grpc::ClientContext context;
   limit(context);
   proto::GetConfigRequest request;
@@ -68,7 +70,7 @@ std::string Side::get(const std::string& path) {
   return stub_->GetConfig(&context, request, &response).ok() ? response.text() : "unreachable";
 }
 
-std::string Side::set_delay(double delay_s) {
+std::string StationSide::set_delay(double delay_s) {
   grpc::ClientContext context;
   limit(context);
   proto::SetLinkRequest request;
@@ -78,12 +80,12 @@ std::string Side::set_delay(double delay_s) {
   return stub_->SetLink(&context, request, &outcome).error_message();
 }
 
-std::string Side::state() {
+std::string StationSide::state() {
   const auto now = status();
   return now ? now->state() : "unreachable";
 }
 
-std::uint64_t Side::counter(const std::string& name) {
+std::uint64_t StationSide::counter(const std::string& name) {
   const auto now = status();
   if (!now) return 0;
   for (const auto& counter : now->counters()) {

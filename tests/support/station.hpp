@@ -16,10 +16,10 @@
 namespace longreach {
 
 /// One side's RPC service, through a client of its own.
-class Side {
+class StationSide {
  public:
   /// Comes as a client of the test's site.
-  Side(RpcRole role, int port);
+  StationSide(RpcRole role, int port);
 
   std::optional<proto::Status> status();
   /// Empty when it was carried out, else the server's sentence.
@@ -61,8 +61,8 @@ class Station : public ::testing::Test {
   Ports ports_ = free_ports();
   std::unique_ptr<RunningProgram> slave_program_;
   std::unique_ptr<RunningProgram> master_program_;
-  Side slave_{RpcRole::kSlave, ports_.slave_rpc};
-  Side master_{RpcRole::kMaster, ports_.master_rpc};
+  StationSide slave_{RpcRole::kSlave, ports_.slave_rpc};
+  StationSide master_{RpcRole::kMaster, ports_.master_rpc};
 };
 
 }  // namespace longreach

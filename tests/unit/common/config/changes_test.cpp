@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/config/temporary_folder.hpp"
-
 namespace longreach {
 namespace {
 

@@ -6,7 +6,8 @@
 #include "common/config/field_text.hpp"
 #include "proto/campaign.pb.h"
 #include "proto/network.pb.h"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "common/config/deploy_folder.hpp"
 #include "common/config/user_file.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

@@ -1,7 +1,8 @@
 #include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
 namespace longreach {

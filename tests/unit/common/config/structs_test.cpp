@@ -1,7 +1,6 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/config/temporary_folder.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
 namespace longreach {

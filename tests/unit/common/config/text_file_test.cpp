@@ -2,7 +2,8 @@
 
 #include "common/config/user_file.hpp"
 #include "common/core/random.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

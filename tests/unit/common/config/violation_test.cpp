@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {

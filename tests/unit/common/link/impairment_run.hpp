@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-struct Arrival {
+struct DatagramArrival {
   std::uint32_t number = 0;  // as sent, from 0
   double sent_s = 0.0;
   double received_s = 0.0;
@@ -26,7 +26,7 @@ struct ImpairmentRun {
 };
 
 struct ImpairmentOutcome {
-  std::vector<Arrival> arrivals;
+  std::vector<DatagramArrival> arrivals;
   std::map<std::uint32_t, int> copies;  // by number
   ImpairmentCounts counts{};
 };
@@ -46,7 +46,7 @@ inline ImpairmentOutcome run(const ImpairmentRun& r) {
       impairment.push(now, datagram);
     }
     while (const auto out = impairment.pop(now)) {
-      Arrival a;
+      DatagramArrival a;
       std::memcpy(&a.number, out->data(), sizeof a.number);
       a.sent_s = a.number * r.period_s;
       a.received_s = now_s;

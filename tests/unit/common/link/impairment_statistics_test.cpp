@@ -13,7 +13,7 @@ struct Delays {
 
 Delays delays(const ImpairmentOutcome& outcome) {
   double sum = 0.0, squares = 0.0;
-  for (const Arrival& a : outcome.arrivals) {
+  for (const DatagramArrival& a : outcome.arrivals) {
     const double d = a.received_s - a.sent_s;
     sum += d;
     squares += d * d;
@@ -58,7 +58,7 @@ TEST(ImpairmentStatistics, JitterIsIndependentOfTheNeighboursAndSoChangesTheOrde
 TEST(ImpairmentStatistics, JitterNeverMakesADelayNegative) {
   const auto outcome = run({.config = {.delay_s = 0.0, .jitter_s = 0.03}});
   int at_once = 0;
-  for (const Arrival& a : outcome.arrivals) {
+  for (const DatagramArrival& a : outcome.arrivals) {
     ASSERT_GE(a.received_s, a.sent_s - 1e-9);
     at_once += a.received_s - a.sent_s < 1e-9 ? 1 : 0;
   }
@@ -113,7 +113,7 @@ TEST(ImpairmentStatistics, DuplicatesTheAskedFraction) {
 TEST(ImpairmentStatistics, ReordersTheAskedFraction) {
   const auto outcome = run({.config = {.delay_s = 0.4, .reorder = 0.05}});
   int early = 0;
-  for (const Arrival& a : outcome.arrivals) early += a.received_s - a.sent_s < 0.3 ? 1 : 0;
+  for (const DatagramArrival& a : outcome.arrivals) early += a.received_s - a.sent_s < 0.3 ? 1 : 0;
   EXPECT_NEAR(early, 1000, 5.0 * std::sqrt(20000 * 0.05 * 0.95));
 }
 
@@ -121,7 +121,8 @@ TEST(ImpairmentStatistics, RateLimitPassesItsThroughputAndNoMore) {
   // Offered: 200 a second of 128 bytes with headers, 204.8 kbit/s; passed: 64 kbit/s, 62.5 a second.
   const auto outcome = run({.config = {.rate_bit_per_s = 64000.0, .queue_s = 0.2}, .datagrams = 4000});
   EXPECT_NEAR(static_cast<double>(outcome.arrivals.size()), 62.5 * 20.2, 3.0);
-  for (const Arrival& a : outcome.arrivals) ASSERT_LE(a.received_s - a.sent_s, 0.2 + 0.016 + 0.001 + 1e-9);
+  for (const DatagramArrival& a : outcome.arrivals)
+    ASSERT_LE(a.received_s - a.sent_s, 0.2 + 0.016 + 0.001 + 1e-9);
 }
 
 TEST(ImpairmentStatistics, RateLimitAboveTheLoadLosesNothing) {
@@ -160,14 +161,15 @@ TEST(ImpairmentStatistics, SwitchingOneEffectOnDoesNotChangeWhatAnotherDraws) {
   more.config.blackout_start_s = 5.0;
   more.config.blackout_duration_s = 2.0;
   std::map<std::uint32_t, double> plain;
-  for (const Arrival& a : run(jitter).arrivals) plain[a.number] = a.received_s;
+  for (const DatagramArrival& a : run(jitter).arrivals) plain[a.number] = a.received_s;
   const auto lossy = run(more);
   ASSERT_GT(lossy.arrivals.size(), 2000U);
-  for (const Arrival& a : lossy.arrivals) ASSERT_EQ(a.received_s, plain[a.number]);
+  for (const DatagramArrival& a : lossy.arrivals) ASSERT_EQ(a.received_s, plain[a.number]);
 
   more.config.duplicate = 0.3;
   std::map<std::uint32_t, int> same_time;
-  for (const Arrival& a : run(more).arrivals) same_time[a.number] += a.received_s == plain[a.number] ? 1 : 0;
+  for (const DatagramArrival& a : run(more).arrivals)
+    same_time[a.number] += a.received_s == plain[a.number] ? 1 : 0;
   ASSERT_EQ(same_time.size(), lossy.copies.size()) << "duplication changed the losses";
   for (const auto& [number, hits] : same_time) ASSERT_GE(hits, 1) << number;
 

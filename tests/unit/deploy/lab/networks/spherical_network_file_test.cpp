@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "common/core/random.hpp"
-#include "tests/unit/common/config/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/config/error_of.hpp"
 
 namespace longreach {
 namespace {
