@@ -1,5 +1,5 @@
 #pragma once
-// The values of a recording (proto/recording.proto): structs of the lower floors to messages and back,
+// The values of a recording (proto/recording.proto): structs of the lower layers to messages and back,
 // exactly: every double bit for bit, every instant to the nanosecond. Reading throws RecordingError for what
 // no struct can hold.
 //

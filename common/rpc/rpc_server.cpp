@@ -15,6 +15,7 @@
 #include "common/config/host_and_port.hpp"
 #include "common/loop/pace.hpp"
 #include "common/program/log.hpp"
+#include "common/rpc/caller_certificate.hpp"
 #include "common/rpc/control_service.hpp"
 #include "common/rpc/doorkeeper.hpp"
 #include "common/rpc/rpc_refusals.hpp"

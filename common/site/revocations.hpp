@@ -5,19 +5,13 @@
 //   paired   host=NAME role=ROLE since=TIME expires=DATE fingerprint=SHA256:...
 //   revoked  SHA256:... since=TIME
 //
-// A server that was told of its site refuses revoked certificates from the next call on, and ends what is
-// under way. It looks whether the file has changed at each call. Does not handle: other hosts of the site,
-// which have folders of their own.
+// A server refuses revoked certificates from the next call on (common/rpc/caller_certificate), and ends what is
+// under way. The file is looked at in each call. Does not handle: other hosts of the site, which have folders of
+// their own.
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
-
-namespace grpc {
-class AuthContext;
-class AuthMetadataProcessor;
-}  // namespace grpc
 
 namespace longreach {
 
@@ -41,12 +35,5 @@ std::vector<std::string> revoke(const std::filesystem::path& site, const std::ve
 void refuse_revoked(const std::filesystem::path& site);
 /// By its fingerprint; false where no folder was named.
 bool is_revoked(const std::string& fingerprint);
-/// The certificate that a caller has shown; empty: none.
-std::string fingerprint_of(const grpc::AuthContext& caller);
-/// "role=client.longreach certificate=SHA256:5f0c...", or "certificate=none".
-std::string certificate_text(const grpc::AuthContext& caller);
-bool is_revoked(const grpc::AuthContext& caller);
-/// Refuses every call of those who are revoked.
-std::shared_ptr<grpc::AuthMetadataProcessor> revocation_check();
 
 }  // namespace longreach

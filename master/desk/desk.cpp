@@ -7,8 +7,8 @@
 
 #include "common/loop/pace.hpp"
 #include "common/loop/real_time_loop.hpp"
+#include "common/rpc/caller_certificate.hpp"
 #include "common/rpc/rpc_server.hpp"
-#include "common/site/revocations.hpp"
 #include "master/desk/desk_frame.hpp"
 
 namespace longreach {
