@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "common/config/config.hpp"
+
 namespace longreach {
 namespace {
 

@@ -1,6 +1,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include "common/config/config.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
 namespace longreach {
