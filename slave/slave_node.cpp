@@ -5,20 +5,15 @@
 
 #include "common/link/playout.hpp"
 #include "common/safety/time_watch.hpp"
-#include "slave/command/force_doubt.hpp"
 #include "slave/command/motion.hpp"
-#include "slave/command/setpoint_lead.hpp"
-#include "slave/estimation/contact.hpp"
 #include "slave/safety/command_right.hpp"
 #include "slave/safety/joint_witness.hpp"
 #include "slave/safety/plausible.hpp"
 #include "slave/safety/robot_watch.hpp"
 #include "slave/safety/slave_safety.hpp"
-#include "slave/sensing/free_moment.hpp"
 #include "slave/sensing/gripper.hpp"
-#include "slave/sensing/sensor_watch.hpp"
-#include "slave/sensing/tool_load.hpp"
 #include "slave/slave_reports.hpp"
+#include "slave/slave_sensing.hpp"
 #include "slave/tool_held_back.hpp"
 
 namespace longreach {
@@ -33,7 +28,6 @@ struct SlaveNode::State {
   explicit State(const SlaveConfig& config)
       : reports(config.link),
         loop_hz(config.loop.rate_hz),
-        needs(longreach::needs(config.scene)),
         safety(config.safety),
         time(config.loop.rate_hz),
         motion(config.command, config.robot),
@@ -41,11 +35,7 @@ struct SlaveNode::State {
         watch(config.robot),
         right(config.robot),
         lead(config.robot.servo_hz),
-        witness(config.sensing, config.command),
-        doubt(config.sensing, config.command),
-        sensor(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
-        contact(config.sensing, config.estimator),
-        turn_contact(rotational(config.sensing), config.estimator),
+        sensing(config),
         playout(config.playout),
         turn_playout(config.playout) {}
 
@@ -59,11 +49,7 @@ struct SlaveNode::State {
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
   void look(const RobotState& robot, Time now);
-  void feel(Time now, double dt);
-  [[nodiscard]] bool believable(const RobotState& robot, double elapsed_s);
-  [[nodiscard]] bool free() const { return !contact.in_contact() && !turn_contact.in_contact(); }
-  [[nodiscard]] ContactForce pressed() const;
-  [[nodiscard]] ContactForce turned() const;
+  void sense(Time now, double dt);
   [[nodiscard]] bool reflexes_move() const;
   void book_reached();
   void book_held_back(const Clamps& clamps, double dt);
@@ -71,7 +57,6 @@ struct SlaveNode::State {
 
   SlaveReports reports;
   double loop_hz;
-  NeedsConfig needs;  // what is not needed of contact, sensor and estimator is not there
   SlaveSafety safety;
   TimeWatch time;
   SlaveMotion motion;
@@ -79,21 +64,12 @@ struct SlaveNode::State {
   RobotWatch watch;
   CommandRight right;
   SetpointLead lead;
-  SensorWatch witness;
-  ForceDoubt doubt;
-  ToolCompensation sensor;
-  SlaveContact contact;
-  SlaveContact turn_contact;  // places are rotation vectors from the anchor, in W
-  Playout playout;            // of position goals
-  Playout turn_playout;       // of orientation goals: each datagram carries one of the two
+  SlaveSensing sensing;
+  Playout playout;       // of position goals
+  Playout turn_playout;  // of orientation goals: each datagram carries one of the two
   SlaveView view;
 
   bool robot_ok = true;
-  RobotState robot_before{};  // its last sample that was a new one
-  std::optional<Time> sampled_at{};
-  ToolKinematics tool{};
-  Twist V_WE{};
-  bool sensor_ok = true;
   Pose X_WE_anchor{};
   double scale = 1.0;   // k_scale as last sent
   bool let_go = false;  // likewise
@@ -115,11 +91,7 @@ void SlaveNode::configure(const SlaveConfig& config) {
   s.reports.configure(config.link);
   s.safety.configure(config.safety);
   s.motion.configure(config.command);
-  s.witness.configure(config.sensing, config.command);
-  s.doubt.configure(config.sensing, config.command);
-  s.sensor.configure(config.sensing, CompensationLimits::of(config.command));
-  s.contact.configure(config.sensing, config.estimator);
-  s.turn_contact.configure(rotational(config.sensing), config.estimator);
+  s.sensing.configure(config);
   s.playout.configure(config.playout);
   s.turn_playout.configure(config.playout);
 }
@@ -138,7 +110,7 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   if (!s.time.stalled_since()) s.take_goals(input.commands);
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
-  if (s.robot_ok && s.sensor_ok) s.feel(input.now, dt);
+  if (s.robot_ok) s.sense(input.now, dt);
   const Clamps clamps = s.right.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
@@ -148,14 +120,15 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   SlaveOutput output;
   if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.gripper.asked();
-  s.reports.report(input, s.view, s.reached_sequence,
-                   {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
-                   {s.contact, s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
-                   {s.turn_contact, log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
-                    s.held_back.turn(), Vector3::Zero()},
-                   output);
-  s.reports.telemetry(input, s.view, s.robot_ok, s.contact.foremost().depth_m(), output);
-  s.view.touch_sequence = s.contact.foremost().touch_sequence();
+  s.reports.report(
+      input, s.view, s.reached_sequence,
+      {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
+      {s.sensing.contact(), s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
+      {s.sensing.turn_contact(), log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
+       s.held_back.turn(), Vector3::Zero()},
+      output);
+  s.reports.telemetry(input, s.view, s.robot_ok, s.sensing.contact().foremost().depth_m(), output);
+  s.view.touch_sequence = s.sensing.contact().foremost().touch_sequence();
   return output;
 }
 
@@ -174,10 +147,10 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   if (robot_ok) in.unready = view.unready = unready(input.robot);
   in.robot_restless = watch.restless();
   in.robot_astray = watch.astray();
-  in.sensor_fault = robot_ok && !sensor_ok;
-  in.sensor_sign = doubt.wrong_sign();
-  in.no_relief = motion.no_relief() || doubt.no_relief();
-  in.comes = doubt.comes(contact.normal());
+  in.sensor_fault = robot_ok && !sensing.ok();
+  in.sensor_sign = sensing.doubt().wrong_sign();
+  in.no_relief = motion.no_relief() || sensing.doubt().no_relief();
+  in.comes = sensing.doubt().comes(sensing.contact().normal());
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -201,7 +174,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
 Reason SlaveNode::State::unready(const RobotState& robot) const {
   if (!motion.in_workspace()) return motion.outside();
   const Reason why = right.why_not(robot, motion.joint_setpoint_rad());
-  return why != HoldCause::kNone || sensor.ready() ? why : Reason(HoldCause::kSensorZeroing);
+  return why != HoldCause::kNone || sensing.ready() ? why : Reason(HoldCause::kSensorZeroing);
 }
 
 void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
@@ -209,7 +182,7 @@ void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
   view.unready = robot.ok && finite(robot) ? joints.look(robot, now) : Reason(HoldCause::kRobotFault);
   robot_ok = view.unready == HoldCause::kNone;
   if (robot_ok) gripper.see(robot);
-  if (robot_ok && !view.robot_seen) sensor.zero();
+  if (robot_ok && !view.robot_seen) sensing.zero();
   view.robot_seen = view.robot_seen || robot_ok;
 }
 
@@ -230,8 +203,10 @@ void SlaveNode::State::follow(const RobotState& robot) {
 // was missed is caught up within them.
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
-  const bool brakes = safety.brakes() || doubt.rests();
-  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, pressed(), dt, let_go, turned()});
+  const bool brakes = safety.brakes() || sensing.doubt().rests();
+  const bool reflexes = reflexes_move();
+  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, sensing.pressed(lead, reflexes), dt,
+                                     let_go, sensing.turned(lead, reflexes)});
   lead.step(motion.X_WE(), dt);
   return clamps;
 }
@@ -239,14 +214,11 @@ Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
 void SlaveNode::State::begin_engagement() {
   const Quaternion q_before = X_WE_anchor.q;
   X_WE_anchor = motion.X_WE();
-  doubt.reset();
+  sensing.begin(q_before, X_WE_anchor.q);
   motion.renew();
-  turn_contact.move_origin(log_rotation(X_WE_anchor.q * q_before.conjugate()));
   playout.clear();
   turn_playout.clear();
   time.rebase();
-  contact.forget_goals();
-  turn_contact.forget_goals();
   reached_sequence = 0, played_sequence = played_turn_sequence = 0.0;
 }
 
@@ -283,78 +255,24 @@ Pose SlaveNode::State::play(Time now) {
   return X_WE;
 }
 
-// Judges what the robot says, before anything believes it. A sample that repeats the one before while the arm
-// moves is none.
 void SlaveNode::State::look(const RobotState& robot, Time now) {
-  if (!needs.contact && !needs.rotation) {
-    sensor_ok = robot.F_F_W.force.allFinite() && robot.F_F_W.moment.allFinite();
-    if (sensor_ok) view.F_E_W = robot.F_F_W;
-    view.X_WE = motion.kinematics().forward(robot.joint_rad);
-    return;
-  }
-  const bool rests = robot.joint_rad_per_s.isZero(0.0);
-  const bool repeated = !rests && sampled_at && robot.joint_rad == robot_before.joint_rad &&
-                        robot.joint_rad_per_s == robot_before.joint_rad_per_s &&
-                        robot.F_F_W.force == robot_before.F_F_W.force;
-  if (repeated) return;
-  const double elapsed_s = sampled_at ? to_seconds(now - *sampled_at) : 1.0 / loop_hz;
-  sampled_at = now;
-  robot_before = robot;
-  tool = motion.kinematics().forward_with_jacobian(robot.joint_rad);
-  view.X_WE = tool.X_WE;
-  V_WE = {tool.J.topRows<3>() * robot.joint_rad_per_s, tool.J.bottomRows<3>() * robot.joint_rad_per_s};
-  sensor_ok = believable(robot, elapsed_s);
+  sensing.look(robot, motion.kinematics(), gripper.may_hold(), now);
+  view.X_WE = sensing.X_WE();
+  view.F_E_W = sensing.F_E_W();
 }
 
-bool SlaveNode::State::believable(const RobotState& robot, double elapsed_s) {
-  const Quaternion q_EW = tool.X_WE.q.conjugate();
-  const SensorWatch::Motion moved{tool.X_WE.p, V_WE.linear.norm(), elapsed_s};
-  if (!witness.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
-  sensor.grip(gripper.may_hold());
-  view.F_E_W = sensor.step(robot.F_F_W, tool.X_WE.q, V_WE, elapsed_s, {free(), tool.X_WE});
-  return witness.felt(view.F_E_W.force, moved, sensor.doubt_n());
-}
-
-void SlaveNode::State::feel(Time now, double dt) {
-  if ((!needs.contact && !needs.rotation) || !sensor.ready()) return;
-  const double news_age_s = safety.news_age_s(now) + playout.delay_s();
-  if (needs.contact) {
-    contact.step({tool.X_WE.p, V_WE.linear, view.F_E_W.force, safety.follows() ? played_sequence : 0.0, scale,
-                  dt, view.clamps.force_guard, sensor.doubt_n(), news_age_s});
-    doubt.step({tool.X_WE.p, view.F_E_W.force, contact.in_contact(), dt}, contact.force(),
-               {safety.state(), let_go, lead.still()});
-  }
-  if (needs.rotation) {
-    const Vector3 turn = log_rotation(tool.X_WE.q * X_WE_anchor.q.conjugate());
-    const Vector3 moment_nm = needs.contact ? free_moment_nm(view.F_E_W) : view.F_E_W.moment;
-    turn_contact.step({turn, V_WE.angular, moment_nm, safety.follows() ? played_turn_sequence : 0.0, scale,
-                       dt, view.clamps.moment_guard, sensor.doubt_nm(), news_age_s});
-  }
-  // Between engagements the zero is renewed.
-  if (safety.state() == SafetyState::kEngaged || !free()) return sensor.abandon();
-  if (!sensor.zeroing()) sensor.zero();
+void SlaveNode::State::sense(Time now, double dt) {
+  SensingInput in{safety.state(), let_go, lead.still(), scale};
+  if (safety.follows()) in.played_sequence = played_sequence, in.played_turn_sequence = played_turn_sequence;
+  in.news_age_s = safety.news_age_s(now) + playout.delay_s();
+  in.clamps = view.clamps;
+  in.q_anchor = X_WE_anchor.q;
+  in.dt = dt;
+  sensing.step(in);
 }
 
 // Not while it is stopped, not ok, or its sensor is not believed.
-bool SlaveNode::State::reflexes_move() const { return safety.follows() && robot_ok && sensor_ok; }
-
-// What the reflexes know: no force where they must not move the robot.
-ContactForce SlaveNode::State::pressed() const {
-  ContactForce force = contact.force();
-  force.lead_m = -force.reaction.dot(lead.m());
-  doubt.tell(force, lead.m());
-  if (!reflexes_move()) force.force_n = force.retreat_m_per_s = 0.0;
-  return force;
-}
-
-// Likewise of a contact by rotation.
-ContactForce SlaveNode::State::turned() const {
-  ContactForce moment = turn_contact.force();
-  if (!reflexes_move()) moment.force_n = 0.0;
-  moment.lead_m = -moment.reaction.dot(lead.rad());
-  moment.trusted = !doubt.rests();
-  return moment;
-}
+bool SlaveNode::State::reflexes_move() const { return safety.follows() && robot_ok && sensing.ok(); }
 
 void SlaveNode::State::book_reached() {
   if (safety.state() != SafetyState::kEngaged || played_sequence < 1.0) return;
@@ -366,8 +284,8 @@ void SlaveNode::State::book_reached() {
 
 void SlaveNode::State::book_held_back(const Clamps& clamps, double dt) {
   if (safety.state() != SafetyState::kEngaged || !robot_ok) return held_back.reset();
-  held_back.step({clamps, view.X_WE, view.X_WE_goal, X_WE_anchor, motion.workspace_centre_m(), dt}, contact,
-                 turn_contact);
+  held_back.step({clamps, view.X_WE, view.X_WE_goal, X_WE_anchor, motion.workspace_centre_m(), dt},
+                 sensing.contact(), sensing.turn_contact());
 }
 
 void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
@@ -376,10 +294,11 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.refused = safety.refused();
   view.refusal = safety.refusal();
   view.engagement = safety.engagement();
-  view.gripper = gripper.state(sensor.load());
+  view.gripper = gripper.state(sensing.load());
   view.X_WE_anchor = X_WE_anchor;
-  view.in_contact = !free();
-  const Surface &surface = contact.foremost(), &stop = turn_contact.foremost();
+  view.in_contact = !sensing.free();
+  const SlaveContact& contact = sensing.contact();
+  const Surface &surface = contact.foremost(), &stop = sensing.turn_contact().foremost();
   view.estimate = surface.estimate();
   view.reported_stiffness_n_per_m = surface.told().stiffness_n_per_m();
   view.turn_estimate = stop.estimate();

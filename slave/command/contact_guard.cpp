@@ -15,8 +15,8 @@ constexpr double kAlong = 0.3;     // cosine: not across
 
 }  // namespace
 
-void ContactGuard::approach(const ContactForce& contact, double dt) {
-  bleed_.reset();
+void ContactGuard::approach(const ContactForce& contact, const Vector3& p, double dt) {
+  watch_bleed(contact, {limits_.guard_n, limits_.guard_n, limits_.stiffness_n_per_m}, p);
   const bool calm = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
   calm_s_ = calm ? calm_s_ + dt : 0.0;
   if (calm_s_ > kCalm_s) relief_.reset();
@@ -89,27 +89,32 @@ double ContactGuard::give_way_max(const ContactForce& contact) const {
 // In contact, the speed out of it that eases what is above the limit; 0: nothing is.
 double ContactGuard::bleed_off(const ContactForce& contact, double limit_n) const {
   if (!(contact.force_n > limit_n)) return 0.0;
-  const double k = contact.stiffness_n_per_m > 0.0 ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
-  return std::min((contact.force_n - limit_n) / (k * kBleed_s), limits_.speed_m_per_s);
+  return std::min((contact.force_n - limit_n) / (seen_n_per_m_ * kBleed_s), limits_.speed_m_per_s);
 }
 
-// Likewise in a hold, by the stiffness that the force shows as the tool goes back: not known at a first
-// touch, and less than the surface's where the robot gives way, too.
+// Likewise in a hold.
 double ContactGuard::hold_off(const ContactForce& contact, const Vector3& p) {
-  const double limit_n = limits_.hold_n, aim_n = kHoldAim * limit_n;
-  if (!contact.in_contact || contact.force_n <= aim_n) bleed_.reset();
-  if (!contact.in_contact) return 0.0;
-  const double out_m = contact.reaction.dot(p) + contact.lead_m;  // the tool, on its way out
-  if (!bleed_ && contact.force_n > limit_n) bleed_ = Bleed{contact.force_n, out_m};
-  if (!bleed_) return 0.0;
-  if (out_m < bleed_->from_m) *bleed_ = {contact.force_n, out_m};
+  const double aim_n = kHoldAim * limits_.hold_n;
+  const double k = contact.stiffness_n_per_m;
+  watch_bleed(contact, {limits_.hold_n, aim_n, k > 0.0 ? kSofter * k : scale_.soft_n_per_m}, p);
+  return bleed_ ? bleed_off(contact, aim_n) : 0.0;
+}
+
+// The stiffness that the force shows as the tool goes back: not known at a first touch, far too great where
+// the tool was pushed in, less than the surface's where the robot gives way, too.
+void ContactGuard::watch_bleed(const ContactForce& contact, const Down& down, const Vector3& p) {
   const bool known = contact.stiffness_n_per_m > 0.0;
-  double k = known ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
-  const double least = known ? kSofter * k : std::min(k, scale_.soft_n_per_m);
+  const double k = known ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
+  seen_n_per_m_ = k;
+  if (!contact.in_contact || contact.force_n <= down.to_n) bleed_.reset();
+  if (!contact.in_contact) return;
+  const Vector3 tool = p + contact.lead_m * contact.reaction;
+  if (!bleed_ && contact.force_n > down.from_n) bleed_ = Bleed{contact.force_n, tool};
+  if (!bleed_) return;
+  const double out_m = contact.reaction.dot(tool - bleed_->from);
+  if (out_m < 0.0) *bleed_ = {contact.force_n, tool};
   const double fell_n = bleed_->from_n - contact.force_n + scale_.seen_n;
-  const double seen = fell_n / std::max(out_m - bleed_->from_m, 1e-9);
-  k = std::clamp(seen, least, k);
-  return std::clamp((contact.force_n - aim_n) / (k * kBleed_s), 0.0, limits_.speed_m_per_s);
+  seen_n_per_m_ = std::clamp(fell_n / std::max(out_m, 1e-9), std::min(down.least_n_per_m, k), k);
 }
 
 }  // namespace longreach

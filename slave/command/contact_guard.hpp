@@ -3,11 +3,12 @@
 //   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
 //   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max: the force falls to G with the time constant τ, and
-//   the contact is not lost. Without a goal, so in a hold, it does so down to the hold limit, within 1 s as
-//   far as speed and acceleration allow; k is then what is seen on that way. Giving way ends where the force
-//   does not answer to it (relief.hpp). Where the force was seen to grow in another direction than into the
-//   contact, the speed in that direction is bounded likewise, and the tool does not give way along it.
+//   k the contact's stiffness as far as known, else k_max; above k_max only as the force shows it: it falls to
+//   G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down to
+//   the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
+//   ends where the force does not answer to it (relief.hpp). Where the force was seen to grow in another
+//   direction than into the contact, the speed in that direction is bounded likewise, and the tool does not
+//   give way along it.
 // For a moment places are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max, τ_d
 // from the moment to the setpoint, what comes above the guard is at most k w τ_d; where k > k_max,
 //   k (w τ_d + w²/(2 a)).
@@ -64,10 +65,13 @@ class ContactGuard {
     relief_.limit(limits.give_way_m);
   }
   /// An engagement begins: the way that may be given, too.
-  void renew() { relief_.reset(); }
+  void renew() {
+    relief_.reset();
+    bleed_.reset();
+  }
 
-  /// Towards a goal, first of all in a step.
-  void approach(const ContactForce& contact, double dt);
+  /// Towards a goal, first of all in a step, with the setpoint at `p`.
+  void approach(const ContactForce& contact, const Vector3& p, double dt);
   [[nodiscard]] VelocityCap cap(const ContactForce& contact) const;
   [[nodiscard]] VelocityCap growth(const ContactForce& contact) const;
   /// Then, with the setpoint's velocity, `capped` by cap(). True: the tool would give way, but the force has
@@ -80,11 +84,17 @@ class ContactGuard {
   bool backed_off(const ContactForce& contact, const Vector3& v, double dt);
 
  private:
+  struct Down {
+    double from_n, to_n;
+    double least_n_per_m;  // that the contact may seem to have
+  };
   struct Bleed {
-    double from_n, from_m;  // force and place on the way out where it began
+    double from_n;
+    Vector3 from;  // tool
   };
   [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
   [[nodiscard]] double hold_off(const ContactForce& contact, const Vector3& p);
+  void watch_bleed(const ContactForce& contact, const Down& down, const Vector3& p);
   [[nodiscard]] double give_way_max(const ContactForce& contact) const;
   [[nodiscard]] double braking(double left_m, double coming_m) const;
   void give_way(const ContactForce& contact, const Vector3& v, double dt);
@@ -92,9 +102,10 @@ class ContactGuard {
   GuardScale scale_;
   GuardLimits limits_{};
   Relief relief_;
-  std::optional<Bleed> bleed_{};  // in a hold
-  bool backs_off_ = false;        // likewise, in this step
-  double calm_s_ = 0.0;           // below the guard
+  std::optional<Bleed> bleed_{};
+  double seen_n_per_m_ = 0.0;  // while the tool goes back
+  bool backs_off_ = false;     // likewise, in this step
+  double calm_s_ = 0.0;        // below the guard
 };
 
 }  // namespace longreach

@@ -51,8 +51,8 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
     out.X_WE = X_WE_;
     return out;
   }
-  force_.approach(input.contact, input.dt);
-  moment_.approach(input.moment, input.dt);
+  force_.approach(input.contact, X_WE_.p, input.dt);
+  moment_.approach(input.moment, turned_rad_, input.dt);
   const Pose goal = inside(*input.X_WE_goal, out);
   observe_goal(goal, input.dt);
 

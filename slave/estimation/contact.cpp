@@ -218,6 +218,20 @@ void SlaveContact::forget_goals() {
   for (Surface& s : surfaces_) s.forget_goals();
 }
 
+void SlaveContact::forget_surfaces() {
+  for (Surface& s : surfaces_) s.forget();
+  before_.clear();
+}
+
+void SlaveContact::restart() {
+  forget_surfaces();
+  detector_ = ContactDetector(sensing_);
+  reading_ = {};
+  force_ = {};
+  onset_.reset();
+  aside_ = {};
+}
+
 void SlaveContact::move_origin(const Vector3& by) {
   if (onset_) *onset_ -= by;
   aside_.p_WE -= by;

@@ -51,18 +51,23 @@ class Guarded : public Invariant {
     }
     if (force_n <= bound_n_) pressed_n_ = 0.0;
     if (engaged) engaged_s_ += m.period_s;
+    if (force_n < kFall * pressed_n_) {
+      pressed_n_ = force_n;
+      engaged_s_ = std::min(engaged_s_, kRelief_s - kNext_s);
+    }
     const double most_n = pressed_n_ > 0.0 && engaged_s_ < kRelief_s ? kRise * pressed_n_ : bound_n_;
     if (force_n > 0.0) at_most(m, force_n, most_n, "N at the tool");
   }
 
  private:
   static constexpr double kRelief_s = 3.0, kRise = 1.05, kSwift = 1.05;
+  static constexpr double kFall = 0.9, kNext_s = 1.0;  // an arm that is stretched goes back slowly
 
   double bound_n_;
   bool stiff_;
   bool beyond_ = false;
   double last_n_ = 0.0, settled_s_ = 0.0;
-  // Somebody has pressed the robot in: it may stay so till it is engaged, and is then relieved.
+  // The robot was pressed in: it may stay so till it is engaged, is then relieved, and never goes in deeper.
   double pressed_n_ = 0.0, engaged_s_ = 0.0;
 };
 

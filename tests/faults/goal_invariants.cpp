@@ -74,11 +74,18 @@ class FreeSpace : public Invariant {
       doubtful_ = doubtful_ || m.since(what) < kDecays_s;
     if (m.engagement != engagement_) doubtful_ = false;
     engagement_ = m.engagement;
-    if (doubtful_ || !both_engaged(m) || depth_m(m.anchor_m + m.goal_m) > -kPlace_m) return;
+    lied_ = (lied_ && !forgotten(m)) || m.since(Spoils::kSensor) < kDecays_s;
+    if (doubtful_ || lied_ || !both_engaged(m) || depth_m(m.anchor_m + m.goal_m) > -kPlace_m) return;
     at_most(m, m.contact_n, kNothing_n, "N where nothing is");
   }
 
  private:
+  /// What a lie has made of surfaces is known till nothing is there, or till the sensor is found to lie.
+  [[nodiscard]] static bool forgotten(const Moment& m) {
+    if (m.cause == HoldCause::kSensorSign || m.cause == HoldCause::kSensorFault) return true;
+    return m.report && std::ranges::none_of(m.report->translation.surfaces,
+                                            [](const ReportedSurface& s) { return s.touch > 0; });
+  }
   static constexpr double kPlace_m = 1e-3;  // of a surface that was found
   static constexpr double kNothing_n = 0.2, kDecays_s = 1.0;
 
@@ -98,7 +105,7 @@ class FreeSpace : public Invariant {
   std::vector<SurfaceConfig> surfaces_;
   double radius_m_;
   std::uint32_t engagement_ = 0;
-  bool doubtful_ = false;
+  bool doubtful_ = false, lied_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // A force sensor that lies.
 
+#include <algorithm>
 #include <array>
 
 #include "tests/faults/world.hpp"
@@ -37,6 +38,14 @@ void wrong_sign(World&, Active&, RobotState& told) {
   told.F_F_W.force *= -1.0;
   told.F_F_W.moment *= -1.0;
 }
+/// As a wrong sign does on a wall: the force that it tells grows as the tool gives way to it.
+void opposes(World& world, Active& fault, RobotState& told) {
+  const Vector3& along = direction(fault);
+  const double guard_n = world.scenario().slave.command.force_guard_n;
+  if (fault.begins) fault.level = along.dot(world.moment().X_WE.p);
+  const double way_m = std::max(along.dot(world.moment().X_WE.p) - fault.level, 0.0);
+  told.F_F_W.force += (0.95 * guard_n + log_scale(fault.fault.size, 300.0, 1e4) * way_m) * along;
+}
 void wrong_frame(World&, Active& fault, RobotState& told) {
   const Quaternion q = exp_rotation(fault.fault.size * 3.0 * direction(fault));
   told.F_F_W = {q * told.F_F_W.moment, q * told.F_F_W.force};
@@ -69,6 +78,13 @@ const FaultKind kKinds[] = {
     {.name = "sensor-saturated", .group = kGroup, .spoils = kSensor, .robot = saturated},
     {.name = "sensor-spikes", .group = kGroup, .spoils = kSensor, .robot = spike},
     {.name = "sensor-sign", .group = kGroup, .spoils = kSensor, .robot = wrong_sign},
+    {.name = "sensor-opposes",
+     .group = kGroup,
+     .spoils = kSensor,
+     .longest_s = 6.0,
+     .shortest_s = 2.0,
+     .besides = 0.15,
+     .robot = opposes},
     {.name = "sensor-frame", .group = kGroup, .spoils = kSensor, .robot = wrong_frame},
     {.name = "sensor-frozen", .group = kGroup, .spoils = kSensor, .robot = frozen},
     {.name = "sensor-noisy", .group = kGroup, .spoils = kSensor, .robot = noisy},

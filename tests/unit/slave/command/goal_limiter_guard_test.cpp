@@ -86,6 +86,20 @@ TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {
   EXPECT_LE(soft.go_to(Vector3(0.1, 0, 0), 100).norm(), kSpeed);
 }
 
+TEST(GoalLimiterGuard, AToolThatWasPushedInComesOutByTheStiffnessThatItShows) {
+  constexpr double kTrue_n_per_m = 5e3, kPushed_n = 130.0;
+  for (const double told_n_per_m : {0.0, 5e3, 6e5, 1e8}) {
+    Touching t(kPushed_n);
+    t.contact.stiffness_n_per_m = told_n_per_m;
+    for (int i = 0; i < 3000; ++i) {
+      t.go_to(Vector3(0.1, 0, 0), 1);
+      t.contact.force_n = kPushed_n + kTrue_n_per_m * t.out.X_WE.p.x();
+    }
+    EXPECT_LT(t.contact.force_n, 1.15 * kGuard_n) << told_n_per_m;
+    EXPECT_GT(t.contact.force_n, 0.8 * kGuard_n) << told_n_per_m;
+  }
+}
+
 TEST(GoalLimiterGuard, WhatIsStillComingIsTakenBackButNoFurther) {
   Touching t(kGuard_n);
   t.contact.lead_m = 1e-4;

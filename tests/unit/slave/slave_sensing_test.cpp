@@ -1,0 +1,60 @@
+// What a sensor that was found to lie has made of surfaces is not there.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/unit/slave/node_loop.hpp"
+
+namespace longreach {
+namespace {
+
+using test::Loop;
+
+bool knows_a_surface(const Loop& loop) {
+  return std::ranges::any_of(loop.last_report->translation.surfaces,
+                             [](const ReportedSurface& s) { return s.touch > 0; });
+}
+
+TEST(SlaveSensing, AForceThatOpposesItsReliefLeavesNoSurface) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  loop.run(0.2);
+  EXPECT_FALSE(knows_a_surface(loop));
+  const double begun_m = loop.travelled();
+  loop.lie = [&](RobotState& told) {
+    told.F_F_W.force.x() += 21.0 + 2000.0 * std::max(loop.travelled() - begun_m, 0.0);
+  };
+  loop.run(0.02);
+  EXPECT_TRUE(knows_a_surface(loop)) << "before the lie is found";
+  loop.run(5.0);
+  ASSERT_EQ(loop.view().cause, HoldCause::kSensorSign);
+  EXPECT_FALSE(knows_a_surface(loop));
+  loop.lie = {};
+  loop.engage(2);
+  loop.run(0.5);
+  EXPECT_FALSE(knows_a_surface(loop));
+  EXPECT_FALSE(loop.view().in_contact);
+}
+
+TEST(SlaveSensing, WhatPressesWhenTheSensorIsRightAgainIsANewTouch) {
+  Loop loop(test::wall_config(0.02, 1000.0));
+  loop.engage();
+  loop.move_to(0.025, 0.02);
+  loop.run(1.0);
+  ASSERT_TRUE(loop.view().in_contact);
+  const std::uint32_t touch = loop.view().touch;
+  loop.lie = [](RobotState& told) { told.F_F_W.force.x() = std::numeric_limits<double>::infinity(); };
+  loop.run(0.1);
+  EXPECT_EQ(loop.view().cause, HoldCause::kSensorFault);
+  EXPECT_FALSE(knows_a_surface(loop));
+  loop.lie = {};
+  loop.engage(2);
+  loop.run(0.1);
+  EXPECT_TRUE(loop.view().in_contact);
+  EXPECT_GT(loop.view().touch, touch);
+}
+
+}  // namespace
+}  // namespace longreach
