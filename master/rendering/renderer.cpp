@@ -207,7 +207,8 @@ void Renderer::let_down(const RendererInput& input) {
   mode_ = input.mode;
   clutched_ = input.clutched;
   live_ = input.live;
-  if (freed && translation_.contact.foremost().force > 0.0) translation_.guard.free_hand();
+  const double pushed_n = translation_.guard.gain() * translation_.contact.foremost().force;
+  if (freed && pushed_n > 0.0) translation_.guard.free_hand();
 }
 
 /// Motion fills the store again (tank level control).

@@ -70,9 +70,12 @@ Vector3 ContactGuard::back_off(const ContactForce& contact, const Vector3& p) {
 }
 
 bool ContactGuard::backed_off(const ContactForce& contact, const Vector3& v, double dt) {
-  if (!backs_off_) return false;
-  give_way(contact, v, dt);
-  return !relief_.may_go_on();
+  if (backs_off_) back_ = contact.reaction;
+  if (!backs_off_ && !(v.dot(back_) > 0.0)) back_.setZero();
+  if (back_.isZero(0.0)) return false;
+  // What it goes on while it brakes counts, too.
+  relief_.go(v.dot(back_) * dt, contact.force_n, dt, contact.trend_n_per_s);
+  return backs_off_ && !relief_.may_go_on();
 }
 
 void ContactGuard::give_way(const ContactForce& contact, const Vector3& v, double dt) {

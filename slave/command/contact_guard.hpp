@@ -3,9 +3,9 @@
 //   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
 //   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max; above k_max only as the force shows it: it falls to
-//   G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down to
-//   the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
+//   k the contact's stiffness as far as known, else k_max; above k_max only as the force shows it: it falls
+//   to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down
+//   to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
 //   ends where the force does not answer to it (relief.hpp). Where the force was seen to grow in another
 //   direction than into the contact, the speed in that direction is bounded likewise, and the tool does not
 //   give way along it.
@@ -103,9 +103,10 @@ class ContactGuard {
   GuardLimits limits_{};
   Relief relief_;
   std::optional<Bleed> bleed_{};
-  double seen_n_per_m_ = 0.0;  // while the tool goes back
-  bool backs_off_ = false;     // likewise, in this step
-  double calm_s_ = 0.0;        // below the guard
+  double seen_n_per_m_ = 0.0;       // while the tool goes back
+  bool backs_off_ = false;          // in a hold, in this step
+  Vector3 back_ = Vector3::Zero();  // unit: the way on which it backs off, or brakes after that
+  double calm_s_ = 0.0;             // below the guard
 };
 
 }  // namespace longreach

@@ -11,8 +11,8 @@ constexpr double kNormalMemoryS = 2.0;
 constexpr double kNoiseMemoryS = 0.02;
 constexpr double kOutlier = 5.0;  // of the usual sd: what a spike counts at most after it
 constexpr double kTouchSds = 8.0;
-constexpr double kElsewhere =
-    0.5;  // cosine, 60 degrees: friction turns the force of one surface by half of it
+// Cosine, 60 degrees: friction turns the force of one surface by half of it.
+constexpr double kOtherSide = 0.5;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
   reading.began = in_contact_ && !before;
   reading.ended = before && !in_contact_;
   const bool elsewhere =
-      force > reading.touch_n && normal_n_.stableNormalized().dot(filtered_n_) < kElsewhere * force;
+      force > reading.touch_n && normal_n_.stableNormalized().dot(filtered_n_) < kOtherSide * force;
   if (reading.began) sum_n_.setZero();
   if (reading.began || elsewhere) normal_n_.setZero();
   if (in_contact_) {

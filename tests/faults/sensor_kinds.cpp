@@ -38,6 +38,9 @@ void wrong_sign(World&, Active&, RobotState& told) {
   told.F_F_W.force *= -1.0;
   told.F_F_W.moment *= -1.0;
 }
+void twist(World&, Active& fault, RobotState& told) {
+  told.F_F_W.moment += log_scale(fault.fault.size, 0.02, 4.0) * direction(fault);
+}
 /// As a wrong sign does on a wall: the force that it tells grows as the tool gives way to it.
 void opposes(World& world, Active& fault, RobotState& told) {
   const Vector3& along = direction(fault);
@@ -85,6 +88,7 @@ const FaultKind kKinds[] = {
      .shortest_s = 2.0,
      .besides = 0.15,
      .robot = opposes},
+    {.name = "moment-biased", .group = kGroup, .spoils = kSensor, .besides = 0.15, .robot = twist},
     {.name = "sensor-frame", .group = kGroup, .spoils = kSensor, .robot = wrong_frame},
     {.name = "sensor-frozen", .group = kGroup, .spoils = kSensor, .robot = frozen},
     {.name = "sensor-noisy", .group = kGroup, .spoils = kSensor, .robot = noisy},

@@ -128,6 +128,40 @@ TEST(Renderer, AnEngagementThatBeginsAtTheDevicesEdgeOwesNothingAndStartsFromIts
   EXPECT_LT(renderer.translation().guard.deficit_max_j(), 2e-3);
 }
 
+/// Presses on a wall, then the engagement ends; long after that the clutch is pressed.
+TEST(Renderer, TheClutchOfAHandThatIsNotEngagedChangesNothing) {
+  Renderer renderer(RenderingConfig{}, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  GoalHistories history(1000);
+  RendererInput in;
+  in.live = true;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  double pressed_n = 0.0;
+  for (int i = 1; i <= 2000; ++i) {
+    in.handle.p_MH.x() = 5e-5 * std::min(i, 200);
+    in.handle.velocity_m_per_s = {i <= 200 ? 0.05 : 0.004, 0.0, 0.0};
+    in.live = i <= 300;
+    in.clutched = i > 1500;
+    mapping.step({in.handle, in.mode, in.scale, in.clutched}, 1e-3);
+    history.translation.push(static_cast<std::uint64_t>(i), mapping.goal().position_m);
+    history.rotation.push(static_cast<std::uint64_t>(i), mapping.goal().rotation_rad);
+    if (i == 100) {
+      StiffnessReport report;
+      report.translation.surfaces[0] = {.normal = -Vector3::UnitX(),
+                                        .stiffness = 500.0,
+                                        .touch_sequence = 50.0,
+                                        .touch = 1,
+                                        .pressed = true};
+      EXPECT_TRUE(renderer.on_report(report, history, in, mapping));
+    }
+    const double force_n = renderer.step(in, mapping).force.norm();
+    if (i <= 300) pressed_n = std::max(pressed_n, force_n);
+    if (i > 1400) ASSERT_EQ(force_n, 0.0) << i;
+  }
+  EXPECT_GT(pressed_n, 1.0);
+}
+
 /// Presses by 20 mm at 50 mm/s; after 5 mm a report comes of a wall of 500 N/m behind the hand. Returns by
 /// how much the step that is told changes after that: by the motion, or by a second report, of 5000 N/m,
 /// after 10 mm.

@@ -325,6 +325,25 @@ TEST(GoalLimiterGuard, WhereTheMomentGrowsTheTurnIsBounded) {
   EXPECT_TRUE(about_x.out.moment_guard);
 }
 
+TEST(GoalLimiterGuard, AWallThatComesInJerksIsGivenWayToNoFartherInAHold) {
+  constexpr double kWay_m = 0.015;
+  CommandConfig config;
+  config.give_way_m = kWay_m;
+  Touching t(0.0);
+  t.limiter.configure(config);
+  t.contact.stiffness_n_per_m = 300.0;
+  for (int jerk = 0; jerk < 40; ++jerk) {
+    for (int i = 0; i < 150; ++i) {
+      t.contact.in_contact = i < 50;
+      t.contact.reaction = i < 50 ? kOut : Vector3::Zero();
+      t.contact.force_n = i < 50 ? 15.0 : 0.0;
+      t.hold(1);
+    }
+  }
+  EXPECT_LT(-t.out.X_WE.p.x(), 1.01 * kWay_m) << "with what it goes on while it brakes";
+  EXPECT_GT(-t.out.X_WE.p.x(), 0.9 * kWay_m);
+}
+
 TEST(GoalLimiterGuard, GivesWayInAHoldNoFartherThanTheWorkspace) {
   CommandConfig config;
   config.workspace_m = 0.2;
