@@ -120,12 +120,13 @@ SlaveOutput SlaveNode::step(const SlaveInput& input) {
   SlaveOutput output;
   if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.gripper.asked();
-  s.reports.report(input, s.view, s.reached_sequence,
-                   {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
-                   {s.sensing.contact(), s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
-                   {s.sensing.turn_contact(), log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
-                    s.held_back.turn(), Vector3::Zero()},
-                   output);
+  s.reports.report(
+      input, s.view, s.reached_sequence,
+      {s.playout, s.turn_playout, s.X_WE_anchor.p, s.played_sequence, s.played_turn_sequence},
+      {s.sensing.contact(), s.view.X_WE.p - s.X_WE_anchor.p, s.held_back.place(), s.X_WE_anchor.p},
+      {s.sensing.turn_contact(), log_rotation(s.view.X_WE.q * s.X_WE_anchor.q.conjugate()),
+       s.held_back.turn(), Vector3::Zero()},
+      output);
   s.reports.telemetry(input, s.view, s.robot_ok, s.sensing.contact().foremost().depth_m(), output);
   s.view.touch_sequence = s.sensing.contact().foremost().touch_sequence();
   return output;

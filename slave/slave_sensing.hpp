@@ -45,8 +45,8 @@ class SlaveSensing {
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] bool ready() const { return load_.ready(); }
   [[nodiscard]] bool free() const { return !contact_.in_contact() && !turn_contact_.in_contact(); }
-  [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }    // measured
-  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }     // without tool, load and bias
+  [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }  // measured
+  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }   // without tool, load and bias
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
   [[nodiscard]] const ForceDoubt& doubt() const { return doubt_; }
   SlaveContact& contact() { return contact_; }

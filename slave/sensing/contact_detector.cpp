@@ -11,7 +11,8 @@ constexpr double kNormalMemoryS = 2.0;
 constexpr double kNoiseMemoryS = 0.02;
 constexpr double kOutlier = 5.0;  // of the usual sd: what a spike counts at most after it
 constexpr double kTouchSds = 8.0;
-constexpr double kElsewhere = 0.5;  // cosine, 60 degrees: friction turns the force of one surface by half of it
+constexpr double kElsewhere =
+    0.5;  // cosine, 60 degrees: friction turns the force of one surface by half of it
 
 }  // namespace
 
