@@ -129,13 +129,14 @@ const std::vector<Experiment> kExperiments = {
      "largest error: tracking {tracking_error_max_rad} rad, network {network_error_max_rad} rad, network and "
      "one step {network_newton_error_max_rad} rad"},
     {"identify",
-     "Five estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
+     "Seven estimators of a contact's k, λ and n against the Cramér-Rao bound and a batch fit, from sponge "
      "to steel",
      "", run_identify, identify_plots, "",
      "worst error of the stiffness while probing: maximum likelihood "
      "{stiffness_error_worst_maximum_likelihood_probe} %, batch fit {stiffness_error_worst_batch_probe} %, "
-     "two-stage {stiffness_error_worst_two_stage_probe} %, log-linear "
-     "{stiffness_error_worst_log_linear_probe} %"},
+     "extended Kalman filter {stiffness_error_worst_extended_kalman_probe} %, weighted log-linear "
+     "{stiffness_error_worst_weighted_log_linear_probe} %, log-linear "
+     "{stiffness_error_worst_log_linear_probe} %, two-stage {stiffness_error_worst_two_stage_probe} %"},
     {"synthesis",
      "Dimensions of a DELTA by GA, by SQP and by GA then SQP: which search is best, which design?", "",
      run_synthesis, synthesis_plots, "",

@@ -43,8 +43,8 @@ class SlaveContact {
   void locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence);
   /// The goals begin anew: what is known was met by none of them.
   void forget_goals();
-  /// The sensor has lied: what it made of surfaces is not there. What presses now is none before its force has
-  /// gone, or
+  /// The sensor has lied: what it made of surfaces is not there. What presses now is none before its force
+  /// has gone, or
   void forget_surfaces();
   /// begins anew.
   void restart();

@@ -3,11 +3,12 @@
 // maximum of the likelihood of all samples, in bounded time a sample. Given n the law is linear in (f, f a);
 // the sums of that least squares problem are kept for all n at once (exponent_sums.hpp), so n is found by
 // Newton's steps on the sums (variable projection, Golub and Pereyra 1973) and not by linearising about an
-// early, wrong estimate. (An extended Kalman filter reaches the same where a v is small, and diverges where
-// it is of the order of 1.) While little is known the sums stand on a grid of n, whose best node starts the
-// search; then in a series about n. Weak priors, n 1.75 ± 1 and a 0 ± 10 s/m, so that nothing is unbounded at
-// constant speed or depth. The fit is brought up to date when the samples have grown by 1/32, at least
-// every 32. Not handled: an unknown surface; noise of the position, which biases every method.
+// early, wrong estimate. (An extended Kalman filter does as well where a v is small; where it is of the order
+// of 1 it diverges, unless its linearisation error counts as noise.) While little is known the sums stand on
+// a grid of n, whose best node starts the search; then in a series about n. Weak priors, n 1.75 ± 1 and a 0 ±
+// 10 s/m, so that nothing is unbounded at constant speed or depth. The fit is brought up to date when the
+// samples have grown by 1/32, at least every 32. Not handled: an unknown surface; noise of the position,
+// which biases every method.
 
 #include "slave/estimation/exponent_sums.hpp"
 

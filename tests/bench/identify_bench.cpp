@@ -12,6 +12,8 @@
 namespace longreach {
 namespace {
 
+constexpr std::int64_t kLast = std::size(kAllMethods) - 1;
+
 test::Samples record() {
   Random random(1);
   return test::with_noise(test::exact_record({}), 0.05, random);
@@ -39,7 +41,7 @@ void Identify(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
 }
-BENCHMARK(Identify)->DenseRange(0, 4);
+BENCHMARK(Identify)->DenseRange(0, kLast);
 
 /// As the slave does it: the surface is not known, and in each tick the answer at the depth where the hand
 /// works is asked for.
@@ -59,7 +61,7 @@ void SlavesOwnPath(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
 }
-BENCHMARK(SlavesOwnPath)->DenseRange(0, 4);
+BENCHMARK(SlavesOwnPath)->DenseRange(0, kLast);
 
 }  // namespace
 }  // namespace longreach

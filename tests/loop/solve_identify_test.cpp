@@ -106,8 +106,8 @@ TEST(SolveIdentify, SummarisesAllEstimators) {
   IdentifyOptions options;
   options.estimator = "all";
   const Result r = run(text(record(), Format::kCsv, true), options);
-  ASSERT_EQ(r.lines.size(), 5u);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(r.lines[i]["estimator"], identify_estimators()[i]);
+  ASSERT_EQ(r.lines.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(r.lines[i]["estimator"], identify_estimators()[i]);
 }
 
 TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {

@@ -60,7 +60,7 @@ TEST(Trade, TheDefaultsAreSmoothAndFeelRight) {
   EXPECT_LE(standard(trade_playout()).error, 0.1);             // m/s^2
   EXPECT_LE(standard(trade_accuracy_tracking()).error, 0.1);   // mm
   EXPECT_LE(standard(trade_accuracy_stiffness()).error, 1.5);  // %
-  EXPECT_LE(standard(trade_estimator()).error, 4.0);           // %
+  EXPECT_LE(standard(trade_estimator()).error, 0.1);           // %
 }
 
 /// FAST is right on three walls and wrong on one: a mean would hide that.

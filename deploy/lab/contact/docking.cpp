@@ -73,6 +73,7 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
     worst.port_energy_min_j = std::min(worst.port_energy_min_j, o.port_energy_min_j);
     report();
   }
+  const double of_good_n = worst.tool_force_max_n;
   int mistakes_felt = 0, mistakes_safe = 0;
   for (int m = 1; m < kDockingMistakes; ++m) {
     const auto mistake = static_cast<DockingMistake>(m);
@@ -94,6 +95,7 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
   metrics.push_back({"time_to_dock_s", time_s, "s, mean"});
   metrics.push_back({"felt_least_n", felt_least_n, "N, greatest force of the rise, least of the seeds"});
   metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, mistakes included"});
+  metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without the mistakes"});
   metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, mistakes included"});
   metrics.push_back({"energy_created_max_j", worst.energy_created_j, "J"});
   metrics.push_back({"port_energy_min_j", worst.port_energy_min_j, "J"});

@@ -9,8 +9,9 @@ constexpr double kHand_n_per_m = 400.0;  // a firm grip
 constexpr double kPullMax_m = 0.04;      // the hand's target ahead of the handle: 16 N
 constexpr double kRoom_m = 0.055;        // of the handle about home, before it is relocated
 constexpr double kRelocation_s = 1.2;
-constexpr double kFast_m_per_s = 0.022, kFine_m_per_s = 0.015, kInsert_m_per_s = 0.01,
-                 kPress_m_per_s = 0.0015;
+constexpr double kSlow_m_per_s = 0.01, kFast_m_per_s = 0.03;  // of hands, of the tool
+constexpr double kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
+constexpr double kBetweenRests_s = 15.0, kLongestRest_s = 3.0;
 constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
 constexpr double kCareful_m = 0.03;   // in front of the catch
 constexpr double kFelt_n = 0.8, kGone_n = 0.25;
@@ -33,6 +34,21 @@ DockingOperator::DockingOperator(const MappingConfig& mapping, double rate_stiff
   misjudged_m_ = error(0.002);
   misjudged_rad_ = error(0.006);
   reaction_s_ = std::max(0.15, 0.25 + 0.04 * random.normal());
+  speed_m_per_s_ = random.uniform(kSlow_m_per_s, kFast_m_per_s);
+  random_ = random.child("rests");
+}
+
+// Hands pause; in rate mode they go home to do so.
+bool DockingOperator::rests(const DockingOperatorInput& in) {
+  if (relocating_s_ || phase_ == DockingPhase::kWait) return false;
+  if (in.t_s > rest_ends_s_) {
+    const bool begins = random_.chance(in.dt_s / kBetweenRests_s);
+    if (begins) rest_ends_s_ = in.t_s + random_.uniform(0.5, kLongestRest_s);
+    return false;
+  }
+  if (mode_ == MotionMode::kRate) hand_m_ = centre_m_;
+  there_s_.reset();
+  return true;
 }
 
 void DockingOperator::enter(DockingPhase phase, const DockingOperatorInput& in) {
@@ -131,7 +147,7 @@ bool DockingOperator::held(const DockingOperatorInput& in) {
 
 DockingOperatorOutput DockingOperator::step(const DockingOperatorInput& in) {
   out_ = {};
-  if (!held(in)) act(in);
+  if (!held(in) && !rests(in)) act(in);
   if (closed_ != asked_) out_.requests.grip = asked_ = closed_;
   out_.target.position_m = hand_m_;
   out_.target.rotation_rad = hand_rad_;
@@ -170,11 +186,11 @@ void DockingOperator::act(const DockingOperatorInput& in) {
 
 void DockingOperator::approach(const DockingOperatorInput& in) {
   const Vector3 target = in.picture.fixture_m + misjudged_m_ - kStandoff_m * Vector3::UnitX();
-  if (drive(in, target, kFast_m_per_s) && looked(in)) enter(DockingPhase::kReach, in);
+  if (drive(in, target, speed_m_per_s_) && looked(in)) enter(DockingPhase::kReach, in);
 }
 
 void DockingOperator::reach(const DockingOperatorInput& in) {
-  if (carry(in, in.picture.fixture_m + misjudged_m_, kFine_m_per_s) && looked(in))
+  if (carry(in, in.picture.fixture_m + misjudged_m_, speed_m_per_s_) && looked(in))
     enter(DockingPhase::kGrasp, in);
 }
 
@@ -197,7 +213,7 @@ void DockingOperator::drag(const DockingOperatorInput& in) {
     aim_m_ = guide_.mouth_m + misjudged_m_ - striker_from_tool(in);
     ++rounds_;
   }
-  if (drive(in, aim_m_, kFast_m_per_s) && looked(in)) enter(DockingPhase::kAlign, in);
+  if (drive(in, aim_m_, speed_m_per_s_) && looked(in)) enter(DockingPhase::kAlign, in);
 }
 
 // Turns the target straight and puts its tip before the funnel, twice: the second time with what the first
@@ -213,7 +229,7 @@ void DockingOperator::align(const DockingOperatorInput& in) {
     ++rounds_;
   }
   turn(in, aim_rad_);
-  const bool there = carry(in, aim_m_, kFine_m_per_s) && (aim_rad_ - in.ghost_rad).norm() < 0.003;
+  const bool there = carry(in, aim_m_, speed_m_per_s_) && (aim_rad_ - in.ghost_rad).norm() < 0.003;
   if (!there || !looked(in)) return;
   look_s_.reset();
   if (++rounds_ >= 4) enter(DockingPhase::kInsert, in);
@@ -279,7 +295,7 @@ void DockingOperator::retreat(const DockingOperatorInput& in) {
     aim_m_ = in.ghost_m - 0.08 * Vector3::UnitX();
     ++rounds_;
   }
-  if (carry(in, aim_m_, kFine_m_per_s) && looked(in)) enter(DockingPhase::kDone, in);
+  if (carry(in, aim_m_, speed_m_per_s_) && looked(in)) enter(DockingPhase::kDone, in);
 }
 
 }  // namespace longreach

@@ -2,8 +2,9 @@
 // A simulated person who docks: approaches in rate mode, grasps in position mode, drags the load in rate
 // mode, turns and pushes it in in position mode, and stops when the force that has risen vanishes; then opens
 // the gripper and backs off. Knows what a person would: the own hand, the felt contact force, the ghost of
-// the own commands, and a picture that comes late and is judged with an error. After each leg he waits a
-// round trip and looks again (move and wait, Ferrell 1965). Never evidence about people.
+// the own commands, and a picture that comes late and is judged with an error. His hand goes at 10 to 30 mm/s
+// and pauses at times; after each leg he waits a round trip and looks again (move and wait, Ferrell 1965).
+// Never evidence about people.
 
 #include <cstdint>
 #include <optional>
@@ -83,6 +84,7 @@ class DockingOperator {
  private:
   void enter(DockingPhase phase, const DockingOperatorInput& in);
   bool held(const DockingOperatorInput& in);
+  bool rests(const DockingOperatorInput& in);
   void act(const DockingOperatorInput& in);
   void approach(const DockingOperatorInput& in);
   void reach(const DockingOperatorInput& in);
@@ -109,7 +111,9 @@ class DockingOperator {
   DockingMistake mistake_;
   Vector3 misjudged_m_;  // error of the eye
   Vector3 misjudged_rad_;
-  double reaction_s_;
+  double reaction_s_, speed_m_per_s_;
+  Random random_{0};
+  double rest_ends_s_ = 0.0;
   DockingPhase phase_ = DockingPhase::kWait;
   double entered_s_ = 0.0;
   std::optional<double> there_s_{}, look_s_{}, relocating_s_{}, held_s_{};

@@ -16,8 +16,7 @@ constexpr double kGuardShare = 1.35;    // of the guard: the greatest force that
 constexpr double kSlow_m_per_s = 0.05;  // a target that drifts no faster can be taken again
 // Of the slave's force: what a hand holds against, it lets run when the catch gives way.
 constexpr double kForceShare = 0.2;
-// What the load's inertia makes, 3 N, stays below what counts as a touch, and the force guard holds.
-constexpr double kLoadAcceleration = 0.1, kLoadSpeed = 0.025;
+constexpr double kLoadAcceleration = 0.5;  // at which the load's inertia is three quarters of the force guard
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
@@ -26,10 +25,7 @@ SlaveConfig slave_config(const proto::LabConfig& lab) {
   message.clear_robot();
   message.clear_robot_file();
   message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
-  message.mutable_command()->set_speed_max_m_per_s(kLoadSpeed);
   message.mutable_command()->set_acceleration_max_rad_per_s2(0.1);
-  message.mutable_sensing()->set_touch_n(4.0);
-  message.mutable_sensing()->set_release_n(2.0);
   resolve_files(message, find_deploy_folder());
   return to_struct(message);
 }

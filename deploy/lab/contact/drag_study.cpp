@@ -116,8 +116,9 @@ std::vector<Plot> drag_plots() {
 }
 
 std::vector<Metric> run_drag_study(const ExperimentRun& run) {
-  const auto drags = static_cast<std::size_t>(campaign(200, 24));
-  const std::size_t walls = 12, empty = 6;
+  const auto drags = static_cast<std::size_t>(campaign(200, 10));
+  const auto walls = static_cast<std::size_t>(campaign(12, 4)),
+             empty = static_cast<std::size_t>(campaign(6, 2));
   Loads loads, met, nothing;
   Random random = Random(run.seed).child("drag");
   for (std::size_t i = 0; i < drags; ++i) loads.cells.push_back(draw_drag(random));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "deploy/lab/contact/contact_batch.hpp"
 #include "deploy/lab/estimators/methods.hpp"
@@ -75,29 +76,44 @@ std::string metric_name(std::size_t method) {
   return name;
 }
 
-/// Over the cells of one way to move, of noise 0.05 N: worst error of the stiffness; of the best estimator:
-/// worst ratio to the batch fit where the bound says that it is identifiable.
+/// Over the cells of one way to move: worst error of the stiffness with noise 0.05 N; worst ratios to the
+/// batch fit where the bound says that it is identifiable.
 struct Summary {
   std::array<double, kMethods> stiffness_worst{};
-  Errors ratio_worst{};
+  std::array<Errors, kMethods> ratio_worst{};
 
   void add(const ContactCell& cell, const CellResult& result) {
     constexpr double kIdentifiable[] = {0.05, 0.05, 0.2};
-    const std::size_t best = static_cast<std::size_t>(Method::kMaximumLikelihood);
     for (std::size_t m = 0; m < kMethods && cell.noise_n == kShownNoise; ++m)
       stiffness_worst[m] = std::max(stiffness_worst[m], result.rms[m][1]);
-    for (std::size_t p = 0; p < ratio_worst.size(); ++p) {
+    for (std::size_t p = 0; p < result.bound.size(); ++p) {
       if (result.bound[p] > kIdentifiable[p]) continue;
-      ratio_worst[p] = std::max(ratio_worst[p], result.rms[best][p] / result.rms.back()[p]);
+      for (std::size_t m = 0; m < kMethods; ++m)
+        ratio_worst[m][p] = std::max(ratio_worst[m][p], result.rms[m][p] / result.rms.back()[p]);
     }
   }
 };
 
+/// Of the columns, in the order of kAllMethods; the batch fit is the last.
+constexpr const char* kColumns[kMethods] = {"fixed",      "two_stage",    "log",    "voigt",
+                                            "likelihood", "weighted_log", "kalman", "batch"};
+constexpr Method kJudgedBesideBatch[] = {Method::kMaximumLikelihood, Method::kExtendedKalman,
+                                         Method::kWeightedLogLinear, Method::kTwoStage, Method::kLogLinear};
+constexpr const char* kParameters[] = {"k", "stiffness", "lambda"};
+
+std::vector<std::string> columns() {
+  std::vector<std::string> names{"k"};
+  for (const char* parameter : kParameters) names.push_back(std::string(parameter) + "_bound");
+  for (const char* method : kColumns)
+    for (const char* parameter : kParameters) names.push_back(std::string(parameter) + "_" + method);
+  return names;
+}
+
 void write(Trace& trace, const ContactCell& cell, const CellResult& r) {
-  const auto& v = r.rms;
-  trace.row({cell.k,  r.bound[0], r.bound[1], r.bound[2],                                               //
-             v[0][0], v[0][1],    v[0][2],    v[1][0],    v[1][1], v[1][2], v[2][0], v[2][1], v[2][2],  //
-             v[3][0], v[3][1],    v[3][2],    v[4][0],    v[4][1], v[4][2], v[5][0], v[5][1], v[5][2]});
+  std::vector<double> row{cell.k};
+  row.insert(row.end(), r.bound.begin(), r.bound.end());
+  for (const Errors& rms : r.rms) row.insert(row.end(), rms.begin(), rms.end());
+  trace.row(row);
 }
 
 }  // namespace
@@ -106,29 +122,8 @@ std::vector<Metric> run_identify(const ExperimentRun& run) {
   std::vector<Metric> metrics;
   const Random random = Random(run.seed).child("identify");
   for (std::size_t e = 0; e < std::size(kExcitationNames); ++e) {
-    Trace trace(run.out, std::string("identify_") + kExcitationNames[e],
-                {"k",
-                 "k_bound",
-                 "stiffness_bound",
-                 "lambda_bound",
-                 "k_fixed",
-                 "stiffness_fixed",
-                 "lambda_fixed",
-                 "k_two_stage",
-                 "stiffness_two_stage",
-                 "lambda_two_stage",
-                 "k_log",
-                 "stiffness_log",
-                 "lambda_log",
-                 "k_voigt",
-                 "stiffness_voigt",
-                 "lambda_voigt",
-                 "k_likelihood",
-                 "stiffness_likelihood",
-                 "lambda_likelihood",
-                 "k_batch",
-                 "stiffness_batch",
-                 "lambda_batch"});
+    const std::vector<std::string> names = columns();
+    Trace trace(run.out, std::string("identify_") + kExcitationNames[e], {names.begin(), names.end()});
     Summary summary;
     for (const double n : kExponents) {
       for (const double noise : kNoises) {
@@ -146,9 +141,14 @@ std::vector<Metric> run_identify(const ExperimentRun& run) {
     for (std::size_t m = 0; m < kMethods; ++m)
       metrics.push_back(
           {"stiffness_error_worst_" + metric_name(m) + way, 100.0 * summary.stiffness_worst[m], "%"});
-    metrics.push_back({"k_over_batch_worst" + way, summary.ratio_worst[0], ""});
-    metrics.push_back({"stiffness_over_batch_worst" + way, summary.ratio_worst[1], ""});
-    metrics.push_back({"lambda_over_batch_worst" + way, summary.ratio_worst[2], ""});
+    // Of the slave's own without a name.
+    for (const Method method : kJudgedBesideBatch) {
+      const std::size_t m = static_cast<std::size_t>(method);
+      const std::string of = method == Method::kMaximumLikelihood ? "" : "_" + metric_name(m);
+      for (std::size_t p = 0; p < std::size(kParameters); ++p)
+        metrics.push_back(
+            {std::string(kParameters[p]) + "_over_batch_worst" + of + way, summary.ratio_worst[m][p], ""});
+    }
   }
   return metrics;
 }
@@ -166,7 +166,9 @@ std::vector<Plot> identify_plots() {
       panels.push_back(
           {label,
            {curve("voigt", "Kelvin-Voigt", false, 0, 3), curve("two_stage", "two-stage", false, 0, 4),
-            curve("log", "log-linear", false, 0, 1), curve("fixed", "fixed n, the right one", false, 0, 5),
+            curve("log", "log-linear", false, 0, 1), curve("weighted_log", "weighted log", true, 9, 0),
+            curve("kalman", "Kalman filter", true, 11, 3),
+            curve("fixed", "fixed n, the right one", false, 0, 5),
             curve("likelihood", "maximum likelihood", false, 0, 0),
             curve("batch", "batch fit (Ceres)", true, 6, 2), curve("bound", "Cramér-Rao bound", true, 2, 1)},
            "set logscale xy\nset yrange [1e-2:1e4]\nset format y '%g'\nset ytics 100"});

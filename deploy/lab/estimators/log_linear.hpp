@@ -1,8 +1,10 @@
 #pragma once
 // Hunt-Crossley made linear by its logarithm (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012):
 //   ln F = ln f + a v + n ln ξ,   for |a v| << 1
-// by recursive least squares, all samples alike. Bias of k: -4 % where a v reaches 0.42, -20 % at 0.84. The
-// noise of ln F grows as F falls, so samples below 5 sd of the force are left out: many of a touch are.
+// by least squares, all samples alike: the form that was published. Bias of k: -4 % where a v reaches 0.42,
+// -20 % at 0.84. The noise of ln F grows as F falls, so samples below 5 sd of the force are left out: many of
+// a touch are. weighted_log_linear.hpp mends both. The fit is brought up to date when the samples have grown
+// by 1/32, at least every 32.
 
 #include <algorithm>
 
@@ -17,6 +19,7 @@ class LogLinear {
 
   void reset() { *this = LogLinear(forgetting_); }
 
+  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     const double innovation = fit_.valid ? sample.force_n - fit_.force_at(sample) : std::nan("");
     if (!(sample.force_n > 0.0) || sample.force_n * sample.force_n < 25.0 * force_variance_n2)
@@ -27,6 +30,15 @@ class LogLinear {
     equations_.add(phi, y, forgetting_);
     squares_ = forgetting_ * squares_ + y * y;
     samples_ = forgetting_ * samples_ + 1.0;
+    if (++unused_ > std::min(kUnusedMax, samples_ / kShareUnused)) solve();
+    return innovation;
+  }
+  [[nodiscard]] const ContactFit& fit() const { return fit_; }
+
+ private:
+  static constexpr double kShareUnused = 32.0, kUnusedMax = 31.0;
+
+  void solve() {
     const Eigen::Matrix3d inverse = equations_.inverse();
     const Eigen::Vector3d theta = inverse * equations_.b();
     fit_.force_n = std::exp(theta[0]);
@@ -35,15 +47,14 @@ class LogLinear {
     const double residual = std::max(squares_ - theta.dot(equations_.b()), 1e-12 * squares_);
     fit_.covariance.topLeftCorner<3, 3>() = residual / std::max(samples_ - 3.0, 1.0) * inverse;
     fit_.valid = samples_ > 3.0 && std::isfinite(fit_.force_n) && fit_.covariance.allFinite();
-    return innovation;
+    unused_ = 0.0;
   }
-  [[nodiscard]] const ContactFit& fit() const { return fit_; }
 
- private:
   double forgetting_;
   NormalEquations<3> equations_;
   double squares_ = 0.0;  // Σ w y²
   double samples_ = 0.0;  // Σ w
+  double unused_ = 0.0;   // samples that are not yet in the fit
   ContactFit fit_{};
 };
 

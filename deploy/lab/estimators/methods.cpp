@@ -1,9 +1,11 @@
 #include "deploy/lab/estimators/methods.hpp"
 
 #include "deploy/lab/estimators/behind_surface.hpp"
+#include "deploy/lab/estimators/extended_kalman.hpp"
 #include "deploy/lab/estimators/kelvin_voigt.hpp"
 #include "deploy/lab/estimators/log_linear.hpp"
 #include "deploy/lab/estimators/two_stage.hpp"
+#include "deploy/lab/estimators/weighted_log_linear.hpp"
 
 namespace longreach {
 namespace {
@@ -29,9 +31,17 @@ std::unique_ptr<Estimator> behind_surface(const Textbook& estimator, const Ident
   return std::make_unique<Of<Behind>>(Behind(estimator, c.forgetting));
 }
 
-std::unique_ptr<Estimator> two_stage(const IdentifierConfig& c) { return behind_surface(TwoStage(), c); }
+std::unique_ptr<Estimator> two_stage(const IdentifierConfig& c) {
+  return behind_surface(TwoStage(c.forgetting), c);
+}
 std::unique_ptr<Estimator> log_linear(const IdentifierConfig& c) {
   return behind_surface(LogLinear(c.forgetting), c);
+}
+std::unique_ptr<Estimator> weighted_log_linear(const IdentifierConfig& c) {
+  return behind_surface(WeightedLogLinear(c.forgetting), c);
+}
+std::unique_ptr<Estimator> extended_kalman(const IdentifierConfig& c) {
+  return behind_surface(ExtendedKalman(c.forgetting), c);
 }
 std::unique_ptr<Estimator> kelvin_voigt(const IdentifierConfig& c) {
   if (c.surface_known) return std::make_unique<Of<KelvinVoigt>>(KelvinVoigt(c.forgetting));
@@ -50,6 +60,10 @@ std::string_view name_of(Method method) {
       return "log-linear";
     case Method::kKelvinVoigt:
       return "kelvin-voigt";
+    case Method::kWeightedLogLinear:
+      return "weighted-log-linear";
+    case Method::kExtendedKalman:
+      return "extended-kalman";
     case Method::kMaximumLikelihood:
       break;
   }
@@ -75,6 +89,12 @@ IdentifierConfig by(Method method, IdentifierConfig config) {
       break;
     case Method::kKelvinVoigt:
       config.make = kelvin_voigt;
+      break;
+    case Method::kWeightedLogLinear:
+      config.make = weighted_log_linear;
+      break;
+    case Method::kExtendedKalman:
+      config.make = extended_kalman;
       break;
     case Method::kMaximumLikelihood:
       config.kind = EstimatorKind::kMaximumLikelihood;

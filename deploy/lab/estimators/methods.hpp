@@ -1,5 +1,6 @@
 #pragma once
-// The estimators that the laboratory compares: the slave's own two, and those of textbooks.
+// The estimators that the laboratory compares: the slave's own two, and published ones in their best form.
+// Their headers say what is published and what is added.
 
 #include <optional>
 #include <string_view>
@@ -8,10 +9,20 @@
 
 namespace longreach {
 
-enum class Method : std::uint8_t { kFixedExponent, kTwoStage, kLogLinear, kKelvinVoigt, kMaximumLikelihood };
+enum class Method : std::uint8_t {
+  kFixedExponent,
+  kTwoStage,
+  kLogLinear,
+  kKelvinVoigt,
+  kMaximumLikelihood,
+  kWeightedLogLinear,
+  kExtendedKalman
+};
 
-inline constexpr Method kAllMethods[] = {Method::kFixedExponent, Method::kTwoStage, Method::kLogLinear,
-                                         Method::kKelvinVoigt, Method::kMaximumLikelihood};
+/// In the order of their numbers.
+inline constexpr Method kAllMethods[] = {
+    Method::kFixedExponent,     Method::kTwoStage,          Method::kLogLinear,     Method::kKelvinVoigt,
+    Method::kMaximumLikelihood, Method::kWeightedLogLinear, Method::kExtendedKalman};
 
 /// "maximum-likelihood" and so on.
 std::string_view name_of(Method method);

@@ -1,54 +1,118 @@
 #pragma once
 // Two least squares problems that feed each other (Diolaiti, Melchiorri, Stramigioli, IEEE T-RO 2005):
 //   F = (c0 + c1 v) ξⁿ  for (c0, c1) with n as known;   ln(F/(c0 + c1 v)) = n ln ξ  for n with these
-// ξ = x/x_ref with x_ref the largest depth within a factor of 2: with x in metres it does not converge at
-// all. It takes 2 to 7 s, and its sd counts the noise only, not how far it still is. Samples below 5 sd of
-// the force do not count for n.
+// Published: the two, recursively. Ours, since without each of them it is handicapped: ξ = x/x_ref (with x in
+// metres it does not converge at all), x_ref the weighted geometric mean of the depths, so that an error of n
+// hardly changes c0 and both agree soon; the weight and the mean of a logarithm in the second
+// (weighted_log_linear.hpp); the prior; and, besides `forgetting`, forgetting at the start only, of what the
+// stages learnt from each other's first errors: 1 - 0.05·0.995^samples (Ljung and Söderström, Theory and
+// Practice of Recursive Identification). Its sd counts the noise only, not how far it still is. Samples below
+// 5 sd of the force do not count for n. Not handled: a v of the order of 1, where it does not converge in 2
+// s.
 
 #include <algorithm>
 
-#include "slave/estimation/linear_contact.hpp"
+#include "deploy/lab/estimators/weak_prior.hpp"
+#include "slave/estimation/contact_fit.hpp"
+#include "slave/estimation/normal_equations.hpp"
 
 namespace longreach {
 
 class TwoStage {
  public:
-  void reset() { *this = TwoStage(); }
+  explicit TwoStage(double forgetting) : forgetting_(forgetting) {}
 
+  void reset() { *this = TwoStage(forgetting_); }
+
+  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
-    if (linear_.reference_m <= 0.0) linear_.reference_m = sample.x_m;
-    if (sample.x_m > 2.0 * linear_.reference_m) refer_to(sample.x_m);
-    const double log_xi = std::log(sample.x_m / linear_.reference_m);
-    const double power = std::exp(n_ * log_xi);
+    if (startup_ == kStartup) fit_.reference_m = sample.x_m;
+    startup_ *= kStartupKept;
+    const double memory = forgetting_ * (1.0 - startup_);
+    const double log_xi = std::log(sample.x_m / fit_.reference_m), power = std::exp(fit_.n * log_xi);
+    const double speed = sample.v_m_per_s;
     const double innovation =
-        linear_.step({power, power * sample.v_m_per_s}, sample, kForgetting, force_variance_n2, n_, false);
-    const double amplitude = linear_.fit.force_n * (1.0 + linear_.fit.a_s_per_m * sample.v_m_per_s);
-    if (linear_.fit.valid && amplitude > 0.0 && sample.force_n > 5.0 * std::sqrt(force_variance_n2)) {
-      equation_.add(Eigen::Matrix<double, 1, 1>(log_xi), std::log(sample.force_n / amplitude), kForgetting);
-      const double n = equation_.inverse()(0, 0) * equation_.b()[0];
-      if (std::isfinite(n)) n_ = std::clamp(n, 0.5, 3.5);
+        fit_.valid ? sample.force_n - fit_.force_n * power * (1.0 + fit_.a_s_per_m * speed) : std::nan("");
+
+    const double first_guess = fit_.valid ? fit_.force_n : sample.force_n / power;
+    linear_.add({power, power * speed}, sample.force_n, memory);
+    solve_linear(first_guess, force_variance_n2);
+
+    const double amplitude = fit_.force_n * (1.0 + fit_.a_s_per_m * speed), force = amplitude * power;
+    const double weight = force * force;
+    if (fit_.valid && amplitude > 0.0 && sample.force_n > 0.0 && weight < kWeightMax &&
+        weight > kSd * kSd * force_variance_n2) {
+      const double log_ratio = std::log(sample.force_n / amplitude) + 0.5 * force_variance_n2 / weight;
+      exponent_.add(weight, log_xi, log_ratio, memory);
+      solve_exponent(force_variance_n2);
     }
-    linear_.fit.covariance(1, 1) =
-        equation_.inverse()(0, 0) * force_variance_n2 / (linear_.fit.force_n * linear_.fit.force_n);
-    linear_.fit.valid = linear_.fit.valid && std::isfinite(linear_.fit.covariance(1, 1));
     return innovation;
   }
-  [[nodiscard]] const ContactFit& fit() const { return linear_.fit; }
+  [[nodiscard]] const ContactFit& fit() const { return fit_; }
 
  private:
-  static constexpr double kForgetting = 0.995;  // each stage has to forget what the other has told wrongly
+  static constexpr double kStartup = 0.05, kStartupKept = 0.995;
+  static constexpr double kSd = 5.0, kWeightMax = 1e30;  // N²
+  static constexpr double kExponentMin = 0.5, kExponentMax = 3.5;
+  static constexpr double kOffMean = 0.05;  // of ln ξ
 
-  void refer_to(double depth_m) {
-    const double unit = std::pow(depth_m / linear_.reference_m, n_);
-    linear_.equations.rescale({unit, unit});
-    linear_.reference_m = depth_m;
-    linear_.fit.valid = false;
-    equation_ = {};
+  /// Sums of the second stage, of weight w, l = ln ξ and y = ln(F/(c0 + c1 v)).
+  struct ExponentSums {
+    double w = 0.0, l = 0.0, ll = 0.0, y = 0.0, ly = 0.0;
+
+    void add(double weight, double log_xi, double log_ratio, double memory) {
+      w = memory * w + weight;
+      l = memory * l + weight * log_xi;
+      ll = memory * ll + weight * log_xi * log_xi;
+      y = memory * y + weight * log_ratio;
+      ly = memory * ly + weight * log_xi * log_ratio;
+    }
+    /// The unit of depth becomes exp(by) times as long: l' = l - by, y' = y - n by.
+    void refer(double by, double n) {
+      const double y_after = y - n * by * w;
+      ly += -n * by * l - by * y_after;
+      ll += by * (by * w - 2.0 * l);
+      l -= by * w;
+      y = y_after;
+    }
+  };
+
+  void solve_linear(double first_guess, double variance) {
+    NormalEquations<2> all = linear_;
+    all.add({0.0, std::sqrt(variance) / (weak_prior::kDampingSd * first_guess)}, 0.0, 1.0);
+    const Eigen::Matrix2d inverse = all.inverse();
+    const Eigen::Vector2d c = inverse * all.b();
+    fit_.force_n = c[0];
+    fit_.a_s_per_m = c[1] / c[0];
+    Eigen::Matrix2d J;  // of (ln f, a) by c
+    J << 1.0 / c[0], 0.0, -fit_.a_s_per_m / c[0], 1.0 / c[0];
+    const Eigen::Matrix2d of = variance * J * inverse * J.transpose();
+    fit_.covariance(0, 0) = of(0, 0);
+    fit_.covariance(0, 2) = fit_.covariance(2, 0) = of(0, 1);
+    fit_.covariance(2, 2) = of(1, 1);
+    fit_.valid = c[0] > 0.0 && std::isfinite(fit_.a_s_per_m) && fit_.covariance.allFinite();
   }
 
-  LinearContact linear_;
-  NormalEquations<1> equation_;
-  double n_ = 1.0;
+  void solve_exponent(double variance) {
+    const double prior = variance / (weak_prior::kExponentSd * weak_prior::kExponentSd);
+    const double n = (exponent_.ly + prior * weak_prior::kExponent) / (exponent_.ll + prior);
+    if (!std::isfinite(n)) return;
+    fit_.n = std::clamp(n, kExponentMin, kExponentMax);
+    fit_.covariance(1, 1) = variance / (exponent_.ll + prior);
+    const double by = exponent_.l / exponent_.w;
+    if (std::abs(by) < kOffMean) return;
+    const double unit = std::exp(fit_.n * by);
+    linear_.rescale({unit, unit});
+    exponent_.refer(by, fit_.n);
+    fit_.force_n *= unit;
+    fit_.reference_m *= std::exp(by);
+  }
+
+  double forgetting_;
+  double startup_ = kStartup;
+  NormalEquations<2> linear_;
+  ExponentSums exponent_;
+  ContactFit fit_{};
 };
 
 }  // namespace longreach

@@ -65,7 +65,7 @@ void add_metrics(std::vector<Metric>& metrics, const TradeStage& stage,
 }
 
 Plot plot_of(const TradeStage& stage) {
-  constexpr int kMarks[] = {7, 5, 9, 11, 13, 4, 6, 8};
+  constexpr int kMarks[] = {7, 5, 9, 11, 13, 4, 6, 8, 10, 12};
   std::vector<Curve> curves{{"front", "front", 1.0, false, 7, 5}};
   for (std::size_t i = 0; i < stage.series.size(); ++i) {
     std::string title(stage.series[i]);
