@@ -41,7 +41,7 @@ TEST(Shape, DistanceIsThatOfTheNearestPointOfTheSurface) {
     Random random(seed);
     const Shape shape = random_shape(random, seed % 4);
     const Vector3 p = 1.5 * normal3(random);
-    const Side s = side(shape, p);
+    const SurfaceSide s = side(shape, p);
     ASSERT_EQ(inside(shape, p), s.distance_m < 0.0) << seed;
     ASSERT_NEAR(s.normal.norm(), 1.0, 1e-12) << seed;
     // The point that it names is on the surface ...
