@@ -247,8 +247,7 @@ TEST(Surfaces, ACurvedLawIsToldByItsTangentFromTheFootOn) {
 TEST(ContactSurfaces, AForceFromTheOtherSideIsOfAnotherSurfaceAndGuardedAtOnce) {
   SlaveContact contact(SensingConfig{}, EstimatorConfig{});
   const auto press = [&contact](const Vector3& force_n, int ticks) {
-    for (int i = 0; i < ticks; ++i)
-      contact.step({Vector3::Zero(), Vector3::Zero(), force_n, 0.0, 1.0, 1e-3});
+    for (int i = 0; i < ticks; ++i) contact.step({Vector3::Zero(), Vector3::Zero(), force_n, 0.0, 1.0, 1e-3});
   };
   press(Vector3(60, -180, 40), 2000);
   EXPECT_TRUE(contact.force().elsewhere.isZero(0.0));
