@@ -89,14 +89,16 @@ void SlaveSensing::step(const SensingInput& in) {
 ContactForce SlaveSensing::pressed(const SetpointLead& lead, bool moves) const {
   ContactForce force = contact_.force();
   force.lead_m = -force.reaction.dot(lead.m());
+  force.elsewhere_lead_m = -force.elsewhere.dot(lead.m());
   doubt_.tell(force, lead.m());
-  if (!moves) force.force_n = force.retreat_m_per_s = 0.0;
+  if (!moves) force.force_n = force.elsewhere_n = force.retreat_m_per_s = 0.0;
   return force;
 }
 
 ContactForce SlaveSensing::turned(const SetpointLead& lead, bool moves) const {
   ContactForce moment = turn_contact_.force();
-  if (!moves) moment.force_n = 0.0;
+  if (!moves) moment.force_n = moment.elsewhere_n = 0.0;
+  moment.elsewhere_lead_m = -moment.elsewhere.dot(lead.rad());
   moment.lead_m = -moment.reaction.dot(lead.rad());
   moment.trusted = !doubt_.rests();
   return moment;

@@ -45,11 +45,13 @@ double ContactGuard::braking(double left_m, double coming_m) const {
 // Whatever the sensor says of the direction.
 VelocityCap ContactGuard::growth(const ContactForce& contact) const {
   VelocityCap cap;
-  if (!contact.in_contact || contact.grows.isZero(0.0)) return cap;
+  const bool grows = !contact.grows.isZero(0.0), elsewhere = !contact.elsewhere.isZero(0.0);
+  if (!contact.in_contact || !(grows || elsewhere)) return cap;
   cap.active = true;
-  cap.direction = contact.grows;
-  const double left_m =
-      (limits_.guard_n - contact.force_n) / limits_.stiffness_n_per_m - std::max(contact.grows_lead_m, 0.0);
+  cap.direction = grows ? contact.grows : -contact.elsewhere;
+  const double lead_m = grows ? contact.grows_lead_m : contact.elsewhere_lead_m;
+  const double force_n = grows ? contact.force_n : contact.elsewhere_n;
+  const double left_m = (limits_.guard_n - force_n) / limits_.stiffness_n_per_m - std::max(lead_m, 0.0);
   cap.speed = left_m > 0.0 ? braking(left_m, 0.0) : 0.0;
   return cap;
 }

@@ -6,9 +6,10 @@
 //   k the contact's stiffness as far as known, else k_max; above k_max only as the force shows it: it falls
 //   to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down
 //   to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
-//   ends where the force does not answer to it (relief.hpp). Where the force was seen to grow in another
-//   direction than into the contact, the speed in that direction is bounded likewise, and the tool does not
-//   give way along it.
+//   ends where the force does not answer to it (relief.hpp). Where the force is far off the direction that
+//   it had in this contact, the tool goes against it no faster than that, either. Where the force was seen to
+//   grow in another direction than into the contact, the speed in that direction is bounded likewise, and the
+//   tool does not give way along it.
 // For a moment places are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max, τ_d
 // from the moment to the setpoint, what comes above the guard is at most k w τ_d; where k > k_max,
 //   k (w τ_d + w²/(2 a)).
@@ -23,15 +24,18 @@ namespace longreach {
 /// What the guard knows about the contact.
 struct ContactForce {
   bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
-  double force_n = 0.0;                // measured along it
-  double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
-  double lead_m = 0.0;                 // of the setpoint into the contact, still to come by the servo's lag
-  Vector3 grows = Vector3::Zero();     // unit, in which the force grows though it should not; zero: none
-  double grows_lead_m = 0.0;           // of the setpoint in that direction
-  bool trusted = true;                 // false: the tool gives way to nothing
-  double ease_m_per_s = 0.0;           // but without a goal so fast, to see whether the force answers
-  bool gives_way = false;              // to what grows at rest (force_answer.hpp), at this speed:
+  Vector3 reaction = Vector3::Zero();   // unit, direction of the force on the tool
+  double force_n = 0.0;                 // measured along it
+  double stiffness_n_per_m = 0.0;       // as identified; 0: unknown
+  double lead_m = 0.0;                  // of the setpoint into the contact, still to come by the servo's lag
+  Vector3 grows = Vector3::Zero();      // unit, in which the force grows though it should not; zero: none
+  double grows_lead_m = 0.0;            // of the setpoint in that direction
+  Vector3 elsewhere = Vector3::Zero();  // unit, of the whole force where that is far off `reaction`, and
+  double elsewhere_n = 0.0;
+  double elsewhere_lead_m = 0.0;  // the setpoint's lead against it
+  bool trusted = true;            // false: the tool gives way to nothing
+  double ease_m_per_s = 0.0;      // but without a goal so fast, to see whether the force answers
+  bool gives_way = false;         // to what grows at rest (force_answer.hpp), at this speed:
   double retreat_m_per_s = 0.0;
   bool gave_way = false;       // ever in this contact: the way that is given counts till it ends
   double trend_n_per_s = 0.0;  // that it grows by at rest

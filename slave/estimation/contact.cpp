@@ -15,6 +15,7 @@ constexpr double kUnknown = 3.0;   // sd of the normal: as much of the force may
 constexpr double kFriction = 0.6;  // the greatest coefficient of friction
 constexpr double kStickM = 5e-4;   // by which friction is at its greatest
 constexpr double kGrown = 1.5;     // of what is no friction, though as small, as the way doubles
+constexpr double kOtherSide = 0.8;   // cosine, 37 degrees: more than friction turns a force
 constexpr double kLeastShare = 0.1;  // of the largest, that an error of its normal may make
 
 }  // namespace
@@ -91,6 +92,11 @@ void SlaveContact::press(const ContactInput& input) {
   } else {
     for (Surface& s : surfaces_) {
       if (!s.pressed()) continue;
+      if (s.normal().dot(reading_.filtered_n) < 0.0) {  // from the other side
+        s.release();
+        begin(input, reading_.filtered_n, input.p_WE);
+        break;
+      }
       if (turning_) s.turn(reading_.filtered_n, input.dt);
       const Vector3 outward = reading_.filtered_n.stableNormalized();
       s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s});
@@ -101,6 +107,11 @@ void SlaveContact::press(const ContactInput& input) {
   const Vector3& normal = reading_.normal;
   force_ = {true, normal, std::max(normal.dot(input.force_n), normal.dot(reading_.filtered_n)),
             stiffness_along(normal)};
+  const double whole_n = reading_.filtered_n.stableNorm();
+  if (whole_n > reading_.touch_n && normal.dot(reading_.filtered_n) < kOtherSide * whole_n) {
+    force_.elsewhere = reading_.filtered_n / whole_n;
+    force_.elsewhere_n = whole_n;
+  }
 }
 
 void SlaveContact::press_several(const ContactInput& input) {

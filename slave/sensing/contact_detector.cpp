@@ -11,8 +11,7 @@ constexpr double kNormalMemoryS = 2.0;
 constexpr double kNoiseMemoryS = 0.02;
 constexpr double kOutlier = 5.0;  // of the usual sd: what a spike counts at most after it
 constexpr double kTouchSds = 8.0;
-// Cosine, 60 degrees: friction turns the force of one surface by half of it.
-constexpr double kOtherSide = 0.5;
+constexpr double kClear = 10.0;  // touch thresholds: the direction of a greater force is known no better
 
 }  // namespace
 
@@ -32,20 +31,15 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
   // Released below the touch threshold even if the configuration has them the wrong way round.
   reading.touch_n = std::max(config_.touch_n + doubt_n, kTouchSds * noise_n);
   const double release_n = std::min(config_.release_n, config_.touch_n);
-  const double along_n = sum_n_.stableNormalized().dot(filtered_n_);
-  in_contact_ = before ? force >= release_n && along_n >= 0.0 : force > reading.touch_n;
+  in_contact_ = before ? force >= release_n : force > reading.touch_n;
   reading.in_contact = in_contact_;
   reading.began = in_contact_ && !before;
   reading.ended = before && !in_contact_;
-  const bool elsewhere =
-      force > reading.touch_n && normal_n_.stableNormalized().dot(filtered_n_) < kOtherSide * force;
   if (reading.began) sum_n_.setZero();
-  if (reading.began || elsewhere) normal_n_.setZero();
   if (in_contact_) {
-    const double keep = std::exp(-dt / kNormalMemoryS);
-    sum_n_ = keep * sum_n_ + filtered_n_;
-    normal_n_ = keep * normal_n_ + filtered_n_;
-    reading.normal = normal_n_.stableNormalized();
+    const double weight = std::min(1.0, kClear * config_.touch_n / force);
+    sum_n_ = std::exp(-dt / kNormalMemoryS) * sum_n_ + weight * filtered_n_;
+    reading.normal = sum_n_.stableNormalized();
   }
   return reading;
 }

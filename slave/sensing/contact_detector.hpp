@@ -5,8 +5,8 @@
 // from the third differences of the last 20 ms (difference_noise.hpp says what they see). It ends none
 // either.
 //   n = Σ w f̄ / |Σ w f̄| over the contact, its last 2 s: the direction of the force on the tool (outward
-//   normal of a frictionless wall). Where f̄ is more than 60 degrees off it, something else presses, and n
-//   begins anew; more than 90 degrees off that of the whole contact, the contact has ended.
+//   normal of a frictionless wall); above ten times the touch threshold w falls as 1/|f̄|, so that a great
+//   force that was there before does not hide what presses now
 // A sample that is not finite is left out and counted.
 
 #include <array>
@@ -46,8 +46,7 @@ class ContactDetector {
   int samples_ = 0;
   double variance_n2_ = 0.0;  // of f along an axis
   Vector3 filtered_n_ = Vector3::Zero();
-  Vector3 sum_n_ = Vector3::Zero();     // Σ w f̄ over the contact
-  Vector3 normal_n_ = Vector3::Zero();  // likewise, begun anew where something else presses
+  Vector3 sum_n_ = Vector3::Zero();
   bool in_contact_ = false;
   std::uint64_t ignored_ = 0;
 };

@@ -60,8 +60,10 @@ class Standstill : public Invariant {
         stopping_s_(stopping_s(s)) {}
   void see(const Moment& m) override {
     const double since_s = right_.since(m);
-    const bool judged = since_s > stopping_s_ && m.since(Spoils::kRobot) > kRecovers_s &&
-                        m.since(Spoils::kScene) > kRecovers_s;
+    // While both sides stand still the robot, too, is as it was: a fault of it ends when they go on.
+    recovered_s_ = m.since(Spoils::kRobot) == 0.0 ? 0.0 : recovered_s_ + (m.slave_ran ? m.period_s : 0.0);
+    const bool judged =
+        since_s > stopping_s_ && recovered_s_ > kRecovers_s && m.since(Spoils::kScene) > kRecovers_s;
     if (!judged) {
       begun_ = false;
       return;
@@ -98,6 +100,7 @@ class Standstill : public Invariant {
   RightClock right_;
   double stopping_s_;
   bool begun_ = false, pressed_ = false;
+  double recovered_s_ = 1e9;
   Pose at_{};
   Vector3 last_m_ = Vector3::Zero();
   double last_n_ = 0.0, answered_m_ = 0.0;

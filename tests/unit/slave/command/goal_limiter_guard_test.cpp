@@ -56,6 +56,19 @@ TEST(GoalLimiterGuard, WhereTheForceGrowsTheSpeedIsBoundedWhateverItsDirection) 
   }
 }
 
+TEST(GoalLimiterGuard, AForceThatIsNoLongerWhereItWasBoundsTheSpeedAgainstIt) {
+  for (const double force_n : {5.0, 19.9, 20.0, 45.0}) {
+    Touching t(-3.0);
+    t.contact.elsewhere = -Vector3::UnitY();
+    t.contact.elsewhere_n = force_n;
+    const double left_m = std::max(kGuard_n - force_n, 0.0) / kStiffest_n_per_m;
+    EXPECT_NEAR(t.go_to(Vector3(0, 2, 0)).y(), std::min(std::sqrt(2.0 * kAcceleration * left_m), kSpeed),
+                1e-12)
+        << force_n;
+    EXPECT_LT(t.go_to(Vector3(0, -2, 0)).y(), -0.2) << "the way back is free";
+  }
+}
+
 TEST(GoalLimiterGuard, WhereTheForceGrowsMattersInContactOnly) {
   Touching t(15.0);
   t.contact.grows = Vector3::UnitY();

@@ -243,5 +243,25 @@ TEST(Surfaces, ACurvedLawIsToldByItsTangentFromTheFootOn) {
   EXPECT_NEAR(s.foot, 0.5 * depth, 0.05 * depth);
 }
 
+// A wall that came has gone again, and the tool is pressed into the one behind it.
+TEST(ContactSurfaces, AForceFromTheOtherSideIsOfAnotherSurfaceAndGuardedAtOnce) {
+  SlaveContact contact(SensingConfig{}, EstimatorConfig{});
+  const auto press = [&contact](const Vector3& force_n, int ticks) {
+    for (int i = 0; i < ticks; ++i) contact.step({Vector3::Zero(), Vector3::Zero(), force_n, 0.0, 1.0, 1e-3});
+  };
+  press(Vector3(60, -180, 40), 2000);
+  EXPECT_TRUE(contact.force().elsewhere.isZero(0.0));
+  const std::uint32_t touch = contact.touch();
+  press(Vector3(-20, 0, 0), 100);
+  EXPECT_TRUE(contact.in_contact());
+  EXPECT_EQ(contact.touch(), touch + 1);
+  EXPECT_GT(contact.foremost().normal().dot(-Vector3::UnitX()), 0.95);
+  EXPECT_LT(contact.force().elsewhere.x(), -0.99);
+  EXPECT_NEAR(contact.force().elsewhere_n, 20.0, 0.1);
+  press(Vector3(-20, 0, 0), 4000);
+  EXPECT_TRUE(contact.force().elsewhere.isZero(0.0)) << "its normal is that of the contact now";
+  EXPECT_NEAR(contact.force().force_n, 20.0, 0.5);
+}
+
 }  // namespace
 }  // namespace longreach
