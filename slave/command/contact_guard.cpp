@@ -2,21 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace longreach {
 namespace {
 
-constexpr double kBleed_s = 0.2;   // τ: of a servo's lag and a loop's delay many times
-constexpr double kHoldAim = 0.95;  // of the hold limit, so that it is met within five τ
-constexpr double kSofter = 0.1;    // of a known stiffness, that a contact may seem to have
-constexpr double kBraking = 0.8;   // of the acceleration, for the end of the way
-constexpr double kCalm_s = 0.05;   // below the guard: the force has gone
-constexpr double kAlong = 0.3;     // cosine: not across
+constexpr double kBleed_s = 0.2;     // τ: of a servo's lag and a loop's delay many times
+constexpr double kHoldAim = 0.95;    // of the hold limit, so that it is met within five τ
+constexpr double kSofter = 0.1;      // of a known stiffness, that a contact may seem to have
+constexpr double kPushedIn = 1.35;   // of the guard, which does not let it come to more by itself,
+constexpr double kPushedIn_s = 1.0;  // and brings a force down sooner if its stiffness is as identified
+constexpr double kUnseen = 0.02;     // of a force: what of its fall may not be seen yet
+constexpr double kBraking = 0.8;     // of the acceleration, for the end of the way
+constexpr double kCalm_s = 0.05;     // below the guard: the force has gone
+constexpr double kAlong = 0.3;       // cosine: not across
 
 }  // namespace
 
 void ContactGuard::approach(const ContactForce& contact, const Vector3& p, double dt) {
-  watch_bleed(contact, {limits_.guard_n, limits_.guard_n, limits_.stiffness_n_per_m}, p);
+  const double bound_n = (pushed_in_s_ < kPushedIn_s ? kPushedIn : 1.0) * limits_.guard_n;
+  pushed_in_s_ = contact.in_contact && contact.force_n > bound_n ? pushed_in_s_ + dt : 0.0;
+  if (pushed_in_s_ < kPushedIn_s) bleed_.reset();
+  const double from_n = pushed_in_s_ < kPushedIn_s ? std::numeric_limits<double>::infinity() : 0.0;
+  watch_bleed(contact, {from_n, limits_.guard_n, limits_.stiffness_n_per_m}, p);
   const bool calm = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
   calm_s_ = calm ? calm_s_ + dt : 0.0;
   if (calm_s_ > kCalm_s) relief_.reset();
@@ -111,14 +119,16 @@ void ContactGuard::watch_bleed(const ContactForce& contact, const Down& down, co
   const bool known = contact.stiffness_n_per_m > 0.0;
   const double k = known ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;
   seen_n_per_m_ = k;
-  if (!contact.in_contact || contact.force_n <= down.to_n) bleed_.reset();
+  if (!contact.in_contact || contact.force_n <= down.to_n || (bleed_ && bleed_->to_n != down.to_n))
+    bleed_.reset();
   if (!contact.in_contact) return;
   const Vector3 tool = p + contact.lead_m * contact.reaction;
-  if (!bleed_ && contact.force_n > down.from_n) bleed_ = Bleed{contact.force_n, tool};
+  if (!bleed_ && contact.force_n > down.from_n) bleed_ = Bleed{contact.force_n, down.to_n, tool};
   if (!bleed_) return;
   const double out_m = contact.reaction.dot(tool - bleed_->from);
-  if (out_m < 0.0) *bleed_ = {contact.force_n, tool};
-  const double fell_n = bleed_->from_n - contact.force_n + scale_.seen_n;
+  if (out_m < 0.0) *bleed_ = {contact.force_n, down.to_n, tool};
+  const double unseen_n = std::max(scale_.seen_n, kUnseen * bleed_->from_n);
+  const double fell_n = bleed_->from_n - contact.force_n + unseen_n;
   seen_n_per_m_ = std::clamp(fell_n / std::max(out_m, 1e-9), std::min(down.least_n_per_m, k), k);
 }
 

@@ -3,8 +3,8 @@
 //   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
 //   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max; above k_max only as the force shows it: it falls
-//   to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down
+//   k the contact's stiffness as far as known, else k_max, or after a second far above G what the force shows:
+//   it falls to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down
 //   to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
 //   ends where the force does not answer to it (relief.hpp). Where the force is far off the direction that
 //   it had in this contact, the tool goes against it no faster than that, either. Where the force was seen to
@@ -93,7 +93,7 @@ class ContactGuard {
     double least_n_per_m;  // that the contact may seem to have
   };
   struct Bleed {
-    double from_n;
+    double from_n, to_n;
     Vector3 from;  // tool
   };
   [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
@@ -107,6 +107,7 @@ class ContactGuard {
   GuardLimits limits_{};
   Relief relief_;
   std::optional<Bleed> bleed_{};
+  double pushed_in_s_ = 0.0;
   double seen_n_per_m_ = 0.0;       // while the tool goes back
   bool backs_off_ = false;          // in a hold, in this step
   Vector3 back_ = Vector3::Zero();  // unit: the way on which it backs off, or brakes after that
