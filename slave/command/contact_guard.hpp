@@ -3,13 +3,12 @@
 //   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
 //   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
 //   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max, or after a second far above G what the force shows:
-//   it falls to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold, it does so down
-//   to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is seen. Giving way
-//   ends where the force does not answer to it (relief.hpp). Where the force is far off the direction that
-//   it had in this contact, the tool goes against it no faster than that, either. Where the force was seen to
+//   k the contact's stiffness as far as known, else k_max, or after a second far above G what the force
+//   shows: it falls to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold,
+//   it does so down to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is
+//   seen. Giving way ends where the force does not answer to it (relief.hpp). Where the force was seen to
 //   grow in another direction than into the contact, the speed in that direction is bounded likewise, and the
-//   tool does not give way along it.
+//   tool does not give way along it; else the speed against a force that is far off the contact's direction.
 // For a moment places are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max, τ_d
 // from the moment to the setpoint, what comes above the guard is at most k w τ_d; where k > k_max,
 //   k (w τ_d + w²/(2 a)).
@@ -88,6 +87,7 @@ class ContactGuard {
   bool backed_off(const ContactForce& contact, const Vector3& v, double dt);
 
  private:
+  /// A force is brought down: from, to.
   struct Down {
     double from_n, to_n;
     double least_n_per_m;  // that the contact may seem to have
