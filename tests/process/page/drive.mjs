@@ -70,7 +70,7 @@ async function path(person) {
   await person.click('#take');
   await person.see('the hand is taken', () => longreach.hand.held);
   await person.click('#engage');
-  await person.see('engaged', () => longreach.frame().state === 'Engaged' && longreach.anchor());
+  await person.see('engaged', () => longreach.frame().state === 'Engaged' && longreach.anchor(), () => person.hold_on());
   // Where the commands put the tool, from where it was first.
   await person.look(() => {
     const [first] = longreach.anchor().position_m;
