@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "common/safety/time_watch.hpp"
-#include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_behaviour.hpp"
+#include "master/devices/quantized_motion_filter.hpp"
+#include "master/mapping/goal_interleaver.hpp"
 #include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
-#include "master/mapping/turns.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/renderer.hpp"
 #include "master/safety/master_safety.hpp"
@@ -71,7 +71,7 @@ struct MasterNode::State {
   void take_handle(HandleState h);
   void take_requests(const OperatorRequests& r, Time now);
   void ask_gripper(bool closed, Time now);
-  void take_gripper(const Received<Telemetry>& told);
+  void take_gripper(const Received<Telemetry>& reported);
   void take_buttons(const Buttons& now);
   void change_scale(double scale, int steps);
   RendererInput renderer_input();
@@ -88,14 +88,14 @@ struct MasterNode::State {
   Mapping mapping;
   LeadBound lead{Mapping::kLead_m}, turn_lead{Mapping::kLead_rad};
   RenderedDevice device;
-  CertainMotion motion;
+  QuantizedMotionFilter motion;
   Renderer renderer;
   GoalHistories history;
   double period_s;
   HandleState handle{};  // as last read, or as last plausible; its velocities are the certain ones
   Buttons buttons{};     // in the last tick
   std::uint64_t sequence = 0;
-  Turns turns;
+  GoalInterleaver interleaver;
   double one_way_s = 0.0;   // half of the round trip
   double send_phase = 1.0;  // of the send period
   Time far_at{};            // when the newest telemetry came
@@ -107,7 +107,7 @@ MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<Sta
 MasterNode::~MasterNode() = default;
 
 void MasterNode::State::take_handle(HandleState h) {
-  if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
+  if (!config.device.interleaver) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
   if (plausible(h)) {
     handle = motion.step(h, period_s);
   } else {
@@ -135,9 +135,9 @@ void MasterNode::State::ask_gripper(bool closed, Time now) {
 
 /// The gripper is the robot's: what was asked for is asked for until the slave, knowing that, tells it as
 /// done.
-void MasterNode::State::take_gripper(const Received<Telemetry>& told) {
-  const bool knows = told.echo_sent && *told.echo_sent > grip_asked;
-  if (knows && view.grip == told.message.gripper.closed) view.grip.reset();
+void MasterNode::State::take_gripper(const Received<Telemetry>& reported) {
+  const bool knows = reported.echo_sent && *reported.echo_sent > grip_asked;
+  if (knows && view.grip == reported.message.gripper.closed) view.grip.reset();
 }
 
 /// Steps land on multiples of 0.05, whatever scale was set before.
@@ -216,7 +216,7 @@ MotionCommand MasterNode::State::command() {
   c.let_go = !handle.held;
   c.position_m = goal.position_m;
   c.rotation_rad = goal.rotation_rad;
-  c.goal_kind = turns.next(goal, view.scale);
+  c.goal_kind = interleaver.next(goal, view.scale);
   return c;
 }
 
@@ -256,8 +256,8 @@ void MasterNode::State::decide(const MasterInput& input) {
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
-  s.time.hear(input.now, input.reports);
-  s.time.hear(input.now, input.telemetry);
+  s.time.receive(input.now, input.reports);
+  s.time.receive(input.now, input.telemetry);
   s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
   s.take_handle(input.handle);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
@@ -277,7 +277,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
-  if (!s.config.device.turns) out.F_H_M.moment.setZero();
+  if (!s.config.device.interleaver) out.F_H_M.moment.setZero();
 
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
@@ -334,7 +334,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
   view.spring_moment_nm =
       -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
-  if (!config.device.turns) view.spring_moment_nm.setZero();
+  if (!config.device.interleaver) view.spring_moment_nm.setZero();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.force_step_n = renderer.force_step_n();
   view.port_energy_j = renderer.port_energy_j();
@@ -344,7 +344,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.tank_j = linear.tank.level_j();
   view.force_clamped = linear.guard.clamped() || linear.contact.yielding();
   view.stiffness_clamped = linear.contact.clamped();
-  view.rotational_stiffness_clamped = config.device.turns && angular.contact.clamped();
+  view.rotational_stiffness_clamped = config.device.interleaver && angular.contact.clamped();
   view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   view.damping_injected = linear.guard.injecting() || angular.guard.injecting();
   view.false_holds = safety.false_holds();

@@ -6,8 +6,8 @@
 #include "common/link/playout.hpp"
 #include "common/safety/time_watch.hpp"
 #include "slave/command/motion.hpp"
-#include "slave/safety/command_right.hpp"
-#include "slave/safety/joint_witness.hpp"
+#include "slave/safety/command_authority.hpp"
+#include "slave/safety/joint_plausibility.hpp"
 #include "slave/safety/plausible.hpp"
 #include "slave/safety/robot_watch.hpp"
 #include "slave/safety/slave_safety.hpp"
@@ -33,13 +33,13 @@ struct SlaveNode::State {
         motion(config.command, config.robot),
         joints(config.robot),
         watch(config.robot),
-        right(config.robot),
+        authority(config.robot),
         lead(config.robot.servo_hz),
         sensing(config),
         playout(config.playout),
         turn_playout(config.playout) {}
 
-  void believe_robot(const RobotState& robot, Time now);
+  void accept_robot(const RobotState& robot, Time now);
   void watch_robot(const RobotState& robot);
   void follow(const RobotState& robot);
   Clamps move(const std::optional<Pose>& X_WE_goal);
@@ -48,7 +48,7 @@ struct SlaveNode::State {
   void begin_engagement();
   void take_goals(std::span<const Received<MotionCommand>> commands);
   Pose play(Time now);
-  void look(const RobotState& robot, Time now);
+  void update(const RobotState& robot, Time now);
   void sense(Time now, double dt);
   [[nodiscard]] bool reflexes_move() const;
   void book_reached();
@@ -60,9 +60,9 @@ struct SlaveNode::State {
   SlaveSafety safety;
   TimeWatch time;
   SlaveMotion motion;
-  JointWitness joints;
+  JointPlausibility joints;
   RobotWatch watch;
-  CommandRight right;
+  CommandAuthority authority;
   SetpointLead lead;
   SlaveSensing sensing;
   Playout playout;       // of position goals
@@ -98,27 +98,27 @@ void SlaveNode::configure(const SlaveConfig& config) {
 
 SlaveOutput SlaveNode::step(const SlaveInput& input) {
   State& s = *state_;
-  s.time.hear(input.now, input.commands);
+  s.time.receive(input.now, input.commands);
   s.time.step(input.now, gap_s(s.safety.config(), input.send_hz), input.overdue_ticks);
   const double dt = std::clamp(s.time.passed_s().value_or(1.0 / s.loop_hz), 0.0, kDtMax);
-  s.believe_robot(input.robot, input.now);
+  s.accept_robot(input.robot, input.now);
   s.watch_robot(input.robot);
-  if (s.robot_ok) s.look(input.robot, input.now);
-  if (s.robot_ok && !s.right.commands()) s.follow(input.robot);
+  if (s.robot_ok) s.update(input.robot, input.now);
+  if (s.robot_ok && !s.authority.commands()) s.follow(input.robot);
   if (s.decide(input)) s.begin_engagement();
-  s.right.step({s.safety.state(), s.robot_ok && !s.watch.astray(), s.motion.at_rest(), dt});
+  s.authority.step({s.safety.state(), s.robot_ok && !s.watch.tracking_lost(), s.motion.at_rest(), dt});
   if (!s.time.stalled_since()) s.take_goals(input.commands);
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
   if (s.robot_ok) s.sense(input.now, dt);
-  const Clamps clamps = s.right.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
+  const Clamps clamps = s.authority.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
   s.book_reached();
   s.book_held_back(clamps, dt);
 
   SlaveOutput output;
-  if (s.right.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
+  if (s.authority.commands()) output.joint_setpoint_rad = s.motion.joint_setpoint_rad();
   output.grip = s.gripper.asked();
   s.reports.report(
       input, s.view, s.reached_sequence,
@@ -145,12 +145,12 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
   in.taken = input.taken;
   if (!robot_ok) in.robot = view.unready;
   if (robot_ok) in.unready = view.unready = unready(input.robot);
-  in.robot_restless = watch.restless();
-  in.robot_astray = watch.astray();
+  in.robot_uncommanded_motion = watch.uncommanded_motion();
+  in.robot_tracking_lost = watch.tracking_lost();
   in.sensor_fault = robot_ok && !sensing.ok();
-  in.sensor_sign = sensing.doubt().wrong_sign();
-  in.no_relief = motion.no_relief() || sensing.doubt().no_relief();
-  in.comes = sensing.doubt().comes(sensing.contact().normal());
+  in.sensor_sign = sensing.plausibility().wrong_sign();
+  in.force_persists = motion.force_persists() || sensing.plausibility().force_persists();
+  in.comes = sensing.plausibility().comes(sensing.contact().normal());
   in.stop = input.stop;
   in.send_hz = input.send_hz;
   in.lag_s = motion.lag_s();
@@ -173,13 +173,13 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
 
 Reason SlaveNode::State::unready(const RobotState& robot) const {
   if (!motion.in_workspace()) return motion.outside();
-  const Reason why = right.why_not(robot, motion.joint_setpoint_rad());
+  const Reason why = authority.why_not(robot, motion.joint_setpoint_rad());
   return why != HoldCause::kNone || sensing.ready() ? why : Reason(HoldCause::kSensorZeroing);
 }
 
-void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
+void SlaveNode::State::accept_robot(const RobotState& robot, Time now) {
   if (!robot.ok) joints.forget();
-  view.unready = robot.ok && finite(robot) ? joints.look(robot, now) : Reason(HoldCause::kRobotFault);
+  view.unready = robot.ok && finite(robot) ? joints.update(robot, now) : Reason(HoldCause::kRobotFault);
   robot_ok = view.unready == HoldCause::kNone;
   if (robot_ok) gripper.see(robot);
   if (robot_ok && !view.robot_seen) sensing.zero();
@@ -189,7 +189,7 @@ void SlaveNode::State::believe_robot(const RobotState& robot, Time now) {
 // From the second tick on: the setpoint before has been written, and this is what became of it.
 void SlaveNode::State::watch_robot(const RobotState& robot) {
   if (robot_ok)
-    watch.step(robot, motion.joint_setpoint_rad(), right.commands(), motion.at_rest(), 1.0 / loop_hz,
+    watch.step(robot, motion.joint_setpoint_rad(), authority.commands(), motion.at_rest(), 1.0 / loop_hz,
                time.stalled_since().has_value());
 }
 
@@ -203,7 +203,7 @@ void SlaveNode::State::follow(const RobotState& robot) {
 // was missed is caught up within them.
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
-  const bool brakes = safety.brakes() || sensing.doubt().rests();
+  const bool brakes = safety.brakes() || sensing.plausibility().rests();
   const bool reflexes = reflexes_move();
   const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, sensing.pressed(lead, reflexes), dt,
                                      let_go, sensing.turned(lead, reflexes)});
@@ -255,8 +255,8 @@ Pose SlaveNode::State::play(Time now) {
   return X_WE;
 }
 
-void SlaveNode::State::look(const RobotState& robot, Time now) {
-  sensing.look(robot, motion.kinematics(), gripper.may_hold(), now);
+void SlaveNode::State::update(const RobotState& robot, Time now) {
+  sensing.update(robot, motion.kinematics(), gripper.may_hold(), now);
   view.X_WE = sensing.X_WE();
   view.F_E_W = sensing.F_E_W();
 }
@@ -300,10 +300,10 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   const SlaveContact& contact = sensing.contact();
   const Surface &surface = contact.foremost(), &stop = sensing.turn_contact().foremost();
   view.estimate = surface.estimate();
-  view.reported_stiffness_n_per_m = surface.told().stiffness_n_per_m();
+  view.reported_stiffness_n_per_m = surface.reported().stiffness_n_per_m();
   view.turn_estimate = stop.estimate();
-  view.reported_stiffness_nm_per_rad = stop.told().stiffness_n_per_m();
-  view.reported_at_m = surface.told_at_m();
+  view.reported_stiffness_nm_per_rad = stop.reported().stiffness_n_per_m();
+  view.reported_at_m = surface.published_at_m();
   view.touch_sequence = surface.touch_sequence();
   view.touch = contact.touch();
   view.played_sequence = played_sequence;

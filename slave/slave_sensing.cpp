@@ -8,28 +8,28 @@ SlaveSensing::SlaveSensing(const SlaveConfig& config)
     : loop_hz_(config.loop.rate_hz),
       needs_(needs(config.scene)),
       watch_(config.sensing, config.command),
-      doubt_(config.sensing, config.command),
+      plausibility_(config.sensing, config.command),
       load_(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
       contact_(config.sensing, config.estimator),
       turn_contact_(rotational(config.sensing), config.estimator) {}
 
 void SlaveSensing::configure(const SlaveConfig& config) {
   watch_.configure(config.sensing, config.command);
-  doubt_.configure(config.sensing, config.command);
+  plausibility_.configure(config.sensing, config.command);
   load_.configure(config.sensing, CompensationLimits::of(config.command));
   contact_.configure(config.sensing, config.estimator);
   turn_contact_.configure(rotational(config.sensing), config.estimator);
 }
 
 void SlaveSensing::begin(const Quaternion& q_before, const Quaternion& q_anchor) {
-  if (doubt_.wrong_sign()) contact_.restart();
-  doubt_.reset();
+  if (plausibility_.wrong_sign()) contact_.restart();
+  plausibility_.reset();
   turn_contact_.move_origin(log_rotation(q_anchor * q_before.conjugate()));
   contact_.forget_goals();
   turn_contact_.forget_goals();
 }
 
-void SlaveSensing::look(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now) {
+void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now) {
   if (!needs_.contact && !needs_.rotation) {
     ok_ = robot.F_F_W.force.allFinite() && robot.F_F_W.moment.allFinite();
     if (ok_) F_E_W_ = robot.F_F_W;
@@ -46,24 +46,24 @@ void SlaveSensing::look(const RobotState& robot, const Kinematics& arm, bool may
   before_ = robot;
   tool_ = arm.forward_with_jacobian(robot.joint_rad);
   V_WE_ = {tool_.J.topRows<3>() * robot.joint_rad_per_s, tool_.J.bottomRows<3>() * robot.joint_rad_per_s};
-  ok_ = believable(robot, may_hold, elapsed_s);
+  ok_ = plausible(robot, may_hold, elapsed_s);
   forget_lies();
 }
 
-bool SlaveSensing::believable(const RobotState& robot, bool may_hold, double elapsed_s) {
+bool SlaveSensing::plausible(const RobotState& robot, bool may_hold, double elapsed_s) {
   const Quaternion q_EW = tool_.X_WE.q.conjugate();
   const SensorWatch::Motion moved{tool_.X_WE.p, V_WE_.linear.norm(), elapsed_s};
   if (!watch_.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
   load_.grip(may_hold);
   F_E_W_ = load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s, {free(), tool_.X_WE});
-  return watch_.felt(F_E_W_.force, moved, load_.doubt_n());
+  return watch_.felt(F_E_W_.force, moved, load_.uncertainty_n());
 }
 
 // A wrong sign still presses on the guard; what is wrong in itself may be believed anew when it is right.
 void SlaveSensing::forget_lies() {
   for (SlaveContact* contact : {&contact_, &turn_contact_}) {
     if (!ok_) contact->restart();
-    if (doubt_.wrong_sign()) contact->forget_surfaces();
+    if (plausibility_.wrong_sign()) contact->forget_surfaces();
   }
 }
 
@@ -71,15 +71,15 @@ void SlaveSensing::step(const SensingInput& in) {
   if (!ok_ || (!needs_.contact && !needs_.rotation) || !load_.ready()) return;
   if (needs_.contact) {
     contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
-                   in.clamps.force_guard, load_.doubt_n(), in.news_age_s});
-    doubt_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt}, contact_.force(),
-                {in.state, in.let_go, in.still});
+                   in.clamps.force_guard, load_.uncertainty_n(), in.news_age_s});
+    plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt}, contact_.force(),
+                       {in.state, in.let_go, in.still});
   }
   if (needs_.rotation) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
     const Vector3 moment_nm = needs_.contact ? free_moment_nm(F_E_W_) : F_E_W_.moment;
     turn_contact_.step({turn, V_WE_.angular, moment_nm, in.played_turn_sequence, in.scale, in.dt,
-                        in.clamps.moment_guard, load_.doubt_nm(), in.news_age_s});
+                        in.clamps.moment_guard, load_.uncertainty_nm(), in.news_age_s});
   }
   // Between engagements the zero is renewed.
   if (in.state == SafetyState::kEngaged || !free()) return load_.abandon();
@@ -90,7 +90,7 @@ ContactForce SlaveSensing::pressed(const SetpointLead& lead, bool moves) const {
   ContactForce force = contact_.force();
   force.lead_m = -force.reaction.dot(lead.m());
   force.elsewhere_lead_m = -force.elsewhere.dot(lead.m());
-  doubt_.tell(force, lead.m());
+  plausibility_.report(force, lead.m());
   if (!moves) force.force_n = force.elsewhere_n = force.retreat_m_per_s = 0.0;
   return force;
 }
@@ -100,7 +100,7 @@ ContactForce SlaveSensing::turned(const SetpointLead& lead, bool moves) const {
   if (!moves) moment.force_n = moment.elsewhere_n = 0.0;
   moment.elsewhere_lead_m = -moment.elsewhere.dot(lead.rad());
   moment.lead_m = -moment.reaction.dot(lead.rad());
-  moment.trusted = !doubt_.rests();
+  moment.trusted = !plausibility_.rests();
   return moment;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 // What the robot's force sensor says: each sample is judged (sensor_watch.hpp), tool, load and bias are taken
 // out (tool_load.hpp), contacts are found in what is left (contact.hpp), and the force is doubted where it
-// does not behave like one (force_doubt.hpp). What a sensor that was found to lie has made of surfaces is
+// does not behave like one (force_plausibility.hpp). What a sensor that was found to lie has made of surfaces is
 // forgotten.
 
 #include <optional>
 
-#include "slave/command/force_doubt.hpp"
+#include "slave/command/force_plausibility.hpp"
 #include "slave/command/setpoint_lead.hpp"
 #include "slave/config/slave_config.hpp"
 #include "slave/estimation/contact.hpp"
@@ -36,7 +36,7 @@ class SlaveSensing {
 
   /// Judges what the robot says, before anything believes it. A sample that repeats the one before while the
   /// arm moves is none.
-  void look(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now);
+  void update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now);
   void step(const SensingInput& input);
   /// Of an engagement that begins, from where the rotations were counted before.
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
@@ -48,7 +48,7 @@ class SlaveSensing {
   [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }  // measured
   [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }   // without tool, load and bias
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
-  [[nodiscard]] const ForceDoubt& doubt() const { return doubt_; }
+  [[nodiscard]] const ForcePlausibility& plausibility() const { return plausibility_; }
   SlaveContact& contact() { return contact_; }
   SlaveContact& turn_contact() { return turn_contact_; }  // places are rotation vectors from the anchor, in W
 
@@ -58,13 +58,13 @@ class SlaveSensing {
   [[nodiscard]] ContactForce turned(const SetpointLead& lead, bool moves) const;
 
  private:
-  [[nodiscard]] bool believable(const RobotState& robot, bool may_hold, double elapsed_s);
+  [[nodiscard]] bool plausible(const RobotState& robot, bool may_hold, double elapsed_s);
   void forget_lies();
 
   double loop_hz_;
   NeedsConfig needs_;  // what is not needed of contact, sensor and estimator is not there
   SensorWatch watch_;
-  ForceDoubt doubt_;
+  ForcePlausibility plausibility_;
   ToolCompensation load_;
   SlaveContact contact_;
   SlaveContact turn_contact_;

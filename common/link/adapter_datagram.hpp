@@ -174,7 +174,7 @@ class Exchange {
     if (header.session != peer_) ++sessions_;
     peer_ = header.session;
     newest_ = header.sequence;
-    heard_ns_ = now_ns;
+    received_ns_ = now_ns;
     return true;
   }
 
@@ -189,14 +189,14 @@ class Exchange {
   }
 
   /// Nothing that counts for as long as the watchdog waits, or never.
-  bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - heard_ns_ >= watchdog_ns_; }
+  bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
   std::uint64_t sessions() const { return sessions_; }  // of the other end, so far
 
  private:
   std::uint64_t session_;
   std::int64_t watchdog_ns_;
   std::uint64_t peer_ = 0, newest_ = 0, sent_ = 0, sessions_ = 0;
-  std::int64_t heard_ns_ = 0;
+  std::int64_t received_ns_ = 0;
 };
 
 }  // namespace adapter

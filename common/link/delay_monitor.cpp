@@ -43,7 +43,7 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
   sample.type = static_cast<std::uint8_t>(type);
   sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
-  if (!first_heard_) first_heard_ = now;
+  if (!first_received_) first_received_ = now;
   // Who lets one datagram through and holds the others back is silent.
   newest_sent_ = std::max(newest_sent_.value_or(sent), sent);
   if (saturating_sub(to_ns(*newest_sent_), to_ns(sent)) <= kOvertakenMax.count()) last_heard_ = now;
@@ -77,7 +77,7 @@ LinkFigures DelayMonitor::figures(Time now) const {
   f.reorder = static_cast<double>(late) / n;
   f.loss = loss(first);
 
-  const Time since = std::max(now - kWindow, samples_.full() ? samples_.front().received : *first_heard_);
+  const Time since = std::max(now - kWindow, samples_.full() ? samples_.front().received : *first_received_);
   const double span_s = to_seconds(std::clamp(now - since, kRateSpanMin, kWindow));
   f.rate_hz = n / span_s;
   f.bytes_per_s = bytes / span_s;
@@ -97,7 +97,7 @@ void DelayMonitor::clear() {
   newest_.fill(0);
   newest_sent_.reset();
   forgotten_.fill({});
-  first_heard_.reset();
+  first_received_.reset();
   last_heard_.reset();
   echoed_.reset();
 }

@@ -83,7 +83,7 @@ class DelayMonitor {
   std::optional<PeerTime> newest_sent_{};               // of all types
   std::array<Mark, kDatagramTypes>
       forgotten_{};  // of the samples that left the ring, the one with the highest sequence
-  std::optional<Time> first_heard_{};
+  std::optional<Time> first_received_{};
   std::optional<Time> last_heard_{};
   std::optional<Time> echoed_{};  // when this side had sent the newest that came back
 };

@@ -64,8 +64,8 @@ Duration Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
   // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link
   // would look shorter than it is.
-  heard_at_ = now;
-  heard_sent_ = stamp.sent;
+  received_at_ = now;
+  received_sent_ = stamp.sent;
   return rtt;
 }
 
@@ -79,7 +79,7 @@ std::optional<Header> Endpoint::number(DatagramType type, std::uint64_t sequence
 
 Stamp Endpoint::stamp_for(Time now) const {
   Stamp stamp{.sent = PeerTime{now.time_since_epoch()}};
-  if (monitor_.last_heard()) stamp.echo = Echo{.sent_ns = to_ns(heard_sent_), .held = now - heard_at_};
+  if (monitor_.last_heard()) stamp.echo = Echo{.sent_ns = to_ns(received_sent_), .held = now - received_at_};
   return stamp;
 }
 

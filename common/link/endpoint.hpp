@@ -55,8 +55,8 @@ class Endpoint {
   std::array<std::uint64_t, kDatagramTypes> sent_{};  // greatest number that left, one a type
   std::array<ReplayWindow, kDatagramTypes> windows_;  // one a type
   DelayMonitor monitor_;
-  Time heard_at_{};  // of the datagram that is echoed: the last one that came
-  PeerTime heard_sent_{};
+  Time received_at_{};  // of the datagram that is echoed: the last one that came
+  PeerTime received_sent_{};
 };
 
 }  // namespace longreach

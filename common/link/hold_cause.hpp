@@ -21,17 +21,17 @@ enum class HoldCause : std::uint8_t {
   kDeviceFault,
   kHandleLetGo,
   kTaken,
-  kRobotRestless,  // it moves where it should be at rest
-  kRobotAstray,    // it does not follow its setpoints
-  kUnanswered,     // the slave did not confirm an engagement
-  kStalled,        // this side stood still for longer than its gap timer
-  kOverrun,        // more than half of the ticks of a second came late
-  kDelayRose,      // the round trip exceeds its least since the engagement by more than the bound
-  kHandStale,      // the state of the hand is too old
-  kSensorFault,    // the force sensor reports what no contact can cause
-  kSensorSign,     // the force grows along the motion that should relieve it
-  kNoRelief,       // the force does not fall as the robot gives way
-  kJointLeapt,     // joint readings that no joint can mean
+  kRobotUncommandedMotion,  // it moves where it should be at rest
+  kRobotTrackingLost,       // it does not follow its setpoints
+  kUnanswered,              // the slave did not confirm an engagement
+  kStalled,                 // this side stood still for longer than its gap timer
+  kOverrun,                 // more than half of the ticks of a second came late
+  kDelayRose,               // the round trip exceeds its least since the engagement by more than the bound
+  kHandStale,               // the state of the hand is too old
+  kSensorFault,             // the force sensor reports values that no contact can cause
+  kSensorSign,              // the force grows along the motion that should relieve it
+  kForcePersists,           // the force does not fall while the robot retreats
+  kJointLeapt,              // joint readings that no joint can mean
   kJointOutside,
   kJointTooFast,
   kJointLimit,   // beyond it by more than an engagement may begin with
@@ -44,13 +44,13 @@ enum class HoldCause : std::uint8_t {
 inline constexpr HoldCause kLastCause = HoldCause::kWallComes;
 
 /// Whose doing it is, for the verdict of a run.
-enum class HoldBlame : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
+enum class HoldAttribution : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
 
 struct CauseText {
   std::string_view name;
   std::string_view sentence;  // without its place; no trailing stop
   std::string_view remedy;    // what to do
-  HoldBlame blame = HoldBlame::kSystem;
+  HoldAttribution attribution = HoldAttribution::kSystem;
 };
 /// Of kNone all texts are empty; of a number that is no cause "unknown".
 const CauseText& text_of(HoldCause cause);

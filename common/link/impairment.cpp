@@ -40,25 +40,25 @@ void Impairment::configure(const ImpairmentConfig& config, Time now) {
 void Impairment::push(Time now, std::span<const std::byte> datagram, const Origin& origin) {
   start_clock(now);
   ++counts_.in;
-  const Fate fate = draw_fate();
+  const Decision decision = draw_decision();
   const double t_s = to_seconds(now - *set_at_);
   if (blacked_out(t_s)) {
     ++counts_.blacked_out;
     return;
   }
-  if (fate.lost) {
+  if (decision.lost) {
     ++counts_.lost;
     return;
   }
-  if (fate.corrupted) ++counts_.corrupted;
-  if (fate.duplicated) ++counts_.duplicated;
+  if (decision.corrupted) ++counts_.corrupted;
+  if (decision.duplicated) ++counts_.duplicated;
 
-  const std::size_t copies = fate.duplicated ? kCopies : 1;
+  const std::size_t copies = decision.duplicated ? kCopies : 1;
   for (std::size_t copy = 0; copy < copies; ++copy) {
     const std::optional<Time> left = leave_queue(now, datagram.size());
-    const double delay_s = std::max(0.0, base_delay_s(t_s) + config_.jitter_s * fate.jitter[copy]);
-    const bool let_past = fate.let_past[copy] && delay_s > 0.0;
-    if (!left || !store(later(*left, let_past ? 0.5 * delay_s : delay_s), datagram, origin, fate)) {
+    const double delay_s = std::max(0.0, base_delay_s(t_s) + config_.jitter_s * decision.jitter[copy]);
+    const bool let_past = decision.let_past[copy] && delay_s > 0.0;
+    if (!left || !store(later(*left, let_past ? 0.5 * delay_s : delay_s), datagram, origin, decision)) {
       ++counts_.queue_dropped;
     } else if (let_past) {
       ++counts_.reordered;
@@ -69,29 +69,29 @@ void Impairment::push(Time now, std::span<const std::byte> datagram, const Origi
 std::optional<std::span<const std::byte>> Impairment::pop(Time now) {
   start_clock(now);
   if (heap_.empty() || heap_.front().due > now) return std::nullopt;
-  const Parcel parcel = heap_.front();
+  const QueuedDatagram queued_datagram = heap_.front();
   std::pop_heap(heap_.begin(), heap_.end());
   heap_.pop_back();
-  free_.push_back(parcel.slot);
-  origin_ = origins_[parcel.slot];
+  free_.push_back(queued_datagram.slot);
+  origin_ = origins_[queued_datagram.slot];
   ++counts_.out;
-  return std::span<const std::byte>(bytes_).subspan(parcel.slot * kSlotBytes, parcel.size);
+  return std::span<const std::byte>(bytes_).subspan(queued_datagram.slot * kSlotBytes, queued_datagram.size);
 }
 
 // An effect draws if it is on itself, whatever the others do.
-Impairment::Fate Impairment::draw_fate() {
-  Fate fate;
-  if (config_.loss > 0.0) fate.lost = draw_loss();
+Impairment::Decision Impairment::draw_decision() {
+  Decision decision;
+  if (config_.loss > 0.0) decision.lost = draw_loss();
   if (config_.corrupt > 0.0) {
-    fate.corrupted = streams_.corrupt.chance(config_.corrupt);
-    fate.flipped = streams_.corrupt.uniform();
+    decision.corrupted = streams_.corrupt.chance(config_.corrupt);
+    decision.flipped = streams_.corrupt.uniform();
   }
-  if (config_.duplicate > 0.0) fate.duplicated = streams_.duplicate.chance(config_.duplicate);
+  if (config_.duplicate > 0.0) decision.duplicated = streams_.duplicate.chance(config_.duplicate);
   for (std::size_t copy = 0; copy < kCopies; ++copy) {
-    if (config_.jitter_s > 0.0) fate.jitter[copy] = streams_.jitter[copy].normal();
-    if (config_.reorder > 0.0) fate.let_past[copy] = streams_.reorder[copy].chance(config_.reorder);
+    if (config_.jitter_s > 0.0) decision.jitter[copy] = streams_.jitter[copy].normal();
+    if (config_.reorder > 0.0) decision.let_past[copy] = streams_.reorder[copy].chance(config_.reorder);
   }
-  return fate;
+  return decision;
 }
 
 // Gilbert's two states: bursts end with probability r = 1/burst and begin with q = p r / (1 - p), which makes
@@ -140,7 +140,7 @@ std::optional<Time> Impairment::leave_queue(Time now, std::size_t bytes) {
 }
 
 bool Impairment::store(Time due, std::span<const std::byte> datagram, const Origin& origin,
-                       const Fate& fate) {
+                       const Decision& decision) {
   if (free_.empty()) return false;
   const std::uint32_t slot = free_.back();
   free_.pop_back();
@@ -148,8 +148,8 @@ bool Impairment::store(Time due, std::span<const std::byte> datagram, const Orig
   const auto room = std::span(bytes_).subspan(slot * kSlotBytes, size);
   std::copy_n(datagram.begin(), size, room.begin());
   origins_[slot] = origin;
-  if (fate.corrupted && size > 0) {
-    const auto bit = static_cast<std::size_t>(fate.flipped * 8.0 * static_cast<double>(size));
+  if (decision.corrupted && size > 0) {
+    const auto bit = static_cast<std::size_t>(decision.flipped * 8.0 * static_cast<double>(size));
     room[bit / 8] ^= std::byte{1} << (bit % 8);
   }
   heap_.push_back({due, arrivals_++, slot, static_cast<std::uint32_t>(size)});

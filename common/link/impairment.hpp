@@ -81,19 +81,19 @@ class Impairment {
   static constexpr std::size_t kCopies = 2;
 
   /// A datagram under way: its bytes lie in a slot.
-  struct Parcel {
+  struct QueuedDatagram {
     Time due{};
     std::uint64_t arrival = 0;  // counts parcels: keeps the order of equal due times
     std::uint32_t slot = 0;
     std::uint32_t size = 0;  // bytes, at most kSlotBytes
     // Orders a heap whose front is the first that is due.
-    bool operator<(const Parcel& other) const {
+    bool operator<(const QueuedDatagram& other) const {
       return due != other.due ? due > other.due : arrival > other.arrival;
     }
   };
 
   /// What the random streams decide about one datagram, whether or not another effect took it away before.
-  struct Fate {
+  struct Decision {
     bool lost = false;
     bool corrupted = false;
     bool duplicated = false;
@@ -106,13 +106,13 @@ class Impairment {
     std::array<Random, kCopies> jitter, reorder;
   };
 
-  Fate draw_fate();
+  Decision draw_decision();
   bool draw_loss();
   void start_clock(Time now);
   [[nodiscard]] bool blacked_out(double t_s) const;
   [[nodiscard]] double base_delay_s(double t_s) const;
   std::optional<Time> leave_queue(Time now, std::size_t bytes);
-  bool store(Time due, std::span<const std::byte> datagram, const Origin& origin, const Fate& fate);
+  bool store(Time due, std::span<const std::byte> datagram, const Origin& origin, const Decision& decision);
 
   ImpairmentConfig config_;
   bool clear_ = false;  // it does nothing
@@ -126,7 +126,7 @@ class Impairment {
   std::vector<std::byte> bytes_;     // kSlots times kSlotBytes
   std::vector<Origin> origins_;      // one a slot
   std::vector<std::uint32_t> free_;  // slots without a parcel
-  std::vector<Parcel> heap_;
+  std::vector<QueuedDatagram> heap_;
 };
 
 }  // namespace longreach

@@ -20,7 +20,7 @@ std::vector<std::string> ask_for_real_time(const LoopConfig& config);
 
 /// Where a loop has its time from; a test hands it another one.
 struct LoopClock {
-  Time (*now)() = monotonic_now;
+  Time (*now)() = boottime_now;
   void (*sleep_until)(Time) = longreach::sleep_until;
 };
 

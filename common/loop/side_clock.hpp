@@ -7,7 +7,7 @@
 
 namespace longreach {
 
-inline Time monotonic_now() {
+inline Time boottime_now() {
   timespec t{};
   clock_gettime(CLOCK_BOOTTIME, &t);
   return Time(std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec));

@@ -18,15 +18,16 @@ void refuse_insecure(bool insecure, const AdapterConfig& config, const std::stri
                     " only, and --adapter is a real one: leave out --insecure");
 }
 
-AdapterConfig told_in_time(AdapterConfig config, double rate_hz) {
+AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {
   config.silence_s = std::max(config.silence_s - 1.0 / rate_hz, 0.5 * config.silence_s);
   return config;
 }
 
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address) {
-  if (figures.stranger)
-    return "what listens at " + address + " belongs to another user (" + std::to_string(*figures.stranger) +
+  if (figures.unknown_peer)
+    return "what listens at " + address + " belongs to another user (" +
+           std::to_string(*figures.unknown_peer) +
            "), not to this one or root: nothing is said to it; start the adapter of the " + device +
            " as the user who runs longreach";
   if (!figures.present || (!figures.silent && !figures.failed)) return "";

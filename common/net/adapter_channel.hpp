@@ -17,7 +17,7 @@ void refuse_insecure(bool insecure, const AdapterConfig& config, const std::stri
 
 /// Of a loop of so many ticks a second: the last tick within silence_s tells that silence, not the first
 /// after it.
-AdapterConfig told_in_time(AdapterConfig config, double rate_hz);
+AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz);
 
 /// What is wrong with an adapter and what to do, or empty. `device`: "haptic device" or "robot".
 struct AdapterFigures;

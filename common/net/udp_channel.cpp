@@ -11,7 +11,7 @@
 namespace longreach {
 namespace {
 
-constexpr int kStrangersPerReceive = 1024;
+constexpr int kUnknownPeersPerReceive = 1024;
 constexpr int kReceiveBufferBytes = 1 << 20;  // two seconds of 1 kHz while the loop is held up
 
 /// How `endpoint` looks on a socket of the family of `own`: on an IPv6 socket, IPv4 peers are mapped
@@ -56,7 +56,7 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
 
 // Not by Asio: it does not tell the true size of what was cut.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
-  for (int i = 0; i < kStrangersPerReceive; ++i) {
+  for (int i = 0; i < kUnknownPeersPerReceive; ++i) {
     Origin sender{};
     socklen_t length = sizeof sender;
     const ssize_t size =
@@ -64,7 +64,7 @@ std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
                    reinterpret_cast<sockaddr*>(sender.data()), &length);
     if (size < 0) return std::nullopt;
     if (fixed_peer_ && sender != *peer_) {
-      ++strangers_;
+      ++unknown_peers_;
       continue;
     }
     origin_ = sender;

@@ -27,8 +27,10 @@ class UdpChannel : public Channel {
 
   [[nodiscard]] std::string local_address() const;
   [[nodiscard]] std::optional<std::string> peer_address() const;
-  [[nodiscard]] std::uint64_t strangers() const { return strangers_; }  // datagrams of others, dropped
-  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }        // the system refused to send them
+  [[nodiscard]] std::uint64_t unknown_peers() const {
+    return unknown_peers_;
+  }                                                               // datagrams of others, dropped
+  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }  // the system refused to send them
 
  private:
   asio::io_context context_{1};
@@ -36,7 +38,7 @@ class UdpChannel : public Channel {
   bool fixed_peer_;
   std::optional<Origin> peer_{};
   Origin origin_{};
-  std::uint64_t strangers_ = 0;
+  std::uint64_t unknown_peers_ = 0;
   std::uint64_t unsent_ = 0;
 };
 

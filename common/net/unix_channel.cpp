@@ -82,15 +82,15 @@ UnixChannel::UnixChannel(const std::string& address) : path_(unix_path(address))
 
 UnixChannel::~UnixChannel() { leave(); }
 
-void UnixChannel::look() {
+void UnixChannel::check_socket() {
   if (wait_-- > 0) return;
   wait_ = kLookEvery;
   socket_ = connect_unix(path_);
   if (socket_ < 0) return;
   const std::optional<uid_t> user = peer_user(socket_);
-  stranger_.reset();
+  unknown_peer_.reset();
   if (user && may_be_trusted(*user)) return;
-  stranger_ = user.value_or(static_cast<uid_t>(-1));
+  unknown_peer_ = user.value_or(static_cast<uid_t>(-1));
   leave();
 }
 
@@ -109,7 +109,7 @@ std::optional<std::size_t> UnixChannel::receive(std::span<std::byte> buffer) {
 }
 
 void UnixChannel::send(std::span<const std::byte> datagram) {
-  if (socket_ < 0) look();
+  if (socket_ < 0) check_socket();
   if (socket_ < 0) return;
   const ssize_t sent = ::send(socket_, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (sent < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) leave();

@@ -42,16 +42,16 @@ class UnixChannel : public Channel {
 
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
   /// What listens there belongs to somebody else, when it was looked for last.
-  [[nodiscard]] std::optional<uid_t> stranger() const { return stranger_; }
+  [[nodiscard]] std::optional<uid_t> unknown_peer() const { return unknown_peer_; }
 
  private:
-  void look();
+  void check_socket();
   void leave();
 
   std::string path_;
   int socket_ = -1;
   int wait_ = 0;  // sends until it is looked for again
-  std::optional<uid_t> stranger_{};
+  std::optional<uid_t> unknown_peer_{};
 };
 
 }  // namespace longreach

@@ -13,7 +13,7 @@
 #include <mutex>
 
 #include "common/config/config.hpp"
-#include "common/program/outlet.hpp"
+#include "common/program/async_writer.hpp"
 
 namespace longreach {
 namespace {
@@ -31,34 +31,34 @@ std::string line_of(spdlog::formatter& form, const spdlog::details::log_msg& mes
   return {line.data(), line.size()};
 }
 
-class OutletSink final : public spdlog::sinks::base_sink<std::mutex> {
+class AsyncSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  OutletSink(int fd, const std::string& side, bool hushable)
+  AsyncSink(int fd, const std::string& side, bool hushable)
       : base_sink(line_form()),
         hushable_(hushable),
-        outlet_(fd, kWaitingMaxBytes, [side, form = std::shared_ptr(line_form())](std::uint64_t lost) {
+        async_writer_(fd, kWaitingMaxBytes, [side, form = std::shared_ptr(line_form())](std::uint64_t lost) {
           const std::string words = "log lost=" + std::to_string(lost);
           return line_of(*form, {side, spdlog::level::warn, words});
         }) {}
 
   void hush() { hushed_ = hushable_; }
-  void drain() { outlet_.drain(Outlet::kFarewell); }
-  [[nodiscard]] std::uint64_t lost() const { return outlet_.lost(); }
+  void drain() { async_writer_.drain(AsyncWriter::kFarewell); }
+  [[nodiscard]] std::uint64_t lost() const { return async_writer_.lost(); }
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    if (!hushed_) outlet_.offer(line_of(*formatter_, message));
+    if (!hushed_) async_writer_.offer(line_of(*formatter_, message));
   }
   void flush_() override {}
 
   const bool hushable_;
   std::atomic<bool> hushed_{false};
-  Outlet outlet_;
+  AsyncWriter async_writer_;
 };
 
 struct Present {
   std::mutex mutex;
-  std::shared_ptr<OutletSink> sink;
+  std::shared_ptr<AsyncSink> sink;
   std::uint64_t lost_before = 0;  // by those before it
 };
 
@@ -67,19 +67,19 @@ Present& present() {
   return one;
 }
 
-std::shared_ptr<OutletSink> present_sink() {
+std::shared_ptr<AsyncSink> present_sink() {
   const std::lock_guard lock(present().mutex);
   return present().sink;
 }
 
-std::shared_ptr<OutletSink> make_sink(const std::string& side, const std::string& file) {
-  if (file.empty()) return std::make_shared<OutletSink>(STDERR_FILENO, side, true);
+std::shared_ptr<AsyncSink> make_sink(const std::string& side, const std::string& file) {
+  if (file.empty()) return std::make_shared<AsyncSink>(STDERR_FILENO, side, true);
   // Without waiting: a pipe by that name may have no reader.
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
   if (fd < 0)
     throw ConfigError("cannot write the log file '" + file + "' (" + std::strerror(errno) +
                       "); choose another with --log");
-  auto sink = std::make_shared<OutletSink>(fd, side, false);
+  auto sink = std::make_shared<AsyncSink>(fd, side, false);
   ::close(fd);
   return sink;
 }

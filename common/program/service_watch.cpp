@@ -28,17 +28,17 @@ ServiceWatch::~ServiceWatch() {
   if (socket_ >= 0) ::close(socket_);
 }
 
-void ServiceWatch::look(std::uint64_t ticks) {
-  if (socket_ < 0 || ticks == told_ticks_) return;
-  if (!ready_) tell("READY=1");
+void ServiceWatch::update(std::uint64_t ticks) {
+  if (socket_ < 0 || ticks == reported_ticks_) return;
+  if (!ready_) notify("READY=1");
   ready_ = true;
-  if (!period_ || Clock::now() - told_ < *period_) return;
-  tell("WATCHDOG=1");
-  told_ = Clock::now();
-  told_ticks_ = ticks;
+  if (!period_ || Clock::now() - reported_ < *period_) return;
+  notify("WATCHDOG=1");
+  reported_ = Clock::now();
+  reported_ticks_ = ticks;
 }
 
-void ServiceWatch::tell(std::string_view words) const {
+void ServiceWatch::notify(std::string_view words) const {
   (void)::sendto(socket_, words.data(), words.size(), MSG_NOSIGNAL,
                  reinterpret_cast<const sockaddr*>(&address_), address_size_);
 }

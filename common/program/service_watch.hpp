@@ -24,18 +24,18 @@ class ServiceWatch {
   ServiceWatch& operator=(const ServiceWatch&) = delete;
 
   /// Call it often, from outside of the loop. `ticks`: of the loop so far.
-  void look(std::uint64_t ticks);
+  void update(std::uint64_t ticks);
 
  private:
-  void tell(std::string_view words) const;
+  void notify(std::string_view words) const;
 
   int socket_ = -1;  // -1: nobody to tell
   sockaddr_un address_{};
   socklen_t address_size_ = 0;
   std::optional<std::chrono::microseconds> period_{};
   bool ready_ = false;
-  std::uint64_t told_ticks_ = 0;
-  Clock::time_point told_{};
+  std::uint64_t reported_ticks_ = 0;
+  Clock::time_point reported_{};
 };
 
 }  // namespace longreach

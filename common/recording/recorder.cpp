@@ -18,10 +18,10 @@ std::string megabytes(std::uint64_t bytes) {
 
 }  // namespace
 
-Recorder::Recorder(const RecorderOptions& options, Tape& tape)
-    : options_(options), tape_(tape), file_(options.file), writer_(file_, build_name()) {
+Recorder::Recorder(const RecorderOptions& options, RecordBuffer& record_buffer)
+    : options_(options), record_buffer_(record_buffer), file_(options.file), writer_(file_, build_name()) {
   writer_.add_metadata("longreach", options_.facts);
-  tape_.declare(writer_);
+  record_buffer_.declare(writer_);
   writer_.flush();
   if (file_.failed())
     throw RecordingError("cannot record into " + options_.file.string() + ": " + file_.error());
@@ -55,7 +55,7 @@ void Recorder::run() {
       std::unique_lock lock(mutex_);
       if (wake_.wait_for(lock, kPollPeriod, [this] { return stopping_; })) break;
     }
-    tape_.drain(writer_);
+    record_buffer_.drain(writer_);
     if (Clock::now() >= flush_due || writer_.size() >= options_.max_bytes) {
       writer_.flush();
       flush_due = Clock::now() + kFlushPeriod;
@@ -63,8 +63,8 @@ void Recorder::run() {
     publish();
     why = trouble();
   }
-  if (why.empty()) tape_.drain(writer_);
-  tape_.close();
+  if (why.empty()) record_buffer_.drain(writer_);
+  record_buffer_.close();
   writer_.finish();
   const bool failed = !why.empty() || file_.failed();
   end(failed ? trouble() : "stopped", failed);
@@ -81,7 +81,7 @@ void Recorder::publish() {
   const std::lock_guard lock(mutex_);
   status_.bytes = file_.size();
   status_.seconds = std::chrono::duration<double>(Clock::now() - began_).count();
-  status_.ticks_not_recorded = tape_.ticks_dropped();
+  status_.ticks_not_recorded = record_buffer_.ticks_dropped();
 }
 
 void Recorder::end(const std::string& why, bool failed) {

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "common/recording/tape.hpp"
+#include "common/recording/record_buffer.hpp"
 
 namespace longreach {
 
@@ -37,7 +37,7 @@ struct RecorderOptions {
 class Recorder {
  public:
   /// Makes the file, with what it says about itself. Throws RecordingError. `tape` outlives the recorder.
-  Recorder(const RecorderOptions& options, Tape& tape);
+  Recorder(const RecorderOptions& options, RecordBuffer& record_buffer);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -56,7 +56,7 @@ class Recorder {
   void end(const std::string& why, bool failed);
 
   RecorderOptions options_;
-  Tape& tape_;
+  RecordBuffer& record_buffer_;
   RecordingFile file_;
   McapWriter writer_;
   Clock::time_point began_ = Clock::now();

@@ -20,7 +20,7 @@
 namespace longreach {
 
 /// The present instant of the loop's clock.
-inline Time recording_now() { return monotonic_now(); }
+inline Time recording_now() { return boottime_now(); }
 
 /// Where a side records, and what its seed was.
 struct RecordingPlace {
@@ -28,7 +28,7 @@ struct RecordingPlace {
   std::uint64_t seed = 0;
 };
 
-template <class TapeType>
+template <class RecordType>
 class SideRecording {
  public:
   struct Request {
@@ -48,16 +48,16 @@ class SideRecording {
   void start(const Request& request, const Attach& attach) {
     if (status().running)
       throw RecordingError(status().file + " is being recorded; `longreach record stop` ends it");
-    if (tape_ && !attach(nullptr)) throw RecordingError(kNoAnswer);
+    if (record_buffer_ && !attach(nullptr)) throw RecordingError(kNoAnswer);
     drop();
-    auto tape = make_tape(request);
-    tape->add_config(recording_now(), request.config_number, request.config_text);
+    auto record_buffer = make_record_buffer(request);
+    record_buffer->add_config(recording_now(), request.config_number, request.config_text);
     auto recorder = std::make_unique<Recorder>(
         RecorderOptions{request.file, static_cast<std::uint64_t>(1e6 * request.max_mb), facts(request),
                         ended_},
-        *tape);
-    keep(std::move(tape), std::move(recorder));
-    if (!attach(tape_.get())) {
+        *record_buffer);
+    keep(std::move(record_buffer), std::move(recorder));
+    if (!attach(record_buffer_.get())) {
       recorder_->stop();
       throw RecordingError(kNoAnswer);
     }
@@ -76,10 +76,10 @@ class SideRecording {
   }
 
   void add_config(std::uint32_t number, const std::string& text) {
-    if (tape_) tape_->add_config(recording_now(), number, text);
+    if (record_buffer_) record_buffer_->add_config(recording_now(), number, text);
   }
   void add_event(const std::string& text) {
-    if (tape_) tape_->add_event(recording_now(), text);
+    if (record_buffer_) record_buffer_->add_event(recording_now(), text);
   }
 
   /// Of the present recording or the last one; none: no file.
@@ -91,9 +91,9 @@ class SideRecording {
  private:
   static constexpr const char* kNoAnswer = "the control loop did not answer within 1 s; try again";
 
-  static std::unique_ptr<TapeType> make_tape(const Request& request) {
+  static std::unique_ptr<RecordType> make_record_buffer(const Request& request) {
     try {
-      return std::make_unique<TapeType>(request.rate_hz, monotonic_to_unix());
+      return std::make_unique<RecordType>(request.rate_hz, monotonic_to_unix());
     } catch (const std::bad_alloc&) {
       throw RecordingError("there is no memory for a recording");
     }
@@ -109,11 +109,11 @@ class SideRecording {
   }
 
   /// The ones before end outside of the lock: that may take as long as the disk does.
-  void keep(std::unique_ptr<TapeType> tape, std::unique_ptr<Recorder> recorder) {
+  void keep(std::unique_ptr<RecordType> record_buffer, std::unique_ptr<Recorder> recorder) {
     {
       const std::lock_guard lock(mutex_);
       recorder_.swap(recorder);
-      tape_.swap(tape);
+      record_buffer_.swap(record_buffer);
     }
     recorder.reset();  // before its tape
   }
@@ -122,7 +122,7 @@ class SideRecording {
   std::string side_;
   std::function<void(const RecordingStatus&)> ended_;
   mutable std::mutex mutex_;  // of the pointers; never the loop
-  std::unique_ptr<TapeType> tape_;
+  std::unique_ptr<RecordType> record_buffer_;
   std::unique_ptr<Recorder> recorder_;  // ends before its tape
 };
 

@@ -81,7 +81,7 @@ const char* ending(PairingOffer::State state) {
 bool run_pairing_desk(const std::filesystem::path& site, const std::string& listen,
                       const std::atomic<bool>& stop) {
   const PairingToken token = PairingToken::draw();
-  PairingOffer offer(token, site_authority(site), monotonic_now(),
+  PairingOffer offer(token, site_authority(site), boottime_now(),
                      [&site](const std::string& host, const std::string& master, const std::string& client) {
                        record_pairing(site, host, master, client);
                      });

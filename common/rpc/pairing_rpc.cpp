@@ -24,7 +24,7 @@ class Service final : public proto::Pairing::Service {
   grpc::Status Join(grpc::ServerContext* context, const proto::PairingMessage* request,
                     proto::PairingMessage* answer) override {
     const std::lock_guard lock(mutex_);
-    auto result = offer_.answer(*request, monotonic_now());
+    auto result = offer_.answer(*request, boottime_now());
     const auto* refusal = std::get_if<std::string>(&result);
     tried_(readable_peer(context->peer()), refusal != nullptr ? *refusal : "");
     if (refusal != nullptr) return {grpc::StatusCode::PERMISSION_DENIED, *refusal};
@@ -33,7 +33,7 @@ class Service final : public proto::Pairing::Service {
   }
   PairingOffer::State state() {
     const std::lock_guard lock(mutex_);
-    return offer_.state(monotonic_now());
+    return offer_.state(boottime_now());
   }
 
  private:

@@ -17,9 +17,9 @@ std::string in_words(const RecordingStatus& recording);
 void log_end(const RecordingStatus& recording);
 void log_start(const RecordingStatus& recording);
 
-template <class TapeType, class Attach>
-std::variant<std::string, Refusal> start_recording(SideRecording<TapeType>& recording,
-                                                   typename SideRecording<TapeType>::Request request,
+template <class RecordType, class Attach>
+std::variant<std::string, Refusal> start_recording(SideRecording<RecordType>& recording,
+                                                   typename SideRecording<RecordType>::Request request,
                                                    const std::string& folder, const std::string& name,
                                                    const std::string& side, const Attach& attach) {
   try {
@@ -33,8 +33,9 @@ std::variant<std::string, Refusal> start_recording(SideRecording<TapeType>& reco
   return recording.status().file;
 }
 
-template <class TapeType, class Attach>
-std::variant<std::string, Refusal> stop_recording(SideRecording<TapeType>& recording, const Attach& attach) {
+template <class RecordType, class Attach>
+std::variant<std::string, Refusal> stop_recording(SideRecording<RecordType>& recording,
+                                                  const Attach& attach) {
   try {
     return in_words(recording.stop(attach));
   } catch (const RecordingError& e) {

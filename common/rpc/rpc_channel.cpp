@@ -55,7 +55,7 @@ bool other_role(const grpc::Status& status) {
 }
 
 // gRPC tells these apart from a side that is down by words alone.
-bool mistrusted(const grpc::Status& status) {
+bool distrusted(const grpc::Status& status) {
   if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return false;
   const std::string message = status.error_message();
   if (message.starts_with("empty address list")) return true;  // the own certificate cannot be used

@@ -25,7 +25,7 @@ std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
 bool other_role(const grpc::Status& status);
 /// Whether a call failed because one of the two does not trust the other's certificate; kMistrust says what
 /// to do.
-bool mistrusted(const grpc::Status& status);
+bool distrusted(const grpc::Status& status);
 inline constexpr std::string_view kMistrust =
     "does not trust this program's certificate, or shows one of another site; use one site folder for both "
     "(--site), "

@@ -16,8 +16,8 @@
 #include "common/loop/pace.hpp"
 #include "common/program/log.hpp"
 #include "common/rpc/caller_certificate.hpp"
+#include "common/rpc/connection_limiter.hpp"
 #include "common/rpc/control_service.hpp"
-#include "common/rpc/doorkeeper.hpp"
 #include "common/rpc/rpc_refusals.hpp"
 #include "common/rpc/status_fields.hpp"
 #include "common/site/revocations.hpp"
@@ -68,17 +68,17 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
                               proto::Control::WithCallbackMethod_GetStatus<proto::Control::Service>> {
  public:
   using Context = grpc::ServerContext;
-  using HearingContext = grpc::CallbackServerContext;
+  using CallbackContext = grpc::CallbackServerContext;
 
   GrpcControl(ControlBackend& backend, std::string_view side, bool secured)
       : service_(backend), side_(side), secured_(secured) {}
 
-  grpc::ServerUnaryReactor* GetStatus(HearingContext* context, const proto::StatusRequest*,
+  grpc::ServerUnaryReactor* GetStatus(CallbackContext* context, const proto::StatusRequest*,
                                       proto::Status* answer) override {
     *answer = status();
     return heard(context, grpc::Status::OK);
   }
-  grpc::ServerUnaryReactor* Stop(HearingContext* context, const proto::StopRequest*,
+  grpc::ServerUnaryReactor* Stop(CallbackContext* context, const proto::StopRequest*,
                                  proto::Outcome* answer) override {
     return heard(context, finish(context, service_.stop(), answer));
   }
@@ -132,8 +132,8 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
 
   grpc::Status Watch(Context* context, const proto::WatchRequest* request,
                      grpc::ServerWriter<proto::Status>* writer) override {
-    const Seat seat(*this);
-    if (!seat.taken())
+    const Slot slot(*this);
+    if (!slot.taken())
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
               std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: end one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
@@ -167,19 +167,19 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
 
  private:
   /// A watcher's place among kWatchersMax.
-  class Seat {
+  class Slot {
    public:
-    explicit Seat(GrpcControl& control) : control_(control) {
+    explicit Slot(GrpcControl& control) : control_(control) {
       const std::lock_guard lock(control_.mutex_);
       taken_ = control_.watchers_ < kWatchersMax;
       if (taken_) ++control_.watchers_;
     }
-    ~Seat() {
+    ~Slot() {
       const std::lock_guard lock(control_.mutex_);
       if (taken_) --control_.watchers_;
     }
-    Seat(const Seat&) = delete;
-    Seat& operator=(const Seat&) = delete;
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
     [[nodiscard]] bool taken() const { return taken_; }
 
    private:
@@ -187,7 +187,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     bool taken_ = false;
   };
 
-  static grpc::ServerUnaryReactor* heard(HearingContext* context, const grpc::Status& status) {
+  static grpc::ServerUnaryReactor* heard(CallbackContext* context, const grpc::Status& status) {
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     reactor->Finish(status);
     return reactor;
@@ -306,7 +306,7 @@ struct RpcServer::State {
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<ListeningSocket> socket;
-  std::unique_ptr<Doorkeeper> door;
+  std::unique_ptr<ConnectionLimiter> access;
   std::string address;
   std::jthread revocations;  // looks whether the holder of the session is revoked
 
@@ -341,7 +341,8 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
         ": end the program that uses this port, or set rpc.listen to a free port on an address "
         "of this machine");
   state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(state_->socket->port());
-  state_->door = std::make_unique<Doorkeeper>(*state_->socket, [this](int fd) { state_->let_in(fd); });
+  state_->access =
+      std::make_unique<ConnectionLimiter>(*state_->socket, [this](int fd) { state_->let_in(fd); });
   state_->revocations = std::jthread([control = &state_->control](const std::stop_token& ends) {
     for (; !ends.stop_requested(); std::this_thread::sleep_for(kRevocationCheck)) control->end_revoked();
   });
@@ -351,7 +352,7 @@ RpcServer::~RpcServer() { stop(); }
 
 void RpcServer::stop() {
   if (!state_->server) return;
-  state_->door.reset();
+  state_->access.reset();
   state_->revocations = {};  // it ends within kRevocationCheck
   state_->control.begin_stop();
   state_->server->Shutdown(std::chrono::system_clock::now() + kFinishGrace);

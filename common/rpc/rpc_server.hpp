@@ -2,7 +2,7 @@
 // Serves proto/control.proto for one side over gRPC: many clients, one backend call at a time. Needs no
 // thread of the caller. A client has to show a certificate of the same site (mutual TLS); sessions are opened
 // for the role of the master alone. In clear it serves loopback only. Connections come through a
-// Doorkeeper. It raises the program's limit of descriptors.
+// ConnectionLimiter. It raises the program's limit of descriptors.
 //
 // A refusal of the backend becomes INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE, with the trailing
 // metadata kRefusedBy, by which a client tells a side that refuses from a side that cannot be reached.

@@ -38,7 +38,7 @@ const SideFigures& SideObserver::observe(Time now, Port& port, const UdpChannel&
   figures_.loop = loop;
   figures_.session = endpoint.session();
   figures_.peer_restarts = endpoint.restarts();
-  figures_.strangers = channel.strangers();
+  figures_.unknown_peers = channel.unknown_peers();
   figures_.unsent = channel.unsent();
   return figures_;
 }

@@ -3,7 +3,7 @@
 
 #include "common/loop/loop_figures.hpp"
 #include "common/net/udp_channel.hpp"
-#include "common/recording/tape.hpp"
+#include "common/recording/record_buffer.hpp"
 #include "common/wire/port.hpp"
 
 namespace longreach {
@@ -16,7 +16,7 @@ struct SideFigures {
   LoopFigures loop{};
   std::uint64_t session = 0;        // 0: none yet
   std::uint32_t peer_restarts = 0;  // sessions after the first
-  std::uint64_t strangers = 0;      // datagrams from other addresses than the peer's
+  std::uint64_t unknown_peers = 0;  // datagrams from other addresses than the peer's
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 

@@ -94,7 +94,7 @@ void fill(proto::Status& status, const SideFigures& figures) {
   *status.mutable_link() = to_message(figures.link);
   add_count(status, "accepted", figures.accepted);
   add_counts(status, figures.rejected);
-  add_count(status, "strangers", figures.strangers);
+  add_count(status, "strangers", figures.unknown_peers);
   add_count(status, "unsent", figures.unsent);
   add_count(status, "peer_restarts", figures.peer_restarts);
   add_counts(status, figures.loop);

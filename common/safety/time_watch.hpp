@@ -25,7 +25,7 @@ class TimeWatch {
 
   /// What has come with this tick; before step().
   template <class Message>
-  void hear(Time now, std::span<const Received<Message>> messages) {
+  void receive(Time now, std::span<const Received<Message>> messages) {
     for (const auto& received : messages) {
       if (received.echo_sent)
         newest_echo_ = std::max(newest_echo_.value_or(*received.echo_sent), *received.echo_sent);

@@ -22,8 +22,8 @@ struct AdapterFigures {
   std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
   std::uint64_t late = 0;       // overtaken, repeated, or of another session while one lasts
   std::uint64_t restarts = 0;
-  double silent_after_s = 0.0;              // the last silence, when it became a fault
-  std::optional<std::uint32_t> stranger{};  // the user, when it belongs to one whom nothing is said
+  double silent_after_s = 0.0;                  // the last silence, when it became a fault
+  std::optional<std::uint32_t> unknown_peer{};  // the user, when it belongs to one whom nothing is said
 };
 
 template <class Out, class In>
@@ -54,9 +54,9 @@ class AdapterPort {
         fresh = true;
       }
     }
-    if (fresh) heard_ = now;
+    if (fresh) received_ = now;
     const bool silent = exchange_.silent(now_ns);
-    if (silent && !figures_.silent) figures_.silent_after_s = to_seconds(now - heard_);
+    if (silent && !figures_.silent) figures_.silent_after_s = to_seconds(now - received_);
     figures_.silent = silent;
     figures_.failed = !figures_.silent && (newest_.flags & In::kOk) == 0;
     figures_.restarts = exchange_.sessions() > 0 ? exchange_.sessions() - 1 : 0;
@@ -72,7 +72,7 @@ class AdapterPort {
   [[nodiscard]] bool ok() const { return !figures_.silent && !figures_.failed; }
   [[nodiscard]] const In& newest() const { return newest_; }
   /// Since that has come.
-  [[nodiscard]] double age_s(Time now) const { return to_seconds(now - heard_); }
+  [[nodiscard]] double age_s(Time now) const { return to_seconds(now - received_); }
   [[nodiscard]] const AdapterFigures& figures() const { return figures_; }
 
  private:
@@ -81,7 +81,7 @@ class AdapterPort {
   Channel& channel_;
   adapter::Exchange exchange_;
   In newest_{};
-  Time heard_{};
+  Time received_{};
   AdapterFigures figures_{};
 };
 

@@ -11,8 +11,8 @@
 #include "common/program/option_checks.hpp"
 #include "common/program/program_text.hpp"
 #include "common/rpc/rpc_server.hpp"
+#include "deploy/cli/argument_checks.hpp"
 #include "deploy/cli/help_text.hpp"
-#include "deploy/cli/judged_words.hpp"
 #include "deploy/cli/record/record_words.hpp"
 
 namespace longreach {
@@ -31,7 +31,7 @@ struct Words {
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
   std::string device{}, robot{}, force = "0.5", move = "0";
-  std::string robot_file{}, patience = "30";
+  std::string robot_file{}, push_timeout = "30";
   bool push = false;
 };
 
@@ -209,7 +209,7 @@ void Grammar::declare_adapter() {
   check->add_flag("--push", words_.push,
                   "ask a person to push and turn the robot's tool instead: sign, axes, zero");
   check->add_option("--robot-file", words_.robot_file, "what the robot is, for --push")->type_name("FILE");
-  check->add_option("--patience", words_.patience, "how long --push waits for each, 1 to 600 s [30]")
+  check->add_option("--patience", words_.push_timeout, "how long --push waits for each, 1 to 600 s [30]")
       ->type_name("N");
 }
 
@@ -309,7 +309,8 @@ AdapterCheckCommand Grammar::adapter_command() const {
   check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
   check.push = words_.push;
   check.robot_file = words_.robot_file;
-  check.patience_s = bounded("--patience", words_.patience, parse_number(words_.patience), 1.0, 600.0, " s");
+  check.push_timeout_s =
+      bounded("--patience", words_.push_timeout, parse_number(words_.push_timeout), 1.0, 600.0, " s");
   if (check.push && (!check.robot || check.robot_file.empty()))
     throw UsageError(
         "adapter check --push needs --robot unix:/PATH and --robot-file FILE, as longreach-slave has it");

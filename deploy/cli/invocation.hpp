@@ -100,7 +100,7 @@ struct AdapterCheckCommand {
   double move = 0.0;     // of a robot's first joint, rad or m
   bool push = false;     // instead: a person pushes a robot's tool
   std::string robot_file{};
-  double patience_s = 30.0;  // for each push
+  double push_timeout_s = 30.0;  // for each push
 };
 
 using Command =

@@ -75,7 +75,7 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kDown, down_sentence(side, options, true)};
     case grpc::StatusCode::UNAVAILABLE:
       if (other_role(status)) return wrong_side(side, options, side == Side::kMaster ? "slave" : "master");
-      if (mistrusted(status))
+      if (distrusted(status))
         return {SideError::Kind::kDown,
                 the_side + " at " + address_of(side, options) + " " + std::string(kMistrust)};
       return {SideError::Kind::kDown, down_sentence(side, options, false)};

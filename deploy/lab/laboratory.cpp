@@ -71,7 +71,7 @@ void Laboratory::step() {
 
 void Laboratory::step_slave() {
   const Time now = slave_now();
-  if (!slave_lives_ || elapsed_ <= slave_thaws_ || (meddler_ && meddler_->slave_sleeps())) {
+  if (!slave_lives_ || elapsed_ <= slave_thaws_ || (fault_hooks_ && fault_hooks_->slave_skips_tick())) {
     ++slave_overdue_;
     arm_.read(now);
     return;
@@ -82,7 +82,7 @@ void Laboratory::step_slave() {
   in.now = now;
   in.robot = arm_.read(now);
   if (tamperer_) tamperer_(now, in.robot);
-  if (meddler_) meddler_->robot_told(in.robot);
+  if (fault_hooks_) fault_hooks_->robot_reported(in.robot);
   in.commands = slave_port_.commands();
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_session_count = endpoint.sessions();
@@ -90,9 +90,9 @@ void Laboratory::step_slave() {
   in.rejected = slave_port_.rejected_total();
   in.may_send = slave_port_.may_send(now);
   in.overdue_ticks = slave_overdue_;
-  if (meddler_) meddler_->slave_asked(in);
+  if (fault_hooks_) fault_hooks_->before_slave_step(in);
   SlaveOutput out = slave_node_.step(in);
-  if (meddler_) meddler_->slave_answered(out);
+  if (fault_hooks_) fault_hooks_->after_slave_step(out);
   if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
   setpoint_rad_ = out.joint_setpoint_rad;
   arm_.write(out.joint_setpoint_rad);
@@ -109,7 +109,7 @@ void Laboratory::step_slave() {
 void Laboratory::step_master() {
   if (!master_lives_) return;
   const Time now = master_now();
-  if (elapsed_ <= master_thaws_ || (meddler_ && meddler_->master_sleeps())) {
+  if (elapsed_ <= master_thaws_ || (fault_hooks_ && fault_hooks_->master_skips_tick())) {
     ++master_overdue_;
     if (driven_) devices_.set_target(*driven_);
     devices_.read(now);
@@ -118,7 +118,7 @@ void Laboratory::step_master() {
   master_port_.receive(now, master_node_.stalled(now));
   const Endpoint& endpoint = master_port_.endpoint();
   HandleState handle = devices_.read(now);
-  if (meddler_) meddler_->handle_told(handle);
+  if (fault_hooks_) fault_hooks_->handle_reported(handle);
   const MasterView& view = master_node_.view();
   const ScriptOutput script = script_.step({.now = now,
                                             .handle_m = handle.p_MH,
@@ -146,9 +146,9 @@ void Laboratory::step_master() {
   in.rtt_s = rtt_s_;
   in.may_send = master_port_.may_send(now);
   in.overdue_ticks = master_overdue_;
-  if (meddler_) meddler_->master_asked(in);
+  if (fault_hooks_) fault_hooks_->before_master_step(in);
   MasterOutput out = master_node_.step(in);
-  if (meddler_) meddler_->master_answered(out);
+  if (fault_hooks_) fault_hooks_->after_master_step(out);
   if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
   devices_.write(out.F_H_M);
   if (out.command) master_port_.send(now, out.sequence, *out.command);

@@ -12,7 +12,7 @@
 
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
-#include "deploy/lab/meddler.hpp"
+#include "deploy/lab/fault_hooks.hpp"
 #include "master/master_node.hpp"
 #include "master/simulation/scripted_operator.hpp"
 #include "master/simulation/simulated_devices.hpp"
@@ -84,7 +84,7 @@ class Laboratory {
   void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
   void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
   /// Must live as long as the laboratory steps.
-  void let_meddle(Meddler& meddler) { meddler_ = &meddler; }
+  void set_fault_hooks(FaultHooks& fault_hooks) { fault_hooks_ = &fault_hooks; }
   /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
   void record(const std::filesystem::path& file);
   /// Ends the file. Throws RecordingError when it could not be written.
@@ -104,10 +104,11 @@ class Laboratory {
 
  private:
   [[nodiscard]] Time master_now() const {
-    return Time{std::chrono::seconds(100)} + (meddler_ ? meddler_->master_clock(elapsed_) : elapsed_);
+    return Time{std::chrono::seconds(100)} + (fault_hooks_ ? fault_hooks_->master_clock(elapsed_) : elapsed_);
   }
   [[nodiscard]] Time slave_now() const {
-    return Time{std::chrono::seconds(77777)} + (meddler_ ? meddler_->slave_clock(elapsed_) : elapsed_);
+    return Time{std::chrono::seconds(77777)} +
+           (fault_hooks_ ? fault_hooks_->slave_clock(elapsed_) : elapsed_);
   }
   void step_slave();
   void step_master();
@@ -136,7 +137,7 @@ class Laboratory {
   std::uint64_t slave_overdue_ = 0, master_overdue_ = 0;
   std::function<void(MemoryChannelPair&)> intruder_{};
   std::function<void(Time, RobotState&)> tamperer_{};
-  Meddler* meddler_ = nullptr;
+  FaultHooks* fault_hooks_ = nullptr;
   std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
   std::uint64_t last_report_ = 0;

@@ -61,14 +61,15 @@ void PacketQueue::take(std::uint32_t id) {
     nfq_set_verdict(queue_, id, NF_DROP, 0, nullptr);
     return;
   }
-  parcels_.push_back({Clock::now() + delay_, id});
+  queued_datagrams_.push_back({Clock::now() + delay_, id});
 }
 
 void PacketQueue::step() {
   using std::chrono::nanoseconds;
   const auto now = Clock::now();
   nanoseconds wait = kLongestWait;
-  if (!parcels_.empty()) wait = std::clamp<nanoseconds>(parcels_.front().due - now, nanoseconds(0), wait);
+  if (!queued_datagrams_.empty())
+    wait = std::clamp<nanoseconds>(queued_datagrams_.front().due - now, nanoseconds(0), wait);
   timespec timeout{};
   timeout.tv_nsec = static_cast<long>(wait.count());
   pollfd socket{nfq_fd(handle_.get()), POLLIN, 0};
@@ -85,9 +86,9 @@ void PacketQueue::read() {
 
 void PacketQueue::release() {
   const auto now = Clock::now();
-  while (!parcels_.empty() && parcels_.front().due <= now) {
-    nfq_set_verdict(queue_, parcels_.front().id, NF_ACCEPT, 0, nullptr);
-    parcels_.pop_front();
+  while (!queued_datagrams_.empty() && queued_datagrams_.front().due <= now) {
+    nfq_set_verdict(queue_, queued_datagrams_.front().id, NF_ACCEPT, 0, nullptr);
+    queued_datagrams_.pop_front();
   }
 }
 

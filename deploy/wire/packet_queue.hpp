@@ -31,7 +31,7 @@ class PacketQueue {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Parcel {
+  struct QueuedDatagram {
     Clock::time_point due{};
     std::uint32_t id = 0;
   };
@@ -47,8 +47,8 @@ class PacketQueue {
   Clock::duration delay_;
   std::mt19937_64 random_;
   std::unique_ptr<nfq_handle, Close> handle_;
-  nfq_q_handle* queue_ = nullptr;  // the handle's
-  std::deque<Parcel> parcels_;     // the delay is one for all: due in order
+  nfq_q_handle* queue_ = nullptr;                // the handle's
+  std::deque<QueuedDatagram> queued_datagrams_;  // the delay is one for all: due in order
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

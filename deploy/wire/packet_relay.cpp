@@ -17,7 +17,7 @@
 namespace longreach {
 namespace {
 
-constexpr std::size_t kParcelsMax = 65'536;  // under way, each way; what comes beyond is dropped
+constexpr std::size_t kQueuedDatagramsMax = 65'536;  // under way, each way; what comes beyond is dropped
 constexpr auto kLongestWait = std::chrono::milliseconds(100);
 
 Descriptor opened(const std::string& file, int flags) {
@@ -67,22 +67,23 @@ void PacketRelay::read(std::size_t from) {
     const ssize_t size = ::read(cable_[from].number(), packet.data(), packet.size());
     if (size <= 0) return;
     ++packets_;
-    if (std::bernoulli_distribution(config_.loss)(random_) || parcels_[from].size() >= kParcelsMax) {
+    if (std::bernoulli_distribution(config_.loss)(random_) ||
+        queued_datagrams_[from].size() >= kQueuedDatagramsMax) {
       ++dropped_;
       continue;
     }
-    parcels_[from].push_back({Clock::now() + delay_, {packet.begin(), packet.begin() + size}});
+    queued_datagrams_[from].push_back({Clock::now() + delay_, {packet.begin(), packet.begin() + size}});
   }
 }
 
 void PacketRelay::release(std::size_t from) {
   const auto now = Clock::now();
-  auto& parcels = parcels_[from];
-  while (!parcels.empty() && parcels.front().due <= now) {
-    const auto& packet = parcels.front().packet;
+  auto& queued_datagrams = queued_datagrams_[from];
+  while (!queued_datagrams.empty() && queued_datagrams.front().due <= now) {
+    const auto& packet = queued_datagrams.front().packet;
     // An end that takes none is a loss like any other.
     if (::write(cable_[1 - from].number(), packet.data(), packet.size()) < 0) ++dropped_;
-    parcels.pop_front();
+    queued_datagrams.pop_front();
   }
 }
 
@@ -90,8 +91,9 @@ void PacketRelay::step() {
   using std::chrono::nanoseconds;
   const auto now = Clock::now();
   nanoseconds wait = kLongestWait;
-  for (const auto& parcels : parcels_)
-    if (!parcels.empty()) wait = std::clamp<nanoseconds>(parcels.front().due - now, nanoseconds(0), wait);
+  for (const auto& queued_datagrams : queued_datagrams_)
+    if (!queued_datagrams.empty())
+      wait = std::clamp<nanoseconds>(queued_datagrams.front().due - now, nanoseconds(0), wait);
   timespec timeout{};
   timeout.tv_nsec = static_cast<long>(wait.count());
   std::array<pollfd, 2> ends{{{cable_[0].number(), POLLIN, 0}, {cable_[1].number(), POLLIN, 0}}};

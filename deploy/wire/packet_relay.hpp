@@ -43,7 +43,7 @@ class PacketRelay {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Parcel {
+  struct QueuedDatagram {
     Clock::time_point due{};
     std::vector<std::byte> packet;
   };
@@ -55,7 +55,8 @@ class PacketRelay {
   Clock::duration delay_;
   std::mt19937_64 random_;
   std::array<Descriptor, 2> cable_;
-  std::array<std::deque<Parcel>, 2> parcels_;  // by the end that they came from, due in order
+  std::array<std::deque<QueuedDatagram>, 2>
+      queued_datagrams_;  // by the end that they came from, due in order
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

@@ -10,7 +10,7 @@
 namespace longreach {
 namespace {
 
-bool is_machine(HoldCause cause) { return text_of(cause).blame == HoldBlame::kMachine; }
+bool is_machine(HoldCause cause) { return text_of(cause).attribution == HoldAttribution::kMachine; }
 
 std::string machine_words(const HoldRecord& hold) {
   const bool here = is_machine(hold.cause);
@@ -32,31 +32,31 @@ std::string hand_words(const HoldRecord& hold, const std::vector<HandTrouble>& h
 
 std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& hand) {
   const std::string when = formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
-  if (hold.blame == HoldBlame::kMachine) return when + machine_words(hold);
+  if (hold.attribution == HoldAttribution::kMachine) return when + machine_words(hold);
   const std::string trouble = hand_words(hold, hand);
   std::string text = when + (trouble.empty() ? sentence(hold.cause) : trouble);
   // That the slave holds with the master goes without saying.
   const bool follows = hold.far_cause == HoldCause::kPeerHolds && hold.cause != HoldCause::kNone;
   if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause && !follows)
     text += ", at the slave " + sentence(hold.far_cause);
-  return text + (hold.blame == HoldBlame::kOutage ? ", as the link's profile has it" : "");
+  return text + (hold.attribution == HoldAttribution::kOutage ? ", as the link's profile has it" : "");
 }
 
 }  // namespace
 
-HoldBlame HoldLog::blame(const HoldRecord& hold) const {
-  const auto is = [&](HoldBlame which) {
-    return text_of(hold.cause).blame == which || text_of(hold.far_cause).blame == which;
+HoldAttribution HoldLog::attribution(const HoldRecord& hold) const {
+  const auto is = [&](HoldAttribution which) {
+    return text_of(hold.cause).attribution == which || text_of(hold.far_cause).attribution == which;
   };
-  if (is(HoldBlame::kMachine)) return HoldBlame::kMachine;
-  if (is(HoldBlame::kOperator)) return HoldBlame::kOperator;
-  return outages_ && is(HoldBlame::kOutage) ? HoldBlame::kOutage : HoldBlame::kSystem;
+  if (is(HoldAttribution::kMachine)) return HoldAttribution::kMachine;
+  if (is(HoldAttribution::kOperator)) return HoldAttribution::kOperator;
+  return outages_ && is(HoldAttribution::kOutage) ? HoldAttribution::kOutage : HoldAttribution::kSystem;
 }
 
 HoldRecord HoldLog::present() const {
   HoldRecord hold = hold_;
   hold.lasted_s = now_s_ - hold.began_s;
-  hold.blame = blame(hold);
+  hold.attribution = attribution(hold);
   return hold;
 }
 
@@ -79,8 +79,8 @@ void HoldLog::add(double seconds, const MasterView& view) {
     const HoldRecord hold = present();
     const std::uint64_t number = count() - 1;
     if (number < kKept) kept_[number] = hold;
-    ++counts_[static_cast<std::size_t>(hold.blame)];
-    if (hold.blame == HoldBlame::kMachine) machine_s_ += hold.lasted_s;
+    ++counts_[static_cast<std::size_t>(hold.attribution)];
+    if (hold.attribution == HoldAttribution::kMachine) machine_s_ += hold.lasted_s;
     holds_ = false;
   }
   engaged_ = engaged;
@@ -91,14 +91,14 @@ std::uint64_t HoldLog::count() const {
 }
 
 double HoldLog::machine_s() const {
-  const bool now = holds_ && present().blame == HoldBlame::kMachine;
+  const bool now = holds_ && present().attribution == HoldAttribution::kMachine;
   return machine_s_ + (now ? present().lasted_s : 0.0);
 }
 
 std::vector<HoldLog::Sentence> HoldLog::words(const std::vector<HandTrouble>& hand) const {
   std::vector<Sentence> all;
   const auto add = [&](const HoldRecord& hold) {
-    all.push_back({words_of(hold, hand), hold.blame == HoldBlame::kSystem});
+    all.push_back({words_of(hold, hand), hold.attribution == HoldAttribution::kSystem});
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(count() - (holds_ ? 1 : 0), kKept); ++i) add(kept_[i]);
   if (holds_) add(present());

@@ -17,7 +17,7 @@ struct HoldRecord {
   double began_s = 0.0, lasted_s = 0.0;
   Reason cause{};      // at the master
   Reason far_cause{};  // at the slave, as far as it was reported meanwhile
-  HoldBlame blame = HoldBlame::kSystem;
+  HoldAttribution attribution = HoldAttribution::kSystem;
 };
 
 /// Why there was nothing in the hand from then on, and what to do, in words.
@@ -34,13 +34,13 @@ class HoldLog {
   /// `seconds` since the start must not fall.
   void add(double seconds, const MasterView& view);
 
-  [[nodiscard]] std::uint64_t count(HoldBlame blame) const {
-    return counts_[static_cast<std::size_t>(blame)] + (now() == blame ? 1 : 0);
+  [[nodiscard]] std::uint64_t count(HoldAttribution attribution) const {
+    return counts_[static_cast<std::size_t>(attribution)] + (now() == attribution ? 1 : 0);
   }
   [[nodiscard]] std::uint64_t count() const;
   /// Of the present hold; none: there is none.
-  [[nodiscard]] std::optional<HoldBlame> now() const {
-    return holds_ ? std::optional(blame(hold_)) : std::nullopt;
+  [[nodiscard]] std::optional<HoldAttribution> now() const {
+    return holds_ ? std::optional(attribution(hold_)) : std::nullopt;
   }
   /// Time of the holds that the machine caused, the present one included.
   [[nodiscard]] double machine_s() const;
@@ -54,7 +54,7 @@ class HoldLog {
 
  private:
   static constexpr std::size_t kKept = 16;
-  [[nodiscard]] HoldBlame blame(const HoldRecord& hold) const;
+  [[nodiscard]] HoldAttribution attribution(const HoldRecord& hold) const;
   [[nodiscard]] HoldRecord present() const;
 
   bool outages_;

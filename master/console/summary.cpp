@@ -172,7 +172,7 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
 }
 
 void RunSummary::add_holds(Summary& s, const std::vector<HandTrouble>& hand) const {
-  const std::uint64_t faults = holds_.count(HoldBlame::kSystem), all = holds_.count();
+  const std::uint64_t faults = holds_.count(HoldAttribution::kSystem), all = holds_.count();
   std::string text = count_text(all, "holds");
   if (faults > 0) text += formatted(", %llu of them a fault", static_cast<unsigned long long>(faults));
   s.checks.push_back({text, faults == 0});

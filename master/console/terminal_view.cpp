@@ -18,7 +18,7 @@ namespace {
 constexpr double kLivePeriodS = 0.1;
 constexpr double kPlainPeriodS = 0.1, kFiguresPeriodS = 5.0;
 constexpr std::size_t kPlainMaxBytes = 64 << 10;
-constexpr std::chrono::milliseconds kScreenPatience{200};
+constexpr std::chrono::milliseconds kScreenTimeout{200};
 constexpr std::string_view kEnter =
     "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J"  // other screen, no cursor, no wrap, empty
     "\x1b[?2004h";                         // what is pasted comes in brackets: no keys
@@ -65,27 +65,27 @@ TerminalView::TerminalView(ViewKind kind, int fd)
     : fd_(fd), live_(kind == ViewKind::kAuto && can_redraw(fd)), plain_(kind != ViewKind::kNone && !live_) {
   const char* no_color = std::getenv("NO_COLOR");  // no-color.org
   color_ = live_ && (no_color == nullptr || *no_color == '\0');
-  if (plain_) outlet_.emplace(fd_, kPlainMaxBytes);
+  if (plain_) async_writer_.emplace(fd_, kPlainMaxBytes);
   if (!live_) return;
   // A thread that waits in a write would keep everybody else from the terminal, also who gives it back.
   const int own = open_anew(fd_);
-  outlet_.emplace(own, 0);
+  async_writer_.emplace(own, 0);
   ::close(own);
   keep_screen(fd_);
-  outlet_->offer(std::string(kEnter));
-  outlet_->drain(kScreenPatience);  // before a signal may give it back
+  async_writer_->offer(std::string(kEnter));
+  async_writer_->drain(kScreenTimeout);  // before a signal may give it back
 }
 
 TerminalView::~TerminalView() { close(); }
 
 void TerminalView::close() {
   if (live_) {
-    outlet_->clear();
-    outlet_->drain(kScreenPatience);
+    async_writer_->clear();
+    async_writer_->drain(kScreenTimeout);
     give_back_screen();
   }
   live_ = plain_ = false;
-  outlet_.reset();
+  async_writer_.reset();
 }
 
 void TerminalView::show(const ConsoleSnapshot& snapshot) {
@@ -101,11 +101,11 @@ void TerminalView::show(const ConsoleSnapshot& snapshot) {
           (std::floor(snapshot.seconds / kFiguresPeriodS + 1e-6) + 1.0) * kFiguresPeriodS - 1e-6;
     }
     event_ = std::move(event);
-    if (!text.empty()) outlet_->offer(std::move(text));
+    if (!text.empty()) async_writer_->offer(std::move(text));
     return;
   }
   const ScreenSize size = size_of(fd_);
-  outlet_->offer(in_place(render(snapshot, size.columns, color_), size.rows));
+  async_writer_->offer(in_place(render(snapshot, size.columns, color_), size.rows));
 }
 
 }  // namespace longreach

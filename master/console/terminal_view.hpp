@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "common/program/outlet.hpp"
+#include "common/program/async_writer.hpp"
 #include "master/console/snapshot.hpp"
 
 namespace longreach {
@@ -48,7 +48,7 @@ class TerminalView {
   bool color_ = false;
   double next_s_ = 0.0, next_figures_s_ = 0.0;
   std::string event_{};  // the last one, without its figures
-  std::optional<Outlet> outlet_;
+  std::optional<AsyncWriter> async_writer_;
 };
 
 }  // namespace longreach

@@ -98,7 +98,7 @@ std::string following(const ConsoleSnapshot& s) {
 std::string holding(const ConsoleSnapshot& s) {
   const MasterView& view = s.view;
   if (view.cause == HoldCause::kNone || (view.cause == HoldCause::kHandleLetGo && !view.hand_missing))
-    return "holding: engage to go on";
+    return "holding: engage to resume";
   const std::string begin = "holding: " + cause_in_words(view);
   if (view.cause == HoldCause::kLinkSilent && !view.cause_is_far) {
     if (view.silent)
@@ -106,7 +106,7 @@ std::string holding(const ConsoleSnapshot& s) {
              (view.resumes ? "" : "; engage when the link is back");
     return formatted("holding: nothing came from the slave for %.1f s; the link is back: ",
                      view.hold_silence_s) +
-           (view.resumes ? "it goes on by itself" : "engage to go on");
+           (view.resumes ? "it goes on by itself" : "engage to resume");
   }
   if (view.resumes) return begin + "; it goes on by itself if that is over at once";
   if (view.cause == HoldCause::kDelayRose && !view.cause_is_far && view.rtt_s && view.rtt_least_s)

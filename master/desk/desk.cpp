@@ -55,14 +55,14 @@ std::optional<RemoteAim> to_aim(const proto::HandAim& message, const DeskService
                    .clutch = message.clutch(),
                    .grip = message.grip(),
                    .holds = true,
-                   .said = monotonic_now()};
+                   .said = boottime_now()};
 }
 
 }  // namespace
 
-DeskService::DeskService(const Reach& reach, std::function<ConsoleSnapshot()> look,
+DeskService::DeskService(const Reach& reach, std::function<ConsoleSnapshot()> snapshot,
                          std::function<void(const RemoteAim&)> aim)
-    : reach_(reach), look_(std::move(look)), aim_(std::move(aim)) {}
+    : reach_(reach), snapshot_(std::move(snapshot)), aim_(std::move(aim)) {}
 
 grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::FollowRequest* request,
                                  grpc::ServerWriter<proto::Frame>* writer) {
@@ -74,7 +74,7 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
   const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
   for (Pace pace(follow_hz(*request)); wait_until(pace.due(), *context); pace.advance()) {
     if (is_revoked(*context->auth_context())) break;
-    if (!writer->Write(to_frame(look_(), reach_.translation_m), options)) break;
+    if (!writer->Write(to_frame(snapshot_(), reach_.translation_m), options)) break;
   }
   leave(followers_);
   return grpc::Status::OK;

@@ -25,7 +25,7 @@ class DeskService final : public proto::Desk::Service {
     double rotation_rad = 0.8;
   };
   /// Both functions are called from RPC threads; `aim` by one at a time.
-  DeskService(const Reach& reach, std::function<ConsoleSnapshot()> look,
+  DeskService(const Reach& reach, std::function<ConsoleSnapshot()> snapshot,
               std::function<void(const RemoteAim&)> aim);
 
   grpc::Status Follow(grpc::ServerContext* context, const proto::FollowRequest* request,
@@ -49,7 +49,7 @@ class DeskService final : public proto::Desk::Service {
   bool pass(std::uint64_t hand, const RemoteAim& aim);
 
   Reach reach_;
-  std::function<ConsoleSnapshot()> look_;
+  std::function<ConsoleSnapshot()> snapshot_;
   std::function<void(const RemoteAim&)> aim_;
   std::mutex mutex_;
   int followers_ = 0;

@@ -20,9 +20,9 @@ std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRe
   }
   gone_ = gone_ && in.engagement == engagement_;
   if (!gone_) return std::nullopt;
-  HandTarget nobody;
-  nobody.grip = Grip::kReleased;
-  return nobody;
+  HandTarget no_hand;
+  no_hand.grip = Grip::kReleased;
+  return no_hand;
 }
 
 void RemoteHand::take(const RemoteHandInput& in) {

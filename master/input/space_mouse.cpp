@@ -49,7 +49,7 @@ constexpr auto kButtons = std::to_array<PadButton>(
 }  // namespace
 
 struct SpaceMouse::State {
-  void look_for_daemon(double dt_s);
+  void find_daemon(double dt_s);
   void leave();
   [[nodiscard]] bool hung_up() const;
   void take(const spnav_event& event);
@@ -60,7 +60,7 @@ struct SpaceMouse::State {
   AxisSample sample{};
 };
 
-void SpaceMouse::State::look_for_daemon(double dt_s) {
+void SpaceMouse::State::find_daemon(double dt_s) {
   retry_s -= dt_s;
   if (retry_s > 0.0) return;
   retry_s = kRetry_s;
@@ -104,7 +104,7 @@ SpaceMouse::~SpaceMouse() { state_->leave(); }
 
 AxisSample SpaceMouse::poll(double dt_s) {
   State& s = *state_;
-  if (!s.open) s.look_for_daemon(dt_s);
+  if (!s.open) s.find_daemon(dt_s);
   if (!s.open) return {};
   spnav_event event{};
   for (int i = 0; i < kEventsPerPoll && s.spnav.poll(&event) != 0; ++i) s.take(event);

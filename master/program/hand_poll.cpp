@@ -38,7 +38,7 @@ HandPoll::HandPoll(const MasterConfig& config, MasterShell& shell, MasterService
   }
   if (!pad && config.operator_.kind != OperatorKind::kKeyboard) return;
   keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
-  polled_ = monotonic_now();
+  polled_ = boottime_now();
   thread_ = std::thread([this] { run(); });
   (void)::pthread_setname_np(thread_.native_handle(), "hand");
 }
@@ -73,7 +73,7 @@ void HandPoll::poll() {
     shell_.hand().write({.target_m = state.target_m,
                          .clutch = requests.clutch,
                          .present = keyboard_->trouble().empty(),
-                         .said = monotonic_now()});
+                         .said = boottime_now()});
   }
   if (asks(requests)) {
     if (const auto refusal = service_.request(requests)) spdlog::warn("key refused=\"{}\"", refusal->message);
@@ -87,12 +87,12 @@ void HandPoll::poll() {
 }
 
 OperatorRequests HandPoll::poll_pad(const MasterView& view, OperatorRequests keys) {
-  const Time now = monotonic_now();
+  const Time now = boottime_now();
   const double felt = view.spring_force_n.norm() / config_.rendering.force_max_n;
   const AxisHandState& pad = pad_->poll(view.mode, felt, to_seconds(now - std::exchange(polled_, now)));
   HandLevel level = pad.level;
   level.clutch = level.clutch || keys.clutch;
-  level.said = monotonic_now();
+  level.said = boottime_now();
   shell_.hand().write(level);
   return both(std::move(keys), pad.requests);
 }

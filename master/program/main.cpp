@@ -16,7 +16,7 @@
 #include "master/console/formatted.hpp"
 #include "master/console/summary.hpp"
 #include "master/desk/desk.hpp"
-#include "master/program/housekeeping.hpp"
+#include "master/program/status_loop.hpp"
 #include "master/simulation/simulated_devices.hpp"
 
 namespace longreach {
@@ -91,7 +91,7 @@ std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shel
   return std::make_unique<DeskService>(
       DeskService::Reach{config.device.delta.workspace_m,
                          config.device.turns ? config.device.spherical.workspace_rad : 0.0},
-      [&, began = monotonic_now()] { return picture(service, config, to_seconds(monotonic_now() - began)); },
+      [&, began = boottime_now()] { return picture(service, config, to_seconds(boottime_now() - began)); },
       [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
 }
 
@@ -149,15 +149,15 @@ int operate(const MasterOptions& options) {
   MasterShell shell(plain, seed);
   MasterService service(shell, config, {options.recordings, seed});
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
-  const Time began = monotonic_now();
+  const Time began = boottime_now();
   const auto desk = make_desk(service, shell, plain);
   RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
   log_device(plain, config.has_device_file());
-  Housekeeping housekeeping({view_kind(options.view), options.seconds}, plain, shell, service);
+  StatusLoop status_loop({view_kind(options.view), options.seconds}, plain, shell, service);
   // The live view owns the terminal; it shows what the log would say.
-  if (housekeeping.live() && isatty(STDERR_FILENO) == 1) hush_log();
+  if (status_loop.live() && isatty(STDERR_FILENO) == 1) hush_log();
 
   RunSummary summary(summary_of(plain, options.wall_n_per_m));
   std::atomic<bool> end{false};
@@ -166,7 +166,7 @@ int operate(const MasterOptions& options) {
     try {
       for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
       RealTimeLoop loop(plain.loop.rate_hz);
-      shell.meet_device();
+      shell.wait_for_device();
       loop.run(end, [&](Time now, const LoopFigures& figures) {
         shell.tick(now, figures);
         summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);
@@ -176,10 +176,10 @@ int operate(const MasterOptions& options) {
       stop = true;
     }
   });
-  std::optional<SessionSeeker> seeker(
+  std::optional<SessionClient> session_client(
       std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
       sent_hz(plain.link),
-      [&service, &plain]() -> SessionSeeker::Present {
+      [&service, &plain]() -> SessionClient::Present {
         const SideFigures side = service.snapshot().side;
         // Both directions have the same, or the slave's is not known here.
         const ImpairmentConfig& down = plain.link.impairment;
@@ -187,13 +187,13 @@ int operate(const MasterOptions& options) {
                 2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
       },
       [&service](const Session& session) { return service.adopt(session); });
-  housekeeping.run(stop, *seeker);
+  status_loop.run(stop, *session_client);
   end = true;
   loop_thread.join();
-  seeker.reset();
+  session_client.reset();
   rpc.stop();
   if (failure) std::rethrow_exception(failure);
-  return judge(options, summary, service.snapshot(), plain, housekeeping.hand_troubles());
+  return judge(options, summary, service.snapshot(), plain, status_loop.hand_troubles());
 }
 
 }  // namespace

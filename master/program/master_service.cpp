@@ -168,14 +168,14 @@ std::string MasterService::trouble() {
 }
 
 void MasterService::put_trouble(const std::string& trouble, const std::string& taken_by) {
-  const bool robbed = !taken_by.empty();
+  const bool preempted = !taken_by.empty();
   {
     const std::lock_guard lock(troubling_);
     if (trouble == trouble_ && taken_by == taken_by_) return;
     trouble_ = trouble;
     taken_by_ = taken_by;
   }
-  if (robbed) (void)post(shell_.mailbox(), MasterCommand(MasterRobbed{}));
+  if (preempted) (void)post(shell_.mailbox(), MasterCommand(MasterPreempted{}));
 }
 
 bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }
@@ -189,8 +189,8 @@ std::optional<Refusal> MasterService::close_session(std::uint64_t) {
   return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are closed at the slave"};
 }
 
-SideRecording<MasterTape>::Request MasterService::recording_request(double max_mb) const {
-  SideRecording<MasterTape>::Request request;
+SideRecording<MasterRecordBuffer>::Request MasterService::recording_request(double max_mb) const {
+  SideRecording<MasterRecordBuffer>::Request request;
   request.max_mb = max_mb;
   request.rate_hz = config_.present()->loop().rate_hz();
   request.seed = recordings_.seed;
@@ -199,24 +199,26 @@ SideRecording<MasterTape>::Request MasterService::recording_request(double max_m
   return request;
 }
 
-bool MasterService::attach(MasterTape* tape) {
-  return !post(shell_.mailbox(), MasterCommand(MasterTaping{tape}));
+bool MasterService::attach(MasterRecordBuffer* record_buffer) {
+  return !post(shell_.mailbox(), MasterCommand(MasterRecordingChange{record_buffer}));
 }
 
 std::variant<std::string, Refusal> MasterService::start_recording(const std::string& name, double max_mb) {
-  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "master",
-                                    [this](MasterTape* tape) { return attach(tape); });
+  return longreach::start_recording(
+      recording_, recording_request(max_mb), recordings_.folder, name, "master",
+      [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 std::variant<std::string, Refusal> MasterService::stop_recording() {
-  return longreach::stop_recording(recording_, [this](MasterTape* tape) { return attach(tape); });
+  return longreach::stop_recording(
+      recording_, [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 void MasterService::record_from_start(const std::string& file, double max_mb) {
   auto request = recording_request(max_mb);
   request.file = file;
-  recording_.start(request, [this](MasterTape* tape) {
-    shell_.record(tape);
+  recording_.start(request, [this](MasterRecordBuffer* record_buffer) {
+    shell_.record(record_buffer);
     return true;
   });
   log_start(recording_.status());

@@ -47,15 +47,15 @@ class MasterService : public ControlBackend {
   void put_trouble(const std::string& trouble, const std::string& taken_by);
 
  private:
-  SideRecording<MasterTape>::Request recording_request(double max_mb) const;
+  SideRecording<MasterRecordBuffer>::Request recording_request(double max_mb) const;
   /// Hands a tape to the loop; false: it did not answer.
-  bool attach(MasterTape* tape);
+  bool attach(MasterRecordBuffer* record_buffer);
 
   MasterShell& shell_;
   SideConfig<proto::MasterConfig> config_;
   std::uint32_t config_number_ = 0;  // of those that the loop was handed
   RecordingPlace recordings_;
-  SideRecording<MasterTape> recording_;
+  SideRecording<MasterRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
   std::mutex troubling_;

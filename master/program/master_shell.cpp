@@ -1,6 +1,6 @@
 #include "master/program/master_shell.hpp"
 
-#include "common/loop/meeting.hpp"
+#include "common/loop/wait_for_adapter.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "master/input/pad_operator.hpp"
 
@@ -13,7 +13,7 @@ constexpr double kHandSpeed_rad_per_s = 1.0;
 std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterConfig& config) {
   if (channel == nullptr) return std::nullopt;
   return std::optional<DeviceAdapter>(std::in_place, *channel,
-                                      told_in_time(config.device_adapter, config.loop.rate_hz),
+                                      with_prompt_timeout(config.device_adapter, config.loop.rate_hz),
                                       draw_session(Cipher::kChaCha20Poly1305).number);
 }
 
@@ -43,8 +43,8 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
   port_.limit(config.link.budget_kbit_per_s);
 }
 
-void MasterShell::meet_device() {
-  if (adapter_) meet(*adapter_);
+void MasterShell::wait_for_device() {
+  if (adapter_) wait_for_adapter(*adapter_);
 }
 
 void MasterShell::tick(Time now, const LoopFigures& loop) {
@@ -68,7 +68,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.requests.stop = stop || requests.stop;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.restarts();
-  in.taken = robbed_;
+  in.taken = preempted_;
   in.hand_stale = hand_stale_;
   in.rtt_s = snapshot_.side.link.rtt_s;
   in.may_send = port_.may_send(now);
@@ -85,7 +85,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.hand_lost = lost_;
   if (adapter_) {
     snapshot_.adapter = adapter_->figures();
-    snapshot_.adapter.stranger = adapter_channel_->stranger();
+    snapshot_.adapter.unknown_peer = adapter_channel_->unknown_peer();
   }
   snapshots_.write(snapshot_);
   write_down(in, out);
@@ -93,9 +93,9 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
 
 void MasterShell::write_down(const MasterInput& in, const MasterOutput& out) {
   const std::uint64_t tick = ticks_++;
-  if (tape_ == nullptr) return;
-  tape_->add_tick(tick, config_number_, in, out, node_.view());
-  if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
+  if (record_buffer_ == nullptr) return;
+  record_buffer_->add_tick(tick, config_number_, in, out, node_.view());
+  if (record_buffer_->link_due(tick)) record_buffer_->add_link(link_sample(in.now, snapshot_.side));
 }
 
 LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
@@ -105,11 +105,11 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
     port_.impairment().configure(*impairment, now);
   } else if (const auto* session = std::get_if<Session>(&command)) {
     port_.follow(*session);
-    robbed_ = false;
-  } else if (std::holds_alternative<MasterRobbed>(command)) {
-    robbed_ = true;
-  } else if (const auto* taping = std::get_if<MasterTaping>(&command)) {
-    tape_ = taping->tape;
+    preempted_ = false;
+  } else if (std::holds_alternative<MasterPreempted>(command)) {
+    preempted_ = true;
+  } else if (const auto* recording_change = std::get_if<MasterRecordingChange>(&command)) {
+    record_buffer_ = recording_change->record_buffer;
   } else {
     const auto& change = std::get<MasterChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
@@ -145,9 +145,9 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
     return hold(level, handle);
   }
   if (kind == OperatorKind::kNone || adapter_) {
-    HandTarget nobody;
-    nobody.grip = Grip::kReleased;
-    return nobody;
+    HandTarget no_hand;
+    no_hand.grip = Grip::kReleased;
+    return no_hand;
   }
   const MasterView& view = node_.view();
   const ScriptOutput script = script_.step({.now = now,

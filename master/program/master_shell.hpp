@@ -16,7 +16,7 @@
 #include "master/input/hand_level.hpp"
 #include "master/input/remote_hand.hpp"
 #include "master/master_node.hpp"
-#include "master/recording/master_tape.hpp"
+#include "master/recording/master_record_buffer.hpp"
 #include "master/simulation/scripted_operator.hpp"
 #include "master/simulation/simulated_devices.hpp"
 
@@ -39,13 +39,13 @@ struct MasterChange {
   std::uint32_t number = 0;      // of the configuration, for a recording
 };
 /// What is written down from now on; none: nothing. The loop no longer uses the one before.
-struct MasterTaping {
-  MasterTape* tape = nullptr;
+struct MasterRecordingChange {
+  MasterRecordBuffer* record_buffer = nullptr;
 };
 /// Another master has the robot now: that is why the slave is silent.
-struct MasterRobbed {};
-using MasterCommand =
-    std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterRobbed, MasterTaping>;
+struct MasterPreempted {};
+using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
+                                   MasterRecordingChange>;
 
 class MasterShell {
  public:
@@ -55,11 +55,11 @@ class MasterShell {
 
   /// Waits until the device's adapter answers, at most 2 s, and not when there is none. Before the first
   /// tick.
-  void meet_device();
+  void wait_for_device();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Before the first tick; later by MasterTaping.
-  void record(MasterTape* tape) { tape_ = tape; }
+  /// Before the first tick; later by MasterRecordingChange.
+  void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   /// Loop thread only: the picture of the last tick.
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
@@ -96,10 +96,10 @@ class MasterShell {
   bool hand_stale_ = false;  // in this tick
   RemoteHand remote_;
   SideObserver observer_;
-  bool robbed_ = false;              // until the next session
-  MasterTape* tape_ = nullptr;       // none: nothing is recorded
-  std::uint64_t ticks_ = 0;          // steps of the node
-  std::uint32_t config_number_ = 0;  // of what it was configured with
+  bool preempted_ = false;                       // until the next session
+  MasterRecordBuffer* record_buffer_ = nullptr;  // none: nothing is recorded
+  std::uint64_t ticks_ = 0;                      // steps of the node
+  std::uint32_t config_number_ = 0;              // of what it was configured with
   MasterSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<MasterCommand, LoopAnswer> mailbox_;

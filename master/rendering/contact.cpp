@@ -156,7 +156,7 @@ double Contact::locate(const ContactAxis& a, const ContactHandle& handle, const 
   return a.s(handle.x) - std::clamp(commanded, 0.0, std::min(most, deflection));
 }
 
-Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, Purse purse,
+Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                       double dt_s) {
   Vector3 force = Vector3::Zero();
   for (ContactAxis& a : axes_) {
@@ -177,7 +177,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.spring.set_surface(std::max(a.surface, s));
       a.spring.give_way(s);  // what fades does not load the hand again, however far this has gone meanwhile
     }
-    a.force = a.spring.step(s, dt_s, purse);
+    a.force = a.spring.step(s, dt_s, source);
     if (a.force <= 0.0) continue;
     const double damped = std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate));
     force -= damped * a.n_M;

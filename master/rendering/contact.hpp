@@ -81,7 +81,8 @@ class Contact {
                           const ContactHandle& handle, const Mapping& mapping);
 
   /// One tick; `stale`: nothing has been heard, everything fades and is forgotten. Force on the hand.
-  Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, Purse purse, double dt_s);
+  Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
+               double dt_s);
   /// The same without any rule, for contrast.
   Vector3 step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale);
 

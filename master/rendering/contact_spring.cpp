@@ -41,13 +41,13 @@ bool ContactSpring::set_surface(double surface_m) {
   return true;
 }
 
-double ContactSpring::step(double s_m, double dt_s, Purse purse) {
+double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
   if (fading_ > 0.0) fading_ *= std::exp(-dt_s / config_.fade_s);
   if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
-  return_anchor(s_m, dt_s, purse);
+  return_anchor(s_m, dt_s, source);
   s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
   depth_m_ = std::max(0.0, s_m - anchor_m_);
   return last_n_ = force_n(s_m);
@@ -58,7 +58,7 @@ bool ContactSpring::settled(double s_m) const {
   return home_ && moved_m < 2.0 * config_.count_m;
 }
 
-void ContactSpring::return_anchor(double s_m, double dt_s, Purse& purse) {
+void ContactSpring::return_anchor(double s_m, double dt_s, EnergySource& source) {
   paid_j_ = 0.0;
   const double k = stiffness_n_per_m();
   const double depth = s_m - anchor_m_;
@@ -85,10 +85,10 @@ void ContactSpring::return_anchor(double s_m, double dt_s, Purse& purse) {
   double out = std::min(-std::expm1(-dt_s / kLoad_s) * -inwards, std::min(most, grown) - depth);
   if (out <= 0.0) return;
   const double cost = 0.5 * k * out * (2.0 * depth + out);
-  const double there = purse.level_j();
+  const double there = source.level_j();
   if (there <= 0.0) return;
   if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));
-  paid_j_ = purse.spend(0.5 * k * out * (2.0 * depth + out));
+  paid_j_ = source.spend(0.5 * k * out * (2.0 * depth + out));
   anchor_m_ -= out;
 }
 

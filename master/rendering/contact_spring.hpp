@@ -52,7 +52,7 @@ class ContactSpring {
 
   /// One tick of `dt_s` > 0 at position `s_m`: unilateral, yield, fade, return of the anchor, paid by the
   /// purse. Returns the force >= 0, N, against the inward direction.
-  double step(double s_m, double dt_s, Purse purse);
+  double step(double s_m, double dt_s, EnergySource source);
 
   [[nodiscard]] double force_n(double s_m) const;
   [[nodiscard]] double energy_j(double s_m) const;         // stored in the spring
@@ -64,7 +64,7 @@ class ContactSpring {
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
 
  private:
-  void return_anchor(double s_m, double dt_s, Purse& purse);
+  void return_anchor(double s_m, double dt_s, EnergySource& source);
   [[nodiscard]] bool settled(double s_m) const;
 
   ContactSpringConfig config_;

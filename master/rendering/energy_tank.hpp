@@ -36,9 +36,9 @@ class EnergyTank {
 };
 
 /// What a spring may be loaded from: the tank of its port, then the store of the engagement.
-class Purse {
+class EnergySource {
  public:
-  Purse(EnergyTank& tank, EnergyTank* store = nullptr) : tank_(tank), store_(store) {}
+  EnergySource(EnergyTank& tank, EnergyTank* store = nullptr) : tank_(tank), store_(store) {}
   [[nodiscard]] double level_j() const { return tank_.level_j() + (store_ ? store_->level_j() : 0.0); }
   /// Spends at most what is there.
   double spend(double energy_j) {

@@ -8,7 +8,7 @@
 // and the tank cannot pay, the deficit is paid back by injected damping, at most 0.4 m/T with m the handle
 // alone (Hannaford and Ryu 2002, bounded), and within the limits of force and rise as all else is. Damping on
 // the velocity of one encoder count in a sample would feed the handle instead: the velocity is that of
-// certain_motion.hpp. Force in N and motion in m, or N m and rad.
+// quantized_motion_filter.hpp. Force in N and motion in m, or N m and rad.
 
 #include <algorithm>
 

@@ -156,7 +156,7 @@ bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& his
 Vector3 Renderer::contact_force(Contact& contact, EnergyTank& tank, EnergyTank& store,
                                 const ContactHandle& at, const Mapping& mapping, bool stale) {
   if (config_.law == RenderingLaw::kNaive) return contact.step_naive(at, mapping, stale);
-  return contact.step(at, mapping, stale, Purse(tank, stale ? nullptr : &store), device_.period_s);
+  return contact.step(at, mapping, stale, EnergySource(tank, stale ? nullptr : &store), device_.period_s);
 }
 
 Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, const Vector3& resistance) {

@@ -15,8 +15,8 @@
 
 #include "common/link/stiffness_report.hpp"
 #include "master/config/rendering_config.hpp"
-#include "master/devices/certain_motion.hpp"
 #include "master/devices/handle_state.hpp"
+#include "master/devices/quantized_motion_filter.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/contact.hpp"
 #include "master/rendering/goal_history.hpp"
@@ -37,7 +37,7 @@ struct RenderedDevice {
 };
 
 /// What the handle does by itself, engaged or not.
-struct HandleDoing {
+struct HandleBehaviourOutput {
   Vector3 force = Vector3::Zero();  // or moment
   double stored_j = 0.0;            // in its springs
   double supplied_j = 0.0;          // by its anchor, in this tick
@@ -45,7 +45,7 @@ struct HandleDoing {
 
 struct RendererInput {
   HandleState handle{};
-  HandleDoing translation{}, rotation{};
+  HandleBehaviourOutput translation{}, rotation{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool live = false;   // false: the wrench ramps to zero

@@ -23,7 +23,7 @@ enum class MasterSafety::Demand : std::uint8_t {
   kSlaveHolds,
   kSlaveEngaged,
   kUnanswered,
-  kHeard
+  kReceived
 };
 
 namespace {
@@ -70,7 +70,7 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {in(State::kEngaged), true, Demand::kSlaveHolds, State::kHolding, Cause::kPeerHolds, Request::kEngage},
     {kFollowing, true, Demand::kSlaveEngaged, State::kEngaged, Cause::kNone, Request::kEngage},
     {in(State::kObserving), true, Demand::kUnanswered, State::kObserving, Cause::kUnanswered, Request::kHold},
-    {in(State::kIdle), false, Demand::kHeard, State::kObserving, Cause::kNone, Request::kHold}};
+    {in(State::kIdle), false, Demand::kReceived, State::kObserving, Cause::kNone, Request::kHold}};
 
 void MasterSafety::on_report(const StiffnessReport& report) {
   far_state_ = report.state;
@@ -110,7 +110,7 @@ void MasterSafety::observe(const MasterSafetyInput& in) {
   hand_missing_ = config_.presence == Presence::kHold && !in.held;
   let_go_ = hand_missing_ && to_seconds(in.now - held_at_) > config_.presence_s;
   if (!says(State::kHolding)) held_since_ = in.now;
-  told_ = told_ || in.hold || in.stop;
+  reported_ = reported_ || in.hold || in.stop;
 }
 
 bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
@@ -149,7 +149,7 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
       return says(State::kEngaged);
     case Demand::kUnanswered:
       return unanswered(in);
-    case Demand::kHeard:
+    case Demand::kReceived:
       return in.last_heard.has_value();
   }
   return true;
@@ -158,7 +158,7 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
 // Somebody asks for an engagement that is neither under way nor there.
 bool MasterSafety::wants(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
-  const bool by_itself = config_.engage_at_start && !told_ && rests && !active();
+  const bool by_itself = config_.engage_at_start && !reported_ && rests && !active();
   return (in.engage && !pending() && state_ != State::kEngaged) || by_itself;
 }
 
@@ -220,7 +220,7 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   if (rule.demand == Demand::kEngage) begin(in);
   if (state_ != State::kEngaged) return false;
   if (false_hold && confirmed_) ++false_holds_;
-  told_ = true;
+  reported_ = true;
   return !std::exchange(confirmed_, true);
 }
 
@@ -241,7 +241,7 @@ void MasterSafety::begin(const MasterSafetyInput& in) {
   engagement_ = std::max(engagement_, far_engagement_) + 1;
   asked_at_ = in.now;
   confirmed_ = false;
-  told_ = told_ || in.engage;
+  reported_ = reported_ || in.engage;
   if (in.engage) refusal_ = Reason{};
 }
 

@@ -8,7 +8,7 @@
 //   any               the operator asks to engage, and may          Observing  -                     engage
 //   active            the slave says that it has stopped            Stopped    as the slave says     hold
 //   active            the slave says that it has a fault            Holding    as the slave says     hold
-//   Engaged, Holding  another master has taken the robot            Holding    taken                 hold
+//   Engaged, Holding  another master has taken control of the robot            Holding    taken                 hold
 //   active            the slave began a new session                 Holding    other side restarted  hold
 //   active            the operator asks for a hold                  Holding    operator              hold
 //   active            no hand for presence_s (presence = HOLD)      Holding    handle let go         let go
@@ -126,7 +126,7 @@ class MasterSafety {
   bool hand_missing_ = false;
   bool let_go_ = false;     // for longer than presence_s
   Time held_at_{};          // last
-  bool told_ = false;       // the operator has engaged, held or stopped, or engage_at_start was answered
+  bool reported_ = false;   // the operator has engaged, held or stopped, or engage_at_start was answered
   bool confirmed_ = false;  // the present engagement was confirmed
   Time asked_at_{};         // for the present engagement
   Time held_since_{};       // the slave says that it holds in it

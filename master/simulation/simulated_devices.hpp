@@ -2,10 +2,10 @@
 // The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, a 3-RRR
 // spherical for the orientation. The controller's half sees encoder angles only, as with real devices.
 
-#include "master/devices/certain_motion.hpp"
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/hand_target.hpp"
 #include "master/devices/haptic_device.hpp"
+#include "master/devices/quantized_motion_filter.hpp"
 #include "master/devices/spherical/spherical_handle.hpp"
 #include "master/simulation/simulated_delta.hpp"
 #include "master/simulation/simulated_spherical.hpp"

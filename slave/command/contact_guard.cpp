@@ -14,7 +14,7 @@ constexpr double kPushedIn = 1.35;   // of the guard, which does not let it come
 constexpr double kPushedIn_s = 1.0;  // and brings a force down sooner if its stiffness is as identified
 constexpr double kUnseen = 0.02;     // of a force: what of its fall may not be seen yet
 constexpr double kBraking = 0.8;     // of the acceleration, for the end of the way
-constexpr double kCalm_s = 0.05;     // below the guard: the force has gone
+constexpr double kQuiet_s = 0.05;    // below the guard: the force has gone
 constexpr double kAlong = 0.3;       // cosine: not across
 
 }  // namespace
@@ -25,9 +25,9 @@ void ContactGuard::approach(const ContactForce& contact, const Vector3& p, doubl
   if (pushed_in_s_ < kPushedIn_s) bleed_.reset();
   const double from_n = pushed_in_s_ < kPushedIn_s ? std::numeric_limits<double>::infinity() : 0.0;
   watch_bleed(contact, {from_n, limits_.guard_n, limits_.stiffness_n_per_m}, p);
-  const bool calm = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
-  calm_s_ = calm ? calm_s_ + dt : 0.0;
-  if (calm_s_ > kCalm_s) relief_.reset();
+  const bool stable = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
+  stable_s_ = stable ? stable_s_ + dt : 0.0;
+  if (stable_s_ > kQuiet_s) retreat_budget_.reset();
 }
 
 VelocityCap ContactGuard::cap(const ContactForce& contact) const {
@@ -70,7 +70,7 @@ bool ContactGuard::advanced(const ContactForce& contact, const Vector3& v, bool 
   if (capped || in) give_way(contact, v, dt);
   if (!(contact.force_n > limits_.guard_n || contact.gives_way)) return false;
   // An operator who retreats by himself is not held up.
-  return !relief_.may_go_on() && (capped || !(v.dot(contact.reaction) > 0.0));
+  return !retreat_budget_.may_go_on() && (capped || !(v.dot(contact.reaction) > 0.0));
 }
 
 Vector3 ContactGuard::back_off(const ContactForce& contact, const Vector3& p) {
@@ -84,18 +84,18 @@ bool ContactGuard::backed_off(const ContactForce& contact, const Vector3& v, dou
   if (!backs_off_ && !(v.dot(back_) > 0.0)) back_.setZero();
   if (back_.isZero(0.0)) return false;
   // What it goes on while it brakes counts, too.
-  relief_.go(v.dot(back_) * dt, contact.force_n, dt, contact.trend_n_per_s);
-  return backs_off_ && !relief_.may_go_on();
+  retreat_budget_.go(v.dot(back_) * dt, contact.force_n, dt, contact.trend_n_per_s);
+  return backs_off_ && !retreat_budget_.may_go_on();
 }
 
 void ContactGuard::give_way(const ContactForce& contact, const Vector3& v, double dt) {
-  relief_.go(v.dot(contact.reaction) * dt, contact.force_n, dt, contact.trend_n_per_s);
+  retreat_budget_.go(v.dot(contact.reaction) * dt, contact.force_n, dt, contact.trend_n_per_s);
 }
 
 // Speed from which it can still end within what is left of its way.
 double ContactGuard::give_way_max(const ContactForce& contact) const {
   if (!contact.trusted || contact.grows.dot(contact.reaction) > kAlong) return 0.0;
-  const double left_m = relief_.may_go_on() ? relief_.left_m() : 0.0;
+  const double left_m = retreat_budget_.may_go_on() ? retreat_budget_.left_m() : 0.0;
   return std::sqrt(kBraking * 2.0 * limits_.acceleration_m_per_s2 * left_m);
 }
 

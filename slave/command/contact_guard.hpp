@@ -6,7 +6,7 @@
 //   k the contact's stiffness as far as known, else k_max, or after a second far above G what the force
 //   shows: it falls to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold,
 //   it does so down to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is
-//   seen. Giving way ends where the force does not answer to it (relief.hpp). Where the force was seen to
+//   seen. Giving way ends where the force does not answer to it (retreat_budget.hpp). Where the force was seen to
 //   grow in another direction than into the contact, the speed in that direction is bounded likewise, and the
 //   tool does not give way along it; else the speed against a force that is far off the contact's direction.
 // For a moment places are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max, τ_d
@@ -15,7 +15,7 @@
 
 #include <optional>
 
-#include "slave/command/relief.hpp"
+#include "slave/command/retreat_budget.hpp"
 #include "slave/command/vector_limit.hpp"
 
 namespace longreach {
@@ -53,23 +53,23 @@ struct GuardLimits {
 struct GuardScale {
   double seen_n = 0.5;          // that sensor noise does not make
   double soft_n_per_m = 100.0;  // that a contact of unknown stiffness may have
-  ReliefBounds relief{};
+  RetreatBounds retreat_budget{};
 };
 inline constexpr GuardScale kForceScale{};
 inline constexpr GuardScale kMomentScale{0.05, 1.0, {0.1, 1.0, 0.05, 5e-4}};
 
 class ContactGuard {
  public:
-  explicit ContactGuard(const GuardScale& scale) : scale_(scale), relief_(scale.relief) {}
+  explicit ContactGuard(const GuardScale& scale) : scale_(scale), retreat_budget_(scale.retreat_budget) {}
 
   /// Holds in the calls that follow.
   void limit(const GuardLimits& limits) {
     limits_ = limits;
-    relief_.limit(limits.give_way_m);
+    retreat_budget_.limit(limits.give_way_m);
   }
   /// An engagement begins: the way that may be given, too.
   void renew() {
-    relief_.reset();
+    retreat_budget_.reset();
     bleed_.reset();
   }
 
@@ -105,13 +105,13 @@ class ContactGuard {
 
   GuardScale scale_;
   GuardLimits limits_{};
-  Relief relief_;
+  RetreatBudget retreat_budget_;
   std::optional<Bleed> bleed_{};
   double pushed_in_s_ = 0.0;
   double seen_n_per_m_ = 0.0;       // while the tool goes back
   bool backs_off_ = false;          // in a hold, in this step
   Vector3 back_ = Vector3::Zero();  // unit: the way on which it backs off, or brakes after that
-  double calm_s_ = 0.0;             // below the guard
+  double stable_s_ = 0.0;           // below the guard
 };
 
 }  // namespace longreach

@@ -12,7 +12,7 @@ Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
 
 // The goal's velocity moves towards what was seen by no more than the limits: a jump of the goal is not a
 // velocity.
-Vector3 believe(const Vector3& before, const Vector3& seen, const VectorLimits& limits) {
+Vector3 accept(const Vector3& before, const Vector3& seen, const VectorLimits& limits) {
   return before + clamp_norm(clamp_norm(seen, limits.speed) - before, limits.acceleration * limits.dt);
 }
 
@@ -47,7 +47,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   X_WE_before_ = X_WE_;
   limit_guards(input.let_go);
   if (!input.X_WE_goal || !is_finite(*input.X_WE_goal)) {
-    out.no_relief = brake(input);
+    out.force_persists = brake(input);
     out.X_WE = X_WE_;
     return out;
   }
@@ -73,7 +73,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   V_WE_ = {about.velocity, along.velocity};
   const bool pushed = force_.advanced(input.contact, along.velocity, along.capped[0], input.dt);
   const bool turned = moment_.advanced(input.moment, about.velocity, about.capped[0], input.dt);
-  out.no_relief = pushed || turned;
+  out.force_persists = pushed || turned;
   move(input.dt);
   out.X_WE = X_WE_;
   return out;
@@ -113,8 +113,8 @@ void GoalLimiter::observe_goal(const Pose& goal, double dt) {
   if (X_WE_goal_) {
     const VectorLimits linear{config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, dt};
     const VectorLimits angular{config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, dt};
-    V_WE_goal_.linear = believe(V_WE_goal_.linear, (goal.p - X_WE_goal_->p) / dt, linear);
-    V_WE_goal_.angular = believe(V_WE_goal_.angular, rotation_between(X_WE_goal_->q, goal.q) / dt, angular);
+    V_WE_goal_.linear = accept(V_WE_goal_.linear, (goal.p - X_WE_goal_->p) / dt, linear);
+    V_WE_goal_.angular = accept(V_WE_goal_.angular, rotation_between(X_WE_goal_->q, goal.q) / dt, angular);
   }
   X_WE_goal_ = goal;
 }

@@ -28,7 +28,7 @@ struct LimiterOutput {
   bool acceleration = false;  // likewise
   bool workspace = false;
   bool force_guard = false;
-  bool no_relief = false;  // the tool would give way, but the force or the moment has not answered
+  bool force_persists = false;  // the tool would give way, but the force or the moment has not answered
   bool moment_guard = false;
 };
 

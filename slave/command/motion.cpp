@@ -22,7 +22,7 @@ SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
       limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
       joints_(robot),
       watch_(robot),
-      patience_(inverse_.kinematics().motion_length_m()) {
+      stall_detector_(inverse_.kinematics().motion_length_m()) {
   reset(start_joints(robot));
 }
 
@@ -36,19 +36,19 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   X_WE_ = inverse_.kinematics().forward(joints_.setpoint_rad());
   limiter_.reset(X_WE_);
   watch_.reset(joints_.setpoint_rad(), X_WE_);
-  patience_.reset();
+  stall_detector_.reset();
   stands_.reset();
   conditioning_ = 1.0;
   turning_ = false;
-  no_relief_ = false;
+  force_persists_ = false;
   home_rad_ = joints_.path_rad();
 }
 
 Clamps SlaveMotion::step(const MotionInput& input) {
   const bool waits = input.X_WE_goal && !touches(input);
-  const bool ends = waits && patience_.ends(X_WE_, *input.X_WE_goal, input.dt);
+  const bool ends = waits && stall_detector_.ends(X_WE_, *input.X_WE_goal, input.dt);
   if (!ends) stands_.reset();
-  if (!waits) patience_.reset();
+  if (!waits) stall_detector_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
   const LimiterOutput wanted = limiter_.step(
       {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment});
@@ -57,7 +57,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   clamps.workspace = wanted.workspace;
   clamps.force_guard = wanted.force_guard;
   clamps.moment_guard = wanted.moment_guard;
-  no_relief_ = wanted.no_relief;
+  force_persists_ = wanted.force_persists;
 
   if (!limiter_.at_rest()) {
     const InverseResult found = invert(wanted.X_WE, input);

@@ -15,7 +15,7 @@
 #include "slave/command/goal_limiter.hpp"
 #include "slave/command/joint_limiter.hpp"
 #include "slave/command/limit_watch.hpp"
-#include "slave/command/patience.hpp"
+#include "slave/command/stall_detector.hpp"
 #include "slave/kinematics/inverse.hpp"
 
 namespace longreach {
@@ -56,7 +56,7 @@ class SlaveMotion {
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
   /// The tool would give way to a force or a moment that has not answered to that.
-  [[nodiscard]] bool no_relief() const { return no_relief_; }
+  [[nodiscard]] bool force_persists() const { return force_persists_; }
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its limit of jerk
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
@@ -74,7 +74,7 @@ class SlaveMotion {
   GoalLimiter limiter_;
   JointLimiter joints_;
   LimitWatch watch_;
-  Patience patience_;
+  StallDetector stall_detector_;
   Pose X_WE_{};
   std::optional<Clamps> stands_{};  // why
   bool turning_ = false;            // on a way of the joints to another solution
@@ -82,7 +82,7 @@ class SlaveMotion {
   JointVector home_rad_ =
       JointVector::Zero();  // of the branch that the arm was last in, away from singular poses
   std::uint64_t failures_ = 0;
-  bool no_relief_ = false;
+  bool force_persists_ = false;
 };
 
 }  // namespace longreach

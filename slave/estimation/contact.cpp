@@ -40,7 +40,7 @@ void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig
 }
 
 void SlaveContact::step(const ContactInput& input) {
-  reading_ = detector_.step(input.force_n, input.dt, input.doubt_n);
+  reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n);
   force_ = {};
   if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
   if (reading_.in_contact) {
@@ -72,7 +72,7 @@ Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, co
   Surface* place = nullptr;
   for (Surface& s : surfaces_) {
     if (!s.there() || s.pressed()) continue;
-    if (s.met(normal, onset, tool)) {
+    if (s.crossed(normal, onset, tool)) {
       again = true;
       return &s;
     }
@@ -216,7 +216,7 @@ std::size_t SlaveContact::pressed() const {
 double SlaveContact::stiffness_along(const Vector3& n) const {
   double sum = 0.0;
   for (const Surface& s : surfaces_) {
-    if (s.pressed()) sum += std::pow(n.dot(s.normal()), 2) * s.told().stiffness_n_per_m();
+    if (s.pressed()) sum += std::pow(n.dot(s.normal()), 2) * s.reported().stiffness_n_per_m();
   }
   return sum;
 }

@@ -25,7 +25,7 @@ struct ContactInput {
   double scale = 1.0;                 // k_scale: a force at the hand is this much at the tool
   double dt = 0.0;                    // s
   bool guarded = false;               // the force guard held the tool in the last step
-  double doubt_n = 0.0;               // what of the force may be none
+  double uncertainty_n = 0.0;         // what of the force may be none
   double news_age_s = 0.0;            // of what the operator knew of this side when the goal was commanded
 };
 

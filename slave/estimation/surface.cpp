@@ -33,7 +33,7 @@ Surface::Surface(const SensingConfig& sensing, const EstimatorConfig& estimator)
     : sensing_(sensing),
       estimator_(estimator),
       identifier_(identifier(estimator, sensing)),
-      told_(estimator) {}
+      reported_(estimator) {}
 
 void Surface::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   const bool other = estimator.kind != estimator_.kind || estimator.exponent != estimator_.exponent ||
@@ -41,10 +41,10 @@ void Surface::configure(const SensingConfig& sensing, const EstimatorConfig& est
   if (other) identifier_ = identifier(estimator, sensing);
   sensing_ = sensing;
   estimator_ = estimator;
-  told_.configure(estimator);
+  reported_.configure(estimator);
 }
 
-bool Surface::met(const Vector3& normal, const Vector3& from, const Vector3& to) const {
+bool Surface::crossed(const Vector3& normal, const Vector3& from, const Vector3& to) const {
   return known_ && normal.dot(known_normal_) > kSameNormal &&
          known_normal_.dot(from - known_point_m_) > -kSamePlaceM &&
          known_normal_.dot(to - known_point_m_) < kSamePlaceM;
@@ -60,8 +60,8 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   identifier_.begin();
   local_.begin();
   if (!again) working_.begin();
-  told_.begin(again);
-  local_told_ = {};
+  reported_.begin(again);
+  local_reported_ = {};
   answer_ = {};
   tool_m_ = touch.p_WE;
   inward_m_ = marked_m_ = 0.0;
@@ -79,9 +79,9 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     if (x_m >= first_m && !across)
       identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
-  if (!again) placed_sd_m_ = told_s_ = 0.0;
+  if (!again) placed_sd_m_ = reported_s_ = 0.0;
   touched_anew_ = again;
-  pushes_ = told_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
+  pushes_ = reported_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
   scale_ = touch.scale;
   played_at_touch_ = touch.played_sequence;
   touch_sequence_ = 0.0;
@@ -91,7 +91,7 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
 // the surface nor its curvature counts as that, which a mean direction would
 // have a long lever for.
 void Surface::press(const Press& press) {
-  const Vector3 outward = pushes_.believed(press.outward, press.p_WE, known_);
+  const Vector3 outward = pushes_.accepted_value(press.outward, press.p_WE, known_);
   const double out_m = outward.dot(press.p_WE - tool_m_);
   const bool possible = std::abs(out_m) < kStepMaxM;
   if (possible) {
@@ -122,21 +122,21 @@ void Surface::identify(const Press& press) {
   // which the guard holds the tool, is not the operator's choice.
   const double usual_m = this->usual_m();
   bool elsewhere = false;
-  if (told_.stiffness_n_per_m() > 0.0) told_s_ += press.dt;
-  const bool chosen = told_s_ > press.news_age_s && !press.guarded;
+  if (reported_.stiffness_n_per_m() > 0.0) reported_s_ += press.dt;
+  const bool chosen = reported_s_ > press.news_age_s && !press.guarded;
   if (well_known(answer_) && (chosen || changes_ > 0))
     elsewhere = working_.follow(usual_m, present_m, answer_.n.value, estimator_.depth_memory_s, press.dt);
-  const bool fits = identifier_.told().law_fits();
+  const bool fits = identifier_.reported().law_fits();
   if (!fits) elsewhere = beside(possible(answer_.surface.value) ? answer_.surface.value : least_m_);
   double asked_m = working_.depth_m(usual_m);
-  ContactAnswer told = fits ? identifier_.told().answer_at(asked_m) : local_told_;
+  ContactAnswer reported = fits ? identifier_.reported().answer_at(asked_m) : local_reported_;
   // Rather than to extrapolate far, the nearest depth that was visited.
-  if (fits && told.valid && !well_known(told))
-    told = identifier_.told().answer_at(identifier_.told().visited(told.depth_m));
-  if (!possible(told.surface.value)) told.valid = false;
+  if (fits && reported.valid && !well_known(reported))
+    reported = identifier_.reported().answer_at(identifier_.reported().visited(reported.depth_m));
+  if (!possible(reported.surface.value)) reported.valid = false;
   // What is told of another contact does not count.
-  if (!fits || told_changes_ != changes_) asked_m = told.depth_m;
-  const bool anew = tell(told, asked_m, elsewhere);
+  if (!fits || reported_changes_ != changes_) asked_m = reported.depth_m;
+  const bool anew = update_report(reported, asked_m, elsewhere);
   if (!well_known(answer_)) return;
   known_ = true;
   known_normal_ = normal_;
@@ -153,13 +153,14 @@ void Surface::identify(const Press& press) {
 }
 
 double Surface::usual_m() const {
-  return identifier_.told().depth_of(kUsualPress * scale_ * sensing_.touch_n);
+  return identifier_.reported().depth_of(kUsualPress * scale_ * sensing_.touch_n);
 }
 
-bool Surface::tell(const ContactAnswer& answer, double asked_m, bool elsewhere) {
-  if (!told_.step(answer, told_normal_.believed(normal_, tool_m_, known_), asked_m, elsewhere)) return false;
-  told_changes_ = changes_;
-  told_at_m_ = tool_m_ + (inward_m_ - answer.surface.value - told_.depth_m()) * normal_;
+bool Surface::update_report(const ContactAnswer& answer, double asked_m, bool elsewhere) {
+  if (!reported_.step(answer, reported_normal_.accepted_value(normal_, tool_m_, known_), asked_m, elsewhere))
+    return false;
+  reported_changes_ = changes_;
+  reported_at_m_ = tool_m_ + (inward_m_ - answer.surface.value - reported_.depth_m()) * normal_;
   return true;
 }
 
@@ -168,10 +169,10 @@ bool Surface::tell(const ContactAnswer& answer, double asked_m, bool elsewhere) 
 bool Surface::beside(double surface_m) {
   const ContactAnswer now = local_.answer(surface_m);
   if (!now.valid) return false;
-  const double off = std::abs(now.stiffness.value / std::max(local_told_.stiffness.value, 1e-12) - 1.0);
-  if (local_told_.valid && off < estimator_.deadband) return false;
-  local_told_ = now;
-  local_told_.k = local_told_.n = {1.0, 0.0, Verdict::kNoPowerLaw};
+  const double off = std::abs(now.stiffness.value / std::max(local_reported_.stiffness.value, 1e-12) - 1.0);
+  if (local_reported_.valid && off < estimator_.deadband) return false;
+  local_reported_ = now;
+  local_reported_.k = local_reported_.n = {1.0, 0.0, Verdict::kNoPowerLaw};
   return true;
 }
 
@@ -180,14 +181,15 @@ void Surface::place() {
   placed_at_m_ = tool_m_;
   placed_sd_m_ = answer_.surface.sd;
   touched_anew_ = false;
-  told_.place(identifier_.told().law_fits() ? identifier_.told().answer_at(told_.depth_m()) : local_told_);
+  reported_.place(identifier_.reported().law_fits() ? identifier_.reported().answer_at(reported_.depth_m())
+                                                    : local_reported_);
 }
 
 double Surface::across_m(const Vector3& from) const { return Vector3(tool_m_ - from).cross(normal_).norm(); }
 
 // A force that turns more than a tool can have slid round an edge is not the
 // surface's: the sensor's zero.
-Vector3 Surface::Direction::believed(const Vector3& n, const Vector3& tool, bool known) {
+Vector3 Surface::Direction::accepted_value(const Vector3& n, const Vector3& tool, bool known) {
   const double way_m = Vector3(tool - at_m).cross(normal).norm();
   if (known && normal.cross(n).norm() > kRefined + way_m / kSharpestM) return normal;
   if (!known || way_m > kSlideM) *this = {n, tool};
@@ -211,15 +213,15 @@ void Surface::release() {
   const double usual_m = this->usual_m();
   working_.leave(usual_m);
   const double asked_m = working_.depth_m(usual_m);
-  tell(identifier_.told().answer_at(asked_m), asked_m, true);
-  there_ = known_ && told_.stiffness_n_per_m() > 0.0;
+  update_report(identifier_.reported().answer_at(asked_m), asked_m, true);
+  there_ = known_ && reported_.stiffness_n_per_m() > 0.0;
   normal_ = known_normal_;
   answer_ = {};
 }
 
 void Surface::move_origin(const Vector3& by) {
-  for (Vector3* place :
-       {&known_point_m_, &tool_m_, &told_at_m_, &place_m_, &placed_at_m_, &pushes_.at_m, &told_normal_.at_m})
+  for (Vector3* place : {&known_point_m_, &tool_m_, &reported_at_m_, &place_m_, &placed_at_m_, &pushes_.at_m,
+                         &reported_normal_.at_m})
     *place -= by;
 }
 
@@ -238,7 +240,7 @@ void Surface::locate(const Playout& playout, const Vector3& anchor, double playe
   if (played_sequence - played_at_touch_ > kHistoryGoals) return forget_goals();
   if (!pressed_ || played_at_touch_ <= 0.0) return;
   const bool placed = placed_sd_m_ > 0.0;
-  const Vector3 normal = placed ? told_.normal() : normal_, at = placed ? place_m_ : point();
+  const Vector3 normal = placed ? reported_.normal() : normal_, at = placed ? place_m_ : point();
   const auto crossing = playout.crossing(-normal, at - anchor, played_at_touch_, kGoalAtM);
   touch_sequence_ = crossing.value_or(0.0);  // none: it was met before the goals began, or it moves
 }
@@ -256,10 +258,10 @@ std::optional<double> Surface::foreseen_n() const {
 ContactEstimate Surface::estimate() const {
   ContactEstimate result;
   ContactAnswer a = answer_;
-  if (!identifier_.told().law_fits() && local_told_.valid) {
-    a.stiffness = local_told_.stiffness;
-    a.secant = local_told_.secant;
-    a.depth_m = local_told_.depth_m;
+  if (!identifier_.reported().law_fits() && local_reported_.valid) {
+    a.stiffness = local_reported_.stiffness;
+    a.secant = local_reported_.secant;
+    a.depth_m = local_reported_.depth_m;
   }
   result.valid = pressed_ && a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
   if (!result.valid) return result;
@@ -282,10 +284,10 @@ ContactEstimate Surface::estimate() const {
 }
 
 ReportedSurface Surface::report(const Vector3& anchor) const {
-  const bool told = told_.stiffness_n_per_m() > 0.0;
-  ReportedSurface result{.normal = told ? told_.normal() : normal_,
-                         .stiffness = told_.stiffness_n_per_m(),
-                         .foot = told_.foot_m(),
+  const bool reported = reported_.stiffness_n_per_m() > 0.0;
+  ReportedSurface result{.normal = reported ? reported_.normal() : normal_,
+                         .stiffness = reported_.stiffness_n_per_m(),
+                         .foot = reported_.foot_m(),
                          .touch_sequence = touch_sequence_,
                          .touch = touch_,
                          .pressed = pressed_};

@@ -54,7 +54,7 @@ class Surface {
   void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
 
   /// A touch that pushes along `normal`, and began between these two places of the tool, is of this surface.
-  [[nodiscard]] bool met(const Vector3& normal, const Vector3& from, const Vector3& to) const;
+  [[nodiscard]] bool crossed(const Vector3& normal, const Vector3& from, const Vector3& to) const;
   /// `again`: what is known of it holds. `before`: the samples up to the touch.
   void begin(const Touch& touch, bool again, const Ring<TouchSample>& before);
   void press(const Press& press);
@@ -90,9 +90,9 @@ class Surface {
   [[nodiscard]] std::optional<double> foreseen_n() const;
   /// How deep behind it a tool that feels nothing proves that it has gone.
   [[nodiscard]] double proof_depth_m() const;
-  [[nodiscard]] const ReportedTangent& told() const { return told_; }
+  [[nodiscard]] const ReportedTangent& reported() const { return reported_; }
   /// Where that is, in W.
-  [[nodiscard]] const Vector3& told_at_m() const { return told_at_m_; }
+  [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] ContactEstimate estimate() const;
   /// `anchor`: from which places count.
   [[nodiscard]] ReportedSurface report(const Vector3& anchor) const;
@@ -103,14 +103,14 @@ class Surface {
     Vector3 normal = Vector3::UnitX(), at_m = Vector3::Zero();  // with the tool there
 
     /// `n`, or what it was before where it turns further: then the sensor's zero has moved.
-    Vector3 believed(const Vector3& n, const Vector3& tool, bool known);
+    Vector3 accepted_value(const Vector3& n, const Vector3& tool, bool known);
   };
 
   void identify(const Press& press);
   /// Depth of the force that a hand usually presses with.
   [[nodiscard]] double usual_m() const;
   /// For this depth; `elsewhere`: another one than so far. True if what is told has changed.
-  bool tell(const ContactAnswer& answer, double asked_m, bool elsewhere);
+  bool update_report(const ContactAnswer& answer, double asked_m, bool elsewhere);
   bool beside(double surface_m);
   /// What is known of its place is told from now on.
   void place();
@@ -126,12 +126,12 @@ class Surface {
   WatchedIdentifier identifier_;
   WorkingDepth working_;
   LocalTangent local_;
-  ContactAnswer local_told_{};      // of that, held
-  std::uint32_t changes_ = 0;       // of the contact, that were found
-  std::uint32_t told_changes_ = 0;  // likewise, when it was told
-  bool settled_ = true;             // the depth that is asked for is one of the contact since then
-  ReportedTangent told_;
-  Vector3 told_at_m_ = Vector3::Zero();
+  ContactAnswer local_reported_{};      // of that, held
+  std::uint32_t changes_ = 0;           // of the contact, that were found
+  std::uint32_t reported_changes_ = 0;  // likewise, when it was told
+  bool settled_ = true;                 // the depth that is asked for is one of the contact since then
+  ReportedTangent reported_;
+  Vector3 reported_at_m_ = Vector3::Zero();
   ContactAnswer answer_{};
   double speed_m_per_s_ = 0.0;  // inwards
   bool there_ = false, pressed_ = false;
@@ -142,9 +142,9 @@ class Surface {
   double proof_m_ = 0.0;
   // As told; held, since a force of the sensor's own looks like a surface that moves.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();  // with the tool there
-  Direction pushes_{}, told_normal_{};
+  Direction pushes_{}, reported_normal_{};
   double placed_sd_m_ = 0.0;             // that it was known to; 0: not yet
-  double told_s_ = 0.0;                  // since the surface was told
+  double reported_s_ = 0.0;              // since the surface was told
   bool touched_anew_ = false;            // it was placed in a touch before
   Vector3 tool_m_ = Vector3::Zero();     // now, or when it was left
   double inward_m_ = 0.0;                // its way against the force since the touch

@@ -11,21 +11,21 @@ namespace longreach {
 class WatchedIdentifier {
  public:
   explicit WatchedIdentifier(const IdentifierConfig& config)
-      : judges_itself_(config.by_likelihood()), told_(config), judge_(by_likelihood(config)) {}
+      : judges_itself_(config.by_likelihood()), reported_(config), judge_(by_likelihood(config)) {}
 
   void begin() {
-    told_.begin();
+    reported_.begin();
     judge_.begin();
   }
   void step(const PenetrationSample& sample, double dt) {
-    told_.step(sample, dt);
+    reported_.step(sample, dt);
     if (judges_itself_) return;
     const std::uint32_t before = judge_.changes();
     judge_.step(sample, dt);
-    if (judge_.changes() != before) told_.renew();
+    if (judge_.changes() != before) reported_.renew();
   }
-  [[nodiscard]] ContactAnswer answer() { return told_.answer(); }
-  [[nodiscard]] const Identifier& told() const { return told_; }
+  [[nodiscard]] ContactAnswer answer() { return reported_.answer(); }
+  [[nodiscard]] const Identifier& reported() const { return reported_; }
 
  private:
   static IdentifierConfig by_likelihood(IdentifierConfig config) {
@@ -35,7 +35,7 @@ class WatchedIdentifier {
   }
 
   bool judges_itself_;
-  Identifier told_, judge_;
+  Identifier reported_, judge_;
 };
 
 }  // namespace longreach

@@ -18,8 +18,8 @@ struct Temper {
   double step_max_rad;  // a longer step leaves the region in which the Jacobian means something
   double singular;      // below this share of the length a direction counts as nearly singular and is damped
   double damping;       // of |e|²
-  std::uint32_t patience;  // a run gives up when so many steps have not halved the residual
-  bool turns_freely;       // joints with a range of a whole turn pass their limits on the way
+  std::uint32_t timeout;  // a run gives up when so many steps have not halved the residual
+  bool turns_freely;      // joints with a range of a whole turn pass their limits on the way
 };
 constexpr Temper kFollow{0.3, 0.005, 1.0, 12, false};
 constexpr Temper kSearch{0.5, 3e-5, 0.003, 3, true};
@@ -127,7 +127,7 @@ struct NumericInverse::Run {
     // A loose tolerance must not freeze a slow motion: one step is made unless the start is exact.
     for (std::uint32_t i = 0; i < tolerance.iterations_max && std::isfinite(best->residual_m); ++i) {
       const double enough = i == 0 ? 1e-14 * kinematics.reach_m() : tolerance.residual_m;
-      if (best->residual_m <= enough || ++since > temper.patience) break;
+      if (best->residual_m <= enough || ++since > temper.timeout) break;
       const JointVector step = step_from(*best, boost, length, temper);
       ++result.iterations;
       if (!step.allFinite()) break;

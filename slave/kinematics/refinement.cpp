@@ -54,9 +54,9 @@ Placed Refinement::moved(const Placed& from, bool damped) const {
 // Each step the better of two: one leaves out directions that are all but lost, and so keeps their rounding
 // out; the other goes along with them first, towards the one root of two that have met.
 bool Refinement::newton(Placed& placed) const {
-  constexpr int kStepsMax = 24, kPatience = 2;  // between two roots that met, a step halves the distance
+  constexpr int kStepsMax = 24, kTimeout = 2;  // between two roots that met, a step halves the distance
   Placed next = placed;
-  for (int i = 0, worse = 0; i < kStepsMax && worse < kPatience && next.miss < 1.0; ++i) {
+  for (int i = 0, worse = 0; i < kStepsMax && worse < kTimeout && next.miss < 1.0; ++i) {
     const Placed start = next;
     next = moved(start, true);
     if (next.miss > kEnoughMiss) {

@@ -25,9 +25,9 @@ namespace longreach {
 namespace {
 
 /// Logs what has changed since the last call.
-class Chronicle {
+class StateLog {
  public:
-  explicit Chronicle(std::string adapter) : adapter_(std::move(adapter)) {}
+  explicit StateLog(std::string adapter) : adapter_(std::move(adapter)) {}
 
   void write(const SlaveSnapshot& s) {
     const SlaveView& now = s.view;
@@ -160,24 +160,22 @@ int serve(const SlaveOptions& options) {
     try {
       for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
       RealTimeLoop loop(plain.loop.rate_hz);
-      shell.meet_robot();
+      shell.wait_for_robot();
       loop.run(end, [&shell](Time now, const LoopFigures& figures) { shell.tick(now, figures); });
     } catch (...) {
       failure = std::current_exception();
       stop = true;
     }
   });
-  Chronicle chronicle(plain.robot_adapter.address);
+  StateLog state_log(plain.robot_adapter.address);
   ServiceWatch watch;
-  const Time began = monotonic_now();
-  const auto over = [&] {
-    return options.seconds && to_seconds(monotonic_now() - began) >= *options.seconds;
-  };
+  const Time began = boottime_now();
+  const auto over = [&] { return options.seconds && to_seconds(boottime_now() - began) >= *options.seconds; };
   while (!stop && !over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const SlaveSnapshot now = service.snapshot();
-    chronicle.write(now);
-    watch.look(now.side.loop.ticks);
+    state_log.write(now);
+    watch.update(now.side.loop.ticks);
   }
   end = true;
   loop_thread.join();

@@ -195,8 +195,8 @@ std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
   return std::nullopt;
 }
 
-SideRecording<SlaveTape>::Request SlaveService::recording_request(double max_mb) const {
-  SideRecording<SlaveTape>::Request request;
+SideRecording<SlaveRecordBuffer>::Request SlaveService::recording_request(double max_mb) const {
+  SideRecording<SlaveRecordBuffer>::Request request;
   request.max_mb = max_mb;
   request.rate_hz = config_.present()->loop().rate_hz();
   request.seed = recordings_.seed;
@@ -205,24 +205,26 @@ SideRecording<SlaveTape>::Request SlaveService::recording_request(double max_mb)
   return request;
 }
 
-bool SlaveService::attach(SlaveTape* tape) {
-  return !post(shell_.mailbox(), SlaveCommand(SlaveTaping{tape}));
+bool SlaveService::attach(SlaveRecordBuffer* record_buffer) {
+  return !post(shell_.mailbox(), SlaveCommand(SlaveRecordingChange{record_buffer}));
 }
 
 std::variant<std::string, Refusal> SlaveService::start_recording(const std::string& name, double max_mb) {
-  return longreach::start_recording(recording_, recording_request(max_mb), recordings_.folder, name, "slave",
-                                    [this](SlaveTape* tape) { return attach(tape); });
+  return longreach::start_recording(
+      recording_, recording_request(max_mb), recordings_.folder, name, "slave",
+      [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 std::variant<std::string, Refusal> SlaveService::stop_recording() {
-  return longreach::stop_recording(recording_, [this](SlaveTape* tape) { return attach(tape); });
+  return longreach::stop_recording(
+      recording_, [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 void SlaveService::record_from_start(const std::string& file, double max_mb) {
   auto request = recording_request(max_mb);
   request.file = file;
-  recording_.start(request, [this](SlaveTape* tape) {
-    shell_.record(tape);
+  recording_.start(request, [this](SlaveRecordBuffer* record_buffer) {
+    shell_.record(record_buffer);
     return true;
   });
   log_start(recording_.status());

@@ -49,15 +49,15 @@ class SlaveService : public ControlBackend {
   Refusal occupied(const std::string& caller);
   void set_lease(const std::string& holder);
 
-  SideRecording<SlaveTape>::Request recording_request(double max_mb) const;
+  SideRecording<SlaveRecordBuffer>::Request recording_request(double max_mb) const;
   /// Hands a tape to the loop; false: it did not answer.
-  bool attach(SlaveTape* tape);
+  bool attach(SlaveRecordBuffer* record_buffer);
 
   SlaveShell& shell_;
   SideConfig<proto::SlaveConfig> config_;
   std::uint32_t config_number_ = 0;  // of those that the loop was handed
   RecordingPlace recordings_;
-  SideRecording<SlaveTape> recording_;
+  SideRecording<SlaveRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::mutex reading_;  // among those who read snapshots
   mutable std::mutex leasing_;

@@ -1,6 +1,6 @@
 #include "slave/program/slave_shell.hpp"
 
-#include "common/loop/meeting.hpp"
+#include "common/loop/wait_for_adapter.hpp"
 #include "common/net/adapter_channel.hpp"
 
 namespace longreach {
@@ -11,8 +11,8 @@ constexpr Duration kOccupied = std::chrono::seconds(1);
 std::optional<RobotAdapter> robot_adapter(UnixChannel* channel, const SlaveConfig& config) {
   if (channel == nullptr) return std::nullopt;
   return std::optional<RobotAdapter>(std::in_place, *channel,
-                                     told_in_time(config.robot_adapter, config.loop.rate_hz), config.robot,
-                                     draw_session(Cipher::kChaCha20Poly1305).number);
+                                     with_prompt_timeout(config.robot_adapter, config.loop.rate_hz),
+                                     config.robot, draw_session(Cipher::kChaCha20Poly1305).number);
 }
 
 }  // namespace
@@ -28,8 +28,8 @@ SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
   port_.limit(config.link.budget_kbit_per_s);
 }
 
-void SlaveShell::meet_robot() {
-  if (adapter_) meet(*adapter_);
+void SlaveShell::wait_for_robot() {
+  if (adapter_) wait_for_adapter(*adapter_);
 }
 
 void SlaveShell::tick(Time now, const LoopFigures& loop) {
@@ -68,7 +68,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.watchdog_stopped = adapter_ ? adapter_->watchdog_stopped() : arm_.watchdog_stopped();
   if (adapter_) {
     snapshot_.adapter = adapter_->figures();
-    snapshot_.adapter.stranger = adapter_channel_->stranger();
+    snapshot_.adapter.unknown_peer = adapter_channel_->unknown_peer();
   }
   snapshots_.write(snapshot_);
   write_down(in, out);
@@ -76,9 +76,9 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
 
 void SlaveShell::write_down(const SlaveInput& in, const SlaveOutput& out) {
   const std::uint64_t tick = ticks_++;
-  if (tape_ == nullptr) return;
-  tape_->add_tick(tick, config_number_, in, out, node_.view());
-  if (tape_->link_due(tick)) tape_->add_link(link_sample(in.now, snapshot_.side));
+  if (record_buffer_ == nullptr) return;
+  record_buffer_->add_tick(tick, config_number_, in, out, node_.view());
+  if (record_buffer_->link_due(tick)) record_buffer_->add_link(link_sample(in.now, snapshot_.side));
 }
 
 LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& taken) {
@@ -94,8 +94,8 @@ LoopAnswer SlaveShell::obey(const SlaveCommand& command, Time now, bool& taken) 
     if (returned->session == 0 || returned->session != port_.endpoint().session())
       return LoopAnswer::kOccupied;
     port_.leave();
-  } else if (const auto* taping = std::get_if<SlaveTaping>(&command)) {
-    tape_ = taping->tape;
+  } else if (const auto* recording_change = std::get_if<SlaveRecordingChange>(&command)) {
+    record_buffer_ = recording_change->record_buffer;
   } else {
     const auto& change = std::get<SlaveChange>(command);
     if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;

@@ -13,7 +13,7 @@
 #include "common/rpc/side_figures.hpp"
 #include "common/wire/port.hpp"
 #include "slave/drivers/robot_adapter.hpp"
-#include "slave/recording/slave_tape.hpp"
+#include "slave/recording/slave_record_buffer.hpp"
 #include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 
@@ -35,8 +35,8 @@ struct SlaveChange {
   std::uint32_t number = 0;      // of the configuration, for a recording
 };
 /// What is written down from now on; none: nothing. The loop no longer uses the one before.
-struct SlaveTaping {
-  SlaveTape* tape = nullptr;
+struct SlaveRecordingChange {
+  SlaveRecordBuffer* record_buffer = nullptr;
 };
 /// A master asks for the robot. `take`: also while another one has it.
 struct SlaveLease {
@@ -48,7 +48,8 @@ struct SlaveLease {
 struct SlaveReturn {
   std::uint64_t session = 0;
 };
-using SlaveCommand = std::variant<SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn, SlaveTaping>;
+using SlaveCommand =
+    std::variant<SlaveChange, ImpairmentConfig, SlaveLease, SlaveReturn, SlaveRecordingChange>;
 
 class SlaveShell {
  public:
@@ -57,11 +58,11 @@ class SlaveShell {
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
   /// Waits until the robot's adapter answers, at most 2 s, and not when there is none. Before the first tick.
-  void meet_robot();
+  void wait_for_robot();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Before the first tick; later by SlaveTaping.
-  void record(SlaveTape* tape) { tape_ = tape; }
+  /// Before the first tick; later by SlaveRecordingChange.
+  void record(SlaveRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
   StopLevel& stops() { return stops_; }
@@ -82,9 +83,9 @@ class SlaveShell {
   Robot& robot_;
   SlaveNode node_;
   SideObserver observer_;
-  SlaveTape* tape_ = nullptr;        // none: nothing is recorded
-  std::uint64_t ticks_ = 0;          // steps of the node
-  std::uint32_t config_number_ = 0;  // of what it was configured with
+  SlaveRecordBuffer* record_buffer_ = nullptr;  // none: nothing is recorded
+  std::uint64_t ticks_ = 0;                     // steps of the node
+  std::uint32_t config_number_ = 0;             // of what it was configured with
   SlaveSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;

@@ -1,13 +1,13 @@
 #pragma once
 // Does the robot do what its setpoints say? From measured joints q alone:
 //   x' = 2π f (s - x)   where a servo of bandwidth f has the joint, s the setpoint
-//   astray    a joint is off x by more than 0.1 rad (or m) for half a second on end
-//   restless  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f) on end, while
+//   tracking_lost    a joint is off x by more than 0.1 rad (or m) for half a second on end
+//   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f) on end, while
 //             its setpoint rests
 // That is more than what a joint gives way by, and longer than a stop by the robot's own watchdog after a
-// late tick. After this side has stood still a joint that is off by so much was moved meanwhile: it is astray
+// late tick. After this side has stood still a joint that is off by so much was moved meanwhile: it is tracking_lost
 // at once, so that nothing calls it back. What is between the two stays unnoticed: a robot that drifts slowly
-// is first noticed when it is astray.
+// is first noticed when it is tracking_lost.
 
 #include <cmath>
 #include <numbers>
@@ -41,8 +41,8 @@ class RobotWatch {
     moves_s_ = rests && moves ? moves_s_ + dt : 0.0;
   }
 
-  [[nodiscard]] bool astray() const { return off_s_ > kLong_s; }
-  [[nodiscard]] bool restless() const { return moves_s_ > kLong_s + settling_s_; }
+  [[nodiscard]] bool tracking_lost() const { return off_s_ > kLong_s; }
+  [[nodiscard]] bool uncommanded_motion() const { return moves_s_ > kLong_s + settling_s_; }
 
  private:
   static constexpr double kOff = 0.1;

@@ -9,11 +9,11 @@ enum class SlaveSafety::Demand : std::uint8_t {
   kRobotFault,
   kSensorFault,
   kSensorSign,
-  kRobotRestless,
-  kRobotAstray,
+  kRobotUncommandedMotion,
+  kRobotTrackingLost,
   kStop,
   kEngagement,
-  kNoRelief,
+  kForcePersists,
   kTaken,
   kRestarted,
   kStalled,
@@ -24,7 +24,7 @@ enum class SlaveSafety::Demand : std::uint8_t {
   kHold,
   kLetGo,
   kGoOn,
-  kHeard,
+  kReceived,
   kGone
 };
 
@@ -51,11 +51,12 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {kAny, Demand::kRobotFault, State::kFault, Cause::kRobotFault},
     {kAny, Demand::kSensorFault, State::kFault, Cause::kSensorFault},
     {kMoved, Demand::kSensorSign, State::kFault, Cause::kSensorSign},
-    {kAtRest, Demand::kRobotRestless, State::kFault, Cause::kRobotRestless},
-    {kMoved, Demand::kRobotAstray, State::kFault, Cause::kRobotAstray},
+    {kAtRest, Demand::kRobotUncommandedMotion, State::kFault, Cause::kRobotUncommandedMotion},
+    {kMoved, Demand::kRobotTrackingLost, State::kFault, Cause::kRobotTrackingLost},
     {kAny & ~in(State::kFault), Demand::kStop, State::kStopped, Cause::kOperator},
     {kAny, Demand::kEngagement, State::kEngaged, Cause::kNone},
-    {in(State::kEngaged) | in(State::kHolding), Demand::kNoRelief, State::kHolding, Cause::kNoRelief},
+    {in(State::kEngaged) | in(State::kHolding), Demand::kForcePersists, State::kHolding,
+     Cause::kForcePersists},
     {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kTaken},
     {in(State::kEngaged), Demand::kRestarted, State::kHolding, Cause::kPeerRestarted},
     {in(State::kEngaged), Demand::kStalled, State::kHolding, Cause::kStalled},
@@ -66,7 +67,7 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kPeerHolds},
     {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleLetGo},
     {in(State::kHolding), Demand::kGoOn, State::kEngaged, Cause::kNone},
-    {in(State::kIdle), Demand::kHeard, State::kObserving, Cause::kNone},
+    {in(State::kIdle), Demand::kReceived, State::kObserving, Cause::kNone},
     {in(State::kObserving), Demand::kGone, State::kIdle, Cause::kNone}};
 
 bool SlaveSafety::step(const SlaveSafetyInput& input) {
@@ -98,12 +99,12 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
       return in.sensor_fault;
     case Demand::kSensorSign:
       return in.sensor_sign;
-    case Demand::kNoRelief:
-      return in.no_relief;
-    case Demand::kRobotRestless:
-      return in.robot_restless;
-    case Demand::kRobotAstray:
-      return in.robot_astray;
+    case Demand::kForcePersists:
+      return in.force_persists;
+    case Demand::kRobotUncommandedMotion:
+      return in.robot_uncommanded_motion;
+    case Demand::kRobotTrackingLost:
+      return in.robot_tracking_lost;
     case Demand::kStop:
       return in.stop || (in.commanded && in.request == Request::kStop);
     case Demand::kEngagement:
@@ -128,7 +129,7 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
       return request_ == Request::kLetGo;
     case Demand::kGoOn:
       return goes_on(in);
-    case Demand::kHeard:
+    case Demand::kReceived:
       return !silent(in);
     case Demand::kGone:
       return silent(in, config_.resume_s);
@@ -171,7 +172,7 @@ Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
   if (in.robot != Cause::kNone) return in.robot;
   if (in.sensor_fault) return Cause::kSensorFault;
   if (in.stop) return Cause::kOperator;
-  if (in.robot_restless) return Cause::kRobotRestless;
+  if (in.robot_uncommanded_motion) return Cause::kRobotUncommandedMotion;
   if (in.unready != Cause::kNone) return in.unready;
   if (in.stalled_since) return Cause::kStalled;
   if (silent(in)) return Cause::kLinkSilent;
@@ -199,8 +200,8 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
     cause_ = HoldCause::kNone;
   } else if (rule.to == State::kFault) {
     if (state_ != State::kFault) cause_ = rule.demand == Demand::kRobotFault ? in.robot : Reason(rule.cause);
-  } else if (cause_ == HoldCause::kNone || rule.demand == Demand::kNoRelief) {
-    const bool comes = rule.demand == Demand::kNoRelief && in.comes != HoldCause::kNone;
+  } else if (cause_ == HoldCause::kNone || rule.demand == Demand::kForcePersists) {
+    const bool comes = rule.demand == Demand::kForcePersists && in.comes != HoldCause::kNone;
     cause_ = comes ? in.comes : Reason(rule.cause);
   }
   if (state_ == State::kEngaged && rule.to != State::kEngaged) {

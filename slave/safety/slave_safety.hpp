@@ -12,7 +12,7 @@
 //   any                        a new engagement is asked for             Engaged    -
 //   Engaged, Holding           the force does not fall as the robot      Holding    no relief, or wall comes
 //                              gives way, or the way is used up
-//   Engaged                    another master has taken the robot        Holding    taken by another master
+//   Engaged                    another master has taken control of the robot        Holding    taken by another master
 //   Engaged                    the master began a new session            Holding    other side restarted
 //   Engaged                    this tick came later than the gap timer   Holding    stalled
 //   Engaged                    silence > gap timer                       Holding    link silent
@@ -51,23 +51,23 @@ namespace longreach {
 
 struct SlaveSafetyInput {
   Time now{};
-  std::optional<Time> last_heard{};      // any valid datagram
-  std::uint32_t peer_session_count = 0;  // sessions of the master seen so far
-  bool taken = false;                    // the newest of them by taking the robot from another master
-  Reason robot{};                        // why it is not ok: it says so, or which joint is not believed
-  Reason unready{};                      // why no engagement may begin with it or its sensor
-  bool robot_restless = false;           // it moves on though its setpoint rests
-  bool robot_astray = false;             // it is not where its setpoints lead
-  bool sensor_fault = false;             // its force sensor says what no contact could do
-  bool sensor_sign = false;              // the force grows along what should relieve it
-  bool no_relief = false;                // the force does not answer to relief,
-  Reason comes{};                        // or it does, the way is used up, and where it comes from
-  bool stop = false;                     // asked for on this side
-  std::optional<Time> stalled_since{};   // the tick before, where it is longer ago than the gap timer
-  bool delay_rose = false;               // the round trip, by more than delay_rise_max_s
-  bool overrun = false;                  // this side does not keep its rate
-  double send_hz = 300.0;                // of the master
-  double lag_s = 0.0;                    // of the setpoint behind the path
+  std::optional<Time> last_heard{};       // any valid datagram
+  std::uint32_t peer_session_count = 0;   // sessions of the master seen so far
+  bool taken = false;                     // the newest of them by taking the robot from another master
+  Reason robot{};                         // why it is not ok: it says so, or which joint is not believed
+  Reason unready{};                       // why no engagement may begin with it or its sensor
+  bool robot_uncommanded_motion = false;  // it moves on though its setpoint rests
+  bool robot_tracking_lost = false;       // it is not where its setpoints lead
+  bool sensor_fault = false;              // its force sensor says what no contact could do
+  bool sensor_sign = false;               // the force grows along what should relieve it
+  bool force_persists = false;            // the force does not answer to relief,
+  Reason comes{};                         // or it does, the way is used up, and where it comes from
+  bool stop = false;                      // asked for on this side
+  std::optional<Time> stalled_since{};    // the tick before, where it is longer ago than the gap timer
+  bool delay_rose = false;                // the round trip, by more than delay_rise_max_s
+  bool overrun = false;                   // this side does not keep its rate
+  double send_hz = 300.0;                 // of the master
+  double lag_s = 0.0;                     // of the setpoint behind the path
 
   // The newest command, if one came in this tick.
   bool commanded = false;

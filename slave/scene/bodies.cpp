@@ -40,7 +40,7 @@ Bodies::Bodies(const SceneConfig& scene, const Pose& X_WE_start)
   }
   near_.reserve(256);
   last_.setZero(6 * count());
-  look();
+  find_near_pairs();
 }
 
 const BodiesContact& Bodies::step(const Pose& X_WE, double dt) {
@@ -55,11 +55,11 @@ const BodiesContact& Bodies::step(const Pose& X_WE, double dt) {
   contact_.contacts = 0;
   const int carried = held_ ? held_->body : model_.tool();
   for (const GeomPair& pair : near_) {
-    if (!(pair.meeting.depth_m > 0.0) || off(pair)) continue;
+    if (!(pair.surface_pair.depth_m > 0.0) || off(pair)) continue;
     ++contact_.contacts;
     const auto ours = [&](int b) { return b == model_.tool() || b == carried; };
     if (ours(pair.body_a) || ours(pair.body_b))
-      contact_.depth_m = std::max(contact_.depth_m, pair.meeting.depth_m);
+      contact_.depth_m = std::max(contact_.depth_m, pair.surface_pair.depth_m);
   }
   contact_.holds = held_.has_value();
   contact_.latched = latched_.has_value();
@@ -126,7 +126,7 @@ void Bodies::answer(double dt, Attempt& out) {
   out.stiffness.setZero(rows, rows);
   out.on_tool = {};
   out.tool_work_j = 0.0;
-  if (!(nearer_m(out) < clear_m_)) meet(dt, out);
+  if (!(nearer_m(out) < clear_m_)) find_contacts(dt, out);
   const auto mover = [&](int i) -> const Mover& { return out.mover[static_cast<std::size_t>(i)]; };
   if (held_) {
     const int t = model_.tool();
@@ -148,7 +148,7 @@ double Bodies::nearer_m(const Attempt& a) const {
 }
 
 // Contacts, from what was near before to what is near after the moves that were tried.
-void Bodies::meet(double dt, Attempt& out) {
+void Bodies::find_contacts(double dt, Attempt& out) {
   std::array<Pose, kMost> X;
   for (std::size_t i = 0; i < X.size(); ++i) X[i] = out.to[i].X;
   const auto after = model_.near({X.data(), static_cast<std::size_t>(count())},
@@ -157,22 +157,25 @@ void Bodies::meet(double dt, Attempt& out) {
   // Both lists are in the order of their geoms; a pair that is in one of them alone was, or is, just not
   // near.
   auto before = near_.begin();
-  const auto apart = [](const Meeting& m) { return Meeting{-CollisionModel::kNearM, m.point_m, m.normal}; };
+  const auto apart = [](const SurfacePair& m) {
+    return SurfacePair{-CollisionModel::kNearM, m.point_m, m.normal};
+  };
   const auto earlier = [](const GeomPair& a, const GeomPair& b) {
     return a.geom_a != b.geom_a ? a.geom_a < b.geom_a : a.geom_b < b.geom_b;
   };
-  const auto meet = [&](const GeomPair& p, const Meeting& from, const Meeting& to) {
+  const auto find_contacts = [&](const GeomPair& p, const SurfacePair& from, const SurfacePair& to) {
     if (off(p)) return;
     add(touch(model_.law(p), from, to, mover(p.body_a), mover(p.body_b), dt), p.body_a, p.body_b, out);
   };
   for (const GeomPair& pair : after) {
     for (; before != near_.end() && earlier(*before, pair); ++before)
-      meet(*before, before->meeting, apart(before->meeting));
+      find_contacts(*before, before->surface_pair, apart(before->surface_pair));
     const bool known = before != near_.end() && !earlier(pair, *before);
-    meet(pair, known ? before->meeting : apart(pair.meeting), pair.meeting);
+    find_contacts(pair, known ? before->surface_pair : apart(pair.surface_pair), pair.surface_pair);
     if (known) ++before;
   }
-  for (; before != near_.end(); ++before) meet(*before, before->meeting, apart(before->meeting));
+  for (; before != near_.end(); ++before)
+    find_contacts(*before, before->surface_pair, apart(before->surface_pair));
 }
 
 void Bodies::add(const Interaction& f, int a, int b, Attempt& out) const {
@@ -213,10 +216,10 @@ void Bodies::accept(const Attempt& done, const Pose& X_tool, double dt) {
   state_ = done.to;
   X_tool_ = X_tool;
   clear_m_ -= nearer_m(done);
-  if (clear_m_ < 0.5 * CollisionModel::kNearM) look();
+  if (clear_m_ < 0.5 * CollisionModel::kNearM) find_near_pairs();
 }
 
-void Bodies::look() {
+void Bodies::find_near_pairs() {
   std::array<Pose, kMost> X;
   for (std::size_t i = 0; i < X.size(); ++i) X[i] = state_[i].X;
   const auto found = model_.near({X.data(), static_cast<std::size_t>(count())}, X_tool_);
@@ -254,12 +257,12 @@ void Bodies::close_latch() {
   const int a = std::min(striker_, keeper_), b = std::max(striker_, keeper_);
   const auto pair =
       std::ranges::find_if(near_, [a, b](const GeomPair& p) { return p.geom_a == a && p.geom_b == b; });
-  if (pair == near_.end() || pair->meeting.depth_m < latch_->travel_m) return;
+  if (pair == near_.end() || pair->surface_pair.depth_m < latch_->travel_m) return;
   const int body = model_.body_of(striker_), base = model_.body_of(keeper_);
   const Pose& X = state_[static_cast<std::size_t>(body)].X;
   const Quaternion turned = X.q * model_.bodies()[static_cast<std::size_t>(body)].X_start.q.conjugate();
   if (log_rotation(model_.geom_pose(keeper_).q.conjugate() * turned).norm() > latch_->angle_rad) return;
-  spent_j_ += model_.law(*pair).energy_j(pair->meeting.depth_m);
+  spent_j_ += model_.law(*pair).energy_j(pair->surface_pair.depth_m);
   const Pose X_base = base < count() ? state_[static_cast<std::size_t>(base)].X : Pose{};
   latched_ = {body, rest(X_base, X, X.p)};
 }
@@ -277,14 +280,14 @@ void Bodies::push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s) {
 
 void Bodies::place(int i, const Pose& X_S) {
   state_[static_cast<std::size_t>(i)].X = X_S;
-  look();
+  find_near_pairs();
 }
 
 double Bodies::energy_j() const {
   double sum = 0.0;
   for (int i = 0; i < count(); ++i) sum += longreach::energy_j(body(i).mass, state(i));
   for (const GeomPair& pair : near_) {
-    if (!off(pair)) sum += model_.law(pair).energy_j(pair.meeting.depth_m);
+    if (!off(pair)) sum += model_.law(pair).energy_j(pair.surface_pair.depth_m);
   }
   const auto X = [this](int i) { return i < count() ? state(i).X : i == model_.tool() ? X_tool_ : Pose{}; };
   if (held_) sum += longreach::energy_j(gripper_->bond, held_->rest, X_tool_, X(held_->body));

@@ -74,12 +74,12 @@ class Bodies {
   void advance(const Pose& X_tool, double dt, int splits);
   void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
   void answer(double dt, Attempt& out);
-  void meet(double dt, Attempt& out);
+  void find_contacts(double dt, Attempt& out);
   /// How much nearer to each other any two geoms can have come at most.
   [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);
-  void look();  // what is near what, now
+  void find_near_pairs();  // what is near what, now
   void close_gripper();
   void close_latch();
   [[nodiscard]] bool off(const GeomPair& pair) const;

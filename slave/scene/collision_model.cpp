@@ -129,9 +129,10 @@ struct CollisionModel::Engine {
     int pairs = 0;
     for (int a = 0; a < model->ngeom; ++a) {
       for (int b = 0; b < a; ++b) {
-        const bool meet = (model->geom_contype[a] & model->geom_conaffinity[b]) != 0 ||
-                          (model->geom_contype[b] & model->geom_conaffinity[a]) != 0;
-        if (meet && model->body_weldid[model->geom_bodyid[a]] != model->body_weldid[model->geom_bodyid[b]])
+        const bool find_contacts = (model->geom_contype[a] & model->geom_conaffinity[b]) != 0 ||
+                                   (model->geom_contype[b] & model->geom_conaffinity[a]) != 0;
+        if (find_contacts &&
+            model->body_weldid[model->geom_bodyid[a]] != model->body_weldid[model->geom_bodyid[b]])
           ++pairs;
       }
     }
@@ -239,12 +240,12 @@ std::span<const GeomPair> CollisionModel::near(std::span<const Pose> X, const Po
     const mjContact& c = engine_->state->contact[i];
     const bool swapped = c.geom1 > c.geom2;
     GeomPair pair{std::min(c.geom1, c.geom2), std::max(c.geom1, c.geom2), 0, 0, {}};
-    pair.meeting = {-c.dist, vector(c.pos), vector(c.frame)};
-    if (swapped) pair.meeting.normal *= -1.0;
+    pair.surface_pair = {-c.dist, vector(c.pos), vector(c.frame)};
+    if (swapped) pair.surface_pair.normal *= -1.0;
     const auto same = std::ranges::find_if(
         pairs_, [&pair](const GeomPair& p) { return p.geom_a == pair.geom_a && p.geom_b == pair.geom_b; });
     if (same != pairs_.end()) {
-      if (pair.meeting.depth_m > same->meeting.depth_m) same->meeting = pair.meeting;
+      if (pair.surface_pair.depth_m > same->surface_pair.depth_m) same->surface_pair = pair.surface_pair;
       continue;
     }
     pair.body_a = body_of(pair.geom_a);

@@ -22,7 +22,7 @@ namespace longreach {
 struct GeomPair {
   int geom_a = 0, geom_b = 0;  // geom_a < geom_b
   int body_a = 0, body_b = 0;
-  Meeting meeting{};  // its normal from A to B
+  SurfacePair surface_pair{};  // its normal from A to B
 };
 
 struct FreeBody {

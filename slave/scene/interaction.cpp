@@ -62,8 +62,8 @@ SpringSide rotation(const BondConfig& b) {
 
 }  // namespace
 
-Interaction touch(const HuntCrossley& law, const Meeting& before, const Meeting& after, const Mover& a,
-                  const Mover& b, double dt) {
+Interaction touch(const HuntCrossley& law, const SurfacePair& before, const SurfacePair& after,
+                  const Mover& a, const Mover& b, double dt) {
   Interaction result;
   const double change = after.depth_m - before.depth_m, damping = 1.0 + law.a * change / dt;
   const auto [elastic, slope] = law.mean_elastic(before.depth_m, change);

@@ -31,15 +31,15 @@ struct Interaction {
 };
 
 /// A place where two surfaces meet or are near.
-struct Meeting {
+struct SurfacePair {
   double depth_m = 0.0;  // negative: apart
   Vector3 point_m = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, from A to B
 };
 
 /// One contact from its meeting before to that after the step.
-Interaction touch(const HuntCrossley& law, const Meeting& before, const Meeting& after, const Mover& a,
-                  const Mover& b, double dt);
+Interaction touch(const HuntCrossley& law, const SurfacePair& before, const SurfacePair& after,
+                  const Mover& a, const Mover& b, double dt);
 
 /// Where a bond begins: A's and B's pose when it does nothing.
 struct BondRest {

@@ -15,7 +15,7 @@ constexpr double kClear = 10.0;  // touch thresholds: the direction of a greater
 
 }  // namespace
 
-ContactReading ContactDetector::step(const Vector3& force_n, double dt, double doubt_n) {
+ContactReading ContactDetector::step(const Vector3& force_n, double dt, double uncertainty_n) {
   const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
   const double noise_n = this->noise_n(force_n, dt);
   const Vector3 next = filtered_n_ + share * (force_n - filtered_n_);
@@ -29,7 +29,7 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double d
   const double force = filtered_n_.stableNorm();
   const bool before = in_contact_;
   // Released below the touch threshold even if the configuration has them the wrong way round.
-  reading.touch_n = std::max(config_.touch_n + doubt_n, kTouchSds * noise_n);
+  reading.touch_n = std::max(config_.touch_n + uncertainty_n, kTouchSds * noise_n);
   const double release_n = std::min(config_.release_n, config_.touch_n);
   in_contact_ = before ? force >= release_n : force > reading.touch_n;
   reading.in_contact = in_contact_;

@@ -33,7 +33,7 @@ class ContactDetector {
   void configure(const SensingConfig& config) { config_ = config; }
 
   /// `doubt_n`: what of the force may be none; so much more makes a contact.
-  ContactReading step(const Vector3& force_n, double dt, double doubt_n = 0.0);
+  ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 

@@ -26,7 +26,7 @@ constexpr double kCheckMax_s = 0.5;        // a tool at its greatest speed has c
 constexpr double kHaste_n_per_s = 250.0;   // growth at which the whole acceleration is used
 constexpr double kLeastHaste = 0.05;
 constexpr double kRefined_s = 0.1;         // after the answer: the stiffness becomes better by more way
-constexpr double kRelief_s = 0.1;          // τ
+constexpr double kRetreat_s = 0.1;         // τ
 constexpr double kFastest_m_per_s = 10.0;  // of a wall: more is noise
 constexpr double kWall_s = 0.05;           // time constant of v
 
@@ -47,11 +47,11 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
     case State::kRest:
       suspected_ = false;
       if (grew_) state_ = State::kGrowing;
-      watch_relief(now, in);
+      watch_retreat(now, in);
       break;
     case State::kGrowing:
       if (!grew_) state_ = State::kRest;
-      watch_relief(now, in);
+      watch_retreat(now, in);
       if (grew_ && in.may_move && in.force_n >= in.bound_n) begin_to_give_way(now, in.reaction);
       break;
     case State::kGivingWay:
@@ -129,7 +129,7 @@ bool ForceAnswer::decides(double change_n, double way_m, double share) const {
 }
 
 // The tool goes back because the guard is exceeded. Only straight back counts: what slides may meet more.
-void ForceAnswer::watch_relief(const Point& now, const ForceAnswerInput& in) {
+void ForceAnswer::watch_retreat(const Point& now, const ForceAnswerInput& in) {
   const Vector3 way_m = now.p_m - from_.p_m;
   const double out_m = along_.dot(way_m), aside_m = (way_m - out_m * along_).norm();
   if (!in.may_move || in.force_n <= in.guard_n) watches_ = false;
@@ -208,7 +208,7 @@ void ForceAnswer::drive(const Point& now, const ForceAnswerInput& in) {
       wall_m_per_s_ += -std::expm1(-in.dt / kWall_s) * (seen_m_per_s - wall_m_per_s_);
     }
     const double above_n = in.force_n - in.bound_n;
-    retreat_m_per_s_ = wall_m_per_s_ + above_n / (stiffness_n_per_m_ * kRelief_s);
+    retreat_m_per_s_ = wall_m_per_s_ + above_n / (stiffness_n_per_m_ * kRetreat_s);
   }
   retreat_m_per_s_ = std::clamp(retreat_m_per_s_, 0.0, limits_.speed_m_per_s);
 }

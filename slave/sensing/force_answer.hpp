@@ -21,7 +21,7 @@
 //   checking    otherwise: the wall comes faster, or is stiffer deeper         growing
 //   answered    half a second of rest without growth; of growing, too          rest
 //   any         the contact ends                                               rest
-// Giving way without an answer ends by its length (relief.hpp). Once answered, D/s is the stiffness k, and
+// Giving way without an answer ends by its length (retreat_budget.hpp). Once answered, D/s is the stiffness k, and
 //   u = v + (F - F_bound)/(k τ),   v = the tool's own speed + F'/k, smooth
 // is the speed of giving way. Before, it is gained at a share g/(250 N/s) of the acceleration, 5 % at least.
 // Not revealed: a sensor that fakes an answer.
@@ -86,7 +86,7 @@ class ForceAnswer {
   void rest(const Point& now, const ForceAnswerInput& in);
   [[nodiscard]] bool grown(const Point& from, const Point& now, const ForceAnswerInput& in) const;
   void begin_to_give_way(const Point& now, const Vector3& reaction);
-  void watch_relief(const Point& now, const ForceAnswerInput& in);
+  void watch_retreat(const Point& now, const ForceAnswerInput& in);
   void look_for_answer(const Point& now);
   [[nodiscard]] bool seen_enough(const Point& now) const;
   void check(const Point& now, const ForceAnswerInput& in);

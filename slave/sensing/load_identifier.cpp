@@ -54,7 +54,9 @@ void LoadIdentifier::step(const Wrench& left, const SensorMotion& motion, bool f
   since_s_ += dt;
   if (since_s_ < kLoadUpdate_s) return;
   since_s_ = 0.0;
-  const auto drift = [](double told) { return (told * told + kBiasDrift * kBiasDrift) * kLoadUpdate_s; };
+  const auto drift = [](double reported) {
+    return (reported * reported + kBiasDrift * kBiasDrift) * kLoadUpdate_s;
+  };
   covariance_.diagonal().segment<3>(4).array() += drift(sensing_.force_drift_n);
   covariance_.diagonal().tail<3>().array() += drift(sensing_.moment_drift_nm);
   if (free_s_ > kLoadSettled_s) update(second_, (first_ - second_) / kLoadBand_s, motion.gravity);
@@ -118,7 +120,7 @@ bool LoadIdentifier::known() const {
 
 bool LoadIdentifier::holds() const { return known() && load().mass_kg > kNothing_kg; }
 
-double LoadIdentifier::doubt_kg() const {
+double LoadIdentifier::uncertainty_kg() const {
   if (!closed_) return 0.0;
   return std::min(load_max_kg_, kUnmodelled * load().mass_kg + kLoadSds * sd_kg());
 }

@@ -46,7 +46,7 @@ class LoadIdentifier {
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // something that weighs, for certain
   /// As much mass may answer an acceleration otherwise than load() says, kg.
-  [[nodiscard]] double doubt_kg() const;
+  [[nodiscard]] double uncertainty_kg() const;
 
  private:
   static constexpr int kStates = 10;  // m, h, b_f, b_τ

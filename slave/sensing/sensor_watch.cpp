@@ -64,8 +64,8 @@ bool SensorWatch::read(const Wrench& reading, const Motion& motion) {
   return saturated_s_ <= kLong_s && !(same_s_ > kLong_s && same_m_ > kMoved_m);
 }
 
-bool SensorWatch::felt(const Vector3& force_n, const Motion& motion, double doubt_n) {
-  const bool leaps = felt_ && leap_n(*felt_, force_n) > leap_max_n(motion) + doubt_n;
+bool SensorWatch::felt(const Vector3& force_n, const Motion& motion, double uncertainty_n) {
+  const bool leaps = felt_ && leap_n(*felt_, force_n) > leap_max_n(motion) + uncertainty_n;
   felt_ = force_n;
   return !leaps;
 }

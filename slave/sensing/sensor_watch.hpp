@@ -13,7 +13,7 @@
 //                                            tool goes on
 // u is what the tool's acceleration explains where it is not known (tool_load.hpp). A force may vanish at
 // once: a latch, an edge. Not revealed by any of these, with what it can do: a sensor that is frozen in free
-// space or at rest, a bias, a drift, a scale. What they make the robot do ends with its relief (relief.hpp).
+// space or at rest, a bias, a drift, a scale. What they make the robot do ends with its relief (retreat_budget.hpp).
 
 #include <optional>
 
@@ -37,7 +37,7 @@ class SensorWatch {
   /// As it was read, along the axes of the tool. True: it may be believed.
   bool read(const Wrench& reading, const Motion& motion);
   /// What is left of it when the tool and bias are taken out, in W; `doubt_n` is u. True: likewise.
-  bool felt(const Vector3& force_n, const Motion& motion, double doubt_n);
+  bool felt(const Vector3& force_n, const Motion& motion, double uncertainty_n);
 
  private:
   [[nodiscard]] bool in_range(const Wrench& reading) const;

@@ -11,7 +11,7 @@ constexpr double kLaterZero = 0.2;     // of the bound: drift
 constexpr double kIrregular = 1.5;     // times the usual time between samples
 constexpr double kUsual = 0.05;        // of a new one in the usual
 constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
-constexpr double kDoubt_s = 0.02;      // longer than the filter that decides on a touch
+constexpr double kUncertain_s = 0.02;  // longer than the filter that decides on a touch
 constexpr double kBond_s = 0.01;       // of a bond between gripper and load
 constexpr double kQuick_s = 0.003;     // of the stiffest
 constexpr double kReach_m = 0.5;       // of a load's centre
@@ -61,7 +61,7 @@ void ToolCompensation::average(const Wrench& left, double dt) {
   zeroed_ = true;
 }
 
-void AccelerationDoubt::step(const Twist& V_WF, double dt) {
+void AccelerationUncertainty::step(const Twist& V_WF, double dt) {
   if (!last_ || !(dt > 0.0)) {
     last_ = V_WF;
     usual_s_ = dt;
@@ -69,7 +69,7 @@ void AccelerationDoubt::step(const Twist& V_WF, double dt) {
   }
   if (!(usual_s_ > 0.0)) usual_s_ = dt;
   unsettled_s_ = dt > kIrregular * usual_s_ ? kUnsettled_s : unsettled_s_ - dt;
-  const double kept = std::exp(-dt / kDoubt_s), over_s = std::min(dt, usual_s_);
+  const double kept = std::exp(-dt / kUncertain_s), over_s = std::min(dt, usual_s_);
   m_per_s2_ *= kept;
   rad_per_s2_ *= kept;
   if (unsettled_s_ > 0.0) {
@@ -80,18 +80,20 @@ void AccelerationDoubt::step(const Twist& V_WF, double dt) {
   last_ = V_WF;
 }
 
-double ToolCompensation::tool_doubt_n() const {
-  return config_.tool.mass_kg * (doubt_.m_per_s2() + config_.tool.com_m.norm() * doubt_.rad_per_s2());
+double ToolCompensation::tool_uncertainty_n() const {
+  return config_.tool.mass_kg *
+         (plausibility_.m_per_s2() + config_.tool.com_m.norm() * plausibility_.rad_per_s2());
 }
 
-double ToolCompensation::doubt_n() const {
-  return tool_doubt_n() + std::min(load_.doubt_kg() * push_.m_per_s2(), limits_.load_n);
+double ToolCompensation::uncertainty_n() const {
+  return tool_uncertainty_n() + std::min(load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
 }
 
-double ToolCompensation::doubt_nm() const {
-  const double by_load = kReach_m * load_.doubt_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
-  return config_.tool.com_m.norm() * tool_doubt_n() +
-         config_.tool.inertia_kg_m2.maxCoeff() * doubt_.rad_per_s2() + std::min(by_load, limits_.load_nm);
+double ToolCompensation::uncertainty_nm() const {
+  const double by_load = kReach_m * load_.uncertainty_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
+  return config_.tool.com_m.norm() * tool_uncertainty_n() +
+         config_.tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2() +
+         std::min(by_load, limits_.load_nm);
 }
 
 Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& sample, double dt) {
@@ -121,7 +123,7 @@ Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, con
                               const LoadSample& load) {
   const bool as_read = !(config_.tool.mass_kg > 0.0) && !(config_.zero_s > 0.0);
   if (as_read && !loads_) return reading;
-  doubt_.step(V_WF, dt);
+  plausibility_.step(V_WF, dt);
   const Quaternion q_FW = q_WF.conjugate();
   const SensorMotion motion = motion_.step(q_WF, V_WF, config_.gravity_m_per_s2, config_.bandwidth_hz, dt);
   const Wrench tool = tool_wrench(config_.tool, motion);

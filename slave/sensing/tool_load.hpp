@@ -40,7 +40,7 @@ class SensorMotionEstimate {
 };
 
 /// Of an acceleration from velocities that come irregularly.
-class AccelerationDoubt {
+class AccelerationUncertainty {
  public:
   /// V_WF, `dt` after the last.
   void step(const Twist& V_WF, double dt);
@@ -129,18 +129,18 @@ class ToolCompensation {
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the sensor's frame
   [[nodiscard]] const LoadIdentifier& load() const { return load_; }
   /// What of force and moment may be by an acceleration or a load that is not known.
-  [[nodiscard]] double doubt_n() const;
-  [[nodiscard]] double doubt_nm() const;
+  [[nodiscard]] double uncertainty_n() const;
+  [[nodiscard]] double uncertainty_nm() const;
 
  private:
   void average(const Wrench& left, double dt);
-  [[nodiscard]] double tool_doubt_n() const;
+  [[nodiscard]] double tool_uncertainty_n() const;
   Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
   CompensationLimits limits_;
   SensorMotionEstimate motion_{}, load_motion_{};
-  AccelerationDoubt doubt_{};
+  AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
   std::optional<Pose> X_WF_{};        // at the last sample of a load
   AccelerationPeak push_{}, turn_{};  // of a load

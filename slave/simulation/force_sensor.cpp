@@ -32,14 +32,14 @@ Wrench ForceSensor::step(const Wrench& wrench, double dt) {
 }
 
 Vector3 ForceSensor::read(const Vector3& felt, const Channel& channel) {
-  Vector3 told;
+  Vector3 reported;
   for (int i = 0; i < 3; ++i) {
     double value = felt[i] + channel.noise * random_.normal();
     if (channel.resolution > 0.0) value = std::round(value / channel.resolution) * channel.resolution;
     if (channel.range > 0.0) value = std::clamp(value, -channel.range, channel.range);
-    told[i] = value;
+    reported[i] = value;
   }
-  return told;
+  return reported;
 }
 
 }  // namespace longreach

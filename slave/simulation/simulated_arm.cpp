@@ -176,9 +176,9 @@ Wrench SimulatedArm::sense(double dt) {
   const SensorMotion motion = motion_.step(X_WE_.q, V_WE_, sensing_.gravity_m_per_s2, 0.0, dt);
   const Wrench tool = tool_wrench(sensing_.tool, motion);
   const Quaternion q_EW = X_WE_.q.conjugate();
-  const Wrench told =
+  const Wrench reported =
       sensor_.step({q_EW * F_E_W_.moment + tool.moment, q_EW * F_E_W_.force + tool.force}, dt);
-  return {X_WE_.q * told.moment, X_WE_.q * told.force};
+  return {X_WE_.q * reported.moment, X_WE_.q * reported.force};
 }
 
 double SimulatedArm::material_stiffness(const Vector3& p_WE) const {

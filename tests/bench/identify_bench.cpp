@@ -56,7 +56,7 @@ void SlavesOwnPath(benchmark::State& state) {
     for (const PenetrationSample& s : samples) {
       identifier.step(s, 1e-3);
       benchmark::DoNotOptimize(identifier.answer());
-      benchmark::DoNotOptimize(identifier.told().answer_at(kWorking_m));
+      benchmark::DoNotOptimize(identifier.reported().answer_at(kWorking_m));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));

@@ -18,8 +18,8 @@ struct Recording {
   test::ContactCell contact{};
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
   double period_s = 1e-3;
-  double spoilt = 0.0;  // takes the place of every seventh force, if it is not zero
-  double gain = 1.0;    // of the force sensor; it is taken for 1
+  double affected = 0.0;  // takes the place of every seventh force, if it is not zero
+  double gain = 1.0;      // of the force sensor; it is taken for 1
 };
 
 ExtremeResult identify(const Recording& what, std::uint64_t seed) {
@@ -28,17 +28,17 @@ ExtremeResult identify(const Recording& what, std::uint64_t seed) {
   identifier.begin();
   Random random = Random(seed).child("extremes");
   const int samples = std::max(2000, static_cast<int>(2.0 / what.period_s));
-  int spoilt = 0;
+  int affected = 0;
   for (int i = 0; i < samples; ++i) {
     PenetrationSample s = test::motion(what.contact.excitation, what.period_s * i);
     s.x_m *= what.contact.deepest_m();
     s.v_m_per_s *= what.contact.deepest_m();
     s.force_n = what.gain * what.contact.force(s.x_m, s.v_m_per_s) + what.contact.noise_n * random.normal();
-    if (what.spoilt != 0.0 && i % 7 == 3) s.force_n = what.spoilt, ++spoilt;
+    if (what.affected != 0.0 && i % 7 == 3) s.force_n = what.affected, ++affected;
     identifier.step(s, what.period_s);
   }
-  if (identifier.ignored() != static_cast<std::uint64_t>(spoilt))
-    return bad(std::to_string(identifier.ignored()) + " samples ignored, " + std::to_string(spoilt) +
+  if (identifier.ignored() != static_cast<std::uint64_t>(affected))
+    return bad(std::to_string(identifier.ignored()) + " samples ignored, " + std::to_string(affected) +
                " were spoilt");
   const ContactAnswer answer = identifier.answer();
   if (!answer.valid || answer.stiffness.verdict != Verdict::kIdentified)
@@ -87,7 +87,7 @@ std::vector<ExtremeRow> extreme_estimates() {
   constexpr double inf = std::numeric_limits<double>::infinity();
   rows.push_back(row("every seventh force", " N",
                      {std::numeric_limits<double>::quiet_NaN(), inf, -inf, 1e300},
-                     [](Recording& what, double force_n) { what.spoilt = force_n; }));
+                     [](Recording& what, double force_n) { what.affected = force_n; }));
   return rows;
 }
 

@@ -25,7 +25,7 @@ struct Talk {
   double delay_s = 0.1;                      // each way
   double master_s = 100.0, slave_s = 777.0;  // clocks at the start
   std::uint64_t first = 1;                   // number of the first datagram
-  double told_s = 0.0;                       // less than the link has each way, in the control
+  double reported_s = 0.0;                   // less than the link has each way, in the control
   bool count = false;                        // the result: datagrams that got lost, not the round trip
 };
 
@@ -71,7 +71,7 @@ ExtremeResult talk(const Talk& what, std::uint64_t seed) {
   if (what.first == 0 && lost == 2)
     return refused("zero is no number: no datagram goes with it, the next ones do");
   if (what.count) return accurate(static_cast<double>(lost), 0.0);
-  const double late_s = *figures.rtt_s - 2.0 * (what.delay_s - what.told_s);
+  const double late_s = *figures.rtt_s - 2.0 * (what.delay_s - what.reported_s);
   return late_s > -1e-9 ? accurate(std::max(0.0, late_s), kTurns_s) : bad("faster than the link");
 }
 
@@ -109,7 +109,7 @@ std::vector<ExtremeRow> extreme_links() {
   const auto cell = [](const std::string& name, const Talk& what, const std::string& refusal = "") {
     return ExtremeCell{name, refusal, [what](std::uint64_t seed) { return talk(what, seed); }};
   };
-  const ExtremeCell longer = cell("10 ms longer than told", Talk{.told_s = 0.01});
+  const ExtremeCell longer = cell("10 ms longer than told", Talk{.reported_s = 0.01});
   ExtremeRow delays{"link: delay each way", "round trip too long, s", longer, {}};
   for (const double delay_s : {0.0, 1e-3, 1.0, 10.0, 100.0})
     delays.cells.push_back(cell(short_text(delay_s) + " s", {.delay_s = delay_s}));

@@ -32,7 +32,7 @@ struct Feeling {
   double start_s = 1.0;   // on the master's clock
   double handle_m = 0.0;  // where the device says that it is, if not zero
   Grip grip = Grip::kLight;
-  double told = 1.0;  // of the stiffness that the result is judged by; others in controls
+  double reported = 1.0;  // of the stiffness that the result is judged by; others in controls
   std::vector<std::string> settings{};
 };
 
@@ -121,7 +121,7 @@ ExtremeResult feel(const Feeling& what) {
     return bad(format_number(view.energy_drawdown_j) + " J out of the rendering");
   if (what.handle_m != 0.0) return accurate(felt.peak_n(), kTouch_n);
   if (!felt.valid() && what.stiffness_n_per_m > 0.0) return bad("the wall is not touched");
-  return accurate(felt.error(what.told * std::min(what.stiffness_n_per_m, view.stiffness_max_n_per_m)),
+  return accurate(felt.error(what.reported * std::min(what.stiffness_n_per_m, view.stiffness_max_n_per_m)),
                   kNoticed);
 }
 
@@ -130,7 +130,7 @@ using Cells = std::initializer_list<std::pair<double, const char*>>;  // value, 
 
 ExtremeRow row(const std::string& quantity, const std::string& unit, Cells cells, const Set& set) {
   const auto softer = [set](std::uint64_t) {
-    Feeling what{.told = 1.2};
+    Feeling what{.reported = 1.2};
     set(what, 1e3);
     what.stiffness_n_per_m = 1e3;
     return feel(what);

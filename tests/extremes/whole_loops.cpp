@@ -106,15 +106,15 @@ ExtremeCell far(const std::string& name, const Settings& settings, const std::st
 /// Peak of the force at the tool. Up to the stiffest wall that the guard reckons with it keeps to the guard;
 /// stiffer ones get what the tool goes on by until it has come to rest, and the number shows it. `told`:
 /// share of the speed of approach that is reckoned with; of the control.
-ExtremeCell guarded(const std::string& k, double told = 1.0) {
+ExtremeCell guarded(const std::string& k, double reported = 1.0) {
   const Settings settings = {"profile=lab", "scene.material.wall.stiffness_n_per_m=" + k};
-  return {k, "", [settings, told](std::uint64_t seed) {
+  return {k, "", [settings, reported](std::uint64_t seed) {
             Figures figures;
             if (const auto wrong = touch(settings, seed, figures)) return *wrong;
             const proto::LabConfig config = configure(settings, find_deploy_folder());
             const proto::Command& command = config.slave().command();
             const double wall_n_per_m = config.slave().scene().material(0).stiffness_n_per_m();
-            const double way_m = told * config.master().operator_().approach_speed_m_per_s() * kAtRest_s;
+            const double way_m = reported * config.master().operator_().approach_speed_m_per_s() * kAtRest_s;
             const double stiffer_n =
                 wall_n_per_m > command.guard_stiffness_n_per_m() ? wall_n_per_m * way_m : 0.0;
             return accurate(figures["tool_force_peak_n"] / command.force_guard_n(),

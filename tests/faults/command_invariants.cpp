@@ -26,12 +26,12 @@ class Fresh : public Invariant {
       : Invariant("I16", "what is followed is fresh"),
         rise_s_(1.0 + 2.0 * (s.master.link.impairment.jitter_s + s.slave.link.impairment.jitter_s)) {}
   void see(const Moment& m) override {
-    const Right& right = m.ghost->right();
-    if (!m.slave_ran || m.claimed != SafetyState::kEngaged || right.newest == nullptr) {
+    const MotionAuthority& authority = m.sent_log->authority();
+    if (!m.slave_ran || m.claimed != SafetyState::kEngaged || authority.newest == nullptr) {
       least_s_ = 1e9;
       return;
     }
-    const double age_s = m.t_s - right.sent_s;
+    const double age_s = m.t_s - authority.sent_s;
     if (m.engagement != engagement_) {
       least_s_ = 1e9;
       mean_s_ = age_s;

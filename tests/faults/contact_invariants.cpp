@@ -9,12 +9,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kCalm_s = 3.0;  // after what the guard cannot reckon with
+constexpr double kQuiet_s = 3.0;  // after what the guard cannot reckon with
 
 bool as_reckoned(const Moment& m) {
-  for (const Spoils what :
-       {Spoils::kSensor, Spoils::kJoints, Spoils::kRobot, Spoils::kScene, Spoils::kSlaveTime})
-    if (m.since(what) < kCalm_s) return false;
+  for (const AffectedSignal what : {AffectedSignal::kSensor, AffectedSignal::kJoints, AffectedSignal::kRobot,
+                                    AffectedSignal::kScene, AffectedSignal::kSlaveTime})
+    if (m.since(what) < kQuiet_s) return false;
   return true;
 }
 
@@ -43,7 +43,7 @@ class Guarded : public Invariant {
       beyond_ = stiff_ || -m.v_WE.dot(m.F_E_W.force) > kSwift * FirstTouch{}.speed_m_per_s * force_n;
     last_n_ = force_n;
     settled_s_ = touched || force_n > bound_n_ ? 0.0 : settled_s_ + m.period_s;
-    beyond_ = beyond_ && (force_n > 0.0 && settled_s_ < kRelief_s);
+    beyond_ = beyond_ && (force_n > 0.0 && settled_s_ < kRetreat_s);
     if (!as_reckoned(m) || beyond_) {
       pressed_n_ = force_n;
       engaged_s_ = 0.0;
@@ -53,14 +53,14 @@ class Guarded : public Invariant {
     if (engaged) engaged_s_ += m.period_s;
     if (force_n < kFall * pressed_n_) {
       pressed_n_ = force_n;
-      engaged_s_ = std::min(engaged_s_, kRelief_s - kNext_s);
+      engaged_s_ = std::min(engaged_s_, kRetreat_s - kNext_s);
     }
-    const double most_n = pressed_n_ > 0.0 && engaged_s_ < kRelief_s ? kRise * pressed_n_ : bound_n_;
+    const double most_n = pressed_n_ > 0.0 && engaged_s_ < kRetreat_s ? kRise * pressed_n_ : bound_n_;
     if (force_n > 0.0) at_most(m, force_n, most_n, "N at the tool");
   }
 
  private:
-  static constexpr double kRelief_s = 3.0, kRise = 1.05, kSwift = 1.05;
+  static constexpr double kRetreat_s = 3.0, kRise = 1.05, kSwift = 1.05;
   static constexpr double kFall = 0.9, kNext_s = 1.0;  // an arm that is stretched goes back slowly
 
   double bound_n_;
@@ -73,7 +73,7 @@ class Guarded : public Invariant {
 
 /// A second and a half after the last right to move what presses or turns has come down to the hold limit. A
 /// hold in which the sensor has lied may have spent its way of relief on that.
-class Relieved : public Invariant {
+class ForceComesDown : public Invariant {
  public:
   struct Of {
     const char* name;
@@ -82,20 +82,20 @@ class Relieved : public Invariant {
     Vector3 Wrench::*part;
     double most;  // with what a servo and noise leave
   };
-  explicit Relieved(const Of& of) : Invariant(of.name, of.says), of_(of) {}
+  explicit ForceComesDown(const Of& of) : Invariant(of.name, of.says), of_(of) {}
   void see(const Moment& m) override {
-    if (m.ghost->right().engaged || m.claimed != SafetyState::kHolding) {
+    if (m.sent_log->authority().engaged || m.claimed != SafetyState::kHolding) {
       held_s_ = m.t_s;
-      lied_ = false;
+      was_faulty_ = false;
     }
-    lied_ = lied_ || !as_reckoned(m);
-    if (m.t_s - held_s_ > 1.5 && !lied_) at_most(m, (m.F_E_W.*of_.part).norm(), of_.most, of_.unit);
+    was_faulty_ = was_faulty_ || !as_reckoned(m);
+    if (m.t_s - held_s_ > 1.5 && !was_faulty_) at_most(m, (m.F_E_W.*of_.part).norm(), of_.most, of_.unit);
   }
 
  private:
   Of of_;
   double held_s_ = 0.0;
-  bool lied_ = false;
+  bool was_faulty_ = false;
 };
 
 /// By the formula that is published: k (w t_d + w²/(2 a)) above the guard, and 0.35 of it at least.
@@ -138,9 +138,10 @@ class HeldPlace : public Invariant {
         way_m_(s.slave.command.give_way_m),
         a_(s.slave.command.acceleration_max_m_per_s2) {}
   void see(const Moment& m) override {
-    const bool moved = m.since(Spoils::kRobot) < kCalm_s || m.since(Spoils::kJoints) < kCalm_s ||
-                       m.since(Spoils::kSlaveTime) < kCalm_s;
-    const bool holds = m.claimed == SafetyState::kHolding && !m.ghost->right().engaged;
+    const bool moved = m.since(AffectedSignal::kRobot) < kQuiet_s ||
+                       m.since(AffectedSignal::kJoints) < kQuiet_s ||
+                       m.since(AffectedSignal::kSlaveTime) < kQuiet_s;
+    const bool holds = m.claimed == SafetyState::kHolding && !m.sent_log->authority().engaged;
     if (!holds || moved) {
       place_m_ = m.X_WE.p;
       braking_m_ = m.v_WE.norm() * (kReact_s + 0.5 * m.v_WE.norm() / a_);
@@ -162,13 +163,13 @@ class HeldPlace : public Invariant {
 void add_contact_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<Guarded>(s));
   const double hold_n = hold_limit_n(s.slave.command), hold_nm = hold_limit_nm(s.slave.command);
-  all.push_back(
-      std::make_unique<Relieved>(Relieved::Of{"I21b", "in a hold the force comes down to the hold limit",
-                                              "N in a hold", &Wrench::force, 1.05 * hold_n + 0.3}));
+  all.push_back(std::make_unique<ForceComesDown>(
+      ForceComesDown::Of{"I21b", "in a hold the force comes down to the hold limit", "N in a hold",
+                         &Wrench::force, 1.05 * hold_n + 0.3}));
   all.push_back(std::make_unique<TurnGuarded>(s));
-  all.push_back(
-      std::make_unique<Relieved>(Relieved::Of{"I21d", "in a hold the moment comes down to the hold limit",
-                                              "N m in a hold", &Wrench::moment, 1.05 * hold_nm + 0.03}));
+  all.push_back(std::make_unique<ForceComesDown>(
+      ForceComesDown::Of{"I21d", "in a hold the moment comes down to the hold limit", "N m in a hold",
+                         &Wrench::moment, 1.05 * hold_nm + 0.03}));
   all.push_back(std::make_unique<HeldPlace>(s));
 }
 

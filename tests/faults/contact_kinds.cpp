@@ -88,23 +88,23 @@ void soften(World& world, Active& fault) {
 }
 
 constexpr std::string_view kGroup = "contact";
-constexpr auto kScene = only(Spoils::kScene);
+constexpr auto kScene = only(AffectedSignal::kScene);
 
 const FaultKind kKinds[] = {
-    {.name = "surface-appears", .group = kGroup, .spoils = kScene, .act = appear, .end = as_it_was},
-    {.name = "surface-vanishes", .group = kGroup, .spoils = kScene, .act = vanish, .end = as_it_was},
-    {.name = "surface-moves", .group = kGroup, .spoils = kScene, .act = move, .end = as_it_was},
-    {.name = "surface-comes", .group = kGroup, .spoils = kScene, .act = come, .end = as_it_was},
+    {.name = "surface-appears", .group = kGroup, .affects = kScene, .act = appear, .end = as_it_was},
+    {.name = "surface-vanishes", .group = kGroup, .affects = kScene, .act = vanish, .end = as_it_was},
+    {.name = "surface-moves", .group = kGroup, .affects = kScene, .act = move, .end = as_it_was},
+    {.name = "surface-comes", .group = kGroup, .affects = kScene, .act = come, .end = as_it_was},
     {.name = "surface-comes-far",
      .group = kGroup,
-     .spoils = kScene,
+     .affects = kScene,
      .longest_s = 10.0,
      .shortest_s = 4.0,
      .besides = 0.15,
      .act = come_far,
      .end = as_it_was},
-    {.name = "surface-stiffens", .group = kGroup, .spoils = kScene, .act = stiffen, .end = as_it_was},
-    {.name = "surface-softens", .group = kGroup, .spoils = kScene, .act = soften, .end = as_it_was},
+    {.name = "surface-stiffens", .group = kGroup, .affects = kScene, .act = stiffen, .end = as_it_was},
+    {.name = "surface-softens", .group = kGroup, .affects = kScene, .act = soften, .end = as_it_was},
 };
 
 }  // namespace

@@ -13,9 +13,9 @@ namespace {
 std::size_t below(Random& random, std::size_t end) { return static_cast<std::size_t>(random.next() % end); }
 
 /// One of what went this way.
-std::optional<Bytes> heard(const WireWay& way, Random& random) {
-  if (way.heard().empty()) return std::nullopt;
-  return way.heard()[below(random, way.heard().size())];
+std::optional<Bytes> heard(const WireDirection& direction, Random& random) {
+  if (direction.heard().empty()) return std::nullopt;
+  return direction.heard()[below(random, direction.heard().size())];
 }
 
 void set_sequence(Bytes& datagram, std::uint64_t ahead) {
@@ -32,11 +32,11 @@ template <void (*Change)(World&, Random&, Bytes&)>
 void add(World& world, Active& fault) {
   const double a_tick = log_scale(fault.fault.size, 1.0, 1000.0) * world.moment().period_s;
   if (!fault.random.chance(a_tick)) return;
-  WireWay& way = fault.random.chance(0.5) ? world.up() : world.down();
-  std::optional<Bytes> datagram = heard(way, fault.random);
+  WireDirection& direction = fault.random.chance(0.5) ? world.up() : world.down();
+  std::optional<Bytes> datagram = heard(direction, fault.random);
   if (!datagram) return;
   Change(world, fault.random, *datagram);
-  way.inject(std::move(*datagram));
+  direction.inject(std::move(*datagram));
 }
 
 void forge(World&, Random& random, Bytes& datagram) {
@@ -118,7 +118,7 @@ void twice(World& world, Active&) { world.levels.wire_up.copies = world.levels.w
 void swap(World& world, Active&) { world.levels.wire_up.swapped = world.levels.wire_down.swapped = true; }
 
 constexpr std::string_view kGroup = "datagrams";
-constexpr auto kLate = only(Spoils::kLink);
+constexpr auto kLate = only(AffectedSignal::kLink);
 
 const FaultKind kKinds[] = {
     {.name = "forged", .group = kGroup, .act = add<forge>},
@@ -134,13 +134,13 @@ const FaultKind kKinds[] = {
     {.name = "unknown-version", .group = kGroup, .act = add<of_another_version>},
     {.name = "unknown-type", .group = kGroup, .act = add<of_another_type>},
     {.name = "unknown-session", .group = kGroup, .act = add<of_another_session>},
-    {.name = "flood", .group = kGroup, .spoils = kLate, .longest_s = 0.1, .act = flood},
-    {.name = "held-up-burst", .group = kGroup, .spoils = kLate, .act = hold_up},
-    {.name = "held-down-burst", .group = kGroup, .spoils = kLate, .act = hold_down},
-    {.name = "held-burst", .group = kGroup, .spoils = kLate, .act = hold_both},
-    {.name = "delayed-up", .group = kGroup, .spoils = kLate, .longest_s = 15.0, .act = delay_up},
-    {.name = "delayed-down", .group = kGroup, .spoils = kLate, .longest_s = 15.0, .act = delay_down},
-    {.name = "delay-creeps", .group = kGroup, .spoils = kLate, .longest_s = 15.0, .act = creep_up},
+    {.name = "flood", .group = kGroup, .affects = kLate, .longest_s = 0.1, .act = flood},
+    {.name = "held-up-burst", .group = kGroup, .affects = kLate, .act = hold_up},
+    {.name = "held-down-burst", .group = kGroup, .affects = kLate, .act = hold_down},
+    {.name = "held-burst", .group = kGroup, .affects = kLate, .act = hold_both},
+    {.name = "delayed-up", .group = kGroup, .affects = kLate, .longest_s = 15.0, .act = delay_up},
+    {.name = "delayed-down", .group = kGroup, .affects = kLate, .longest_s = 15.0, .act = delay_down},
+    {.name = "delay-creeps", .group = kGroup, .affects = kLate, .longest_s = 15.0, .act = creep_up},
     {.name = "every-datagram-twice", .group = kGroup, .act = twice},
     {.name = "swapped", .group = kGroup, .act = swap},
 };

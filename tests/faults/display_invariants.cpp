@@ -14,9 +14,9 @@ class TruePicture : public Invariant {
   void see(const Moment& m) override {
     if (m.telemetry) {
       // While the robot says that it has failed, its pose is the last that was believed.
-      if (m.told.ok && m.since(Spoils::kJoints) > 0.1 && m.claimed != SafetyState::kFault)
+      if (m.reported.ok && m.since(AffectedSignal::kJoints) > 0.1 && m.claimed != SafetyState::kFault)
         at_most(m, (m.telemetry->X_WE.p - m.X_WE.p).norm(), 1e-6, "m between what is told and what is");
-      that(m, m.telemetry->state == m.claimed || m.since(Spoils::kSlave) < 0.1,
+      that(m, m.telemetry->state == m.claimed || m.since(AffectedSignal::kSlave) < 0.1,
            "the picture shows another state than the report");
       sent_.push_back(m.telemetry->X_WE.p);
       if (sent_.size() > kKept) sent_.pop_front();

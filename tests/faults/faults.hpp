@@ -5,7 +5,7 @@
 //   scenario   where: robot, scene, device, link, limits, habits of the operator
 //   kind       the table of all kinds of fault; *_kinds.cpp, one a group, each a few lines
 //   world      a laboratory with the faults of a schedule in it; it stands between the nodes and everything
-//              around them (deploy/lab/meddler.hpp), with wire (who sits on the network) and person
+//              around them (deploy/lab/fault_hooks.hpp), with wire (who sits on the network) and person
 //   ghost      what the master really sent and the slave was given: who had the right to move the robot
 //   moment     one tick as an outsider saw it; all that the oracle reads
 //   invariant  the oracle; *_invariants.cpp and liveness.cpp, a class an invariant

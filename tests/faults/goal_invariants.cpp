@@ -14,8 +14,9 @@ bool both_engaged(const Moment& m) {
 }
 /// Nothing has happened for so long by which goal and robot may be apart for a reason.
 bool undisturbed(const Moment& m, double for_s) {
-  for (const Spoils what : {Spoils::kJoints, Spoils::kRobot, Spoils::kSlaveTime, Spoils::kMasterTime,
-                            Spoils::kMaster, Spoils::kSlave, Spoils::kLease})
+  for (const AffectedSignal what :
+       {AffectedSignal::kJoints, AffectedSignal::kRobot, AffectedSignal::kSlaveTime,
+        AffectedSignal::kMasterTime, AffectedSignal::kMaster, AffectedSignal::kSlave, AffectedSignal::kLease})
     if (m.since(what) < for_s) return false;
   return true;
 }
@@ -29,7 +30,7 @@ class BoundedLead : public Invariant {
         news_s_(s.round_trip_s + 0.5),
         news_(static_cast<std::size_t>(news_s_ / 0.001)) {}
   void see(const Moment& m) override {
-    const bool stands = both_engaged(m) && m.since(Spoils::kLink) > kLate_s &&
+    const bool stands = both_engaged(m) && m.since(AffectedSignal::kLink) > kLate_s &&
                         undisturbed(m, kRecovers_s + news_s_) && m.engagement == engagement_ &&
                         (m.X_WE.p - stands_m_).norm() < kStands_m;
     engagement_ = m.engagement;
@@ -69,13 +70,14 @@ class FreeSpace : public Invariant {
         surfaces_(s.slave.scene.surface),
         radius_m_(s.slave.scene.tool_radius_m) {}
   void see(const Moment& m) override {
-    for (const Spoils what : {Spoils::kScene, Spoils::kSensor, Spoils::kJoints, Spoils::kRobot,
-                              Spoils::kSlave, Spoils::kMaster, Spoils::kHandle})
+    for (const AffectedSignal what :
+         {AffectedSignal::kScene, AffectedSignal::kSensor, AffectedSignal::kJoints, AffectedSignal::kRobot,
+          AffectedSignal::kSlave, AffectedSignal::kMaster, AffectedSignal::kHandle})
       doubtful_ = doubtful_ || m.since(what) < kDecays_s;
     if (m.engagement != engagement_) doubtful_ = false;
     engagement_ = m.engagement;
-    lied_ = (lied_ && !forgotten(m)) || m.since(Spoils::kSensor) < kDecays_s;
-    if (doubtful_ || lied_ || !both_engaged(m) || depth_m(m.anchor_m + m.goal_m) > -kPlace_m) return;
+    was_faulty_ = (was_faulty_ && !forgotten(m)) || m.since(AffectedSignal::kSensor) < kDecays_s;
+    if (doubtful_ || was_faulty_ || !both_engaged(m) || depth_m(m.anchor_m + m.goal_m) > -kPlace_m) return;
     at_most(m, m.contact_n, kNothing_n, "N where nothing is");
   }
 
@@ -105,16 +107,16 @@ class FreeSpace : public Invariant {
   std::vector<SurfaceConfig> surfaces_;
   double radius_m_;
   std::uint32_t engagement_ = 0;
-  bool doubtful_ = false, lied_ = false;
+  bool doubtful_ = false, was_faulty_ = false;
 };
 
 }  // namespace
 
 void add_goal_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<BoundedLead>(s));
-  const bool told = std::ranges::all_of(
+  const bool reported = std::ranges::all_of(
       s.slave.scene.surface, [](const SurfaceConfig& surface) { return surface.plane || surface.hinge; });
-  if (told) all.push_back(std::make_unique<FreeSpace>(s));
+  if (reported) all.push_back(std::make_unique<FreeSpace>(s));
 }
 
 }  // namespace longreach

@@ -17,8 +17,8 @@ std::vector<std::string> guard_names() {
   for (const HoldCause cause :
        {HoldCause::kOperator, HoldCause::kPeerHolds, HoldCause::kLinkSilent, HoldCause::kPeerRestarted,
         HoldCause::kRobotFault, HoldCause::kJointLeapt, HoldCause::kJointOutside, HoldCause::kHandleLetGo,
-        HoldCause::kTaken, HoldCause::kRobotAstray, HoldCause::kStalled, HoldCause::kOverrun,
-        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kNoRelief,
+        HoldCause::kTaken, HoldCause::kRobotTrackingLost, HoldCause::kStalled, HoldCause::kOverrun,
+        HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kForcePersists,
         HoldCause::kWallComes})
     all.push_back(cause_name("slave", cause));
   for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose,
@@ -53,8 +53,8 @@ void GuardWatch::see(const World& world, const Moment& m) {
   rises(injecting_, master.damping_injected, "damping injected");
 }
 
-void GuardWatch::clamps(const Telemetry& told) {
-  const Clamps& c = told.clamps;
+void GuardWatch::clamps(const Telemetry& reported) {
+  const Clamps& c = reported.clamps;
   const std::array now = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,
                           c.force_guard, c.singularity, c.unreachable,    c.moment_guard};
   for (std::size_t i = 0; i < now.size(); ++i) {

@@ -23,7 +23,7 @@ class GuardWatch {
   [[nodiscard]] const std::map<std::string, std::uint64_t>& acted() const { return acted_; }
 
  private:
-  void clamps(const Telemetry& told);
+  void clamps(const Telemetry& reported);
 
   std::map<std::string, std::uint64_t> acted_;
   HoldCause far_ = HoldCause::kNone, near_ = HoldCause::kNone;

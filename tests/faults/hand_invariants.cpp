@@ -40,7 +40,7 @@ class HandForce : public Invariant {
   }
   void see_rest(const Moment& m) {
     const bool live = m.shown == SafetyState::kEngaged || m.shown == SafetyState::kHolding;
-    const bool by_itself = !m.handle.held || m.since(Spoils::kHandle) == 0.0 ||
+    const bool by_itself = !m.handle.held || m.since(AffectedSignal::kHandle) == 0.0 ||
                            m.x_MH.norm() > edge_m_ - kNear_m ||
                            log_rotation(m.q_MH).norm() > edge_rad_ - kNear_rad;
     rests_s_ = live || by_itself ? 0.0 : rests_s_ + m.period_s;
@@ -113,7 +113,8 @@ class PortEnergy : public Invariant {
   void see(const Moment& m) override {
     const Vector3 moved_m = m.x_MH - x_m_;
     const Vector3 turned_rad = log_rotation(m.q_MH * q_.conjugate());
-    const bool honest = m.handle.held && m.since(Spoils::kHandle) > 0.1 && m.since(Spoils::kMasterTime) > 0.1;
+    const bool honest =
+        m.handle.held && m.since(AffectedSignal::kHandle) > 0.1 && m.since(AffectedSignal::kMasterTime) > 0.1;
     const bool rests = F_.force.norm() < kRest_n && F_.moment.norm() < kRest_nm &&
                        moved_m.norm() < kRest_m_per_s * m.period_s &&
                        turned_rad.norm() < kRest_rad_per_s * m.period_s;

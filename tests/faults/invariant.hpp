@@ -51,7 +51,7 @@ using Invariants = std::vector<std::unique_ptr<Invariant>>;
 // Each file adds its own.
 void add_joint_invariants(const Scenario& scenario, Invariants& all);
 void add_tool_invariants(const Scenario& scenario, Invariants& all);
-void add_right_invariants(const Scenario& scenario, Invariants& all);
+void add_authority_invariants(const Scenario& scenario, Invariants& all);
 void add_state_invariants(const Scenario& scenario, Invariants& all);
 void add_command_invariants(const Scenario& scenario, Invariants& all);
 void add_contact_invariants(const Scenario& scenario, Invariants& all);

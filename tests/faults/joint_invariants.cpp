@@ -27,7 +27,7 @@ class JointPosition : public Invariant {
       : Invariant("I2", "no joint leaves its range"), robot_(s.slave.robot) {}
   void see(const Moment& m) override {
     if (m.moves) at_most(m, beyond(m.setpoint_rad), 1e-12, "setpoint beyond a joint's limit by rad");
-    if (m.slave_ran && m.since(Spoils::kRobot) > 2.0)
+    if (m.slave_ran && m.since(AffectedSignal::kRobot) > 2.0)
       at_most(m, beyond(m.truth.joint_rad), kGives, "joint beyond its limit by rad");
   }
 

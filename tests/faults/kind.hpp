@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/core/random.hpp"
-#include "deploy/lab/meddler.hpp"
+#include "deploy/lab/fault_hooks.hpp"
 #include "tests/faults/schedule.hpp"
 
 namespace longreach {
@@ -18,7 +18,7 @@ namespace longreach {
 class World;
 
 /// What a fault makes untrue while it lasts, or what else it disturbs: the oracle must know.
-enum class Spoils : std::uint16_t {
+enum class AffectedSignal : std::uint16_t {
   kSensor = 1,       // the force that the slave is told
   kJoints = 2,       // the joints that the slave is told
   kRobot = 4,        // the robot does not do what it is asked for
@@ -32,11 +32,11 @@ enum class Spoils : std::uint16_t {
   kOperator = 1024,  // the operator does not let it go on
   kLease = 2048      // who has the robot changes
 };
-constexpr std::uint16_t operator|(Spoils a, Spoils b) {
+constexpr std::uint16_t operator|(AffectedSignal a, AffectedSignal b) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-constexpr std::uint16_t only(Spoils a) { return static_cast<std::uint16_t>(a); }
+constexpr std::uint16_t only(AffectedSignal a) { return static_cast<std::uint16_t>(a); }
 
 /// A fault that is there now.
 struct Active {
@@ -56,7 +56,7 @@ struct Active {
 struct FaultKind {
   std::string_view name;
   std::string_view group;
-  std::uint16_t spoils = 0;
+  std::uint16_t affects = 0;
   double longest_s = 5.0;
   double shortest_s = 0.005;
   double besides =

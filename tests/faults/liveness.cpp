@@ -25,13 +25,13 @@ class Hears : public Invariant {
   explicit Hears(const Scenario& s)
       : Invariant("L1", "both sides hear each other again"), bound_s_(s.round_trip_s + 1.5) {}
   void see(const Moment& m) override {
-    if (calm_.since(m) < bound_s_) return;
+    if (stable_.since(m) < bound_s_) return;
     that(m, m.shown != SafetyState::kIdle && m.claimed != SafetyState::kIdle,
          "a side is idle though both run");
   }
 
  private:
-  Calm calm_;
+  Calm stable_;
   double bound_s_;
 };
 
@@ -50,11 +50,11 @@ class Engages : public Invariant {
       asked_s_ = 0.0;
       return;
     }
-    const bool calm = calm_.since(m) > kSettles_s + round_trip_s_;
+    const bool stable = stable_.since(m) > kSettles_s + round_trip_s_;
     if (m.shown == SafetyState::kEngaged) {
       if (asked_s_ > 0.0) at_most(m, m.t_s - asked_s_, bound_s(), "s from asking to being engaged");
       asked_s_ = 0.0;
-    } else if (calm && m.engage_asked && asked_s_ == 0.0) {
+    } else if (stable && m.engage_asked && asked_s_ == 0.0) {
       asked_s_ = m.t_s;
     }
     if (asked_s_ > 0.0) at_most(m, m.t_s - asked_s_, bound_s(), "s after asking not engaged");
@@ -63,7 +63,7 @@ class Engages : public Invariant {
  private:
   static constexpr double kSettles_s = 1.0;  // both sides hear each other again: L1
   [[nodiscard]] double bound_s() const { return round_trip_s_ + 0.5 + 0.005; }
-  Calm calm_;
+  Calm stable_;
   double round_trip_s_;
   Vector3 centre_m_;
   double workspace_m_;
@@ -80,20 +80,20 @@ class Tracks : public Invariant {
         arm_(s.slave.robot),
         round_trip_s_(s.round_trip_s) {}
   void see(const Moment& m) override {
-    const Right& right = m.ghost->right();
-    const bool engaged = right.engaged && m.claimed == SafetyState::kEngaged;
+    const MotionAuthority& authority = m.sent_log->authority();
+    const bool engaged = authority.engaged && m.claimed == SafetyState::kEngaged;
     if (engaged && m.engagement != engagement_) {
       engagement_ = m.engagement;
       anchor_m_ = arm_.forward(m.setpoint_rad).p;
       goal_m_.setZero();
     }
     if (!engaged) begun_s_ = m.t_s;
-    if (engaged && right.newest->command.goal_kind == GoalKind::kPosition)
-      goal_m_ = right.newest->command.position_m;
+    if (engaged && authority.newest->command.goal_kind == GoalKind::kPosition)
+      goal_m_ = authority.newest->command.position_m;
     const bool limited = m.telemetry && limits(m.telemetry->clamps);
     if (limited || !m.F_E_W.force.isZero() || !m.F_E_W.moment.isZero()) kept_s_ = m.t_s;
     const double settles_s = kSettles_s + round_trip_s_;
-    if (calm_.since(m) > settles_s && m.t_s - begun_s_ > settles_s && m.t_s - kept_s_ > 1.0)
+    if (stable_.since(m) > settles_s && m.t_s - begun_s_ > settles_s && m.t_s - kept_s_ > 1.0)
       at_most(m, (m.X_WE.p - anchor_m_ - goal_m_).norm(), kOff_m, "m off the goal");
   }
 
@@ -104,7 +104,7 @@ class Tracks : public Invariant {
            c.tool_speed || c.joint_speed || c.acceleration || c.moment_guard;
   }
   Kinematics arm_;
-  Calm calm_;
+  Calm stable_;
   double round_trip_s_;
   std::uint32_t engagement_ = 0;
   Vector3 anchor_m_ = Vector3::Zero(), goal_m_ = Vector3::Zero();

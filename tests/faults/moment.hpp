@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "tests/faults/ghost.hpp"
 #include "tests/faults/kind.hpp"
+#include "tests/faults/sent_log.hpp"
 
 namespace longreach {
 
-constexpr std::size_t kSpoils = 12;
+constexpr std::size_t kAffects = 12;
 
 struct Moment {
   double t_s = 0.0;
@@ -23,7 +23,7 @@ struct Moment {
   double slave_gap_s = 0.0;  // between its last two ticks
   double master_gap_s = 0.0;
   RobotState truth{};  // of the robot, before anybody lied about it
-  RobotState told{};
+  RobotState reported{};
   JointVector setpoint_rad = JointVector::Zero();  // as the slave wrote it
   bool moves = false;                              // the slave wrote a setpoint
   Pose X_WE{};                                     // true
@@ -66,12 +66,12 @@ struct Moment {
   bool configured = false;                    // a client has changed something
   std::string loosened;                       // limits that are looser than the files
 
-  const Ghost* ghost = nullptr;
-  std::array<double, kSpoils> spoilt_s{};  // since when this is as it should be; 0: it is not
+  const SentLog* sent_log = nullptr;
+  std::array<double, kAffects> affected_s{};  // since when this is as it should be; 0: it is not
 
   /// Seconds since it was spoilt last, 0 while it is.
-  [[nodiscard]] double since(Spoils what) const {
-    return spoilt_s[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(what)))];
+  [[nodiscard]] double since(AffectedSignal what) const {
+    return affected_s[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(what)))];
   }
 };
 

@@ -92,33 +92,33 @@ void tighten(World& world, Active& fault) {
 }
 
 constexpr std::string_view kGroup = "operator, session, configuration";
-constexpr auto kOperator = only(Spoils::kOperator);
-constexpr auto kLease = Spoils::kOperator | Spoils::kLease;
+constexpr auto kOperator = only(AffectedSignal::kOperator);
+constexpr auto kLease = AffectedSignal::kOperator | AffectedSignal::kLease;
 
 const FaultKind kKinds[] = {
-    {.name = "holds", .group = kGroup, .spoils = kOperator, .longest_s = 2.0, .act = hold},
-    {.name = "stops", .group = kGroup, .spoils = kOperator, .longest_s = 2.0, .act = stop},
-    {.name = "stops-at-slave", .group = kGroup, .spoils = kOperator, .longest_s = 2.0, .act = stop_here},
-    {.name = "engages", .group = kGroup, .spoils = kOperator, .act = engage},
-    {.name = "impatience", .group = kGroup, .spoils = kOperator, .act = impatience},
+    {.name = "holds", .group = kGroup, .affects = kOperator, .longest_s = 2.0, .act = hold},
+    {.name = "stops", .group = kGroup, .affects = kOperator, .longest_s = 2.0, .act = stop},
+    {.name = "stops-at-slave", .group = kGroup, .affects = kOperator, .longest_s = 2.0, .act = stop_here},
+    {.name = "engages", .group = kGroup, .affects = kOperator, .act = engage},
+    {.name = "impatience", .group = kGroup, .affects = kOperator, .act = impatience},
     {.name = "all-requests-at-once",
      .group = kGroup,
-     .spoils = kOperator,
+     .affects = kOperator,
      .longest_s = 2.0,
      .act = all_at_once},
     {.name = "modes", .group = kGroup, .act = change_mode},
     {.name = "scales", .group = kGroup, .act = change_scale},
     {.name = "impossible-scales", .group = kGroup, .act = impossible_scale},
     {.name = "clutch", .group = kGroup, .act = clutch},
-    {.name = "hand-let-go", .group = kGroup, .spoils = kOperator, .act = let_go},
+    {.name = "hand-let-go", .group = kGroup, .affects = kOperator, .act = let_go},
     {.name = "load", .group = kGroup, .act = load},
     {.name = "robot-taken",
      .group = kGroup,
-     .spoils = kLease,
+     .affects = kLease,
      .longest_s = 3.0,
      .act = take,
      .end = give_back},
-    {.name = "session-renewed", .group = kGroup, .spoils = kLease, .longest_s = 0.5, .act = renew},
+    {.name = "session-renewed", .group = kGroup, .affects = kLease, .longest_s = 0.5, .act = renew},
     {.name = "limits-loosened", .group = kGroup, .act = loosen_slave},
     {.name = "hand-limits-loosened", .group = kGroup, .act = loosen_hand},
     {.name = "limits-tightened", .group = kGroup, .act = tighten},

@@ -12,7 +12,7 @@ constexpr double kReaction_s = 0.3;
 constexpr double kImpatience_s = 1.0;
 
 /// Way and speed of least jerk (Flash and Hogan 1985) at the share `s` of the time.
-double way(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
+double direction(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
 double speed(double s) { return 30.0 * s * s * (1.0 + s * (-2.0 + s)); }
 
 }  // namespace
@@ -23,7 +23,7 @@ Person::Person(Random random, const MasterConfig& master, double round_trip_s)
       rate_(master.mapping.mode == MotionMode::kRate),
       reach_m_(std::min(kReach_m, 0.6 * master.device.delta.workspace_m)),
       reach_rad_(std::min(kReach_rad, 0.5 * master.device.spherical.workspace_rad)),
-      patience_s_(round_trip_s + 1.5) {}
+      timeout_s_(round_trip_s + 1.5) {}
 
 Vector3 Person::anywhere(double reach) {
   return reach * Vector3(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)) /
@@ -54,15 +54,15 @@ HandTarget Person::step(double now_s, const MasterView& shown, OperatorRequests&
   const double share = std::clamp((now_s - moves_at_s_) / (arrives_s_ - moves_at_s_), 0.0, 1.0);
   HandTarget target;
   target.grip = grip_;
-  target.position_m = from_m_ + way(share) * (to_m_ - from_m_);
+  target.position_m = from_m_ + direction(share) * (to_m_ - from_m_);
   target.velocity_m_per_s = speed(share) / (arrives_s_ - moves_at_s_) * (to_m_ - from_m_);
-  target.rotation_rad = from_rad_ + way(share) * (to_rad_ - from_rad_);
+  target.rotation_rad = from_rad_ + direction(share) * (to_rad_ - from_rad_);
   const bool engaged = shown.state == SafetyState::kEngaged;
   if (engaged) ask_s_ = now_s + kReaction_s;
   asked_ = !engaged && now_s >= ask_s_;
   if (asked_) {
     requests.engage = true;
-    ask_s_ = now_s + (impatient_ ? kImpatience_s : patience_s_);
+    ask_s_ = now_s + (impatient_ ? kImpatience_s : timeout_s_);
   }
   return target;
 }

@@ -28,7 +28,7 @@ class Person {
   Random random_;
   Grip grip_;
   bool rate_;
-  double reach_m_, reach_rad_, patience_s_;
+  double reach_m_, reach_rad_, timeout_s_;
   double moves_at_s_ = 0.0, arrives_s_ = 0.0, chooses_s_ = 0.0;
   Vector3 from_m_ = Vector3::Zero(), to_m_ = Vector3::Zero();
   Vector3 from_rad_ = Vector3::Zero(), to_rad_ = Vector3::Zero();

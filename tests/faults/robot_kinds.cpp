@@ -8,34 +8,34 @@ namespace {
 int joint_of(const Active& fault) { return static_cast<int>(fault.fault.seed % kMaxJoints); }
 
 /// In the end somebody restarts the robot, as the words of the fault ask for.
-bool restarted(const Active& fault, RobotState& told) {
+bool restarted(const Active& fault, RobotState& reported) {
   if (fault.age_s < fault.fault.duration_s - 0.02) return false;
-  told.ok = false;
+  reported.ok = false;
   return true;
 }
 
-void jump(World&, Active& fault, RobotState& told) {
-  if (restarted(fault, told)) return;
-  told.joint_rad[joint_of(fault)] += log_scale(fault.fault.size, 1e-3, 1.0);
+void jump(World&, Active& fault, RobotState& reported) {
+  if (restarted(fault, reported)) return;
+  reported.joint_rad[joint_of(fault)] += log_scale(fault.fault.size, 1e-3, 1.0);
 }
-void freeze(World&, Active& fault, RobotState& told) {
-  if (fault.begins) fault.robot = told;
-  if (restarted(fault, told)) return;
-  told.joint_rad = fault.robot.joint_rad;
-  told.joint_rad_per_s.setZero();
+void freeze(World&, Active& fault, RobotState& reported) {
+  if (fault.begins) fault.robot = reported;
+  if (restarted(fault, reported)) return;
+  reported.joint_rad = fault.robot.joint_rad;
+  reported.joint_rad_per_s.setZero();
 }
-void leave_range(World& world, Active& fault, RobotState& told) {
-  if (restarted(fault, told)) return;
+void leave_range(World& world, Active& fault, RobotState& reported) {
+  if (restarted(fault, reported)) return;
   const JointConfig& joint = world.scenario().slave.robot.joint[static_cast<std::size_t>(joint_of(fault))];
-  told.joint_rad[joint_of(fault)] = joint.max_rad + log_scale(fault.fault.size, 0.01, 10.0);
+  reported.joint_rad[joint_of(fault)] = joint.max_rad + log_scale(fault.fault.size, 0.01, 10.0);
 }
-void jitter(World&, Active& fault, RobotState& told) {
+void jitter(World&, Active& fault, RobotState& reported) {
   for (int i = 0; i < kMaxJoints; ++i) {
-    told.joint_rad[i] += log_scale(fault.fault.size, 1e-7, 1e-4) * fault.random.normal();
-    told.joint_rad_per_s[i] += log_scale(fault.fault.size, 1e-5, 1e-2) * fault.random.normal();
+    reported.joint_rad[i] += log_scale(fault.fault.size, 1e-7, 1e-4) * fault.random.normal();
+    reported.joint_rad_per_s[i] += log_scale(fault.fault.size, 1e-5, 1e-2) * fault.random.normal();
   }
 }
-void protective_stop(World&, Active&, RobotState& told) { told.ok = false; }
+void protective_stop(World&, Active&, RobotState& reported) { reported.ok = false; }
 
 void stand(World& world, Active& fault, JointVector& setpoint) {
   if (fault.begins) fault.robot = world.moment().truth;
@@ -67,57 +67,58 @@ bool stalls(Active& fault) {
   fault.count = fault.count == 0 ? ticks : fault.count - 1;
   return fault.count != 0;
 }
-void tell_again(const World& world, Active& fault, RobotState& told) {
-  if (fault.level == 0.0 || fault.begins) fault.robot = told;
-  told = fault.robot;
+void report_again(const World& world, Active& fault, RobotState& reported) {
+  if (fault.level == 0.0 || fault.begins) fault.robot = reported;
+  reported = fault.robot;
   fault.robot.age_s += world.moment().period_s;
 }
-void stall_told(World& world, Active& fault, RobotState& told) {
+void stall_reported(World& world, Active& fault, RobotState& reported) {
   fault.level = stalls(fault) ? 1.0 : 0.0;
-  tell_again(world, fault, told);
+  report_again(world, fault, reported);
 }
 void stall_setpoint(World&, Active& fault, JointVector& setpoint) {
   if (fault.queue.empty() || fault.level == 0.0) fault.queue = {setpoint};
   setpoint = fault.queue.front();
 }
 /// One that answers 125 times a second.
-void slow_told(World& world, Active& fault, RobotState& told) {
+void slow_reported(World& world, Active& fault, RobotState& reported) {
   fault.level = fault.count++ % 8 == 0 ? 0.0 : 1.0;
-  tell_again(world, fault, told);
+  report_again(world, fault, reported);
 }
 
 constexpr std::string_view kGroup = "robot";
-constexpr auto kJoints = only(Spoils::kJoints), kRobot = only(Spoils::kRobot);
-constexpr auto kBoth = static_cast<std::uint16_t>((Spoils::kRobot | Spoils::kJoints) | only(Spoils::kSensor));
+constexpr auto kJoints = only(AffectedSignal::kJoints), kRobot = only(AffectedSignal::kRobot);
+constexpr auto kBoth = static_cast<std::uint16_t>((AffectedSignal::kRobot | AffectedSignal::kJoints) |
+                                                  only(AffectedSignal::kSensor));
 
 const FaultKind kKinds[] = {
-    {.name = "joints-jump", .group = kGroup, .spoils = kJoints, .longest_s = 3.0, .robot = jump},
-    {.name = "joints-freeze", .group = kGroup, .spoils = kJoints, .longest_s = 3.0, .robot = freeze},
+    {.name = "joints-jump", .group = kGroup, .affects = kJoints, .longest_s = 3.0, .robot = jump},
+    {.name = "joints-freeze", .group = kGroup, .affects = kJoints, .longest_s = 3.0, .robot = freeze},
     {.name = "joints-leave-range",
      .group = kGroup,
-     .spoils = kJoints,
+     .affects = kJoints,
      .longest_s = 3.0,
      .robot = leave_range},
-    {.name = "joints-noisy", .group = kGroup, .spoils = kJoints, .robot = jitter},
+    {.name = "joints-noisy", .group = kGroup, .affects = kJoints, .robot = jitter},
     {.name = "protective-stop",
      .group = kGroup,
-     .spoils = kRobot,
+     .affects = kRobot,
      .longest_s = 3.0,
      .robot = protective_stop,
      .setpoint = stand},
-    {.name = "robot-blocked", .group = kGroup, .spoils = kRobot, .longest_s = 3.0, .setpoint = stand},
-    {.name = "robot-moved", .group = kGroup, .spoils = kRobot, .longest_s = 4.0, .setpoint = move},
-    {.name = "robot-lags", .group = kGroup, .spoils = kRobot, .setpoint = lag},
-    {.name = "robot-creeps", .group = kGroup, .spoils = kRobot, .longest_s = 10.0, .setpoint = creep},
+    {.name = "robot-blocked", .group = kGroup, .affects = kRobot, .longest_s = 3.0, .setpoint = stand},
+    {.name = "robot-moved", .group = kGroup, .affects = kRobot, .longest_s = 4.0, .setpoint = move},
+    {.name = "robot-lags", .group = kGroup, .affects = kRobot, .setpoint = lag},
+    {.name = "robot-creeps", .group = kGroup, .affects = kRobot, .longest_s = 10.0, .setpoint = creep},
     {.name = "robot-adapter-stalls",
      .group = kGroup,
-     .spoils = kBoth,
-     .robot = stall_told,
+     .affects = kBoth,
+     .robot = stall_reported,
      .setpoint = stall_setpoint},
     {.name = "robot-at-125-hz",
      .group = kGroup,
-     .spoils = kBoth,
-     .robot = slow_told,
+     .affects = kBoth,
+     .robot = slow_reported,
      .setpoint = stall_setpoint},
 };
 

@@ -73,8 +73,8 @@ Scenario draw_scenario(std::uint64_t seed) {
   Scenario scenario;
   scenario.settings = places(where);
   for (std::string& habit : habits(who)) scenario.settings.push_back(std::move(habit));
-  Random way = root.child("way");
-  scenario.settings.push_back("command.give_way_m=" + number(way, 0.03, 0.2));
+  Random direction = root.child("way");
+  scenario.settings.push_back("command.give_way_m=" + number(direction, 0.03, 0.2));
   const std::size_t kept = scenario.settings.size();
   const std::filesystem::path deploy = find_deploy_folder();
   for (int draw = 0; draw <= kDraws; ++draw) {

@@ -17,9 +17,9 @@ class NoSelfResume : public Invariant {
   void see(const Moment& m) override {
     see_master(m);
     if (!m.report || m.claimed != SafetyState::kEngaged) return;
-    that(m, m.engagement > m.ghost->ended(),
+    that(m, m.engagement > m.sent_log->ended(),
          "engaged in an engagement that a hold, a stop or a long silence has ended");
-    that(m, m.engagement <= m.ghost->asks(), "engaged more often than anybody asked");
+    that(m, m.engagement <= m.sent_log->asks(), "engaged more often than anybody asked");
     at_most(m, m.slave_gap_s, resume_s_, "s that the slave did not run, and engaged in the tick after");
   }
 
@@ -27,9 +27,9 @@ class NoSelfResume : public Invariant {
   /// A master that was engaged and did not run for so long asks for that engagement no more.
   void see_master(const Moment& m) {
     if (!m.master_ran) return;
-    if (m.master_gap_s > resume_s_ && shown_ == SafetyState::kEngaged) slept_ = m.ghost->numbers();
+    if (m.master_gap_s > resume_s_ && shown_ == SafetyState::kEngaged) slept_ = m.sent_log->numbers();
     shown_ = m.shown;
-    const auto& sent = m.ghost->sent();
+    const auto& sent = m.sent_log->sent();
     if (slept_ == 0 || sent.empty() || sent.back().t_s != m.t_s) return;
     that(m, sent.back().command.request != Request::kEngage || sent.back().command.engagement > slept_,
          "the master did not run for long, and goes on by itself");
@@ -46,13 +46,14 @@ class MostSevereWins : public Invariant {
       : Invariant("I29", "a stop is a stop, whatever else is asked for") {}
   void see(const Moment& m) override {
     if (!m.slave_ran) return;
-    const Right& right = m.ghost->right();
-    const bool stop = m.stop_at_slave || (right.request == Request::kStop && right.heard_s == m.t_s);
+    const MotionAuthority& authority = m.sent_log->authority();
+    const bool stop =
+        m.stop_at_slave || (authority.request == Request::kStop && authority.received_s == m.t_s);
     if (stop) {
       stopped_ = true;
-      number_ = std::max(right.engagement, m.ghost->ended());
+      number_ = std::max(authority.engagement, m.sent_log->ended());
     }
-    if (right.engaged && right.engagement > number_) stopped_ = false;
+    if (authority.engaged && authority.engagement > number_) stopped_ = false;
     if (stopped_ && m.report)
       that(m, m.claimed == SafetyState::kStopped || m.claimed == SafetyState::kFault,
            "a stop was given, and none is claimed");
@@ -75,18 +76,18 @@ class Circumstances {
         zero_s_(s.slave.sensing.zero_s) {}
 
   void remember(const Moment& m) {
-    const Right& right = m.ghost->right();
-    if (right.heard_s < m.t_s - 0.75 * gap_s_) silent_s_ = m.t_s;
-    if (m.stop_at_slave || right.request == Request::kStop) asked_s_ = m.t_s;
-    if (right.request == Request::kHold || right.request == Request::kStop) held_s_ = m.t_s;
-    if (right.request == Request::kLetGo) let_go_s_ = m.t_s;
+    const MotionAuthority& authority = m.sent_log->authority();
+    if (authority.received_s < m.t_s - 0.75 * gap_s_) silent_s_ = m.t_s;
+    if (m.stop_at_slave || authority.request == Request::kStop) asked_s_ = m.t_s;
+    if (authority.request == Request::kHold || authority.request == Request::kStop) held_s_ = m.t_s;
+    if (authority.request == Request::kLetGo) let_go_s_ = m.t_s;
     if (m.slave_ran && m.slave_gap_s > 1.5 * m.period_s) slept_s_ = m.t_s;
     if (m.master_ran && m.master_gap_s > 1.5 * m.period_s) master_slept_s_ = m.t_s;
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
     if (beyond(m)) beyond_s_ = m.t_s;
     if ((m.X_WE.p - centre_m_).norm() > workspace_m_) outside_s_ = m.t_s;
     if (m.report_came || m.seen) news_s_ = m.t_s;
-    if (m.t_s - news_s_ > kQuiet_s) unheard_s_ = m.t_s;
+    if (m.t_s - news_s_ > kQuiet_s) unreceived_s_ = m.t_s;
     if (!m.handle.ok) handle_s_ = m.t_s;
     remember_delay(m);
   }
@@ -96,56 +97,59 @@ class Circumstances {
   [[nodiscard]] bool had(const Moment& m, HoldCause cause, At at) const {
     const double recent_s = recent_s_ + m.slave_gap_s;  // it may have slept through it
     const auto lately = [&](double s) { return m.t_s - s < recent_s; };
-    const auto spoilt = [&](Spoils what) { return m.since(what) < recent_s; };
-    const bool robot = spoilt(Spoils::kRobot) || spoilt(Spoils::kJoints);
-    const bool way = spoilt(Spoils::kLink) || spoilt(Spoils::kLease) || spoilt(Spoils::kSlaveTime) ||
-                     spoilt(Spoils::kMasterTime) || spoilt(Spoils::kMaster) || spoilt(Spoils::kSlave);
+    const auto affected = [&](AffectedSignal what) { return m.since(what) < recent_s; };
+    const bool robot = affected(AffectedSignal::kRobot) || affected(AffectedSignal::kJoints);
+    const bool direction = affected(AffectedSignal::kLink) || affected(AffectedSignal::kLease) ||
+                           affected(AffectedSignal::kSlaveTime) || affected(AffectedSignal::kMasterTime) ||
+                           affected(AffectedSignal::kMaster) || affected(AffectedSignal::kSlave);
     switch (cause) {
       case HoldCause::kOperator:
         return lately(asked_s_);
       case HoldCause::kPeerHolds:
         return lately(held_s_);
       case HoldCause::kLinkSilent:
-        return lately(silent_s_) || (at == At::kMaster && lately(unheard_s_));
+        return lately(silent_s_) || (at == At::kMaster && lately(unreceived_s_));
       case HoldCause::kLinkStale:
       case HoldCause::kDelayRose:
-        return lately(rose_s_) || spoilt(Spoils::kLink) || lately(slept_s_) || spoilt(Spoils::kMasterTime);
+        return lately(rose_s_) || affected(AffectedSignal::kLink) || lately(slept_s_) ||
+               affected(AffectedSignal::kMasterTime);
       case HoldCause::kPeerRestarted:
       case HoldCause::kTaken:
-        return spoilt(Spoils::kLease);
+        return affected(AffectedSignal::kLease);
       case HoldCause::kRobotFault:
       case HoldCause::kJointLeapt:
       case HoldCause::kJointOutside:
       case HoldCause::kJointTooFast:
-        return robot || spoilt(Spoils::kSensor);
-      case HoldCause::kRobotRestless:
-      case HoldCause::kRobotAstray:
+        return robot || affected(AffectedSignal::kSensor);
+      case HoldCause::kRobotUncommandedMotion:
+      case HoldCause::kRobotTrackingLost:
       case HoldCause::kRobotMoves:
-        return robot || spoilt(Spoils::kSlaveTime) || lately(pressed_s_);
+        return robot || affected(AffectedSignal::kSlaveTime) || lately(pressed_s_);
       case HoldCause::kJointLimit:
         return robot || lately(beyond_s_);
       case HoldCause::kToolOutside:
         return robot || lately(outside_s_);
       case HoldCause::kSensorZeroing:
-        return m.t_s < zero_s_ + recent_s || robot || spoilt(Spoils::kSensor) || lately(pressed_s_);
+        return m.t_s < zero_s_ + recent_s || robot || affected(AffectedSignal::kSensor) || lately(pressed_s_);
       case HoldCause::kDeviceFault:
       case HoldCause::kHandStale:
-        return lately(handle_s_) || spoilt(Spoils::kHandle);
+        return lately(handle_s_) || affected(AffectedSignal::kHandle);
       case HoldCause::kHandleLetGo:
-        return lately(let_go_s_) || spoilt(Spoils::kOperator) || spoilt(Spoils::kHandle);
+        return lately(let_go_s_) || affected(AffectedSignal::kOperator) || affected(AffectedSignal::kHandle);
       case HoldCause::kStalled:
       case HoldCause::kOverrun:
         return lately(slept_s_) || lately(master_slept_s_);
       case HoldCause::kUnanswered:
-        return way || lately(unheard_s_) || lately(silent_s_);
+        return direction || lately(unreceived_s_) || lately(silent_s_);
       case HoldCause::kSensorFault:
-        return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot;
+        return affected(AffectedSignal::kSensor) || affected(AffectedSignal::kScene) || robot;
       // Nothing that surroundings do is taken for a sensor with a wrong sign.
       case HoldCause::kSensorSign:
-        return spoilt(Spoils::kSensor) || robot;
-      case HoldCause::kNoRelief:
+        return affected(AffectedSignal::kSensor) || robot;
+      case HoldCause::kForcePersists:
       case HoldCause::kWallComes:
-        return spoilt(Spoils::kSensor) || spoilt(Spoils::kScene) || robot || lately(pressed_s_);
+        return affected(AffectedSignal::kSensor) || affected(AffectedSignal::kScene) || robot ||
+               lately(pressed_s_);
       default:
         return false;
     }
@@ -155,8 +159,8 @@ class Circumstances {
   static constexpr double kRise_s = 0.5, kQuiet_s = 0.4;
   /// Who repeats datagrams fills a narrow link with them.
   void remember_delay(const Moment& m) {
-    const Right& right = m.ghost->right();
-    if (right.heard_s == m.t_s) up_s_ = m.t_s - right.sent_s;
+    const MotionAuthority& authority = m.sent_log->authority();
+    if (authority.received_s == m.t_s) up_s_ = m.t_s - authority.sent_s;
     if (m.report_came) down_s_ = m.report_age_s;
     least_up_s_ = std::min(least_up_s_, up_s_);
     least_down_s_ = std::min(least_down_s_, down_s_);
@@ -178,7 +182,7 @@ class Circumstances {
   double up_s_ = 1e9, down_s_ = 1e9, least_up_s_ = 1e9, least_down_s_ = 1e9;
   double rose_s_ = -1e9, silent_s_ = -1e9, asked_s_ = -1e9, held_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9,
          master_slept_s_ = -1e9, pressed_s_ = -1e9, beyond_s_ = -1e9, outside_s_ = -1e9, news_s_ = -1e9,
-         unheard_s_ = -1e9, handle_s_ = -1e9;
+         unreceived_s_ = -1e9, handle_s_ = -1e9;
 };
 
 /// Every hold, stop and fault has a cause that was there.
@@ -212,16 +216,16 @@ class TrueCause : public Invariant {
 
 /// Whoever asks for an engagement that is not granted within a round trip and a second is shown why, and that
 /// is so.
-class ToldWhy : public Invariant {
+class ReportedCause : public Invariant {
  public:
-  explicit ToldWhy(const Scenario& s)
+  explicit ReportedCause(const Scenario& s)
       : Invariant("I33", "an engagement that is not granted has a reason that is shown, and true"),
         there_(s),
         round_trip_s_(s.round_trip_s) {}
   void see(const Moment& m) override {
     there_.remember(m);
     if (!m.master_ran) return;
-    const std::uint32_t number = m.ghost->numbers();
+    const std::uint32_t number = m.sent_log->numbers();
     if (m.shown == SafetyState::kEngaged || m.stop_asked || m.hold_asked) asks_ = false;
     if (m.engage_asked) last_ask_s_ = m.t_s;
     const bool asked = m.engage_asked && m.shown != SafetyState::kEngaged;
@@ -231,12 +235,14 @@ class ToldWhy : public Invariant {
     // What is asked for comes later, or is not heard of, where the way is disturbed.
     const double way_s = kRecent_s + 2.0 * round_trip_s_;
     // A narrow link on which a stranger sends as well is late by what queues there.
-    const Right& right = m.ghost->right();
+    const MotionAuthority& authority = m.sent_log->authority();
     const double late_s = round_trip_s_ + kLate_s;
-    if (right.heard_s - right.sent_s > late_s || (m.report_came && m.report_age_s > late_s)) late_s_ = m.t_s;
-    const bool disturbed = m.t_s - late_s_ < way_s || m.since(Spoils::kLink) < way_s ||
-                           m.since(Spoils::kMasterTime) < way_s || m.since(Spoils::kSlaveTime) < way_s ||
-                           m.since(Spoils::kLease) < way_s;
+    if (authority.received_s - authority.sent_s > late_s || (m.report_came && m.report_age_s > late_s))
+      late_s_ = m.t_s;
+    const bool disturbed = m.t_s - late_s_ < way_s || m.since(AffectedSignal::kLink) < way_s ||
+                           m.since(AffectedSignal::kMasterTime) < way_s ||
+                           m.since(AffectedSignal::kSlaveTime) < way_s ||
+                           m.since(AffectedSignal::kLease) < way_s;
     if (disturbed) asked_s_ = std::max(asked_s_, m.t_s);
     // Asking again may begin anew, which the next command shows.
     const bool anew = m.t_s - last_ask_s_ < kSent_s;
@@ -269,7 +275,7 @@ void add_state_invariants(const Scenario& s, Invariants& all) {
   all.push_back(std::make_unique<NoSelfResume>(s));
   all.push_back(std::make_unique<MostSevereWins>(s));
   all.push_back(std::make_unique<TrueCause>(s));
-  all.push_back(std::make_unique<ToldWhy>(s));
+  all.push_back(std::make_unique<ReportedCause>(s));
 }
 
 }  // namespace longreach

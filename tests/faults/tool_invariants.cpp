@@ -16,8 +16,8 @@ class ToolSpeed : public Invariant {
   void see(const Moment& m) override {
     // A robot that nobody commands brakes by its joints' own limits.
     if (!m.moves) rested_s_ = m.t_s;
-    if (m.t_s - rested_s_ > 1.0 && m.since(Spoils::kRobot) > kRecovers_s &&
-        m.since(Spoils::kJoints) > kRecovers_s && m.since(Spoils::kScene) > kRecovers_s)
+    if (m.t_s - rested_s_ > 1.0 && m.since(AffectedSignal::kRobot) > kRecovers_s &&
+        m.since(AffectedSignal::kJoints) > kRecovers_s && m.since(AffectedSignal::kScene) > kRecovers_s)
       at_most(m, m.v_WE.norm(), 1.1 * command_.speed_max_m_per_s, "m/s of the tool");
     if (!m.moves) {
       known_ = known_ && !m.slave_ran;
@@ -49,7 +49,7 @@ class Workspace : public Invariant {
         centre_m_(start_pose(s).p),
         bound_m_(s.slave.command.workspace_m + 1e-3) {}
   void see(const Moment& m) override {
-    if (m.since(Spoils::kRobot) < kRecovers_s) outside_ = true;  // others may have carried it off
+    if (m.since(AffectedSignal::kRobot) < kRecovers_s) outside_ = true;  // others may have carried it off
     const double off_m = (m.X_WE.p - centre_m_).norm();
     outside_ = outside_ && off_m > bound_m_;
     if (!outside_) at_most(m, off_m, bound_m_, "m from the centre");
@@ -71,7 +71,7 @@ class NoJump : public Invariant {
     if (!m.slave_ran) return;
     const bool engaged = m.claimed == SafetyState::kEngaged;
     if (m.report && engaged && !engaged_ && m.engagement != engagement_ && m.moves)
-      judge(m, known_ ? JointVector(2.0 * last_rad_ - before_last_rad_) : m.told.joint_rad);
+      judge(m, known_ ? JointVector(2.0 * last_rad_ - before_last_rad_) : m.reported.joint_rad);
     if (engaged) engagement_ = m.engagement;
     engaged_ = engaged;
     before_last_rad_ = known_ ? last_rad_ : m.setpoint_rad;

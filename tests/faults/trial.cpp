@@ -59,14 +59,14 @@ Trial run(const Scenario& scenario, const Schedule& schedule, World& world) {
 
 }  // namespace
 
-Trial run_trial(const Schedule& schedule, Sabotage sabotage) {
+Trial run_trial(const Schedule& schedule, InjectedDefect injected_defect) {
   const Scenario scenario = draw_scenario(schedule.seed);
-  World world(scenario, schedule, sabotage);
+  World world(scenario, schedule, injected_defect);
   return run(scenario, schedule, world);
 }
 
 Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks) {
-  World world(scenario, schedule, Sabotage::kNone, clocks);
+  World world(scenario, schedule, InjectedDefect::kNone, clocks);
   return run(scenario, schedule, world);
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/faults/injected_defect.hpp"
 #include "tests/faults/invariant.hpp"
-#include "tests/faults/sabotage.hpp"
 #include "tests/faults/schedule.hpp"
 
 namespace longreach {
@@ -30,7 +30,7 @@ struct Trial {
 /// The schedule of a seed, with its scenario.
 Schedule schedule_of(std::uint64_t seed);
 
-Trial run_trial(const Schedule& schedule, Sabotage sabotage = Sabotage::kNone);
+Trial run_trial(const Schedule& schedule, InjectedDefect injected_defect = InjectedDefect::kNone);
 Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks);
 
 /// When a schedule fails, if it does.

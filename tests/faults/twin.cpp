@@ -13,10 +13,10 @@ constexpr std::string_view kForgeries = "datagrams";
 constexpr double kTwin_s = 20.0, kLoss = 0.01;
 
 bool harmless(const FaultKind& kind) {
-  return kind.group == kForgeries && kind.spoils == 0 && kind.name != "swapped";
+  return kind.group == kForgeries && kind.affects == 0 && kind.name != "swapped";
 }
 /// What is added takes up room on such a link, or the numbers of its chance, or overtakes there.
-bool on_the_link(const FaultKind& kind) { return (kind.spoils & only(Spoils::kLink)) != 0; }
+bool on_the_link(const FaultKind& kind) { return (kind.affects & only(AffectedSignal::kLink)) != 0; }
 
 }  // namespace
 
@@ -47,11 +47,11 @@ bool clocks_change_nothing(std::uint64_t seed) {
   return run_trial(scenario, schedule, {}).trajectory == run_trial(scenario, schedule, shifted).trajectory;
 }
 
-Trial run_calm(std::uint64_t seed, double seconds) {
+Trial run_fault_free(std::uint64_t seed, double seconds) {
   Scenario scenario = draw_scenario(seed);
-  for (ImpairmentConfig* way : {&scenario.master.link.impairment, &scenario.slave.link.impairment}) {
-    way->loss = kLoss;
-    way->loss_burst = 1.0;
+  for (ImpairmentConfig* direction : {&scenario.master.link.impairment, &scenario.slave.link.impairment}) {
+    direction->loss = kLoss;
+    direction->loss_burst = 1.0;
   }
   Schedule schedule;
   schedule.seed = seed;
@@ -59,9 +59,9 @@ Trial run_calm(std::uint64_t seed, double seconds) {
   return run_trial(scenario, schedule, {});
 }
 
-std::uint64_t false_alarms(const Trial& calm) {
+std::uint64_t false_alarms(const Trial& stable) {
   std::uint64_t all = 0;
-  for (const auto& [name, times] : calm.guards)
+  for (const auto& [name, times] : stable.guards)
     if (name.starts_with("slave: ") || name.starts_with("master: ")) all += times;
   return all;
 }

@@ -17,8 +17,8 @@ std::optional<bool> refused_changes_nothing(std::uint64_t seed);
 bool clocks_change_nothing(std::uint64_t seed);
 
 /// L4: the scenario of a seed without a fault, over a link that loses 1 %, for so long.
-Trial run_calm(std::uint64_t seed, double seconds);
+Trial run_fault_free(std::uint64_t seed, double seconds);
 /// Holds, stops and faults that it had; all are false.
-std::uint64_t false_alarms(const Trial& calm);
+std::uint64_t false_alarms(const Trial& stable);
 
 }  // namespace longreach

@@ -26,28 +26,30 @@ double wild(Random& random) {
                                 -0.0};
   return kWild[random.next() % kWild.size()];
 }
-void spoil(Vector3& v, Random& random) { v[static_cast<int>(random.next() % 3)] = wild(random); }
+void mark_affected(Vector3& v, Random& random) { v[static_cast<int>(random.next() % 3)] = wild(random); }
 bool now(Active& fault) { return fault.begins || fault.random.chance(0.02); }
 
-void handle_numbers(World&, Active& fault, HandleState& told) {
+void handle_numbers(World&, Active& fault, HandleState& reported) {
   if (!now(fault)) return;
-  const std::array<Vector3*, 3> fields = {&told.p_MH, &told.velocity_m_per_s, &told.angular_rad_per_s};
-  spoil(*fields[fault.random.next() % 3], fault.random);
+  const std::array<Vector3*, 3> fields = {&reported.p_MH, &reported.velocity_m_per_s,
+                                          &reported.angular_rad_per_s};
+  mark_affected(*fields[fault.random.next() % 3], fault.random);
 }
-void handle_quaternion(World&, Active& fault, HandleState& told) {
+void handle_quaternion(World&, Active& fault, HandleState& reported) {
   if (fault.fault.size < 0.3) {
-    told.q_MH.coeffs() *= -1.0;  // the same turn
+    reported.q_MH.coeffs() *= -1.0;  // the same turn
   } else if (now(fault)) {
-    told.q_MH.coeffs() *= wild(fault.random);
+    reported.q_MH.coeffs() *= wild(fault.random);
   }
 }
-void joint_numbers(World&, Active& fault, RobotState& told) {
+void joint_numbers(World&, Active& fault, RobotState& reported) {
   if (!now(fault)) return;
   const int joint = static_cast<int>(fault.random.next() % kMaxJoints);
-  (fault.random.chance(0.5) ? told.joint_rad : told.joint_rad_per_s)[joint] = wild(fault.random);
+  (fault.random.chance(0.5) ? reported.joint_rad : reported.joint_rad_per_s)[joint] = wild(fault.random);
 }
-void force_numbers(World&, Active& fault, RobotState& told) {
-  if (now(fault)) spoil(fault.random.chance(0.7) ? told.F_F_W.force : told.F_F_W.moment, fault.random);
+void force_numbers(World&, Active& fault, RobotState& reported) {
+  if (now(fault))
+    mark_affected(fault.random.chance(0.7) ? reported.F_F_W.force : reported.F_F_W.moment, fault.random);
 }
 
 void command_numbers(World&, Active& fault, MasterOutput& out) {
@@ -55,9 +57,9 @@ void command_numbers(World&, Active& fault, MasterOutput& out) {
   MotionCommand& c = *out.command;
   const double what = fault.random.uniform();
   if (what < 0.4) {
-    spoil(c.position_m, fault.random);
+    mark_affected(c.position_m, fault.random);
   } else if (what < 0.7) {
-    spoil(c.rotation_rad, fault.random);
+    mark_affected(c.rotation_rad, fault.random);
   } else if (what < 0.9) {
     c.scale = wild(fault.random);
   } else {
@@ -96,36 +98,42 @@ constexpr std::string_view kGroup = "values";
 const FaultKind kKinds[] = {
     {.name = "handle-numbers",
      .group = kGroup,
-     .spoils = Spoils::kHandle | Spoils::kOperator,
+     .affects = AffectedSignal::kHandle | AffectedSignal::kOperator,
      .longest_s = 1.0,
      .handle = handle_numbers},
     {.name = "handle-quaternion",
      .group = kGroup,
-     .spoils = Spoils::kHandle | Spoils::kOperator,
+     .affects = AffectedSignal::kHandle | AffectedSignal::kOperator,
      .longest_s = 1.0,
      .handle = handle_quaternion},
     {.name = "joint-numbers",
      .group = kGroup,
-     .spoils = only(Spoils::kJoints),
+     .affects = only(AffectedSignal::kJoints),
      .longest_s = 1.0,
      .robot = joint_numbers},
     {.name = "force-numbers",
      .group = kGroup,
-     .spoils = only(Spoils::kSensor),
+     .affects = only(AffectedSignal::kSensor),
      .longest_s = 1.0,
      .robot = force_numbers},
     {.name = "command-numbers",
      .group = kGroup,
-     .spoils = Spoils::kMaster | Spoils::kOperator,
+     .affects = AffectedSignal::kMaster | AffectedSignal::kOperator,
      .longest_s = 2.0,
      .command = command_numbers},
     {.name = "goal-leaps",
      .group = kGroup,
-     .spoils = only(Spoils::kMaster),
+     .affects = only(AffectedSignal::kMaster),
      .longest_s = 2.0,
      .command = goal_leaps},
-    {.name = "report-numbers", .group = kGroup, .spoils = only(Spoils::kSlave), .report = report_numbers},
-    {.name = "report-leaps", .group = kGroup, .spoils = only(Spoils::kSlave), .report = report_leaps},
+    {.name = "report-numbers",
+     .group = kGroup,
+     .affects = only(AffectedSignal::kSlave),
+     .report = report_numbers},
+    {.name = "report-leaps",
+     .group = kGroup,
+     .affects = only(AffectedSignal::kSlave),
+     .report = report_leaps},
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace longreach {
 using Bytes = std::vector<std::byte>;
 
 /// What is done to one way, in this tick.
-struct WayMeddling {
+struct DirectionFaults {
   bool cut = false;          // all is lost
   bool held = false;         // all is kept until it is no longer so, then comes at once
   bool late = false;         // likewise, but what is newer comes first
@@ -30,9 +30,9 @@ struct WayMeddling {
 };
 
 /// One way of the wire.
-class WireWay {
+class WireDirection {
  public:
-  explicit WireWay(Random random) : random_(random) {}
+  explicit WireDirection(Random random) : random_(random) {}
 
   /// What a side has just sent.
   void take(double now_s, Bytes datagram);
@@ -56,12 +56,12 @@ class WireWay {
     socket_.erase(socket_.begin(), socket_.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
-  WayMeddling meddling{};
-  [[nodiscard]] const std::vector<Bytes>& heard() const { return heard_; }  // some of what arrived
-  [[nodiscard]] std::uint64_t oversized() const { return oversized_; }      // of those that were read
+  DirectionFaults direction_faults{};
+  [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }  // some of what arrived
+  [[nodiscard]] std::uint64_t oversized() const { return oversized_; }         // of those that were read
 
  private:
-  static constexpr std::size_t kSocket = 2048, kRead = kDatagramsPerReceive, kHeard = 512, kKept = 20000;
+  static constexpr std::size_t kSocket = 2048, kRead = kDatagramsPerReceive, kReceived = 512, kKept = 20000;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct Kept {
     double due_s;
@@ -74,7 +74,7 @@ class WireWay {
   std::deque<Kept> line_;  // in the order of their due times
   std::deque<Bytes> held_;
   std::vector<Bytes> socket_;
-  std::vector<Bytes> heard_;
+  std::vector<Bytes> received_;
   std::optional<Bytes> swapped_;
   double release_s_ = 0.0;      // of what is held
   double kept_until_s_ = -1e9;  // due time of the last that was delayed

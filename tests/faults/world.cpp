@@ -43,15 +43,16 @@ std::vector<Bytes> past_life(Random random) {
 
 }  // namespace
 
-World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage, const Clocks& clocks)
+World::World(const Scenario& scenario, const Schedule& schedule, InjectedDefect injected_defect,
+             const Clocks& clocks)
     : scenario_(scenario),
       schedule_(schedule),
       lab_(scenario.master, scenario.slave, schedule.seed),
       up_(Random(schedule.seed).child("wire up")),
       down_(Random(schedule.seed).child("wire down")),
-      saboteur_(sabotage),
+      defect_injector_(injected_defect),
       person_(Random(schedule.seed).child("person"), scenario.master, scenario.round_trip_s),
-      ghost_(gap_s(scenario.slave.safety, sent_hz(scenario.master.link)), scenario.slave.safety.resume_s),
+      sent_log_(gap_s(scenario.slave.safety, sent_hz(scenario.master.link)), scenario.slave.safety.resume_s),
       slave_config_(scenario.config.slave()),
       master_config_(scenario.config.master()),
       sessions_(Random(schedule.seed).child("sessions")),
@@ -61,10 +62,10 @@ World::World(const Scenario& scenario, const Schedule& schedule, Sabotage sabota
       master_ahead_(clocks.master_ahead),
       up_now_(scenario.slave.link.impairment),
       down_now_(scenario.master.link.impairment) {
-  moment_.ghost = &ghost_;
+  moment_.sent_log = &sent_log_;
   moment_.period_s = lab_.period_s();
-  moment_.spoilt_s.fill(1e9);
-  lab_.let_meddle(*this);
+  moment_.affected_s.fill(1e9);
+  lab_.set_fault_hooks(*this);
   lab_.intrude([this](MemoryChannelPair& wire) { on_wire(wire); });
 }
 
@@ -105,23 +106,24 @@ void World::begin_faults(double now_s) {
 }
 
 void World::act() {
-  for (double& s : moment_.spoilt_s) s += lab_.period_s();
+  for (double& s : moment_.affected_s) s += lab_.period_s();
   for (Running& running : running_) {
     if (running.kind->act != nullptr) running.kind->act(*this, running.active);
-    for (unsigned left = running.kind->spoils; left != 0; left &= left - 1) spoil(left);
+    for (unsigned left = running.kind->affects; left != 0; left &= left - 1) mark_affected(left);
   }
-  if (up_.keeps_back(moment_.t_s) || down_.keeps_back(moment_.t_s)) spoil(only(Spoils::kLink));
+  if (up_.keeps_back(moment_.t_s) || down_.keeps_back(moment_.t_s))
+    mark_affected(only(AffectedSignal::kLink));
 }
 
-void World::spoil(unsigned first) {
-  moment_.spoilt_s[static_cast<std::size_t>(std::countr_zero(first))] = 0.0;
+void World::mark_affected(unsigned first) {
+  moment_.affected_s[static_cast<std::size_t>(std::countr_zero(first))] = 0.0;
 }
 
 void World::apply_levels() {
   if (levels.up != up_now_) lab_.impair_slave(up_now_ = levels.up);
   if (levels.down != down_now_) lab_.impair_master(down_now_ = levels.down);
-  up_.meddling = levels.wire_up;
-  down_.meddling = levels.wire_down;
+  up_.direction_faults = levels.wire_up;
+  down_.direction_faults = levels.wire_down;
   slave_ahead_ += from_seconds(1e-6 * levels.slave_ppm * lab_.period_s());
   master_ahead_ += from_seconds(1e-6 * levels.master_ppm * lab_.period_s());
 }
@@ -144,7 +146,7 @@ void World::live_before() {
     down_.release();
   }
   up_.pass(moment_.t_s);
-  if (channels_ != nullptr && !levels.slave_sleeps)
+  if (channels_ != nullptr && !levels.slave_skips_tick)
     up_.empty([this](const Bytes& datagram) { channels_->a().send(datagram); });
 }
 
@@ -154,14 +156,14 @@ void World::on_wire(MemoryChannelPair& wire) {
   if (slave_turn_) {
     take_all(wire.a(), down_);
     down_.pass(moment_.t_s);
-    if (!levels.master_sleeps) down_.empty([&wire](const Bytes& datagram) { wire.b().send(datagram); });
+    if (!levels.master_skips_tick) down_.empty([&wire](const Bytes& datagram) { wire.b().send(datagram); });
   } else {
     take_all(wire.b(), up_);
   }
   slave_turn_ = !slave_turn_;
 }
 
-void World::take_all(Channel& end, WireWay& way) {
+void World::take_all(Channel& end, WireDirection& direction) {
   std::array<std::byte, kDatagramMaxBytes> buffer{};
   while (const auto size = end.receive(buffer)) {
     Bytes datagram(buffer.begin(),
@@ -171,7 +173,7 @@ void World::take_all(Channel& end, WireWay& way) {
     moment_.number_again = moment_.number_again || header.sequence <= last;
     last = std::max(last, header.sequence);
     ++moment_.datagrams;
-    way.take(moment_.t_s, std::move(datagram));
+    direction.take(moment_.t_s, std::move(datagram));
   }
 }
 
@@ -182,14 +184,14 @@ void World::hook(Hook FaultKind::*which, Value& value) {
   }
 }
 
-void World::robot_told(RobotState& told) {
-  moment_.truth = told;
-  hook(&FaultKind::robot, told);
-  saboteur_.tell(told);
-  moment_.told = told;
+void World::robot_reported(RobotState& reported) {
+  moment_.truth = reported;
+  hook(&FaultKind::robot, reported);
+  defect_injector_.pass_on(reported);
+  moment_.reported = reported;
 }
 
-void World::slave_asked(SlaveInput& input) {
+void World::before_slave_step(SlaveInput& input) {
   hook(&FaultKind::slave, input);
   input.stop = input.stop || stop_slave;
   input.taken = input.taken || taken;
@@ -197,19 +199,19 @@ void World::slave_asked(SlaveInput& input) {
   moment_.slave_gap_s = moment_.t_s - slave_ran_s_;
   moment_.stop_at_slave = input.stop;
   moment_.given = input.commands.size();
-  if (input.stop) ghost_.ended(moment_.t_s);
-  saboteur_.before_ghost(input);
-  moment_.given_badly = !ghost_.slave_given(moment_.t_s, moment_.slave_gap_s, input.commands);
-  saboteur_.ask(input);
+  if (input.stop) sent_log_.ended(moment_.t_s);
+  defect_injector_.before_sent_log(input);
+  moment_.given_badly = !sent_log_.slave_given(moment_.t_s, moment_.slave_gap_s, input.commands);
+  defect_injector_.ask(input);
 }
 
-void World::slave_answered(SlaveOutput& out) {
-  saboteur_.answer(out);
+void World::after_slave_step(SlaveOutput& out) {
+  defect_injector_.answer(out);
   moment_.moves = out.joint_setpoint_rad.has_value();
   moment_.setpoint_rad = out.joint_setpoint_rad.value_or(moment_.setpoint_rad);
-  const bool meddled =
+  const bool injected =
       std::ranges::any_of(running_, [](const Running& r) { return r.kind->setpoint != nullptr; });
-  if (meddled) {
+  if (injected) {
     // A robot that goes its own way does so without a setpoint, too.
     JointVector setpoint_rad = out.joint_setpoint_rad.value_or(moment_.truth.joint_rad);
     hook(&FaultKind::setpoint, setpoint_rad);
@@ -221,25 +223,25 @@ void World::slave_answered(SlaveOutput& out) {
     moment_.claimed = out.report->state;
     reports_s_[out.report_sequence] = moment_.t_s;
     if (reports_s_.size() > kReports) reports_s_.erase(reports_s_.begin());
-    if (moment_.claimed == SafetyState::kEngaged) ghost_.entered(out.report->engagement);
+    if (moment_.claimed == SafetyState::kEngaged) sent_log_.entered(out.report->engagement);
     moment_.cause = out.report->cause;
     moment_.engagement = out.report->engagement;
   }
   moment_.telemetry = out.telemetry;
 }
 
-void World::handle_told(HandleState& told) {
-  hook(&FaultKind::handle, told);
-  moment_.handle = told;
+void World::handle_reported(HandleState& reported) {
+  hook(&FaultKind::handle, reported);
+  moment_.handle = reported;
 }
 
-void World::master_asked(MasterInput& input) {
+void World::before_master_step(MasterInput& input) {
   moment_.master_ran = true;
   moment_.master_gap_s = moment_.t_s - master_ran_s_;
   moment_.engage_asked = input.requests.engage;
   moment_.hold_asked = input.requests.hold;
   moment_.stop_asked = input.requests.stop;
-  if (input.requests.engage) ghost_.asked();
+  if (input.requests.engage) sent_log_.asked();
   for (const auto& received : input.reports) {
     const auto left = reports_s_.find(received.sequence);
     if (!received.newest || left == reports_s_.end()) continue;
@@ -249,11 +251,11 @@ void World::master_asked(MasterInput& input) {
   if (!input.telemetry.empty()) moment_.seen = input.telemetry.back().message;
 }
 
-void World::master_answered(MasterOutput& out) {
-  saboteur_.answer(out);
+void World::after_master_step(MasterOutput& out) {
+  defect_injector_.answer(out);
   moment_.F_H_M = out.F_H_M;
   hook(&FaultKind::command, out);
-  if (out.command) ghost_.master_sent(moment_.t_s, out.sequence, *out.command);
+  if (out.command) sent_log_.master_sent(moment_.t_s, out.sequence, *out.command);
 }
 
 void World::finish() {
@@ -300,7 +302,7 @@ void World::lease(bool to_master) {
   lab_.hand_slave(session);
   reports_s_.clear();
   if (to_master) lab_.hand_master(session);
-  ghost_.lease(moment_.t_s, session.number, to_master);
+  sent_log_.lease(moment_.t_s, session.number, to_master);
 }
 
 // As the services of the programs do (common/rpc/config_change.hpp).
@@ -314,7 +316,7 @@ bool World::change(google::protobuf::Message& present, const google::protobuf::M
   } catch (const ConfigError&) {
     return false;
   }
-  const bool beyond = beyond_ceiling(start, *after) && !saboteur_.frees_limits();
+  const bool beyond = beyond_ceiling(start, *after) && !defect_injector_.frees_limits();
   if (beyond || !longreach::refused_changes(present, *after, engaged).empty()) {
     ++refused_changes_;
     return false;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "deploy/lab/laboratory.hpp"
+#include "tests/faults/injected_defect.hpp"
 #include "tests/faults/kind.hpp"
 #include "tests/faults/moment.hpp"
 #include "tests/faults/person.hpp"
-#include "tests/faults/sabotage.hpp"
 #include "tests/faults/scenario.hpp"
 #include "tests/faults/wire.hpp"
 
@@ -19,16 +19,16 @@ namespace longreach {
 /// What the faults of a tick ask for together; begins anew in each.
 struct Levels {
   ImpairmentConfig up{}, down{};  // the link's own, made worse
-  WayMeddling wire_up{}, wire_down{};
-  bool slave_sleeps = false, master_sleeps = false;
+  DirectionFaults wire_up{}, wire_down{};
+  bool slave_skips_tick = false, master_skips_tick = false;
   double slave_ppm = 0.0, master_ppm = 0.0;  // of the clocks
   bool let_go = false, impatient = false, clutch = false;
 };
 
-class World : public Meddler {
+class World : public FaultHooks {
  public:
-  World(const Scenario& scenario, const Schedule& schedule, Sabotage sabotage = Sabotage::kNone,
-        const Clocks& clocks = {});
+  World(const Scenario& scenario, const Schedule& schedule,
+        InjectedDefect injected_defect = InjectedDefect::kNone, const Clocks& clocks = {});
 
   /// One tick; what happened in it.
   const Moment& step();
@@ -39,12 +39,12 @@ class World : public Meddler {
   bool stop_slave = false;
   bool taken = false;
   Laboratory& lab() { return lab_; }
-  WireWay& up() { return up_; }
-  WireWay& down() { return down_; }
+  WireDirection& up() { return up_; }
+  WireDirection& down() { return down_; }
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
   [[nodiscard]] const Moment& moment() const { return moment_; }
   [[nodiscard]] const std::vector<Bytes>& past_life() const { return past_life_; }
-  Ghost& ghost() { return ghost_; }
+  SentLog& sent_log() { return sent_log_; }
   /// Both sides, or the slave alone, follow another session from now on.
   void lease(bool to_master);
   /// A client asks a side for a change; the rules of the programs decide.
@@ -59,14 +59,14 @@ class World : public Meddler {
 
   Duration slave_clock(Duration elapsed) override { return elapsed + slave_ahead_; }
   Duration master_clock(Duration elapsed) override { return elapsed + master_ahead_; }
-  bool slave_sleeps() override { return levels.slave_sleeps; }
-  bool master_sleeps() override { return levels.master_sleeps; }
-  void robot_told(RobotState& told) override;
-  void slave_asked(SlaveInput& input) override;
-  void slave_answered(SlaveOutput& out) override;
-  void handle_told(HandleState& told) override;
-  void master_asked(MasterInput& input) override;
-  void master_answered(MasterOutput& out) override;
+  bool slave_skips_tick() override { return levels.slave_skips_tick; }
+  bool master_skips_tick() override { return levels.master_skips_tick; }
+  void robot_reported(RobotState& reported) override;
+  void before_slave_step(SlaveInput& input) override;
+  void after_slave_step(SlaveOutput& out) override;
+  void handle_reported(HandleState& reported) override;
+  void before_master_step(MasterInput& input) override;
+  void after_master_step(MasterOutput& out) override;
 
  private:
   struct Running {
@@ -76,11 +76,11 @@ class World : public Meddler {
   void begin_faults(double now_s);
   void act();
   /// The first of these is as it should not be, in this tick.
-  void spoil(unsigned first);
+  void mark_affected(unsigned first);
   void apply_levels();
   void end_faults();
   void on_wire(MemoryChannelPair& wire);
-  void take_all(Channel& end, WireWay& way);
+  void take_all(Channel& end, WireDirection& direction);
   bool change(google::protobuf::Message& present, const google::protobuf::Message& start,
               std::string_view path, const std::string& value, bool engaged);
   void finish();
@@ -91,10 +91,10 @@ class World : public Meddler {
   Scenario scenario_;
   Schedule schedule_;
   Laboratory lab_;
-  WireWay up_, down_;
-  Saboteur saboteur_;
+  WireDirection up_, down_;
+  DefectInjector defect_injector_;
   Person person_;
-  Ghost ghost_;
+  SentLog sent_log_;
   proto::SlaveConfig slave_config_;
   proto::MasterConfig master_config_;
   MemoryChannelPair* channels_ = nullptr;

@@ -232,7 +232,7 @@ TEST(CampaignFolderTest, OfAnotherCampaignIsRefused) {
             std::string::npos);
 }
 
-TEST(CampaignResults, HaveTimesInAFileOfTheirOwnAndARowForACellWithoutResult) {
+TEST(CampaignResults, StoreTimesSeparatelyAndKeepRowsWithoutResult) {
   const TemporaryFolder temporary;
   const proto::CampaignRecord record = record_of("c1");
   CellResults results(4);

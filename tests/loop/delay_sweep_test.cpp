@@ -24,7 +24,7 @@ std::map<std::string, double> metrics_of(std::vector<Metric> (*experiment)(const
   return values;
 }
 
-TEST(DelaySweep, OursIsRightAtEveryDelayAndTheOthersReachWhatTheoryGivesThem) {
+TEST(DelaySweep, OursIsAccurateAtAllDelaysOthersMatchTheory) {
   const std::map<std::string, double> m = metrics_of(run_delay_sweep);
 
   EXPECT_LE(m.at("direct_limit_error_max"), 0.05);
@@ -98,7 +98,7 @@ TEST(DelayMargin, HasTheLimitsThatAreKnownInClosedForm) {
   EXPECT_NEAR(direct_limit_n_per_m({0.8, 8.5, 135.0}, 0.0305) / exact_limit_n_per_m(wall), 1.0, 0.01);
 }
 
-TEST(DelayMargin, PositionPositionIsTheStabilityConditionSolvedForItsSpring) {
+TEST(DelayMargin, PositionPositionMatchesStabilityCondition) {
   // 4 Bm Bs = (T1² + T2²) Kc² with Bm 20, Bs 10, T1 = T2 = 0.2 s.
   const double kc = position_position_limit_n_per_m(20.0, 10.0, 0.4);
   EXPECT_NEAR(4.0 * 20.0 * 10.0, (0.04 + 0.04) * kc * kc, 1e-9);

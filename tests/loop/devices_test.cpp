@@ -18,7 +18,7 @@ std::map<std::string, double> metrics(std::string_view name) {
   return values;
 }
 
-TEST(HomeRotation, OscillatesWithLittleDampingAndNotWithCriticalAndSettlesAsTheClosedForm) {
+TEST(HomeRotation, MatchesClosedFormForLightAndCriticalDamping) {
   auto m = metrics("home-rotation");
   EXPECT_NEAR(m.at("zeta_at_0.5"), 0.31, 0.01);
   EXPECT_NEAR(m.at("zeta_at_1.6"), 1.0, 0.01);

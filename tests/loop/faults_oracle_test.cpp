@@ -18,8 +18,8 @@ constexpr std::uint64_t kAnySeed = 1;
 class Oracle : public testing::Test {
  protected:
   Oracle() {
-    moment_.ghost = &ghost_;
-    moment_.spoilt_s.fill(1e9);
+    moment_.sent_log = &sent_log_;
+    moment_.affected_s.fill(1e9);
     moment_.slave_ran = moment_.master_ran = moment_.moves = true;
     for (int i = 0; i < kMaxJoints; ++i)
       moment_.setpoint_rad[i] = scenario_.slave.robot.joint[static_cast<std::size_t>(i)].start_rad;
@@ -54,7 +54,7 @@ class Oracle : public testing::Test {
   }
 
   Scenario scenario_ = draw_scenario(kAnySeed);
-  Ghost ghost_{0.1, 1.0};
+  SentLog sent_log_{0.1, 1.0};
   Moment moment_{};
   Invariants invariants_ = all_invariants(scenario_);
 };
@@ -121,7 +121,8 @@ TEST_F(Oracle, SeesAHoldWithoutACause) {
 
 TEST_F(Oracle, SeesAWallThatIsTakenForAWrongSensor) {
   run(1, [this](Moment& m, int) {
-    m.spoilt_s[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(Spoils::kScene)))] = 0.0;
+    m.affected_s[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(AffectedSignal::kScene)))] =
+        0.0;
     claim(SafetyState::kFault, HoldCause::kSensorSign);
   });
   EXPECT_TRUE(broken("I30"));
@@ -158,15 +159,15 @@ TEST_F(Oracle, SeesThatItFollowsWhatIsOld) {
   MotionCommand command;
   command.engagement = moment_.engagement = 1;
   command.request = Request::kEngage;
-  ghost_.asked();
-  for (std::uint64_t n = 1; n <= 4000; ++n) ghost_.master_sent(1e-3 * static_cast<double>(n), n, command);
+  sent_log_.asked();
+  for (std::uint64_t n = 1; n <= 4000; ++n) sent_log_.master_sent(1e-3 * static_cast<double>(n), n, command);
   run(4000, [&](Moment& m, int i) {
     // From the second second on time goes on and the commands stay those of then.
     const auto number = static_cast<std::uint64_t>(std::min(i, 1000) + 1);
     Received<MotionCommand> received;
     received.sequence = number;
     received.message = command;
-    if (i <= 1000) ghost_.slave_given(m.t_s, m.slave_gap_s, {&received, 1});
+    if (i <= 1000) sent_log_.slave_given(m.t_s, m.slave_gap_s, {&received, 1});
     claim(SafetyState::kEngaged);
   });
   EXPECT_TRUE(broken("I16"));
@@ -277,10 +278,11 @@ TEST_F(Oracle, SeesEnergyComeOutAfterALieOnlyFromAPortThatRested) {
     m.F_H_M.force.x() = 1.0;
     m.x_MH.x() += 1e-5;
   };
-  const auto spoilt = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(Spoils::kHandle)));
-  moment_.spoilt_s[spoilt] = 0.0;
+  const auto affected =
+      static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(AffectedSignal::kHandle)));
+  moment_.affected_s[affected] = 0.0;
   run(200, push);
-  moment_.spoilt_s[spoilt] = 1e9;
+  moment_.affected_s[affected] = 1e9;
   run(1000, push);  // what a spring that was stretched meanwhile gives back
   EXPECT_FALSE(broken("I23"));
   run(1, [](Moment& m, int) { m.F_H_M.force.setZero(); });
@@ -291,7 +293,7 @@ TEST_F(Oracle, SeesEnergyComeOutAfterALieOnlyFromAPortThatRested) {
   EXPECT_TRUE(broken("I23"));
 }
 
-TEST_F(Oracle, SeesThatNothingSaysWhyAnEngagementIsNotGrantedOrWhatIsNotSo) {
+TEST_F(Oracle, DetectsMissingOrFalseRefusalReason) {
   const double late_s = scenario_.round_trip_s + 1.3;
   const int ticks = static_cast<int>(late_s / moment_.period_s);
   run(ticks, [](Moment& m, int i) { m.engage_asked = i == 0; });
@@ -328,13 +330,13 @@ constexpr std::uint64_t kFound = 60;
 class FaultsControl : public testing::TestWithParam<int> {};
 
 TEST_P(FaultsControl, IsFound) {
-  const SabotageFacts& facts = kSabotages[static_cast<std::size_t>(GetParam())];
+  const DefectFacts& facts = kInjectedDefects[static_cast<std::size_t>(GetParam())];
   std::string others;
   for (std::uint64_t seed = 1; seed <= kFound; ++seed) {
     Schedule schedule = schedule_of(seed);
     if (!facts.fault.empty()) schedule.faults.push_back({std::string(facts.fault), 8.0, 3.0, 0.9, seed});
     std::ranges::stable_sort(schedule.faults, {}, &Fault::start_s);
-    for (const Breach& v : run_trial(schedule, static_cast<Sabotage>(GetParam())).violations) {
+    for (const Breach& v : run_trial(schedule, static_cast<InjectedDefect>(GetParam())).violations) {
       if (v.invariant == facts.invariant) return;
       others += v.invariant + " ";
     }
@@ -342,7 +344,8 @@ TEST_P(FaultsControl, IsFound) {
   ADD_FAILURE() << facts.name << ": " << facts.invariant << " has not seen it; seen by " << others;
 }
 
-INSTANTIATE_TEST_SUITE_P(Sabotages, FaultsControl, testing::Range(1, static_cast<int>(Sabotage::kCount)));
+INSTANTIATE_TEST_SUITE_P(Sabotages, FaultsControl,
+                         testing::Range(1, static_cast<int>(InjectedDefect::kCount)));
 
 }  // namespace
 }  // namespace longreach

@@ -27,7 +27,7 @@ TEST(Faults, NoInvariantIsViolated) {
   expect_holds(tally);
   EXPECT_GT(tally.engaged_s, 0.5 * tally.virtual_s);
   for (const auto& [name, times] : tally.judged) EXPECT_GT(times, 0U) << name << " was never judged";
-  for (const char* guard : {"slave: wall comes", "slave: no relief", "slave: sensor sign"})
+  for (const char* guard : {"slave: surface approaching", "slave: force persists", "slave: sensor sign"})
     EXPECT_TRUE(tally.guards.contains(guard)) << guard << " has never acted";
   std::printf("%.2f virtual hours, %.0f %% engaged\n", tally.virtual_s / 3600.0,
               100.0 * tally.engaged_s / tally.virtual_s);
@@ -45,7 +45,7 @@ TEST(Faults, NothingHoldsForHoursWhereNothingIsWrong) {
   const auto runs = static_cast<std::size_t>(campaign(24, 2));
   const double length_s = campaign(3600, 60);
   std::vector<Trial> trials(runs);
-  on_all_cores(runs, [&](std::size_t i) { trials[i] = run_calm(i + 1, length_s); }, {});
+  on_all_cores(runs, [&](std::size_t i) { trials[i] = run_fault_free(i + 1, length_s); }, {});
   for (std::size_t i = 0; i < runs; ++i) {
     EXPECT_EQ(false_alarms(trials[i]), 0U) << "seed " << i + 1;
     EXPECT_GT(trials[i].engaged_s, length_s - 30.0);
@@ -89,8 +89,8 @@ TEST(Faults, ShrinkingLeavesWhatMatters) {
 /// Whether something came later than this link ever brings it; in this tick.
 bool came_late(const Moment& m, double round_trip_s) {
   constexpr double kLate_s = 0.5;
-  const Right& right = m.ghost->right();
-  const bool up = right.heard_s == m.t_s && m.t_s - right.sent_s > round_trip_s + kLate_s;
+  const MotionAuthority& authority = m.sent_log->authority();
+  const bool up = authority.received_s == m.t_s && m.t_s - authority.sent_s > round_trip_s + kLate_s;
   return up || (m.report_came && m.report_age_s > round_trip_s + kLate_s);
 }
 
@@ -100,17 +100,17 @@ TEST(Faults, ADelayOfTheLinkLastsUntilTheLastThatItDelayedHasCome) {
   const Scenario scenario = draw_scenario(kSeed);
   for (const char* kind : {"delayed-up", "delayed-down", "delay-creeps"}) {
     const Fault fault{kind, 4.0, 4.0, 0.9, 1};
-    World world(scenario, {kSeed, 60.0, 60.0, {fault}}, Sabotage::kNone);
+    World world(scenario, {kSeed, 60.0, 60.0, {fault}}, InjectedDefect::kNone);
     double late_s = 0.0;
     while (world.moment().t_s < 30.0) {
       const Moment& m = world.step();
       if (!came_late(m, scenario.round_trip_s)) continue;
       late_s = m.t_s;
       // A narrow link takes its time for what comes at once.
-      ASSERT_LE(m.since(Spoils::kLink), 0.5) << kind << " at " << m.t_s << " s";
+      ASSERT_LE(m.since(AffectedSignal::kLink), 0.5) << kind << " at " << m.t_s << " s";
     }
     EXPECT_GT(late_s, fault.start_s + fault.duration_s + 2.0) << kind << " does not outlast itself";
-    EXPECT_GT(world.moment().since(Spoils::kLink), 3.0) << kind << " has no end";
+    EXPECT_GT(world.moment().since(AffectedSignal::kLink), 3.0) << kind << " has no end";
   }
 }
 
@@ -129,7 +129,7 @@ TEST(Faults, AnEngagementBehindACreptDelayIsNoOmissionOfTheMaster) {
 }
 
 // Of 256 kbit/s, while a stranger repeats what was sent: what is asked for and its answer queue behind that.
-TEST(Faults, AnEngagementOnALinkThatAStrangerFillsIsNoOmissionOfTheMaster) {
+TEST(Faults, FloodedLinkExcusesMissingEngagement) {
   expect_no_violation(
       "seed 8000409\nfaults_end_s 14.000474281258532\nend_s 13.518\n"
       "fault joints-leave-range start_s 3.829664667149587 duration_s 1.4254549290209775 size "

@@ -12,7 +12,7 @@ namespace longreach {
 namespace {
 
 // The slowest is a soft tile behind a hard one: nothing is pressed until the tool has followed.
-TEST(MaterialSteps, WhatIsReportedFollowsTheMaterialAndTheForceDoesNotRiseByAStep) {
+TEST(MaterialSteps, ReportFollowsMaterialWithoutForceStep) {
   ExperimentRun run;
   run.config = configure({}, LONGREACH_DEPLOY);
   std::map<std::string, double> all;

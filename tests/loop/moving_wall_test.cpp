@@ -20,7 +20,7 @@ constexpr double kGuard_n = 20.0, kWall_n_per_m = 2000.0, kWall_m_per_s = 0.03, 
 struct Came {
   double force_n = 0.0;  // largest at the tool, engaged
   double way_m = 0.0;
-  Reason told{};  // first cause at the master
+  Reason reported{};  // first cause at the master
   bool engaged_again = false;
   double retreat_m = 0.0;  // then
 };
@@ -38,12 +38,12 @@ Came comes(double give_way_m, double watched_m, bool presses_on = false) {
   const double from_m = lab.arm().start_pose().p.x();
   Came out;
   const double until_s = 3.0 + (watched_m + kGuard_n / kWall_n_per_m) / kWall_m_per_s;
-  while (lab.now_s() < until_s && (out.told == HoldCause::kNone || presses_on)) {
+  while (lab.now_s() < until_s && (out.reported == HoldCause::kNone || presses_on)) {
     lab.drive({});
     lab.step();
     out.force_n = std::max(out.force_n, lab.arm().true_wrench().force.norm());
     out.way_m = from_m - lab.arm().true_pose().p.x();
-    if (lab.master().state == SafetyState::kHolding) out.told = lab.master().cause;
+    if (lab.master().state == SafetyState::kHolding) out.reported = lab.master().cause;
   }
   const double held_m = lab.arm().true_pose().p.x();
   lab.requests().engage = true;
@@ -62,8 +62,8 @@ TEST(MovingWall, IsGivenWayToAndThenTheOperatorRetreats) {
   const Came came = comes(kGiveWay_m, 2.0 * kGiveWay_m);
   EXPECT_LE(came.force_n, kGuardOvershoot * kGuard_n);
   EXPECT_NEAR(came.way_m, kGiveWay_m, 2e-3);
-  EXPECT_EQ(came.told, HoldCause::kWallComes);
-  EXPECT_EQ(sentence(came.told), "something is moving towards the robot, the way out is along -x");
+  EXPECT_EQ(came.reported, HoldCause::kWallComes);
+  EXPECT_EQ(sentence(came.reported), "a surface is moving towards the robot, the way out is along -x");
   EXPECT_TRUE(came.engaged_again);
   EXPECT_GT(came.retreat_m, 0.03);
 }

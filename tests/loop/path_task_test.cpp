@@ -86,7 +86,7 @@ TEST(PathCourse, HasThePiecesOfTheSceneInAnotherOrder) {
   EXPECT_GT(first_corners.size(), 3u);
 }
 
-TEST(PathTask, HybridIsFasterThanPositionAndNearerThanRateAndTheGhostSavesTheWaiting) {
+TEST(PathTask, HybridBeatsPositionInTimeAndRateInAccuracy) {
   constexpr double kRtt_s = 1.5;
   const PathSize size{.persons = 4, .trials = 1};
   const auto sample = [&](PathStrategy strategy, double rtt_s, bool ghost) {

@@ -66,8 +66,8 @@ TEST(Store, AThousandLoadsWinNothingFromIt) {
 }
 
 /// A force sensor whose zero steps.
-struct BiasedSensor : Meddler {
-  void robot_told(RobotState& told) override { told.F_F_W.force += bias_n; }
+struct BiasedSensor : FaultHooks {
+  void robot_reported(RobotState& reported) override { reported.F_F_W.force += bias_n; }
   Vector3 bias_n = Vector3::Zero();
 };
 
@@ -79,7 +79,7 @@ std::vector<double> felt_n(const Vector3& bias_n, double probe_m) {
                 LONGREACH_DEPLOY);
   Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
   BiasedSensor sensor;
-  lab.let_meddle(sensor);
+  lab.set_fault_hooks(sensor);
   constexpr double kTouch_s = 3.0, kStep_s = 12.0, kEnd_s = 20.0;
   std::vector<double> felt;
   while (lab.now_s() < kEnd_s) {

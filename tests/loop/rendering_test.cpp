@@ -37,7 +37,7 @@ TEST(HostileUpdates, GiveNoEnergyAndTheNaiveLawFailsUnderTheSame) {
   EXPECT_EQ(m.at("naive_unsafe_wrenches"), 0.0);
 }
 
-TEST(Idle, AHandThatNobodyMovesIsQuietAndGetsNoEnergyAndDampingOnEncoderStepsIsNot) {
+TEST(Idle, IdleHandIsQuietAndEncoderStepDampingIsNot) {
   auto m = metrics("idle");
   EXPECT_EQ(m.at("not_engaged"), 0.0);
   EXPECT_EQ(m.at("not_touched"), 0.0);
@@ -53,7 +53,7 @@ TEST(Idle, AHandThatNobodyMovesIsQuietAndGetsNoEnergyAndDampingOnEncoderStepsIsN
   EXPECT_GT(m.at("control_energy_out_max_j"), 1e-4);
 }
 
-TEST(FirstTouch, GrowsWithoutAStepAndRegistersTheWallByTheTouchSequence) {
+TEST(FirstTouch, GrowsSmoothlyAndRegistersWallByTouchSequence) {
   auto m = metrics("first-touch");
   EXPECT_LE(m.at("felt_after_round_trip_s"), 0.2);
   EXPECT_GT(m.at("felt_after_round_trip_s"), 0.0);
@@ -121,7 +121,7 @@ TEST(TensorRendering, DisplaysAnObliquePlaneACornerAndATorque) {
     EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -returned_most_j()) << scene;
 }
 
-TEST(HapticReturn, IsAtMostTenDatagramsAndFourKilobitsASecondInSteadyContact) {
+TEST(HapticReturn, SteadyContactNeedsTenDatagramsPerSecond) {
   for (const char* profile : {"lab", "moon"}) {
     auto m = metrics("touch", {std::string("profile=") + profile});
     EXPECT_LE(m.at("haptic_return_datagrams_per_s"), 10.1) << profile;

@@ -32,7 +32,7 @@ TEST(ReportAnswer, RefusesWhatItCannotSay) {
     EXPECT_THROW(static_cast<void>(answer(sentence, metrics)), std::invalid_argument) << sentence;
 }
 
-TEST(PressWall, DirectForceLeavesThePanelsToTheOthersAndTheTitleSaysSo) {
+TEST(PressWall, PlotTitleNotesThatDirectForceIsOmitted) {
   const Experiment& press = *find_experiment("press-wall");
   std::vector<Metric> metrics = {{"rtt_s", 2.6, "s"},
                                  {"wall_n_per_m", 1000.0, "N/m"},

@@ -56,7 +56,7 @@ TEST(RobotFiles, AreThoseThatTheLawsOfTheRobotAreTestedWith) {
   }
 }
 
-TEST(RobotFiles, SayWhichClosedFormAppliesAndStartAwayFromSingularPoses) {
+TEST(RobotFiles, NameClosedFormAndStartAwayFromSingularPoses) {
   const std::map<std::string, std::string> kWords{
       {"space_arm", "closed form, quadratic: axes 2-3-4 parallel"},
       {"puma560", "closed form, quadratic: axes 4-5-6 meet"},

@@ -44,7 +44,7 @@ std::unique_ptr<Laboratory> pressing(std::vector<std::string> settings) {
   return lab;
 }
 
-TEST(Safety, ASlaveThatDiesLeavesARobotAtRestAndAHandWhoseForceFades) {
+TEST(Safety, DeadSlaveLeavesRobotAtRestAndForceFades) {
   auto lab = pressing({});
   const double k = lab->master().stiffness_n_per_m;
   ASSERT_GT(k, 500.0);
@@ -95,7 +95,7 @@ TEST(Safety, ARobotWhoseSlaveDiesInMotionStopsByItsOwnWatchdog) {
   EXPECT_EQ(lab->master().cause, Cause::kLinkSilent);
 }
 
-TEST(Safety, AMasterThatDiesInContactLeavesALittleForceAndTheContact) {
+TEST(Safety, DeadMasterInContactKeepsSmallForce) {
   for (const double hold_n : {1.0, 1.4}) {
     auto lab = pressing({"command.hold_force_n=" + std::to_string(hold_n)});
     const std::uint32_t touch = lab->slave().touch;
@@ -260,7 +260,7 @@ std::vector<Blackout> blackouts() {
   return all;
 }
 
-TEST(Safety, ABlackoutEndsAsTheTableSays) {
+TEST(Safety, BlackoutEndsAsSpecified) {
   for (const Blackout& b : blackouts()) {
     const std::string delay = std::to_string(b.delay_s);
     auto lab =
@@ -292,7 +292,7 @@ TEST(Safety, ABlackoutEndsAsTheTableSays) {
   }
 }
 
-TEST(Safety, ARequestToEngageThatTheSlaveNeverHeardDoesNothingLater) {
+TEST(Safety, LostEngageRequestHasNoLaterEffect) {
   auto lab = laboratory({"profile=lab", "safety.engage_at_start=false", "scene_file=scenes/free.txtpb"});
   auto cut = std::make_shared<Cut>();
   lab->intrude([cut](MemoryChannelPair& wire) { (*cut)(wire); });

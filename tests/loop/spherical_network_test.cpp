@@ -83,7 +83,7 @@ TEST(CommittedNetwork, HasTheErrorThatItsFileStates) {
   EXPECT_LT(error.max_rad, 5e-4);
 }
 
-TEST(CommittedNetwork, KnowsEveryOrientationTiltedAndTurnedByUpToThirtyDegrees) {
+TEST(CommittedNetwork, CoversOrientationsUpToThirtyDegrees) {
   const SphericalNetwork network(reconstructed_spherical(), committed().config);
   Random random(21);
   for (int n = 0; n < campaign(1000000, 20000); ++n) {

@@ -110,7 +110,7 @@ TEST(Touch, AStepOfTheForceByAReportIsMeasuredUnderEachLaw) {
 }
 
 /// The hand drives five times as far as the tool: when it learns of the wall, that is 25 mm behind it.
-TEST(Touch, ASoftWallLearntFarBehindTheHandIsDisplayedRight) {
+TEST(Touch, SoftWallIdentifiedLateIsRenderedAccurately) {
   for (std::uint64_t seed = 1; seed <= 30; seed += full_size() ? 1 : 5) {
     const Values v =
         touch({"profile=moon", "mapping.scale=0.2", "scene.material.wall.stiffness_n_per_m=500"}, seed);
@@ -157,7 +157,7 @@ TEST(Touch, ReachesAFarWallOfASmallDeviceWithTheClutch) {
 }
 
 /// Stiffer than command.guard_stiffness_n_per_m, and the hand slides on it a little.
-TEST(Touch, AWallOfSteelIsNotTakenForAWrongSensor) {
+TEST(Touch, SteelWallIsNotSensorFault) {
   for (const char* wall : {"5e4", "1e5", "1e6"}) {
     for (std::uint64_t seed = 1; seed <= (full_size() ? 30U : 5U); ++seed) {
       const Values v =

@@ -54,7 +54,7 @@ class Adapters : public Station {
     start_master({"--adapter", device_address_, "--set", "device_adapter.silence_s=" + silence_s});
   }
   /// The last silence in the loop's own time: within 20 ms, but for what this machine was late.
-  void expect_told_in_time(StationSide& side) {
+  void expect_prompt_report(StationSide& side) {
     const std::uint64_t after_us = side.counter("adapter_silent_after_us");
     std::printf("told after %.1f ms of silence\n", 1e-3 * static_cast<double>(after_us));
     EXPECT_GE(after_us, 19'000u);
@@ -91,7 +91,7 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   ASSERT_TRUE(eventually([this] { return master_.state() == "Fault" && slave_.state() == "Holding"; }))
       << outputs();
   EXPECT_EQ(master_.status()->cause(), "device fault");
-  expect_told_in_time(master_);
+  expect_prompt_report(master_);
   const std::string why = master_.engage();
   EXPECT_NE(why.find("has gone silent; if it stays so, start it again"), std::string::npos) << why;
   EXPECT_TRUE(says(*master_program_, "has gone silent; if it stays so, start it again")) << outputs();
@@ -102,14 +102,14 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_TRUE(engaged()) << outputs();
 }
 
-TEST_F(Adapters, AKilledAdapterOfTheRobotIsAFaultAndTheRobotIsTakenWhereItThenIs) {
+TEST_F(Adapters, KilledRobotAdapterIsFaultAndRobotResumesInPlace) {
   start_both("0.02", {});
   ASSERT_TRUE(engaged()) << outputs();
   robot_->signal(SIGKILL);
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault" && master_.state() == "Holding"; }))
       << outputs();
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
-  expect_told_in_time(slave_);
+  expect_prompt_report(slave_);
   EXPECT_NE(slave_.status()->trouble().find("has gone silent; if it stays so, start it again"),
             std::string::npos);
   start(robot_, "robot");
@@ -134,7 +134,7 @@ TEST_F(Adapters, TheReferenceAdaptersKeepTheRules) {
 TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
   struct Case {
     Flaw flaw;
-    const char* told;
+    const char* reported;
     const char* advice;
   };
   const Case cases[] = {
@@ -153,7 +153,7 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
       {Flaw::kTakesAnyone, "it answers a program of another user", "getsockopt(SO_PEERCRED)"}};
   const auto found = [](const Case& c, const Tried& tried) {
     if (c.flaw == Flaw::kTakesAnyone && ::geteuid() != 0) return true;  // root alone can try that
-    return tried.status == 1 && tried.output.find(c.told) != std::string::npos &&
+    return tried.status == 1 && tried.output.find(c.reported) != std::string::npos &&
            tried.output.find(c.advice) != std::string::npos;
   };
   const auto check = [&](const Case& c) {
@@ -174,7 +174,7 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
     for (std::size_t i = 0; i < checks.size(); ++i) {
       const Case& c = cases[first + i];
       const Tried tried = checks[i].get();
-      EXPECT_TRUE(found(c, tried)) << c.told << ", " << c.advice << "\n" << tried.output;
+      EXPECT_TRUE(found(c, tried)) << c.reported << ", " << c.advice << "\n" << tried.output;
     }
   }
   EXPECT_EQ(try_adapter({}).status, 2);
@@ -257,8 +257,8 @@ TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
 TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   RobotBox robot;
   const auto rests_for = [&](std::uint64_t datagrams) {
-    const std::uint64_t live = robot.live(), end = robot.told() + datagrams;
-    return eventually([&] { return robot.told() >= end; }) && robot.live() == live;
+    const std::uint64_t live = robot.live(), end = robot.reported() + datagrams;
+    return eventually([&] { return robot.reported() >= end; }) && robot.live() == live;
   };
   start_slave({"--adapter", robot.address(), "--set", "robot_file=robots/cartesian.txtpb", "--set",
                "robot_adapter.silence_s=0.5"});
@@ -279,12 +279,12 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-3);
   EXPECT_LT(robot.first_step(), 1e-4);
   // Readings that leap: a fault, and not one more motion.
-  robot.lie(0.3);
+  robot.sensor_fault(0.3);
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
   EXPECT_TRUE(rests_for(500));
   EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot has leapt"), std::string::npos)
       << slave_.status()->trouble();
-  robot.lie(0.0);
+  robot.sensor_fault(0.0);
   EXPECT_TRUE(rests_for(500));
   EXPECT_LT(std::abs(robot.joint(2) - at_m), 1e-3);
   EXPECT_LT(robot.step(), 1e-3);
@@ -294,7 +294,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
 /// Does what the check asks for, until it ends. Its exit status and what it said.
 Tried pushed(SensorFlaw flaw) {
   RobotBox robot;
-  robot.spoil(flaw);
+  robot.mark_affected(flaw);
   RunningProgram check("longreach", {"adapter", "check", "--push", "--robot", robot.address(), "--robot-file",
                                      "robots/cartesian.txtpb", "--patience", "2"});
   std::optional<int> status;
@@ -320,7 +320,7 @@ Tried pushed(SensorFlaw flaw) {
 TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
   struct Case {
     SensorFlaw flaw;
-    const char* told;
+    const char* reported;
     const char* advice;
   };
   const Case cases[] = {{SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
@@ -329,16 +329,16 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
                         {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N while nobody touches it", "sensing.tool"},
                         {SensorFlaw::kDead, "tells nothing along y of the base", "a channel is dead"}};
   // A person each, all at once.
-  auto unspoiled = std::async(std::launch::async, pushed, SensorFlaw::kNone);
+  auto uncorrupted = std::async(std::launch::async, pushed, SensorFlaw::kNone);
   std::vector<std::future<Tried>> persons;
   for (const Case& c : cases) persons.push_back(std::async(std::launch::async, pushed, c.flaw));
   for (const Case& c : cases) {
     const Tried tried = persons[static_cast<std::size_t>(&c - cases)].get();
     EXPECT_EQ(tried.status, 1) << tried.output;
-    EXPECT_NE(tried.output.find(c.told), std::string::npos) << c.told << "\n" << tried.output;
+    EXPECT_NE(tried.output.find(c.reported), std::string::npos) << c.reported << "\n" << tried.output;
     EXPECT_NE(tried.output.find(c.advice), std::string::npos) << c.advice << "\n" << tried.output;
   }
-  const Tried right = unspoiled.get();
+  const Tried right = uncorrupted.get();
   EXPECT_EQ(right.status, 0) << right.output;
   EXPECT_NE(right.output.find("0 warnings, 0 failures"), std::string::npos) << right.output;
   EXPECT_EQ(try_adapter({"--push", "--robot", "unix:/nowhere"}).status, 2);

@@ -37,7 +37,7 @@ class Answers : public Station {
 };
 
 // As an IRB120 with q5 = 2.15, whose limit is 2.094.
-TEST_F(Answers, ARobotBeyondALimitIsNotEngagedAndTheOperatorIsToldWhichJointAndWhatToDo) {
+TEST_F(Answers, RobotBeyondLimitIsNotEngagedAndErrorNamesJoint) {
   RobotBox robot;
   const auto carry = [&robot](double m_per_s, const std::function<bool()>& there) {
     robot.push(m_per_s);
@@ -47,7 +47,7 @@ TEST_F(Answers, ARobotBeyondALimitIsNotEngagedAndTheOperatorIsToldWhichJointAndW
   carry(0.4, [&] { return robot.joint(2) > 1.003; });
   start_with(robot);
   const std::string where = "at the slave: joint 3 of the robot is at 1.0",
-                    advice = "beyond its limit of 1; move it back by the robot's own means, then engage";
+                    advice = "beyond its limit of 1; move it back with the robot's own controls, then engage";
   const Said said = client({"engage"});
   EXPECT_EQ(said.status, 1) << said.text;
   EXPECT_TRUE(said.has("not engaged: " + where) && said.has(advice)) << said.text << outputs();
@@ -63,7 +63,7 @@ TEST_F(Answers, ARobotBeyondALimitIsNotEngagedAndTheOperatorIsToldWhichJointAndW
 // An adapter that is used with the wrong robot file.
 TEST_F(Answers, AJointFarBeyondItsLimitsIsNamedAtTheMaster) {
   RobotBox robot;
-  robot.lie(30.0);
+  robot.sensor_fault(30.0);
   start_with(robot, {"--operator", "none", "--view", "plain", "--engage"});
   const std::string where = "at the slave: joint 3 of the robot is at 30 rad (or m), beyond its limit of 1";
   ASSERT_TRUE(eventually([&] { return master_.status()->refusal().starts_with(where); })) << outputs();
@@ -72,7 +72,7 @@ TEST_F(Answers, AJointFarBeyondItsLimitsIsNamedAtTheMaster) {
   EXPECT_TRUE(says(*master_program_, "check robot_file")) << outputs();
 }
 
-TEST_F(Answers, ARunThatEndsInAFaultFailsAndSaysWhichAndWhatShareItWasEngaged) {
+TEST_F(Answers, RunThatEndsInFaultFailsAndReportsEngagedShare) {
   start_slave();
   start_master({"--operator", "none", "--engage", "--view", "plain", "--seconds", "600"});
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -82,12 +82,12 @@ TEST_F(Answers, ARunThatEndsInAFaultFailsAndSaysWhichAndWhatShareItWasEngaged) {
   ASSERT_TRUE(master_program_->wait(seconds(30)));
   const std::string text = master_program_->output();
   EXPECT_NE(text.find("1 holds, 1 of them a fault"), std::string::npos) << text;
-  EXPECT_NE(text.find("no datagram comes from the other side"), std::string::npos) << text;
+  EXPECT_NE(text.find("no datagram arrives from the other side"), std::string::npos) << text;
   EXPECT_NE(text.find("verdict: at least one check FAILED"), std::string::npos) << text;
   EXPECT_NE(text.find(" %)"), std::string::npos) << text;
 }
 
-TEST_F(Answers, ALinkThatGetsBetterDoesNotHoldAndOneThatGetsWorseIsAnnounced) {
+TEST_F(Answers, ImprovedLinkDoesNotHoldAndWorseLinkIsReported) {
   start_slave({"--profile", "moon"});
   start_master({"--operator", "none", "--profile", "moon"});
   ASSERT_TRUE(engaged()) << outputs();
@@ -111,7 +111,7 @@ TEST_F(Answers, ALinkThatGetsBetterDoesNotHoldAndOneThatGetsWorseIsAnnounced) {
   EXPECT_EQ(master_program_->output().find("no datagram comes back"), std::string::npos) << outputs();
 }
 
-TEST_F(Answers, ASessionWithoutDatagramsSaysThatRpcAnswersAndDatagramsDoNot) {
+TEST_F(Answers, ReportsThatRpcWorksButDatagramsDoNot) {
   start_slave();
   start_master({"--operator", "none", "--set", "link.slave=127.0.0.1:9"});
   const std::string why = "answers, but no datagram comes back from 127.0.0.1:9";

@@ -116,7 +116,7 @@ TEST_F(Blocked, ATerminalThatNobodyReadsLeavesTheKeysAsTheyAre) {
   EXPECT_EQ(::fcntl(terminal.inner, F_GETFL) & O_NONBLOCK, 0);
 }
 
-TEST_F(Blocked, AHandThatNobodyAsksAnyMoreIsAHoldAndStaysOne) {
+TEST_F(Blocked, UnpolledHandCausesHold) {
   const Terminal terminal;
   start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master(keyboard("none"), {terminal.inner, -1, -1});
@@ -144,9 +144,9 @@ TEST_F(Blocked, AFullStandardErrorDelaysNoCallNoTickAndNoEnd) {
   Disturbance disturbance(slave_, master_);
   const std::uint64_t refused = slave_.counter("rpc_refused");
   {
-    const IdleConnections strangers(ports_.slave_rpc, 1);
-    ASSERT_EQ(strangers.connected(), 1);
-    ASSERT_EQ(::send(strangers.socket(0), "no TLS at all\n", 14, 0), 14);
+    const IdleConnections unknown_peers(ports_.slave_rpc, 1);
+    ASSERT_EQ(unknown_peers.connected(), 1);
+    ASSERT_EQ(::send(unknown_peers.socket(0), "no TLS at all\n", 14, 0), 14);
     ASSERT_TRUE(eventually([&] { return slave_.counter("rpc_refused") > refused; }, kSoon));
   }
   EXPECT_EQ(slave_.state(), "Engaged");

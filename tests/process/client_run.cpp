@@ -17,7 +17,7 @@ namespace longreach {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kPatience = std::chrono::seconds(30);
+constexpr auto kTimeout = std::chrono::seconds(30);
 
 /// The two ends of a stream: what the client writes to, and what the test reads from.
 struct Stream {
@@ -84,7 +84,7 @@ ClientRun::~ClientRun() {
 void ClientRun::signal(int number) const { ::kill(pid_, number); }
 
 void ClientRun::read(const std::string& until) {
-  const auto deadline = Clock::now() + kPatience;
+  const auto deadline = Clock::now() + kTimeout;
   std::array<pollfd, 2> ends{{{out_end_, POLLIN, 0}, {err_end_, POLLIN, 0}}};
   while (Clock::now() < deadline && (ends[0].fd >= 0 || ends[1].fd >= 0)) {
     if (!until.empty() && out_.find(until) != std::string::npos) return;
@@ -95,7 +95,7 @@ void ClientRun::read(const std::string& until) {
 }
 
 int ClientRun::status() {
-  const auto deadline = Clock::now() + kPatience;
+  const auto deadline = Clock::now() + kTimeout;
   while (!status_ && Clock::now() < deadline) {
     int raw = 0;
     if (::waitpid(pid_, &raw, WNOHANG) == pid_)

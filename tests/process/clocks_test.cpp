@@ -26,13 +26,13 @@ struct Differences {
   std::size_t setpoints = 0;
 };
 
-Differences differences(const std::vector<ToldSetpoint>& told) {
+Differences differences(const std::vector<ReportedSetpoint>& reported) {
   Differences worst;
   std::array<std::array<double, 3>, 4> x{};  // the newest first
   std::uint64_t last = 0;
   int run = 0;  // live setpoints in a row
   bool live = true;
-  for (const ToldSetpoint& t : told) {
+  for (const ReportedSetpoint& t : reported) {
     if (t.live && !live) worst.first_m = std::max(worst.first_m, t.off);
     live = t.live;
     run = t.live ? (t.sequence == last + 1 ? run + 1 : 1) : 0;

@@ -99,7 +99,7 @@ TEST_F(Doctor, AMasterWithoutASlaveIsAFailure) {
   EXPECT_TRUE(visit.says("it does not run on this machine")) << visit.text;
 }
 
-TEST_F(Doctor, ASiteThatOthersMayOpenIsAFailureWithTheCommandThatClosesIt) {
+TEST_F(Doctor, ReadableSiteFailsAndReportsChmodCommand) {
   const fs::path site = new_site("open");
   ::chmod((site / "master.key").c_str(), 0644);
   const Visit visit = this->visit({"--site", site.string()});

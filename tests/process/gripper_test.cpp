@@ -63,9 +63,9 @@ TEST_F(Gripping, ALoadStaysInTheGripperWhenTheMasterIsStartedAgain) {
     }
     return slave_.status()->gripper().find("kg") != std::string::npos;
   })) << outputs();
-  const std::string told = slave_.status()->gripper();
-  EXPECT_NEAR(std::stod(told.substr(told.find("holds ") + 6)), 5.0, 0.5) << told;
-  EXPECT_EQ(slave_.counter("touches"), 0u) << told;
+  const std::string reported = slave_.status()->gripper();
+  EXPECT_NEAR(std::stod(reported.substr(reported.find("holds ") + 6)), 5.0, 0.5) << reported;
+  EXPECT_EQ(slave_.counter("touches"), 0u) << reported;
   second.type("g");
   EXPECT_TRUE(gripper_is("open")) << outputs();
 }

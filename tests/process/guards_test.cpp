@@ -43,11 +43,11 @@ TEST_F(Guards, GiveWayToAWallThatComesAndTheOperatorRetreats) {
     if (now && now->state() == "Engaged") most_n = std::max(most_n, now->force_n());
     return now && now->state() == "Holding";
   })) << outputs();
-  EXPECT_EQ(slave_.status()->cause(), "wall comes") << outputs();
+  EXPECT_EQ(slave_.status()->cause(), "surface approaching") << outputs();
   EXPECT_GT(most_n, 0.5 * kGuard_n);
   EXPECT_LT(most_n, 1.35 * kGuard_n);
   EXPECT_NEAR(tool_x_m(), from_m - kGiveWay_m, 0.01);
-  EXPECT_TRUE(eventually([this] { return master_.status()->cause() == "wall comes"; })) << outputs();
+  EXPECT_TRUE(eventually([this] { return master_.status()->cause() == "surface approaching"; })) << outputs();
   const double held_m = tool_x_m();
   terminal.type("e");
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -55,7 +55,7 @@ TEST_F(Guards, GiveWayToAWallThatComesAndTheOperatorRetreats) {
   EXPECT_TRUE(eventually([&] { return tool_x_m() < held_m - 0.02; })) << outputs();
 }
 
-TEST_F(Guards, TheMomentGuardHoldsTheToolAtAStiffStopAndTheWayBackIsFree) {
+TEST_F(Guards, MomentGuardHoldsAtStiffStopAndAllowsRetreat) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("longreach-guards-" + std::to_string(::getpid()))).string();
   ::setenv("SPNAV_SOCKET", path.c_str(), 1);

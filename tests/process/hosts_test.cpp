@@ -39,7 +39,7 @@ std::string failed_checks(const std::string& output, bool machine_stood_still) {
   return failed;
 }
 
-TEST(Hosts, ConnectEngageTouchAndStopAcrossThreeSecondsAndFivePercentLossOfDatagramsAndTcp) {
+TEST(Hosts, FullSessionOverThreeSecondsDelayAndFivePercentLoss) {
   BareLoops machine;
   HostsRun hosts({"--delay", "3s", "--loss", "5%", "--seconds", "300"});
   ASSERT_TRUE(hosts.up()) << hosts.all();
@@ -158,7 +158,7 @@ TEST(Hosts, LeaveNothingBehindWhenTheyAreKilledOutright) {
   EXPECT_TRUE(gone(holder, seconds(30)));
 }
 
-TEST(Hosts, SayWhatIsWrongWithAnOptionAndWithoutTheRightToMakeNamespaces) {
+TEST(Hosts, ReportBadOptionsAndMissingNamespacePermission) {
   const auto refused = [](const std::string& program, std::vector<std::string> words,
                           const std::string& about) {
     RunningProgram run(program, words);

@@ -47,8 +47,8 @@ TEST_F(Lease, IsTakenAndTheRobbedMasterKnowsByWhomAndWaits) {
   ASSERT_TRUE(both_engaged()) << outputs();
   auto second = start_second({"--take"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; })) << outputs() << second->output();
-  EXPECT_EQ(slave_.status()->cause(), "taken");
-  ASSERT_TRUE(eventually([this] { return master_.status()->cause() == "taken"; })) << outputs();
+  EXPECT_EQ(slave_.status()->cause(), "preempted");
+  ASSERT_TRUE(eventually([this] { return master_.status()->cause() == "preempted"; })) << outputs();
   const std::string holder = lease();
   EXPECT_EQ(master_.status()->lease(), holder);
   EXPECT_EQ(master_.status()->state(), "Holding");

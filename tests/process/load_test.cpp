@@ -90,7 +90,7 @@ class UnderLoad : public Station {
   }
 };
 
-TEST_F(UnderLoad, IdleConnectionsRequestsAndForgedDatagramsDisturbNothing) {
+TEST_F(UnderLoad, IdleConnectionsAndForgedDatagramsDisturbNothing) {
   press();
   if (HasFatalFailure()) return;
   for (const Load& load : {Load{.idle = kIdle}, Load{.requests_hz = kRequestsHz},

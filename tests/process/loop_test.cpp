@@ -43,7 +43,7 @@ TEST_F(Station, TheHandFeelsTheWall) {
   EXPECT_EQ(slave_.counter("limit_violations"), 0u);
 }
 
-TEST_F(Station, AMasterThatDiesIsNoticedAndTheRobotHoldsUntilItIsEngagedAgain) {
+TEST_F(Station, RobotHoldsAfterMasterDiesUntilEngagedAgain) {
   start_slave();
   start_master({"--operator", "script", "--engage"});
   ASSERT_TRUE(both_engaged()) << outputs();
@@ -71,7 +71,7 @@ TEST_F(Station, AMasterThatDiesIsNoticedAndTheRobotHoldsUntilItIsEngagedAgain) {
   EXPECT_TRUE(both_engaged()) << outputs();
 }
 
-TEST_F(Station, ASlaveThatDiesIsNoticedAndFoundAgainButNotEngagedByItself) {
+TEST_F(Station, ReconnectsToRestartedSlaveWithoutEngaging) {
   start_slave();
   start_master({"--operator", "script", "--engage"});
   ASSERT_TRUE(both_engaged()) << outputs();

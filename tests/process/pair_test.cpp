@@ -103,12 +103,12 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
             site_credentials(default_site(), RpcRole::kClient).authority);
   EXPECT_EQ(site_credentials(site_ + ".before-1", RpcRole::kClient).authority, before);
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 0) << desk_->output();
-  const auto [again, nobody] = there(pair_words(offer, {"--replace"}));
+  const auto [again, refused_peer] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(again, 1);
-  EXPECT_NE(nobody.find("nobody pairs at " + offer.address), std::string::npos) << nobody;
+  EXPECT_NE(refused_peer.find("nobody pairs at " + offer.address), std::string::npos) << refused_peer;
 }
 
-TEST_F(Pairing, ATokenIsNotTakenFromTheArgumentsNorFromAFileThatOthersRead) {
+TEST_F(Pairing, RefusesTokenFromArgumentsOrReadableFile) {
   const Offer offer = open_desk();
   const auto [status, said] = there({"pair", "--slave", offer.address, offer.token});
   EXPECT_EQ(status, 2);
@@ -140,9 +140,9 @@ TEST_F(Pairing, AHostThatIsUnpairedLosesTheRobotAndGetsItNoMore) {
   const std::string host = list.output().substr(0, list.output().find(' '));
   EXPECT_NE(list.output().find("  master  since 2"), std::string::npos) << list.output();
   EXPECT_NE(list.output().find("  client  since 2"), std::string::npos) << list.output();
-  RunningProgram nobody("longreach", {"unpair", "nobody-of-this-name"});
-  EXPECT_EQ(nobody.wait(std::chrono::seconds(60)), 1);
-  EXPECT_NE(nobody.output().find("pair --list"), std::string::npos) << nobody.output();
+  RunningProgram refused_peer("longreach", {"unpair", "nobody-of-this-name"});
+  EXPECT_EQ(refused_peer.wait(std::chrono::seconds(60)), 1);
+  EXPECT_NE(refused_peer.output().find("pair --list"), std::string::npos) << refused_peer.output();
   EXPECT_EQ(slave_.state(), "Engaged") << "nothing was revoked";
 
   RunningProgram unpair("longreach", {"unpair", host});

@@ -37,7 +37,7 @@ class Person : public Station {
     });
   }
   /// More than this, for a second.
-  bool feels_contact(double least_n = 1.0) {
+  bool detects_contact(double least_n = 1.0) {
     int times = 0;
     return eventually([&, this] {
       const auto now = master_.status();
@@ -128,7 +128,7 @@ TEST_F(Person, MovesAndWaitsAtTheMoonAndFeelsTheWall) {
         {"--profile", "moon"});
   terminal_.type("WWWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
-  EXPECT_TRUE(feels_contact()) << outputs();
+  EXPECT_TRUE(detects_contact()) << outputs();
 }
 
 TEST_F(Person, FeelsAWallInRateMode) {
@@ -136,7 +136,7 @@ TEST_F(Person, FeelsAWallInRateMode) {
   const HeldKey held(terminal_.outer);
   terminal_.type("WWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
-  EXPECT_TRUE(feels_contact()) << outputs();
+  EXPECT_TRUE(detects_contact()) << outputs();
 }
 
 TEST_F(Person, FeelsBothSidesOfASlot) {
@@ -151,11 +151,11 @@ TEST_F(Person, FeelsBothSidesOfASlot) {
   start({"--set", "scene_file=" + scene}, "position");
   terminal_.type("WWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
-  EXPECT_TRUE(feels_contact(0.4)) << outputs();
+  EXPECT_TRUE(detects_contact(0.4)) << outputs();
   terminal_.type("SSSSSSSSSSSS");
   ASSERT_TRUE(eventually([this] { return tool_x_m() < anchor_m_ - 0.015; })) << outputs();
   ASSERT_TRUE(touches(true)) << outputs();
-  EXPECT_TRUE(feels_contact(0.4)) << outputs();
+  EXPECT_TRUE(detects_contact(0.4)) << outputs();
   EXPECT_LT(goal_x_m(), -0.02) << "the hand is pushed back, not pulled in";
   terminal_.type("WWWW");
   ASSERT_TRUE(touches(false)) << outputs();
@@ -166,13 +166,13 @@ TEST_F(Person, ANewMasterFeelsWhatTheRobotPressesOn) {
   start({"--set", "scene.surface.wall.plane.point_m=0.01,0,0"}, "position");
   terminal_.type("WWWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
-  ASSERT_TRUE(feels_contact()) << outputs();
+  ASSERT_TRUE(detects_contact()) << outputs();
   master_program_->signal(SIGTERM);
   ASSERT_TRUE(master_program_->wait(std::chrono::seconds(10)).has_value()) << outputs();
   const Terminal another;
   start_master({"--operator", "keyboard", "--mode", "position", "--engage"}, {another.inner, -1, -1});
   ASSERT_TRUE(both_engaged()) << outputs();
-  EXPECT_TRUE(feels_contact(0.3)) << outputs();  // it drives a light hand back from home
+  EXPECT_TRUE(detects_contact(0.3)) << outputs();  // it drives a light hand back from home
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch
 }  // namespace
 
 void RobotBox::take(const SetpointDatagram& in) {
-  ++told_;
+  ++reported_;
   const std::lock_guard lock(mutex_);
   const bool moves = (in.flags & SetpointDatagram::kMove) != 0;
-  ToldSetpoint told{in.header.sequence, moves, {in.joint_rad[0], in.joint_rad[1], in.joint_rad[2]}};
-  for (std::size_t i = 0; i < told.joint.size(); ++i)
-    told.off = std::max(told.off, std::abs(told.joint[i] - joint_[i]));
-  setpoints_.push_back(told);
+  ReportedSetpoint reported{in.header.sequence, moves, {in.joint_rad[0], in.joint_rad[1], in.joint_rad[2]}};
+  for (std::size_t i = 0; i < reported.joint.size(); ++i)
+    reported.off = std::max(reported.off, std::abs(reported.joint[i] - joint_[i]));
+  setpoints_.push_back(reported);
   if (moves) {
     ++live_;
     for (std::size_t i = 0; i < joint_.size(); ++i) {
@@ -35,14 +35,14 @@ void RobotBox::take(const SetpointDatagram& in) {
 }
 
 // The axes of the tool are -z, y and x of the base.
-void RobotBox::tell(const std::array<double, 3>& felt, double weight, double (&told)[3]) const {
+void RobotBox::apply(const std::array<double, 3>& felt, double weight, double (&reported)[3]) const {
   const std::array<double, 3> in_tool{-felt[2], felt[1], felt[0]};
-  std::ranges::copy(flaw_ == SensorFlaw::kBase ? felt : in_tool, told);
+  std::ranges::copy(flaw_ == SensorFlaw::kBase ? felt : in_tool, reported);
   if (flaw_ == SensorFlaw::kSign)
-    for (double& x : told) x = -x;
-  if (flaw_ == SensorFlaw::kExchanged) std::swap(told[0], told[1]);
-  if (flaw_ == SensorFlaw::kWeight) told[0] += weight;
-  if (flaw_ == SensorFlaw::kDead) told[1] = 0.0;
+    for (double& x : reported) x = -x;
+  if (flaw_ == SensorFlaw::kExchanged) std::swap(reported[0], reported[1]);
+  if (flaw_ == SensorFlaw::kWeight) reported[0] += weight;
+  if (flaw_ == SensorFlaw::kDead) reported[1] = 0.0;
 }
 
 RobotDatagram RobotBox::move(double dt) {
@@ -56,11 +56,11 @@ RobotDatagram RobotBox::move(double dt) {
     out.joint_rad[i] = joint_[i];
     out.joint_rad_per_s[i] = speed;
   }
-  out.joint_rad[2] += lie_m_;
+  out.joint_rad[2] += fault_m_;
   std::array<double, 3> felt_n = force_n_;
   felt_n[0] -= 1000.0 * std::max(0.0, joint_[2] - wall_m_);
-  tell(felt_n, 15.0, out.force_n);
-  tell(moment_nm_, 0.0, out.moment_nm);
+  apply(felt_n, 15.0, out.force_n);
+  apply(moment_nm_, 0.0, out.moment_nm);
   return out;
 }
 

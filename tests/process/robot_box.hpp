@@ -18,7 +18,7 @@ namespace longreach {
 enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead };
 
 /// A setpoint as it came.
-struct ToldSetpoint {
+struct ReportedSetpoint {
   std::uint64_t sequence = 0;
   bool live = false;
   std::array<double, 3> joint{};
@@ -37,7 +37,7 @@ class RobotBox {
 
   [[nodiscard]] std::string address() const { return listener_.address(); }
   /// Datagrams so far: all, and those that mean a motion.
-  [[nodiscard]] std::uint64_t told() const { return told_; }
+  [[nodiscard]] std::uint64_t reported() const { return reported_; }
   [[nodiscard]] std::uint64_t live() const { return live_; }
   [[nodiscard]] double joint(int i) {
     const std::lock_guard lock(mutex_);
@@ -53,7 +53,7 @@ class RobotBox {
     return first_step_;
   }
   /// All setpoints so far.
-  [[nodiscard]] std::vector<ToldSetpoint> setpoints() {
+  [[nodiscard]] std::vector<ReportedSetpoint> setpoints() {
     const std::lock_guard lock(mutex_);
     return setpoints_;
   }
@@ -66,27 +66,27 @@ class RobotBox {
     moment_nm_ = moment_nm;
   }
   /// What its sensor makes of it, from now on.
-  void spoil(SensorFlaw flaw) {
+  void mark_affected(SensorFlaw flaw) {
     const std::lock_guard lock(mutex_);
     flaw_ = flaw;
   }
   /// Somebody moves it: at this speed along its third joint from now on.
   void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
   /// It says that its third joint is so far off from now on.
-  void lie(double m) { lie_m_ = m; }
+  void sensor_fault(double m) { fault_m_ = m; }
 
  private:
   void run();
   void take(const adapter::SetpointDatagram& in);
   [[nodiscard]] adapter::RobotDatagram move(double dt);
-  void tell(const std::array<double, 3>& felt, double weight, double (&told)[3]) const;
+  void apply(const std::array<double, 3>& felt, double weight, double (&reported)[3]) const;
 
   AdapterListener listener_;
-  std::atomic<std::uint64_t> told_{0}, live_{0};
-  std::atomic<double> pushed_m_per_s_{0.0}, lie_m_{0.0}, wall_m_{1e9};
+  std::atomic<std::uint64_t> reported_{0}, live_{0};
+  std::atomic<double> pushed_m_per_s_{0.0}, fault_m_{0.0}, wall_m_{1e9};
   std::mutex mutex_;
   std::array<double, adapter::kJoints> joint_{}, setpoint_{};
-  std::vector<ToldSetpoint> setpoints_;
+  std::vector<ReportedSetpoint> setpoints_;
   double step_ = 0.0, first_step_ = 0.0;
   bool follows_ = false;
   std::array<double, 3> force_n_{}, moment_nm_{};

@@ -59,7 +59,7 @@ TEST_F(SafetyOfPrograms, AMasterKilledInContactLeavesTheHoldForceAndTheContact) 
   }
 }
 
-TEST_F(SafetyOfPrograms, ASlaveKilledInContactLeavesAHandWithoutForceThatIsToldWhy) {
+TEST_F(SafetyOfPrograms, KilledSlaveInContactReleasesForceAndReportsCause) {
   for (int i = 0; i < campaign(100, 1); ++i) {
     press();
     if (HasFatalFailure()) return;

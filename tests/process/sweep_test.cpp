@@ -160,7 +160,7 @@ TEST_F(Sweep, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
                       " of 100000 cells done; the same command goes on\n");
 }
 
-TEST_F(Sweep, MistakesEndWithStatus2AndOneSentenceBeforeAnythingRuns) {
+TEST_F(Sweep, MistakesExitWithStatus2BeforeAnythingRuns) {
   const auto expect = [this](const std::vector<std::string>& arguments, const std::string& about) {
     const Ended ended = lab(arguments);
     EXPECT_EQ(ended.status, 2) << ended.output;

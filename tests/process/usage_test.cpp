@@ -29,7 +29,7 @@ void expect_one_sentence(const Ended& ended, int status, const std::string& abou
   EXPECT_NE(ended.output.find(about), std::string::npos) << what << ": " << ended.output;
 }
 
-TEST(Usage, BadOptionsAndConfigurationsEndWithStatus2AndASentenceThatNamesThem) {
+TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
   for (const std::string name : {"longreach-slave", "longreach-master"}) {
     const auto expect = [&name](const std::vector<std::string>& arguments, const std::string& about) {
       expect_one_sentence(run(name, arguments), 2, about, name + " " + arguments.back());

@@ -140,9 +140,9 @@ TEST_F(View, WhoHasNotTheAddressGetsNothingAndMovesNothing) {
     return page.send(R"({"do":"engage"})");
   };
   for (const std::string path : {"/", "/aaaaaaaaaaaaaaaaaaaaaaaaaa/"}) {
-    const PageClient stranger("http://127.0.0.1:" + port + path);
-    EXPECT_FALSE(stranger.ok()) << path;
-    (void)take_and_engage(stranger);
+    const PageClient unknown_peer("http://127.0.0.1:" + port + path);
+    EXPECT_FALSE(unknown_peer.ok()) << path;
+    (void)take_and_engage(unknown_peer);
   }
   // What came from the strangers has been dealt with when this is answered.
   PageClient page(address_);

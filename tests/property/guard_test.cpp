@@ -90,7 +90,7 @@ GuardTouch after(Then then, double wall_n_per_m = 5000.0) {
   return guard_touch(c);
 }
 
-TEST(ForceGuard, InAHoldTheForceIsBledOffToHalfTheGuardAndTheContactIsKept) {
+TEST(ForceGuard, HoldLowersForceToHalfGuardAndKeepsContact) {
   const GuardTouch touch = after(Then::kSilence);
   EXPECT_EQ(touch.view.state, SafetyState::kHolding);
   const auto pressed = static_cast<std::size_t>(std::lround((touch.touched_s + 1.0) * 1e3));
@@ -106,7 +106,7 @@ TEST(ForceGuard, InAHoldTheForceIsBledOffToHalfTheGuardAndTheContactIsKept) {
 }
 
 /// Whether the stiffness is known by then or not, and whether the robot gives way, too.
-TEST(ForceGuard, AHoldComesDownToItsLimitWithinASecondAndKeepsTheContact) {
+TEST(ForceGuard, HoldReachesItsLimitInOneSecondAndKeepsContact) {
   constexpr double kGap_s = 0.156;   // until the hold begins
   constexpr double kBounce_s = 0.3;  // of a light tool at a first touch
   int bled = 0;

@@ -26,16 +26,16 @@ class HostileLink : public ::testing::TestWithParam<Cipher> {
       now_ = Time{std::chrono::milliseconds(i)};
       master_.send(now_, i, i % 2 == 0 ? samples::command() : samples::turn());
       const auto command = std::span(buffer).first(channels_.b().receive(buffer).value());
-      at_slave_.hear_towards(command);
-      at_master_.hear_from(command);
+      at_slave_.receive_towards(command);
+      at_master_.receive_from(command);
       channels_.a().send(command);
       slave_.receive(now_);
       slave_.send(now_, i, samples::report());
       slave_.send(now_, i, samples::telemetry());
       for (int k = 0; k < 2; ++k) {
         const auto answer = std::span(buffer).first(channels_.a().receive(buffer).value());
-        at_master_.hear_towards(answer);
-        at_slave_.hear_from(answer);
+        at_master_.receive_towards(answer);
+        at_slave_.receive_from(answer);
         channels_.b().send(answer);
       }
       master_.receive(now_);

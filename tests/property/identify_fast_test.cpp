@@ -44,9 +44,9 @@ struct Tally {
   int samples = 0, known = 0, wrong = 0, early = 0, late = 0, due = 0;
 };
 
-void watch(const Approach& approach, bool noise_told, Random& random, Tally& tally) {
+void watch(const Approach& approach, bool noise_reported, Random& random, Tally& tally) {
   IdentifierConfig config;
-  config.force_noise_n = noise_told ? 0.05 : 0.0;
+  config.force_noise_n = noise_reported ? 0.05 : 0.0;
   Identifier identifier(config);
   for (int i = -200; i * 1e-3 < approach.stop_s; ++i) {
     const double t = 1e-3 * i + 5e-4;
@@ -70,13 +70,13 @@ void watch(const Approach& approach, bool noise_told, Random& random, Tally& tal
 
 // 3 sd: 0.27 % of a normal deviate.
 TEST(Identification, KnowsTheElasticSecantAfterFiftyMilliseconds) {
-  for (const bool noise_told : {true, false}) {
-    Random random(noise_told ? 11 : 12);
+  for (const bool noise_reported : {true, false}) {
+    Random random(noise_reported ? 11 : 12);
     Tally tally;
     const int approaches = campaign(3000, 150);
-    for (int i = 0; i < approaches; ++i) watch(drawn(random), noise_told, random, tally);
+    for (int i = 0; i < approaches; ++i) watch(drawn(random), noise_reported, random, tally);
     std::printf("noise %s: of %d samples due %d late, %d of %d known ones off by over 5 %%\n",
-                noise_told ? "told" : "learnt", tally.due, tally.late, tally.wrong, tally.known);
+                noise_reported ? "told" : "learnt", tally.due, tally.late, tally.wrong, tally.known);
     EXPECT_EQ(tally.early, 0);
     EXPECT_LE(tally.late, 0.0027 * tally.due);
     EXPECT_LE(tally.wrong, 0.0027 * tally.known);

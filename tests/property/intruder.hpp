@@ -28,10 +28,10 @@ class Intruder {
   explicit Intruder(Random random) : random_(random) {}
 
   /// What went to the side under attack, and what came from it.
-  void hear_towards(std::span<const std::byte> datagram) {
+  void receive_towards(std::span<const std::byte> datagram) {
     towards_.emplace_back(datagram.begin(), datagram.end());
   }
-  void hear_from(std::span<const std::byte> datagram) {
+  void receive_from(std::span<const std::byte> datagram) {
     from_.emplace_back(datagram.begin(), datagram.end());
   }
 

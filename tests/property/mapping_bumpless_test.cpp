@@ -82,7 +82,7 @@ struct Master {
 };
 
 /// Presses or releases one thing: mode, scale up, scale down, clutch, the handle itself.
-int fumble(HandleState& h, Random& random) {
+int act_erratically(HandleState& h, Random& random) {
   const std::array<bool*, 5> things = {&h.buttons.mode, &h.buttons.scale_up, &h.buttons.scale_down,
                                        &h.buttons.clutch, &h.held};
   const int which = static_cast<int>(random.uniform(0.0, 5.0));
@@ -108,7 +108,7 @@ struct Asked {
   }
 };
 
-TEST(MappingProperty, WhateverAHandDoesToTheButtonsTheRobotIsAskedToFollowSmoothly) {
+TEST(MappingProperty, GoalsStaySmoothForAnyButtonInput) {
   const int seeds = campaign(500, 20);
   for (int seed = 1; seed <= seeds; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -119,7 +119,7 @@ TEST(MappingProperty, WhateverAHandDoesToTheButtonsTheRobotIsAskedToFollowSmooth
     for (int i = 1; i <= 3000; ++i) {
       wander(master.in.handle, random, 0.1, 1.0);
       const MasterView before = master.node.view();
-      const int touched = random.chance(0.02) ? fumble(master.in.handle, random) : -1;
+      const int touched = random.chance(0.02) ? act_erratically(master.in.handle, random) : -1;
       const MasterOutput out = master.tick();
       const MasterView& after = master.node.view();
       const bool rescales = after.scale != before.scale && after.mode == MotionMode::kPosition;

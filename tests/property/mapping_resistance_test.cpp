@@ -20,8 +20,8 @@ RenderingConfig any_rendering(Random& random) {
 }
 
 /// Mapping and resistance in the hand of somebody who fumbles with everything.
-struct Fumbler {
-  explicit Fumbler(std::uint64_t seed)
+struct ErraticOperator {
+  explicit ErraticOperator(std::uint64_t seed)
       : random(seed), config(any_rendering(random)), mapping(any_mapping(random)), resistance(config) {
     mapping.reset(in.handle);
     resistance.reset(in.handle);
@@ -62,7 +62,7 @@ double turned_round_j(double damping, const Vector3& rate_before, const Vector3&
 TEST(ResistanceProperty, GivesBackNoMoreEnergyThanItWasGivenInAnyTick) {
   const int seeds = campaign(2000, 100);
   for (int seed = 1; seed <= seeds; ++seed) {
-    Fumbler f(static_cast<std::uint64_t>(seed));
+    ErraticOperator f(static_cast<std::uint64_t>(seed));
     const double k = stiffest(f.config.rate_stiffness_n_per_m, f.config.friction_stiffness_n_per_m, f.config);
     const double k_rad =
         stiffest(f.config.rotational_stiffness_nm_per_rad, f.config.friction_stiffness_nm_per_rad, f.config);
@@ -97,7 +97,7 @@ TEST(ResistanceProperty, GivesBackNoMoreEnergyThanItWasGivenInAnyTick) {
 TEST(ResistanceProperty, ItsForceDoesNotStep) {
   const int seeds = campaign(2000, 100);
   for (int seed = 1; seed <= seeds; ++seed) {
-    Fumbler f(static_cast<std::uint64_t>(seed));
+    ErraticOperator f(static_cast<std::uint64_t>(seed));
     const RenderingConfig& c = f.config;
     const double k = stiffest(c.rate_stiffness_n_per_m, c.friction_stiffness_n_per_m, c);
     const double k_rad = stiffest(c.rotational_stiffness_nm_per_rad, c.friction_stiffness_nm_per_rad, c);

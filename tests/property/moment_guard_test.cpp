@@ -126,7 +126,7 @@ TurnCase draw(Random& random, int i) {
   return c;
 }
 
-TEST(MomentGuardProperty, HoldsAFirstContactInsideItsEnvelopeAndTheFormulaOutside) {
+TEST(MomentGuardProperty, HoldsFirstContactInsideEnvelope) {
   Random random(44);
   int inside = 0, outside = 0, pressed = 0;
   double worst = 0.0, worst_outside = 0.0;

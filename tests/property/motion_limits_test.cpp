@@ -80,7 +80,7 @@ void expect_limits(const Drive& drive) {
 
 // Braking for a goal that comes towards the tool and the few ms of the jerk limit go without saying; whatever
 // is more is told.
-void expect_told(const Drive& drive) {
+void expect_reported(const Drive& drive) {
   constexpr double kBraking = 0.8, kLateS = 0.008;  // share of the acceleration (vector_limit.hpp)
   const CommandConfig& c = drive.command;
   const double v = c.speed_max_m_per_s, w = c.speed_max_rad_per_s;
@@ -119,7 +119,7 @@ void expect_path(Kind kind, const NamedArm& arm, int number, Summary& summary) {
   drive.follow(random);
   drive.settle(tour.legs.back().to);
   expect_prompt(drive.outcome);
-  expect_told(drive);
+  expect_reported(drive);
   summary.add(drive);
   if (!drive.outcome.arrived) expect_it_leaves(drive);
   expect_limits(drive);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "slave/config/guard_config.hpp"
-#include "tests/property/lying_touch.hpp"
+#include "tests/property/faulty_touch.hpp"
 
 namespace longreach::test {
 namespace {
@@ -16,27 +16,31 @@ namespace {
 constexpr double kUnanswered_m = 0.02;
 constexpr double kBraking_m = 1e-3;  // servo and rounding
 
-TEST(SensorFaults, AWrongSignOrFrameDoesNotPressHarderThanTheGuardAndIsTold) {
+TEST(SensorFaults, WrongSignOrFrameStaysBelowGuardAndIsReported) {
   constexpr double kQuarter = 0.5 * std::numbers::pi;
   double worst = 0.0;
   for (const double wall_n_per_m : {1e3, 2e3, 5e3}) {
-    for (const SensorLie& lie : {SensorLie{Lie::kSign}, SensorLie{Lie::kFrame, kQuarter, Vector3::UnitY()},
-                                 SensorLie{Lie::kFrame, kQuarter, Vector3::UnitX()},
-                                 SensorLie{Lie::kFrame, -kQuarter, Vector3::UnitX()}, SensorLie{Lie::kAxes},
-                                 SensorLie{Lie::kFrame, 2.1, Vector3::UnitY()}}) {
+    for (const SensorFault& sensor_fault :
+         {SensorFault{SensorFaultKind::kSign},
+          SensorFault{SensorFaultKind::kFrame, kQuarter, Vector3::UnitY()},
+          SensorFault{SensorFaultKind::kFrame, kQuarter, Vector3::UnitX()},
+          SensorFault{SensorFaultKind::kFrame, -kQuarter, Vector3::UnitX()},
+          SensorFault{SensorFaultKind::kAxes}, SensorFault{SensorFaultKind::kFrame, 2.1, Vector3::UnitY()}}) {
       for (const double servo_hz : {3.0, 10.0}) {
         for (const double speed : {0.01, 0.05}) {
-          LieCase c;
-          c.lie = lie;
+          SensorFaultCase c;
+          c.sensor_fault = sensor_fault;
           c.guard.wall_n_per_m = wall_n_per_m;
           c.guard.servo_hz = servo_hz;
           c.guard.speed_m_per_s = speed;
           c.end_s = 0.03 / speed + 4.0;
-          const LieRun run = lie_run(c);
-          const auto what = std::string(name(lie.lie)) + ' ' + std::to_string(lie.amount);
+          const SensorFaultRun run = sensor_fault_run(c);
+          const auto what =
+              std::string(name(sensor_fault.sensor_fault)) + ' ' + std::to_string(sensor_fault.amount);
           EXPECT_LE(run.peak_n, kGuardOvershoot * c.guard.guard_n) << what << ": " << c.guard;
-          EXPECT_EQ(run.told, HoldCause::kSensorSign)
-              << what << ": " << c.guard << " told " << static_cast<int>(run.told) << " at " << run.told_s;
+          EXPECT_EQ(run.reported, HoldCause::kSensorSign)
+              << what << ": " << c.guard << " told " << static_cast<int>(run.reported) << " at "
+              << run.reported_s;
           EXPECT_EQ(run.limit_violations, 0U) << what;
           worst = std::max(worst, run.peak_n / c.guard.guard_n);
         }
@@ -46,20 +50,20 @@ TEST(SensorFaults, AWrongSignOrFrameDoesNotPressHarderThanTheGuardAndIsTold) {
   std::printf("wrong sign or frame: at most %.2f of the guard\n", worst);
 }
 
-TEST(SensorFaults, TheSameTouchesWithATrueSensorAreNotDoubted) {
+TEST(SensorFaults, CorrectSensorIsNeverSuspected) {
   for (const double wall_n_per_m : {200.0, 1e3, 5e3, 2e4}) {
     for (const double servo_hz : {3.0, 10.0}) {
       for (const double silent_s : {1e9, 3.0}) {
         for (const double mass_kg : {0.0, 3.0}) {
-          LieCase c;
+          SensorFaultCase c;
           c.guard.wall_n_per_m = wall_n_per_m;
           c.guard.servo_hz = servo_hz;
           c.guard.mass_kg = mass_kg;
           c.behind_m = 0.1;
           c.silent_s = silent_s;
-          const LieRun run = lie_run(c);
-          EXPECT_EQ(run.told, HoldCause::kNone)
-              << c.guard << " mass " << mass_kg << " told " << run.told_s << " silent " << silent_s;
+          const SensorFaultRun run = sensor_fault_run(c);
+          EXPECT_EQ(run.reported, HoldCause::kNone)
+              << c.guard << " mass " << mass_kg << " told " << run.reported_s << " silent " << silent_s;
           if (wall_n_per_m > 5e3) continue;  // more than the guard promises
           EXPECT_LE(run.peak_n, kGuardOvershoot * c.guard.guard_n) << c.guard;
         }
@@ -69,99 +73,102 @@ TEST(SensorFaults, TheSameTouchesWithATrueSensorAreNotDoubted) {
 }
 
 /// The lie begins in free space, before or after the master has fallen silent.
-TEST(SensorFaults, InAHoldALieMovesTheToolByNoMoreThanTheWayWithoutAnswer) {
+TEST(SensorFaults, SensorFaultInHoldMovesToolWithinRetreatBudget) {
   const Vector3 askew = Vector3(1, 1, 1).normalized();
-  for (const SensorLie& lie :
-       {SensorLie{Lie::kBias, 9.0 * std::sqrt(3.0), askew}, SensorLie{Lie::kStuck, 15.0},
-        SensorLie{Lie::kStuck, 30.0, -Vector3::UnitX()}, SensorLie{Lie::kDrift, 5.0, askew},
-        SensorLie{Lie::kDrift, -5.0, Vector3::UnitY()}}) {
-    for (const double lie_s : {0.5, 2.0}) {
-      LieCase c;
-      c.lie = lie;
-      c.lie_s = lie_s;
+  for (const SensorFault& sensor_fault : {SensorFault{SensorFaultKind::kBias, 9.0 * std::sqrt(3.0), askew},
+                                          SensorFault{SensorFaultKind::kStuck, 15.0},
+                                          SensorFault{SensorFaultKind::kStuck, 30.0, -Vector3::UnitX()},
+                                          SensorFault{SensorFaultKind::kDrift, 5.0, askew},
+                                          SensorFault{SensorFaultKind::kDrift, -5.0, Vector3::UnitY()}}) {
+    for (const double fault_s : {0.5, 2.0}) {
+      SensorFaultCase c;
+      c.sensor_fault = sensor_fault;
+      c.fault_s = fault_s;
       c.behind_m = -kGuardWall_m;  // rests where it starts
       c.silent_s = 1.0;
       c.end_s = 12.0;
-      const LieRun run = lie_run(c);
-      EXPECT_LE(run.way_m(0.3), kUnanswered_m + kBraking_m) << name(lie.lie) << ' ' << lie_s;
-      EXPECT_TRUE(of_the_sensor(run.told)) << name(lie.lie) << ' ' << lie_s;
+      const SensorFaultRun run = sensor_fault_run(c);
+      EXPECT_LE(run.way_m(0.3), kUnanswered_m + kBraking_m)
+          << name(sensor_fault.sensor_fault) << ' ' << fault_s;
+      EXPECT_TRUE(of_the_sensor(run.reported)) << name(sensor_fault.sensor_fault) << ' ' << fault_s;
       EXPECT_EQ(run.limit_violations, 0U);
     }
   }
 }
 
-TEST(SensorFaults, EngagedTheGuardDoesNotRetreatFurtherFromALie) {
-  for (const SensorLie& lie : {SensorLie{Lie::kStuck, 30.0}, SensorLie{Lie::kBias, 30.0, Vector3::UnitY()},
-                               SensorLie{Lie::kDrift, 10.0, -Vector3::UnitX()}}) {
-    LieCase c;
-    c.lie = lie;
-    c.lie_s = 1.0;
+TEST(SensorFaults, EngagedGuardDoesNotRetreatFurtherOnSensorFault) {
+  for (const SensorFault& sensor_fault : {SensorFault{SensorFaultKind::kStuck, 30.0},
+                                          SensorFault{SensorFaultKind::kBias, 30.0, Vector3::UnitY()},
+                                          SensorFault{SensorFaultKind::kDrift, 10.0, -Vector3::UnitX()}}) {
+    SensorFaultCase c;
+    c.sensor_fault = sensor_fault;
+    c.fault_s = 1.0;
     c.behind_m = -kGuardWall_m;
     c.end_s = 12.0;
-    const LieRun run = lie_run(c);
-    EXPECT_LE(run.way_m(0.9), kUnanswered_m + kBraking_m) << name(lie.lie);
-    EXPECT_TRUE(of_the_sensor(run.told)) << name(lie.lie);
-    EXPECT_NE(run.rows.back().state, SafetyState::kEngaged) << name(lie.lie);
+    const SensorFaultRun run = sensor_fault_run(c);
+    EXPECT_LE(run.way_m(0.9), kUnanswered_m + kBraking_m) << name(sensor_fault.sensor_fault);
+    EXPECT_TRUE(of_the_sensor(run.reported)) << name(sensor_fault.sensor_fault);
+    EXPECT_NE(run.rows.back().state, SafetyState::kEngaged) << name(sensor_fault.sensor_fault);
   }
 }
 
-TEST(SensorFaults, OneSampleThatNoSensorCanMeanMovesNothingAndIsAFaultAtOnce) {
+TEST(SensorFaults, ImpossibleSampleCausesFaultWithoutMotion) {
   for (const double value : {1e300, -1e300, 1e6, 200.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
     for (const double behind_m : {-kGuardWall_m, 0.01}) {
-      LieCase c;
-      c.lie = {Lie::kSpike, value, Vector3(1, 1, 1).normalized()};
-      c.lie_s = 3.0;
+      SensorFaultCase c;
+      c.sensor_fault = {SensorFaultKind::kSpike, value, Vector3(1, 1, 1).normalized()};
+      c.fault_s = 3.0;
       c.behind_m = behind_m;
       c.end_s = 5.0;
-      const LieRun run = lie_run(c);
+      const SensorFaultRun run = sensor_fault_run(c);
       EXPECT_LE(run.way_m(2.999), 1e-4) << value;
-      EXPECT_EQ(run.told, HoldCause::kSensorFault) << value;
-      EXPECT_LE(run.told_s - c.lie_s, 2e-3) << value;
+      EXPECT_EQ(run.reported, HoldCause::kSensorFault) << value;
+      EXPECT_LE(run.reported_s - c.fault_s, 2e-3) << value;
       EXPECT_EQ(run.rows.back().state, SafetyState::kFault) << value;
     }
   }
 }
 
-TEST(SensorFaults, AFrozenSensorIsToldWhereTheRobotGivesWay) {
-  LieCase c;
+TEST(SensorFaults, FrozenSensorIsReportedDuringRetreat) {
+  SensorFaultCase c;
   c.guard.wall_n_per_m = 1e3;
-  c.lie = {Lie::kFrozen};
-  c.lie_s = 2.0;
+  c.sensor_fault = {SensorFaultKind::kFrozen};
+  c.fault_s = 2.0;
   c.silent_s = 2.0;
-  const LieRun run = lie_run(c);
-  EXPECT_EQ(run.told, HoldCause::kSensorFault);
+  const SensorFaultRun run = sensor_fault_run(c);
+  EXPECT_EQ(run.reported, HoldCause::kSensorFault);
   EXPECT_EQ(run.rows.back().state, SafetyState::kFault);
   EXPECT_LE(run.way_m(2.0), 0.005);
 }
 
-TEST(SensorFaults, ASensorAtTheEndOfItsRangeIsToldInATenthOfASecond) {
-  LieCase c;
-  c.lie = {Lie::kStuck, 40.0};
-  c.lie_s = 1.0;
+TEST(SensorFaults, SaturatedSensorIsReportedInTenthOfASecond) {
+  SensorFaultCase c;
+  c.sensor_fault = {SensorFaultKind::kStuck, 40.0};
+  c.fault_s = 1.0;
   c.behind_m = -kGuardWall_m;
-  SlaveConfig config = lie_config(c);
+  SlaveConfig config = sensor_fault_config(c);
   config.sensing.force_range_n = 40.0;
-  const LieRun run = lie_run(c, config, [](int) { return false; });
-  EXPECT_EQ(run.told, HoldCause::kSensorFault);
-  EXPECT_LE(run.told_s - c.lie_s, 0.1);
+  const SensorFaultRun run = sensor_fault_run(c, config, [](int) { return false; });
+  EXPECT_EQ(run.reported, HoldCause::kSensorFault);
+  EXPECT_LE(run.reported_s - c.fault_s, 0.1);
 }
 
-TEST(SensorFaults, AWallThatComesIsGivenWayToAndIsNoFault) {
+TEST(SensorFaults, ApproachingWallCausesRetreatAndNoFault) {
   for (const double give_way_m : {0.03, 0.2}) {
     for (const double coming : {0.003, 0.02, 0.05}) {
       for (const double wall_n_per_m : {200.0, 1e3, 5e3}) {
-        LieCase c;
+        SensorFaultCase c;
         c.guard.wall_n_per_m = wall_n_per_m;
         c.guard.guard_n = 20.0;
         c.coming_m_per_s = coming;
         c.behind_m = -kGuardWall_m;
         const double pressed_s = c.guard.guard_n / (wall_n_per_m * coming), way_s = 0.03 / coming;
         c.end_s = kGuardWall_m / coming + pressed_s + way_s + 1.0;
-        SlaveConfig config = lie_config(c);
+        SlaveConfig config = sensor_fault_config(c);
         config.command.give_way_m = give_way_m;
-        const LieRun run = lie_run(c, config, [](int) { return false; });
-        EXPECT_EQ(run.told, HoldCause::kNone) << coming << ' ' << wall_n_per_m;
+        const SensorFaultRun run = sensor_fault_run(c, config, [](int) { return false; });
+        EXPECT_EQ(run.reported, HoldCause::kNone) << coming << ' ' << wall_n_per_m;
         double peak_n = 0.0;
         HoldCause cause = HoldCause::kNone;
         for (const auto& row : run.rows) {
@@ -177,34 +184,34 @@ TEST(SensorFaults, AWallThatComesIsGivenWayToAndIsNoFault) {
 }
 
 /// A tool of 5 kg on a robot whose adapter stands still for 10 ms, four times a second.
-LieRun stalling(double wall_behind_m) {
-  LieCase c;
+SensorFaultRun stalling(double wall_behind_m) {
+  SensorFaultCase c;
   c.guard.wall_n_per_m = 2e3;
   c.guard.speed_m_per_s = 0.01;
   c.behind_m = wall_behind_m;
   c.end_s = 5.0;
-  SlaveConfig config = lie_config(c);
+  SlaveConfig config = sensor_fault_config(c);
   config.sensing.tool.mass_kg = 5.0;
-  return lie_run(c, config, [](int tick) { return tick > 250 && tick % 250 < 10; });
+  return sensor_fault_run(c, config, [](int tick) { return tick > 250 && tick % 250 < 10; });
 }
 
 TEST(SensorFaults, AnAdapterThatStallsMakesNoTouchAndHidesNone) {
   constexpr double kInFront_m = -0.005;
   EXPECT_EQ(stalling(kInFront_m).touches, 0U);
-  const LieRun pressed = stalling(0.02);
+  const SensorFaultRun pressed = stalling(0.02);
   EXPECT_GE(pressed.touches, 1U);
   EXPECT_LE(pressed.peak_n, kGuardOvershoot * 20.0);
 }
 
 /// The first zero takes 0.5 s: till then nobody engages; the contact that is met in the next is felt.
-TEST(SensorFaults, ZeroingBlindsNobodyWhoIsEngaged) {
+TEST(SensorFaults, ZeroingKeepsForceWhileEngaged) {
   for (const double zero_s : {0.5, 100.0}) {
-    LieCase c;
-    SlaveConfig config = lie_config(c);
+    SensorFaultCase c;
+    SlaveConfig config = sensor_fault_config(c);
     config.sensing.zero_s = zero_s;
-    const LieRun run = lie_run(c, config, [](int) { return false; });
+    const SensorFaultRun run = sensor_fault_run(c, config, [](int) { return false; });
     EXPECT_LE(run.peak_n, kGuardOvershoot * c.guard.guard_n) << zero_s;
-    for (const LieRow& row : run.rows) {
+    for (const SensorFaultRow& row : run.rows) {
       if (row.t_s < std::min(zero_s, c.end_s)) {
         ASSERT_NE(row.state, SafetyState::kEngaged) << zero_s << ' ' << row.t_s;
       }

@@ -226,7 +226,7 @@ TEST(Standstill, OfTheReadyArmsWhateverTheyWereDoing) {
   }
 }
 
-TEST(Standstill, NextToASingularPoseTheJointsBrakeAlikeOnHalfOfWhatTheyHave) {
+TEST(Standstill, JointsBrakeTogetherNearSingularPose) {
   Random random(34);
   Mover mover = arm(limited_arms()[1]);
   // The wrist nearly above the waist: small ways of the tool are long ways of the joints.
@@ -265,7 +265,7 @@ TEST(Standstill, OfSwiftRobotsWithinTwoTenthsOfASecond) {
   standard.print("a >= 5, j >= 200, 200 Hz");
 }
 
-TEST(Standstill, OfALargeArmWithinSevenTenthsOfASecondAndATenthOfAMetre) {
+TEST(Standstill, LargeArmStopsInSevenTenthsOfASecond) {
   Random random(33);
   Worst worst, standard;
   for (int i = 0; i < campaign(800, 20); ++i) {

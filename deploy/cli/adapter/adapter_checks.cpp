@@ -98,8 +98,8 @@ class AdapterCheck {
   void knows_its_peer() {
     constexpr uid_t kNobody = 65534;
     if (::geteuid() != 0) return;
-    Talk stranger(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
-    const bool answers = !stranger.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
+    Talk unknown_peer(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
+    const bool answers = !unknown_peer.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
     add(!answers, "peer",
         answers ? "it answers a program of another user (number 65534)"
                 : "does not answer a program of another user",
@@ -166,7 +166,7 @@ class AdapterCheck {
 
   /// What nobody may take, each kind beside what is meant.
   void ignores() {
-    using Spoil = std::function<void(Out&)>;
+    using Corruption = std::function<void(Out&)>;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const auto number = [](Out& out) -> double& {
       if constexpr (requires { out.force_n; })
@@ -174,7 +174,7 @@ class AdapterCheck {
       else
         return out.joint_rad[0];
     };
-    const std::pair<const char*, Spoil> kinds[] = {
+    const std::pair<const char*, Corruption> kinds[] = {
         {"another magic", [](Out& o) { o.header.magic[3] = 'X'; }},
         {"another version", [](Out& o) { o.header.version = 9; }},
         {"another kind", [](Out& o) { o.header.kind = 77; }},
@@ -185,7 +185,7 @@ class AdapterCheck {
         {"another program's session", [](Out& o) { o.header.session ^= 0x5555U; }},
     };
     std::string taken;
-    const auto spoiled = [&](const char* what, const typename Talk::Beside& beside) {
+    const auto corrupted = [&](const char* what, const typename Talk::Beside& beside) {
       if (!taken.empty()) return;
       const Seen seen = ask(0.06, beside);
       const bool fine = !seen.empty() && std::ranges::all_of(seen, [this](const auto& s) {
@@ -193,14 +193,14 @@ class AdapterCheck {
       });
       if (!fine) taken = std::string("it does not ignore ") + what + ": " + said(seen);
     };
-    for (const auto& [what, spoil] : kinds)
-      spoiled(what, [&, &spoil = spoil](const AdapterSocket& socket, const Out& meant) {
+    for (const auto& [what, mark_affected] : kinds)
+      corrupted(what, [&, &mark_affected = mark_affected](const AdapterSocket& socket, const Out& meant) {
         Out out = subject_.poison(meant);
         out.header.sequence += 1'000'000;
-        spoil(out);
+        mark_affected(out);
         socket.send(std::as_bytes(std::span(&out, 1)));
       });
-    spoiled("bytes of any length", [this](const AdapterSocket& socket, const Out& meant) {
+    corrupted("bytes of any length", [this](const AdapterSocket& socket, const Out& meant) {
       std::array<std::byte, 1400> bytes{};
       for (auto& b : bytes) b = static_cast<std::byte>(talk_->random().next());
       const Out poison = subject_.poison(meant);
@@ -269,7 +269,7 @@ class AdapterCheck {
     if (seen.empty()) return "nothing comes any more";
     const auto other =
         std::ranges::find_if(seen, [this](const auto& s) { return !s.excused && !subject_.does(s.in); });
-    return subject_.told(other == seen.end() ? seen.back().in : other->in);
+    return subject_.reported(other == seen.end() ? seen.back().in : other->in);
   }
 
   std::string address_;

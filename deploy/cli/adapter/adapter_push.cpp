@@ -27,9 +27,9 @@ struct Told {
 
 class Pushing {
  public:
-  Pushing(const std::string& address, const std::string& robot_file, double patience_s)
+  Pushing(const std::string& address, const std::string& robot_file, double push_timeout_s)
       : robot_(robot_file),
-        patience_s_(patience_s),
+        timeout_s_(push_timeout_s),
         talk_(address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {
     section_.title = "robot adapter at " + address + ", pushed";
   }
@@ -64,36 +64,36 @@ class Pushing {
   }
   Told listen(double seconds) {
     const auto seen = talk_.talk(seconds, [](double) { return SetpointDatagram{}; });
-    Told told;
+    Told reported;
     for (const auto& s : seen) {
-      ++told.count;
-      const double share = 1.0 / told.count;
-      told.joint_rad += share * (Eigen::Map<const Vector6>(s.in.joint_rad) - told.joint_rad);
-      told.force_n += share * (Eigen::Map<const Vector3>(s.in.force_n) - told.force_n);
-      told.moment_nm += share * (Eigen::Map<const Vector3>(s.in.moment_nm) - told.moment_nm);
+      ++reported.count;
+      const double share = 1.0 / reported.count;
+      reported.joint_rad += share * (Eigen::Map<const Vector6>(s.in.joint_rad) - reported.joint_rad);
+      reported.force_n += share * (Eigen::Map<const Vector3>(s.in.force_n) - reported.force_n);
+      reported.moment_nm += share * (Eigen::Map<const Vector3>(s.in.moment_nm) - reported.moment_nm);
     }
-    if (told.count > 0 && rest_.count > 0)
-      moved_ = std::max(moved_, (told.joint_rad - rest_.joint_rad).cwiseAbs().maxCoeff());
-    return told;
+    if (reported.count > 0 && rest_.count > 0)
+      moved_ = std::max(moved_, (reported.joint_rad - rest_.joint_rad).cwiseAbs().maxCoeff());
+    return reported;
   }
-  [[nodiscard]] Vector3 felt(const Told& told, bool turn) const {
-    return turn ? told.moment_nm - rest_.moment_nm : told.force_n - rest_.force_n;
+  [[nodiscard]] Vector3 felt(const Told& reported, bool turn) const {
+    return turn ? reported.moment_nm - rest_.moment_nm : reported.force_n - rest_.force_n;
   }
 
   Push ask(const char* what, const char* how, std::size_t i, bool turn) {
     std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and hold it" << std::endl;
     const double least = turn ? kFelt_nm : kFelt_n;
     Push push;
-    for (double t_s = 0.0; t_s < patience_s_; t_s += kStep_s) {
+    for (double t_s = 0.0; t_s < timeout_s_; t_s += kStep_s) {
       if (felt(listen(kStep_s), turn).norm() < least) continue;
       listen(0.3);  // until it is steady
-      const Told told = listen(0.4);
-      push.R_WE = robot_.orientation(told.joint_rad);
-      push.told = felt(told, turn);
+      const Told reported = listen(0.4);
+      push.R_WE = robot_.orientation(reported.joint_rad);
+      push.reported = felt(reported, turn);
       break;
     }
-    std::cout << (push.told.isZero(0.0) ? "  nothing was felt" : "  felt") << "; let go" << std::endl;
-    for (double t_s = 0.0; t_s < patience_s_ && felt(listen(kStep_s), turn).norm() > 0.5 * least;
+    std::cout << (push.reported.isZero(0.0) ? "  nothing was felt" : "  felt") << "; let go" << std::endl;
+    for (double t_s = 0.0; t_s < timeout_s_ && felt(listen(kStep_s), turn).norm() > 0.5 * least;
          t_s += kStep_s)
       continue;
     return push;
@@ -112,7 +112,7 @@ class Pushing {
   }
 
   DescribedRobot robot_;
-  double patience_s_;
+  double timeout_s_;
   Conversation<SetpointDatagram, RobotDatagram> talk_;
   Told rest_{};
   double moved_ = 0.0;
@@ -121,8 +121,8 @@ class Pushing {
 
 }  // namespace
 
-Section check_pushes(const std::string& address, const std::string& robot_file, double patience_s) {
-  return Pushing(address, robot_file, patience_s).run();
+Section check_pushes(const std::string& address, const std::string& robot_file, double push_timeout_s) {
+  return Pushing(address, robot_file, push_timeout_s).run();
 }
 
 }  // namespace longreach

@@ -10,6 +10,6 @@ namespace longreach {
 
 /// `robot_file`: of the robot, for where its tool points. `patience_s`: to wait for each push. Prompts go to
 /// standard output. Throws UsageError, AddressError.
-Section check_pushes(const std::string& address, const std::string& robot_file, double patience_s);
+Section check_pushes(const std::string& address, const std::string& robot_file, double push_timeout_s);
 
 }  // namespace longreach

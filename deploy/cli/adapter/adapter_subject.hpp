@@ -51,7 +51,7 @@ class DeviceSubject {
            std::ranges::all_of(in.moment_nm, [](double x) { return x == 0.0; });
   }
   [[nodiscard]] std::string asked() const { return in_text("%g N along z", force_n_); }
-  [[nodiscard]] std::string told(const In& in) const {
+  [[nodiscard]] std::string reported(const In& in) const {
     return in_text("force_n is %g", in.force_n[0]) + in_text(" %g", in.force_n[1]) +
            in_text(" %g", in.force_n[2]);
   }
@@ -99,7 +99,7 @@ class RobotSubject {
   [[nodiscard]] std::string asked() const {
     return move_rad_ == 0.0 ? "to stay where it is" : in_text("the first joint %g rad (or m) on", move_rad_);
   }
-  [[nodiscard]] std::string told(const In& in) const {
+  [[nodiscard]] std::string reported(const In& in) const {
     return in_text("the first joint is at %g", in.joint_rad[0]) + in_text(", it was at %g", start_rad_[0]) +
            (rests(in) ? ", and it says kStopped" : "");
   }

@@ -21,7 +21,7 @@ template <class Expected>
 bool fits(const PushedSensor& sensor, const Expected& expected) {
   for (int i = 0; i < 3; ++i) {
     const Push& push = sensor.push[static_cast<std::size_t>(i)];
-    if (push.told.normalized().dot(expected(push, Vector3::Unit(i))) < kAlike) return false;
+    if (push.reported.normalized().dot(expected(push, Vector3::Unit(i))) < kAlike) return false;
   }
   return true;
 }
@@ -80,10 +80,10 @@ Finding judge_direction(const PushedSensor& sensor) {
   if (const std::string axes = exchanged(sensor); !axes.empty())
     return wrong(sensor, "axes are exchanged: told as x, y, z are " + axes + " of the tool",
                  "tell them in the order x, y, z of the tool, right-handed");
-  std::string told;
+  std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
-    told += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + " as " + in_text(sensor.push[i].told);
-  return wrong(sensor, "fits no axes: of the base, " + told + " " + sensor.unit,
+    reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + " as " + in_text(sensor.push[i].reported);
+  return wrong(sensor, "fits no axes: of the base, " + reported + " " + sensor.unit,
                "look at how the sensor is mounted, and that the robot's file is that of this robot and tool");
 }
 
@@ -101,7 +101,7 @@ Finding judge_rest(const PushedSensor& sensor) {
 std::vector<Finding> judge_pushes(const PushedSensor& sensor) {
   std::vector<Finding> found{judge_rest(sensor)};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!sensor.push[i].told.isZero(0.0)) continue;
+    if (!sensor.push[i].reported.isZero(0.0)) continue;
     found.push_back(
         wrong(sensor, std::string("tells nothing along ") + kAxis[i] + " of the base",
               "a channel is dead, or its unit is not " + std::string(sensor.unit) + "; or push harder"));

@@ -15,7 +15,7 @@ namespace longreach {
 /// A push along, or a turn about, the axis i of the base W.
 struct Push {
   Matrix3 R_WE = Matrix3::Identity();
-  Vector3 told = Vector3::Zero();  // beyond what was told at rest, N or N m; zero: nothing was felt
+  Vector3 reported = Vector3::Zero();  // beyond what was told at rest, N or N m; zero: nothing was felt
 };
 
 /// `what`: "force" or "moment"; `unit`: N or N m.

@@ -109,7 +109,7 @@ Finding examine_loop(double seconds) {
   LoopFigures figures;
   std::thread([&] {
     (void)ask_for_real_time({.rate_hz = kLoop_hz, .priority = kPriority, .lock_memory = false});
-    const Time began = monotonic_now();
+    const Time began = boottime_now();
     const Duration period = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / kLoop_hz));
     for (Deadlines due(began + period, period); to_seconds(due.next() - began) < seconds;) {
       timespec wake{};
@@ -118,10 +118,10 @@ Finding examine_loop(double seconds) {
       wake.tv_nsec = static_cast<long>(ns % 1'000'000'000);
       while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
       }
-      const Time now = monotonic_now();
+      const Time now = boottime_now();
       late_s.push_back(to_seconds(now - due.next()));
       figures.book(now - due.next(), Duration{0});
-      figures.missed_ticks += due.advance(monotonic_now());
+      figures.missed_ticks += due.advance(boottime_now());
     }
   }).join();
   const double p99_s = figures.lateness_quantile_s(0.99);

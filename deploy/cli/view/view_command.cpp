@@ -22,18 +22,18 @@
 namespace longreach {
 namespace {
 
-constexpr std::size_t kWishesMax = 16;
+constexpr std::size_t kPageCommandsMax = 16;
 constexpr auto kEndCheck = std::chrono::milliseconds(100);
 
 /// Carries out wishes one after the other; what comes while too many wait is refused.
-class Errands {
+class CommandQueue {
  public:
   using Say = std::function<void(std::string)>;
 
-  Errands(const Options& options, Say say) : options_(options), say_(std::move(say)) {
+  CommandQueue(const Options& options, Say say) : options_(options), say_(std::move(say)) {
     thread_ = std::thread([this] { run(); });
   }
-  ~Errands() {
+  ~CommandQueue() {
     {
       const std::lock_guard lock(mutex_);
       ended_ = true;
@@ -41,13 +41,13 @@ class Errands {
     }
     thread_.join();
   }
-  Errands(const Errands&) = delete;
-  Errands& operator=(const Errands&) = delete;
+  CommandQueue(const CommandQueue&) = delete;
+  CommandQueue& operator=(const CommandQueue&) = delete;
 
-  void add(const ViewWish& wish) {
+  void add(const PageCommand& page_command) {
     const std::lock_guard lock(mutex_);
-    if (wishes_.size() >= kWishesMax) return;
-    wishes_.push_back(wish);
+    if (page_commands_.size() >= kPageCommandsMax) return;
+    page_commands_.push_back(page_command);
     changed_.notify_all();
   }
 
@@ -55,36 +55,36 @@ class Errands {
   void run() {
     std::unique_lock lock(mutex_);
     while (true) {
-      changed_.wait(lock, [this] { return ended_ || !wishes_.empty(); });
+      changed_.wait(lock, [this] { return ended_ || !page_commands_.empty(); });
       if (ended_) return;
-      const ViewWish wish = wishes_.front();
-      wishes_.pop_front();
+      const PageCommand page_command = page_commands_.front();
+      page_commands_.pop_front();
       lock.unlock();
-      go(wish);
+      go(page_command);
       lock.lock();
     }
   }
 
-  void go(const ViewWish& wish) const {
+  void go(const PageCommand& page_command) const {
     try {
-      say_("{\"said\":" + json_string(done(wish)) + ",\"refused\":false}");
+      say_("{\"said\":" + json_string(done(page_command)) + ",\"refused\":false}");
     } catch (const std::exception& error) {
       say_("{\"said\":" + json_string(error.what()) + ",\"refused\":true}");
     }
   }
 
-  [[nodiscard]] std::string done(const ViewWish& wish) const {
-    using Kind = ViewWish::Kind;
-    if (wish.kind == Kind::kStop) return stop_sides(options_);
-    if (wish.kind == Kind::kLink) {
+  [[nodiscard]] std::string done(const PageCommand& page_command) const {
+    using Kind = PageCommand::Kind;
+    if (page_command.kind == Kind::kStop) return stop_sides(options_);
+    if (page_command.kind == Kind::kLink) {
       LinkSetCommand command;
-      command.profile = wish.link;
+      command.profile = page_command.link;
       set_link(options_, command);
-      return "the link is now like " + wish.link;
+      return "the link is now like " + page_command.link;
     }
     SideClient master(Side::kMaster, options_);
-    if (wish.kind == Kind::kMode) return master.set_mode(wish.mode);
-    if (wish.kind == Kind::kScale) return master.set_scale(wish.scale);
+    if (page_command.kind == Kind::kMode) return master.set_mode(page_command.mode);
+    if (page_command.kind == Kind::kScale) return master.set_scale(page_command.scale);
     return master.engage();
   }
 
@@ -92,7 +92,7 @@ class Errands {
   const Say say_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<ViewWish> wishes_;
+  std::deque<PageCommand> page_commands_;
   bool ended_ = false;
   std::thread thread_;
 };
@@ -119,15 +119,18 @@ ExitStatus run_view(const Options& options, const ViewCommand& command) {
   ViewServer server(command.listen);
   const auto say = [&server](std::string text) { server.say(std::move(text)); };
   // A stop waits for nothing that was asked before.
-  Errands errands(options, say);
-  Errands stops(options, say);
+  CommandQueue command_queue(options, say);
+  CommandQueue stops(options, say);
   ViewHand hand(options, [&server](const std::string& why) { server.revoke(why); });
   const ViewFeed feed(options, {.frame = [&](std::string frame) { server.show(std::move(frame)); },
                                 .tell = [&](const std::string& topic,
                                             std::string text) { server.tell(topic, std::move(text)); }});
   server.tell("links", profiles_json());
   server.serve(
-      {.act = [&](const ViewWish& wish) { (wish.kind == ViewWish::Kind::kStop ? stops : errands).add(wish); },
+      {.act =
+           [&](const PageCommand& page_command) {
+             (page_command.kind == PageCommand::Kind::kStop ? stops : command_queue).add(page_command);
+           },
        .aim = [&](const proto::HandAim& aim) { hand.aim(aim); },
        .let_go = [&](bool lost) { hand.let_go(lost); }});
   if (options.json) {

@@ -17,7 +17,7 @@ constexpr auto kSlavePeriod = std::chrono::milliseconds(1000);
 constexpr auto kAnchorPeriod = std::chrono::milliseconds(100);  // while an engagement's anchor is missing
 constexpr double kFrameHz = 60.0;
 
-std::string told(const char* name, const std::string& sentence) {
+std::string reported(const char* name, const std::string& sentence) {
   return std::string("{\"") + name + "\":" + (sentence.empty() ? "null" : json_string(sentence)) + "}";
 }
 
@@ -40,7 +40,8 @@ std::string vector_json(const Field& numbers) {
 
 }  // namespace
 
-ViewFeed::ViewFeed(const Options& options, Talk talk) : options_(options), talk_(std::move(talk)) {
+ViewFeed::ViewFeed(const Options& options, Backend backend)
+    : options_(options), backend_(std::move(backend)) {
   master_ = std::thread([this] { follow(); });
   slave_ = std::thread([this] { ask_slave(); });
 }
@@ -63,7 +64,7 @@ bool ViewFeed::rest(std::chrono::milliseconds time) {
 
 void ViewFeed::follow() {
   do {
-    talk_.tell("down", told("down", read_frames()));
+    backend_.tell("down", reported("down", read_frames()));
   } while (rest(kFeedRetryAfter));
 }
 
@@ -82,9 +83,9 @@ std::string ViewFeed::read_frames() {
     const auto stream = stub->Follow(&context, request);
     bool first = true;
     for (proto::Frame frame; stream->Read(&frame); first = false) {
-      if (first) talk_.tell("down", told("down", ""));
+      if (first) backend_.tell("down", reported("down", ""));
       engagement_ = frame.engagement();
-      talk_.frame("{\"frame\":" + json_object(frame) + "}");
+      backend_.frame("{\"frame\":" + json_object(frame) + "}");
     }
     const grpc::Status end = stream->Finish();
     const std::lock_guard lock(mutex_);
@@ -101,30 +102,30 @@ void ViewFeed::ask_slave() {
   do {
     try {
       if (!slave) slave.emplace(Side::kSlave, options_);
-      uptime_s = look_at_slave(*slave, uptime_s);
-      talk_.tell("slave_down", told("slave_down", ""));
+      uptime_s = check_slave(*slave, uptime_s);
+      backend_.tell("slave_down", reported("slave_down", ""));
     } catch (const std::exception& error) {
       uptime_s = -1.0;
-      talk_.tell("slave_down", told("slave_down", error.what()));
+      backend_.tell("slave_down", reported("slave_down", error.what()));
     }
   } while (rest(anchored_ == engagement_ ? kSlavePeriod : kAnchorPeriod));
 }
 
 /// Returns how long it has been up.
-double ViewFeed::look_at_slave(SideClient& slave, double uptime_s) {
+double ViewFeed::check_slave(SideClient& slave, double uptime_s) {
   const proto::Status status = slave.status();
   // It has restarted, perhaps with another robot.
   if (uptime_s < 0.0 || status.uptime_s() < uptime_s) {
     anchored_ = 0;
-    talk_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +
-                            ",\"scene\":" + part_json<proto::Scene>(slave, "scene") +
-                            ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
+    backend_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +
+                               ",\"scene\":" + part_json<proto::Scene>(slave, "scene") +
+                               ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
   }
   if (status.engagement() == engagement_ && status.engagement() != anchored_ && status.anchor_m_size() == 3) {
     anchored_ = status.engagement();
-    talk_.tell("anchor", "{\"anchor\":{\"engagement\":" + std::to_string(anchored_) +
-                             ",\"position_m\":" + vector_json(status.anchor_m()) +
-                             ",\"rotation_rad\":" + vector_json(status.anchor_rad()) + "}}");
+    backend_.tell("anchor", "{\"anchor\":{\"engagement\":" + std::to_string(anchored_) +
+                                ",\"position_m\":" + vector_json(status.anchor_m()) +
+                                ",\"rotation_rad\":" + vector_json(status.anchor_rad()) + "}}");
   }
   return status.uptime_s();
 }

@@ -26,11 +26,11 @@ namespace longreach {
 
 class ViewFeed {
  public:
-  struct Talk {
+  struct Backend {
     std::function<void(std::string)> frame;
     std::function<void(const std::string& topic, std::string)> tell;
   };
-  ViewFeed(const Options& options, Talk talk);
+  ViewFeed(const Options& options, Backend backend);
   ~ViewFeed();
   ViewFeed(const ViewFeed&) = delete;
   ViewFeed& operator=(const ViewFeed&) = delete;
@@ -39,12 +39,12 @@ class ViewFeed {
   void follow();
   std::string read_frames();
   void ask_slave();
-  double look_at_slave(SideClient& slave, double uptime_s);
+  double check_slave(SideClient& slave, double uptime_s);
   /// False at the end.
   bool rest(std::chrono::milliseconds time);
 
   const Options options_;
-  const Talk talk_;
+  const Backend backend_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool ended_ = false;

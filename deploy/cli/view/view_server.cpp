@@ -15,7 +15,7 @@
 
 #include "common/site/rpc_security.hpp"
 #include "deploy/cli/json_text.hpp"
-#include "deploy/cli/view/view_visitor.hpp"
+#include "deploy/cli/view/page_session.hpp"
 
 namespace longreach {
 namespace {
@@ -63,10 +63,10 @@ struct ViewServer::State {
     if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
     if (error) throw cannot_listen(listen, error.message());
     const int port = acceptor.local_endpoint().port();
-    if (endpoint.address().is_loopback()) door.hosts = loopback_hosts(port);
-    door.token = draw_token();
-    address =
-        "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" + door.token + "/";
+    if (endpoint.address().is_loopback()) access.hosts = loopback_hosts(port);
+    access.token = draw_token();
+    address = "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" +
+              access.token + "/";
   }
 
   void accept() {
@@ -90,27 +90,30 @@ struct ViewServer::State {
     socket.set_option(Tcp::no_delay(true), ignored);
     socket.set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored);
     ++connections;
-    const std::shared_ptr<void> seat(nullptr, [this](void*) { --connections; });
-    const auto visitor = std::make_shared<ViewVisitor>(std::move(socket), door, viewer_talk(), seat);
-    visitors.push_back(visitor);
-    visitor->read();
+    const std::shared_ptr<void> slot(nullptr, [this](void*) { --connections; });
+    const auto page_session =
+        std::make_shared<PageSession>(std::move(socket), access, viewer_backend(), slot);
+    page_sessions.push_back(page_session);
+    page_session->read();
   }
 
   /// False: everybody here has shown the token.
   bool make_room() {
-    visitors.remove_if([](const auto& visitor) { return visitor.expired(); });
-    const auto stranger =
-        std::ranges::find_if(visitors, [](const auto& visitor) { return !visitor.lock()->let_in(); });
-    if (stranger == visitors.end()) return false;
-    stranger->lock()->drop();
-    visitors.erase(stranger);
+    page_sessions.remove_if([](const auto& page_session) { return page_session.expired(); });
+    const auto unknown_peer = std::ranges::find_if(
+        page_sessions, [](const auto& page_session) { return !page_session.lock()->let_in(); });
+    if (unknown_peer == page_sessions.end()) return false;
+    unknown_peer->lock()->drop();
+    page_sessions.erase(unknown_peer);
     return true;
   }
 
-  Viewer::Talk viewer_talk() {
-    return {.opened = [this](const auto& viewer) { on_opened(viewer); },
-            .wish = [this](const auto& viewer, const ViewWish& wish) { on_wish(viewer, wish); },
-            .closed = [this](const auto& viewer) { on_closed(viewer); }};
+  Viewer::Backend viewer_backend() {
+    return {
+        .opened = [this](const auto& viewer) { on_opened(viewer); },
+        .page_command = [this](const auto& viewer,
+                               const PageCommand& page_command) { on_page_command(viewer, page_command); },
+        .closed = [this](const auto& viewer) { on_closed(viewer); }};
   }
 
   void on_opened(const std::shared_ptr<Viewer>& viewer) {
@@ -121,34 +124,34 @@ struct ViewServer::State {
     }
     viewers.insert(viewer);
     for (const auto& [topic, text] : topics) viewer->tell(text);
-    tell_holders();
+    notify_holders();
   }
 
   void on_closed(const std::shared_ptr<Viewer>& viewer) {
     viewers.erase(viewer);
     if (viewer == holder) let_go(true);
-    tell_holders();
+    notify_holders();
   }
 
-  void on_wish(const std::shared_ptr<Viewer>& viewer, const ViewWish& wish) {
-    using Kind = ViewWish::Kind;
+  void on_page_command(const std::shared_ptr<Viewer>& viewer, const PageCommand& page_command) {
+    using Kind = PageCommand::Kind;
     // Whoever sees the danger may stop.
-    if (wish.kind == Kind::kStop) return talk.act(wish);
-    if (wish.kind == Kind::kTake) return take(viewer);
+    if (page_command.kind == Kind::kStop) return backend.act(page_command);
+    if (page_command.kind == Kind::kTake) return take(viewer);
     if (viewer != holder) {
       // What was under way when the hand was lost is no mistake.
-      if (wish.kind != Kind::kAim && wish.kind != Kind::kGive)
+      if (page_command.kind != Kind::kAim && page_command.kind != Kind::kGive)
         viewer->tell(std::make_shared<const std::string>(
             R"({"said":"take the hand first: only who has it may do that","refused":true})"));
       return;
     }
-    if (wish.kind == Kind::kGive) {
+    if (page_command.kind == Kind::kGive) {
       let_go(false);
-      return tell_holders();
+      return notify_holders();
     }
-    if (wish.kind != Kind::kAim) return talk.act(wish);
+    if (page_command.kind != Kind::kAim) return backend.act(page_command);
     aimed = Clock::now();
-    talk.aim(wish.aim);
+    backend.aim(page_command.aim);
   }
 
   void take(const std::shared_ptr<Viewer>& viewer) {
@@ -159,13 +162,13 @@ struct ViewServer::State {
     }
     holder = viewer;
     aimed = Clock::now();
-    tell_holders();
+    notify_holders();
   }
 
   void let_go(bool lost) {
     if (!holder) return;
     holder.reset();
-    talk.let_go(lost);
+    backend.let_go(lost);
   }
 
   /// A page that says nothing has lost the hand at the master long since; here others wait for it.
@@ -177,13 +180,13 @@ struct ViewServer::State {
         holder->tell(std::make_shared<const std::string>(
             R"({"said":"this page was silent for 1 s, so its hand has let go","refused":true})"));
         let_go(true);
-        tell_holders();
+        notify_holders();
       }
       check_hand();
     });
   }
 
-  void tell_holders() {
+  void notify_holders() {
     const std::string viewers_text = std::to_string(viewers.size());
     for (const auto& viewer : std::set<std::shared_ptr<Viewer>>(viewers)) {
       const char* who = !holder ? "nobody" : holder == viewer ? "you" : "other";
@@ -211,16 +214,16 @@ struct ViewServer::State {
 
   int connections = 0;  // until the last of them is gone with the context
   net::io_context context{1};
-  ViewTalk talk;
+  PageBackend backend;
   Tcp::acceptor acceptor;
   net::steady_timer timer{context}, retry{context};
-  ViewDoor door;
+  PageAccess access;
   std::string address;
   std::mutex mutex;
   std::optional<std::string> pending;  // frame, not yet fetched by the thread
   // The thread's.
   std::set<std::shared_ptr<Viewer>> viewers;
-  std::list<std::weak_ptr<ViewVisitor>> visitors;  // oldest first; some are gone
+  std::list<std::weak_ptr<PageSession>> page_sessions;  // oldest first; some are gone
   std::map<std::string, Viewer::Text> topics;
   std::shared_ptr<Viewer> holder;
   Clock::time_point aimed{};
@@ -230,8 +233,8 @@ struct ViewServer::State {
 ViewServer::ViewServer(const std::string& listen) : state_(std::make_unique<State>(listen)) {}
 ViewServer::~ViewServer() { stop(); }
 
-void ViewServer::serve(ViewTalk talk) {
-  state_->talk = std::move(talk);
+void ViewServer::serve(PageBackend backend) {
+  state_->backend = std::move(backend);
   state_->accept();
   state_->check_hand();
   state_->thread = std::thread([state = state_.get()] { state->context.run(); });
@@ -277,7 +280,7 @@ void ViewServer::revoke(const std::string& why) {
     state->holder->tell(
         std::make_shared<const std::string>("{\"said\":" + json_string(why) + ",\"refused\":true}"));
     state->let_go(true);
-    state->tell_holders();
+    state->notify_holders();
   });
 }
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "deploy/cli/view/view_wish.hpp"
+#include "deploy/cli/view/page_command.hpp"
 
 namespace longreach {
 
@@ -16,8 +16,8 @@ inline constexpr int kViewersMax = 16;
 inline constexpr int kConnectionsMax = 64;
 
 /// What viewers ask of the rest; called in the server's thread, must not wait.
-struct ViewTalk {
-  std::function<void(const ViewWish&)> act;        // engage, stop, mode, scale, link
+struct PageBackend {
+  std::function<void(const PageCommand&)> act;     // engage, stop, mode, scale, link
   std::function<void(const proto::HandAim&)> aim;  // of the viewer that has the hand
   std::function<void(bool lost)> let_go;           // it has not any more; lost: without having said so
 };
@@ -32,7 +32,7 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
 
   /// Begins to answer; once.
-  void serve(ViewTalk talk);
+  void serve(PageBackend backend);
   /// Nothing is asked of anybody after it.
   void stop();
 

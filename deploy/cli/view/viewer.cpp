@@ -16,7 +16,8 @@ constexpr std::size_t kTextsMax = 64;
 
 }  // namespace
 
-Viewer::Viewer(beast::tcp_stream stream, Talk talk) : socket_(std::move(stream)), talk_(std::move(talk)) {
+Viewer::Viewer(beast::tcp_stream stream, Backend backend)
+    : socket_(std::move(stream)), backend_(std::move(backend)) {
   auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
   timeout.handshake_timeout = std::chrono::seconds(5);
   timeout.idle_timeout = std::chrono::seconds(10);
@@ -31,7 +32,7 @@ void Viewer::accept(const ViewHttpRequest& request) {
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
     self->opened_ = true;
-    self->talk_.opened(self);
+    self->backend_.opened(self);
     self->read();
   });
 }
@@ -45,10 +46,10 @@ void Viewer::read() {
 
 void Viewer::on_message(std::size_t bytes) {
   const auto* text = static_cast<const char*>(buffer_.data().data());
-  const auto wish = socket_.got_text() ? read_wish({text, bytes}) : std::nullopt;
+  const auto page_command = socket_.got_text() ? read_page_command({text, bytes}) : std::nullopt;
   buffer_.consume(bytes);
-  if (!wish || too_many()) return close();
-  talk_.wish(shared_from_this(), *wish);
+  if (!page_command || too_many()) return close();
+  backend_.page_command(shared_from_this(), *page_command);
   if (!closed_) read();
 }
 
@@ -96,7 +97,7 @@ void Viewer::close() {
   if (closed_) return;
   closed_ = true;
   beast::get_lowest_layer(socket_).close();
-  if (opened_) talk_.closed(shared_from_this());
+  if (opened_) backend_.closed(shared_from_this());
 }
 
 }  // namespace longreach

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include "deploy/cli/view/view_wish.hpp"
+#include "deploy/cli/view/page_command.hpp"
 
 namespace longreach {
 
@@ -18,14 +18,14 @@ using ViewHttpRequest = boost::beast::http::request<boost::beast::http::empty_bo
 
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
-  struct Talk {
+  struct Backend {
     std::function<void(const std::shared_ptr<Viewer>&)> opened;
-    std::function<void(const std::shared_ptr<Viewer>&, const ViewWish&)> wish;
+    std::function<void(const std::shared_ptr<Viewer>&, const PageCommand&)> page_command;
     std::function<void(const std::shared_ptr<Viewer>&)> closed;  // once, if it was opened
   };
   using Text = std::shared_ptr<const std::string>;
 
-  Viewer(boost::beast::tcp_stream stream, Talk talk);
+  Viewer(boost::beast::tcp_stream stream, Backend backend);
 
   void accept(const ViewHttpRequest& request);
   /// A frame: pushes out the oldest one that waits when there are too many.
@@ -47,7 +47,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void write();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
-  Talk talk_;
+  Backend backend_;
   boost::beast::flat_buffer buffer_;
   std::deque<Waiting> queue_;  // the first one is being written
   bool opened_ = false;

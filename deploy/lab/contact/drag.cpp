@@ -72,8 +72,8 @@ class Drag {
       rests_m[static_cast<std::size_t>(i)] = tool_m();
       if (i == 0) out_.moved = tool_m() > kMoved * (cell_.wall ? kWall_m : kWay_m);
     }
-    out_.told_kg = lab_.slave().gripper.load_kg;
-    out_.told_sd_kg = lab_.slave().gripper.load_sd_kg;
+    out_.reported_kg = lab_.slave().gripper.load_kg;
+    out_.reported_sd_kg = lab_.slave().gripper.load_sd_kg;
     return out_;
   }
 
@@ -127,8 +127,8 @@ class Drag {
       out_.push_n = std::max(out_.push_n, cell_.mass_kg * std::abs(slow_ - before_) / lab_.period_s());
       before_ = slow_;
     }
-    if (out_.told_s == 0.0 && slave.gripper.load_sd_kg > 0.0 && began_s_ > 0.0)
-      out_.told_s = lab_.now_s() - began_s_;
+    if (out_.reported_s == 0.0 && slave.gripper.load_sd_kg > 0.0 && began_s_ > 0.0)
+      out_.reported_s = lab_.now_s() - began_s_;
   }
 
   DragCell cell_;

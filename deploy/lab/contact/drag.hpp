@@ -27,9 +27,9 @@ struct DragResult {
   int holds = 0;                     // engagements that ended, and faults
   double overrun_m = 0.0;            // tool at the end of each rest, from where it is with an empty gripper
   double push_n = 0.0;               // greatest m |a|
-  double told_kg = 0.0, told_sd_kg = 0.0;
-  double told_s = 0.0;   // from the first motion until the mass was known; 0: never
-  double found_s = 0.0;  // from the load's first contact with the wall; 0: none
+  double reported_kg = 0.0, reported_sd_kg = 0.0;
+  double reported_s = 0.0;  // from the first motion until the mass was known; 0: never
+  double found_s = 0.0;     // from the load's first contact with the wall; 0: none
 };
 
 /// Its load at the tool, held by a gripper that closes, and the wall; of a material "hard".

@@ -35,8 +35,10 @@ struct Loads {
   }
 };
 
-bool told(const DragCell&, const DragResult& r) { return r.told_sd_kg > 0.0; }
-double mass_error(const DragCell& c, const DragResult& r) { return std::abs(r.told_kg / c.mass_kg - 1.0); }
+bool reported(const DragCell&, const DragResult& r) { return r.reported_sd_kg > 0.0; }
+double mass_error(const DragCell& c, const DragResult& r) {
+  return std::abs(r.reported_kg / c.mass_kg - 1.0);
+}
 bool well(const DragCell& c, const DragResult& r) { return r.push_n >= kWell * c.noise_n; }
 
 void write(const ExperimentRun& run, const Loads& loads) {
@@ -50,8 +52,8 @@ void write(const ExperimentRun& run, const Loads& loads) {
     trace.row({c.mass_kg, c.speed_m_per_s, c.acceleration_m_per_s2, c.noise_n,
                c.mode == MotionMode::kRate ? 1.0 : 0.0, r.held ? 1.0 : 0.0, r.moved ? 1.0 : 0.0,
                static_cast<double>(r.phantoms), static_cast<double>(r.holds), r.overrun_m, r.push_n,
-               r.told_kg, r.told_sd_kg, r.told_s, r.found_s,
-               c.mass_kg > 0.0 ? 100.0 * (r.told_kg / c.mass_kg - 1.0) : 0.0});
+               r.reported_kg, r.reported_sd_kg, r.reported_s, r.found_s,
+               c.mass_kg > 0.0 ? 100.0 * (r.reported_kg / c.mass_kg - 1.0) : 0.0});
   }
   trace.close();
 }
@@ -67,14 +69,14 @@ std::vector<Metric> of_loads(const Loads& loads) {
        loads.count([](const DragCell&, const DragResult& r) { return r.overrun_m <= kStop_m; }), ""},
       {"overrun_max_m", loads.most([](const DragCell&, const DragResult& r) { return r.overrun_m; }), "m"},
       {"push_max_n", loads.most([](const DragCell&, const DragResult& r) { return r.push_n; }), "N"},
-      {"mass_told", loads.count(told), ""},
+      {"mass_told", loads.count(reported), ""},
       {"mass_within_3_sd", loads.count([](const DragCell& c, const DragResult& r) {
-         return told(c, r) && std::abs(r.told_kg - c.mass_kg) <= 3.0 * r.told_sd_kg;
+         return reported(c, r) && std::abs(r.reported_kg - c.mass_kg) <= 3.0 * r.reported_sd_kg;
        }),
        ""},
       {"mass_above_noise", loads.count(well), ""},
       {"mass_within_5_percent", loads.count([](const DragCell& c, const DragResult& r) {
-         return well(c, r) && told(c, r) && mass_error(c, r) <= kMass;
+         return well(c, r) && reported(c, r) && mass_error(c, r) <= kMass;
        }),
        ""},
       {"mass_error_max",
@@ -93,7 +95,7 @@ std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
       {"wall_found_max_s", met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"},
       {"closed_on_nothing", static_cast<double>(nothing.cells.size()), ""},
       {"nothing_told", nothing.count([](const DragCell&, const DragResult& r) {
-         return !r.held && r.phantoms == 0 && r.told_kg == 0.0;
+         return !r.held && r.phantoms == 0 && r.reported_kg == 0.0;
        }),
        ""},
   };

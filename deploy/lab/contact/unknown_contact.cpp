@@ -92,9 +92,9 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
 class Press {
  public:
   /// `noise_untold`: of the sensor's noise, times what it is told to be.
-  Press(const ExperimentRun& run, const UnknownCell& cell, double noise_untold)
+  Press(const ExperimentRun& run, const UnknownCell& cell, double noise_unreported)
       : cell_(cell),
-        more_noise_n_(std::sqrt(std::max(noise_untold * noise_untold - 1.0, 0.0)) * cell.noise_n),
+        more_noise_n_(std::sqrt(std::max(noise_unreported * noise_unreported - 1.0, 0.0)) * cell.noise_n),
         random_(Random(run.seed).child("untold noise")),
         master_(to_struct(run.config.master())),
         lab_(master_, to_struct(run.config.slave()), run.seed),
@@ -182,11 +182,11 @@ class Press {
   void judge_estimate() {
     const SlaveView& s = lab_.slave();
     if (!s.in_contact || !s.estimate.valid || s.reported_stiffness_n_per_m <= 0.0) return;
-    const double told_m = depth(s.reported_at_m);
-    const double there = cell_.tangent_n_per_m(told_m);
-    result_.told_sd = s.estimate.stiffness_sd_n_per_m / s.reported_stiffness_n_per_m;
+    const double reported_m = depth(s.reported_at_m);
+    const double there = cell_.tangent_n_per_m(reported_m);
+    result_.reported_sd = s.estimate.stiffness_sd_n_per_m / s.reported_stiffness_n_per_m;
     result_.power_law = s.estimate.n_verdict != Verdict::kNoPowerLaw;
-    result_.told_error = there > 0.0 ? s.reported_stiffness_n_per_m / there - 1.0 : 1.0;
+    result_.reported_error = there > 0.0 ? s.reported_stiffness_n_per_m / there - 1.0 : 1.0;
     const double here = cell_.tangent_n_per_m(depth(lab_.arm().true_pose().p));
     result_.estimate_error = here > 0.0 ? s.estimate.stiffness_n_per_m / here - 1.0 : 1.0;
     result_.estimate_sd = s.estimate.stiffness_sd_n_per_m / s.estimate.stiffness_n_per_m;
@@ -228,7 +228,7 @@ class Press {
 }  // namespace
 
 UnknownResult run_cell(const ExperimentRun& run, const UnknownCell& cell, const CellSettings& settings) {
-  UnknownResult result = Press(configured(run, cell, settings), cell, settings.noise_untold).go();
+  UnknownResult result = Press(configured(run, cell, settings), cell, settings.noise_unreported).go();
   if (settings.fixed_too)
     result.fixed_first_s = Press(configured(run, cell, {.assumed_exponent = cell.n}), cell, 1.0).first_s();
   return result;

@@ -43,8 +43,8 @@ UnknownCell draw_light_cell(Random& random, std::size_t index);
 /// What a cell came to, over the last two cycles of the probing and at their end.
 struct UnknownResult {
   bool probed = false;
-  double slope_error = 1.0, force_error = 1.0;  // at the hand, relative, signed
-  double told_error = 1.0, told_sd = 1.0;       // of the reported stiffness at its depth, relative; signed
+  double slope_error = 1.0, force_error = 1.0;     // at the hand, relative, signed
+  double reported_error = 1.0, reported_sd = 1.0;  // of the reported stiffness at its depth, relative; signed
   double estimate_error = 1.0, estimate_sd = 1.0, bound_sd = 0.0;
   bool power_law = true;  // the verdict at the end
   // From the first touch to the first value; of FIXED_EXPONENT with the true exponent; of the bound.
@@ -60,7 +60,7 @@ struct CellSettings {
   bool fixed_too = false;         // `fixed_first_s` as well
   double assumed_exponent = 0.0;  // FIXED_EXPONENT with this; 0: unknown
   bool never_follows = false;     // the stiffness stays that at a usual force
-  double noise_untold = 1.0;      // of the sensor, times what it was told to be
+  double noise_unreported = 1.0;  // of the sensor, times what it was told to be
 };
 
 UnknownResult run_cell(const ExperimentRun& run, const UnknownCell& cell, const CellSettings& settings);

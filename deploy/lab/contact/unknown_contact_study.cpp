@@ -80,8 +80,8 @@ void write(Trace& trace, double group, const Study& s) {
                r.rtt_s,
                r.slope_error,
                r.force_error,
-               r.told_error,
-               r.told_sd,
+               r.reported_error,
+               r.reported_sd,
                r.estimate_error,
                r.estimate_sd,
                r.estimate_sd > 0.0 ? r.estimate_error / r.estimate_sd : 0.0,
@@ -149,7 +149,8 @@ std::vector<Metric> of_others(const Study& in, const Study& out, const Study& so
   return {
       {"outside_cells", static_cast<double>(out.cells.size()), ""},
       {"outside_tangent_within_15_percent",
-       out.count([](const UnknownResult& r) { return r.probed && std::abs(r.told_error) <= kTangent; }), ""},
+       out.count([](const UnknownResult& r) { return r.probed && std::abs(r.reported_error) <= kTangent; }),
+       ""},
       {"outside_without_law", out.count([](const UnknownResult& r) { return !r.power_law; }), ""},
       {"light_cells", static_cast<double>(soft.cells.size()), ""},
       {"light_right", soft.count([](const UnknownResult& r) {
@@ -211,7 +212,7 @@ std::vector<Metric> run_unknown_contact(const ExperimentRun& run) {
   };
   const Study in = group(family, {.fixed_too = true}), out = group(outside, {}), soft = group(light, {});
   const Study assumed = group(few, {.assumed_exponent = 2.0}), usual = group(few, {.never_follows = true}),
-              noisy = group(few, {.noise_untold = 2.0});
+              noisy = group(few, {.noise_unreported = 2.0});
 
   write(run, in, out, soft);
   std::vector<Metric> metrics = of_family(in);

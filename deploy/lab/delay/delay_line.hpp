@@ -39,22 +39,22 @@ class DelayLine {
 
   /// What arrived in this sample.
   std::optional<T> pop() {
-    Parcel& parcel = slot(sequence_);
-    if (parcel.sequence <= newest_) return std::nullopt;
-    newest_ = parcel.sequence;
-    return parcel.value;
+    QueuedDatagram& queued_datagram = slot(sequence_);
+    if (queued_datagram.sequence <= newest_) return std::nullopt;
+    newest_ = queued_datagram.sequence;
+    return queued_datagram.value;
   }
 
  private:
-  struct Parcel {
+  struct QueuedDatagram {
     std::uint64_t sequence = 0;  // from 1
     T value{};
   };
-  Parcel& slot(std::uint64_t at) { return slots_[at % slots_.size()]; }
+  QueuedDatagram& slot(std::uint64_t at) { return slots_[at % slots_.size()]; }
 
   DelayLineConfig config_;
   Random random_;
-  std::vector<Parcel> slots_;
+  std::vector<QueuedDatagram> slots_;
   std::uint64_t sequence_ = 0;
   std::uint64_t newest_ = 0;
 };

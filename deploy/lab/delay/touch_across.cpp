@@ -11,7 +11,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kCalm_m = 1e-4;
+constexpr double kQuiet_m = 1e-4;
 constexpr double kPressed_s = 2.0;  // in the wall before the hand lets go
 
 double rtt_of(const proto::LinkProfile& link) { return link.up().delay_s() + link.down().delay_s(); }
@@ -53,7 +53,7 @@ Pressed let_go_in_contact(const ExperimentRun& run, double rtt_s) {
   }
   Pressed out;
   out.motion_m = high_m - low_m;
-  out.limit_cycle = out.motion_m > kCalm_m;
+  out.limit_cycle = out.motion_m > kQuiet_m;
   out.port_energy_min_j = lab.master().port_energy_min_j;
   out.drawdown_j = lab.master().energy_drawdown_j;
   return out;

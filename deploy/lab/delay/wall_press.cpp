@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kCalm_m = 1e-4;          // motion that a hand does not mind
+constexpr double kQuiet_m = 1e-4;         // motion that a hand does not mind
 constexpr double kDraw_s = 0.1;           // time constant with which the hand's wish follows
 constexpr double kBackOff_m = 0.02;       // before it comes in
 constexpr double kHandPress_n = 3.0;      // as the laboratory's simulated operator
@@ -56,7 +56,7 @@ class WallPress {
     if (std::abs(moved_m) > 1e-9) out_.displayed_n_per_m = (whole.force_n - half.force_n) / moved_m;
     out_.motion_m = whole.late.width();
     out_.limit_cycle =
-        out_.motion_m > kCalm_m && (whole.bounced || out_.motion_m > 0.99 * whole.middle.width());
+        out_.motion_m > kQuiet_m && (whole.bounced || out_.motion_m > 0.99 * whole.middle.width());
     return out_;
   }
 
@@ -73,9 +73,9 @@ class WallPress {
   Held hold(const Pressing& goal, int ticks) {
     Held held;
     for (int i = 0; i < ticks; ++i) {
-      wish_.hand_m += (goal.hand_m - wish_.hand_m) * kBenchPeriod_s / kDraw_s;
-      wish_.push_n += (goal.push_n - wish_.push_n) * kBenchPeriod_s / kDraw_s;
-      bench_.step(wish_.hand_m, wish_.push_n);
+      page_command_.hand_m += (goal.hand_m - page_command_.hand_m) * kBenchPeriod_s / kDraw_s;
+      page_command_.push_n += (goal.push_n - page_command_.push_n) * kBenchPeriod_s / kDraw_s;
+      bench_.step(page_command_.hand_m, page_command_.push_n);
       account();
       if (watch_) watch_(bench_);
       const double depth_m = bench_.depth_m();
@@ -104,7 +104,7 @@ class WallPress {
   double hand_n_per_m_;
   BilateralBench bench_;
   int tail_;
-  Pressing wish_{};
+  Pressing page_command_{};
   Pressed out_{};
   double most_j_ = 0.0;
 };

@@ -56,13 +56,13 @@ double sweep_period(const ExperimentRun& run, const DeviceConfig& device) {
 }
 
 /// Largest stiffness whose residual motion is not felt, by bisection to 3 %.
-double calm_limit_n_per_m(const WallCase& c) {
+double stable_limit_n_per_m(const WallCase& c) {
   double low = 100.0, high = 200.0;
-  const auto calm = [&](double K) { return residual_m(c, K, kTap_m) < kTrembling_m; };
-  while (high < 2e5 && calm(high)) low = std::exchange(high, 2.0 * high);
+  const auto stable = [&](double K) { return residual_m(c, K, kTap_m) < kTrembling_m; };
+  while (high < 2e5 && stable(high)) low = std::exchange(high, 2.0 * high);
   while (high > 1.03 * low) {
     const double middle = std::sqrt(low * high);
-    (calm(middle) ? low : high) = middle;
+    (stable(middle) ? low : high) = middle;
   }
   return std::sqrt(low * high);
 }
@@ -81,7 +81,7 @@ void sweep_encoder(const ExperimentRun& run, const DeviceConfig& device) {
       c.device = with_damping(c.device, kLittleDamping_n_s_per_m);
       c.device.delta.drive.resolution_rad = count_m / reach_m;
       c.device.delta.drive.coulomb_nm = std::array{0.0, 0.01, 0.03}[i];
-      limit[i] = calm_limit_n_per_m(c);
+      limit[i] = stable_limit_n_per_m(c);
       const double friction_n = 3.0 * c.device.delta.drive.coulomb_nm / reach_m;
       line[i] = 2.0 * friction_n / count_m;
     }

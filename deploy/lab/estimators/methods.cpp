@@ -1,10 +1,10 @@
 #include "deploy/lab/estimators/methods.hpp"
 
-#include "deploy/lab/estimators/behind_surface.hpp"
 #include "deploy/lab/estimators/extended_kalman.hpp"
 #include "deploy/lab/estimators/kelvin_voigt.hpp"
 #include "deploy/lab/estimators/log_linear.hpp"
 #include "deploy/lab/estimators/two_stage.hpp"
+#include "deploy/lab/estimators/unknown_surface.hpp"
 #include "deploy/lab/estimators/weighted_log_linear.hpp"
 
 namespace longreach {
@@ -25,23 +25,23 @@ class Of final : public Estimator {
 };
 
 template <class Textbook>
-std::unique_ptr<Estimator> behind_surface(const Textbook& estimator, const IdentifierConfig& c) {
+std::unique_ptr<Estimator> for_unknown_surface(const Textbook& estimator, const IdentifierConfig& c) {
   if (c.surface_known) return std::make_unique<Of<Textbook>>(estimator);
-  using Behind = BehindSurface<Textbook>;
+  using Behind = UnknownSurface<Textbook>;
   return std::make_unique<Of<Behind>>(Behind(estimator, c.forgetting));
 }
 
 std::unique_ptr<Estimator> two_stage(const IdentifierConfig& c) {
-  return behind_surface(TwoStage(c.forgetting), c);
+  return for_unknown_surface(TwoStage(c.forgetting), c);
 }
 std::unique_ptr<Estimator> log_linear(const IdentifierConfig& c) {
-  return behind_surface(LogLinear(c.forgetting), c);
+  return for_unknown_surface(LogLinear(c.forgetting), c);
 }
 std::unique_ptr<Estimator> weighted_log_linear(const IdentifierConfig& c) {
-  return behind_surface(WeightedLogLinear(c.forgetting), c);
+  return for_unknown_surface(WeightedLogLinear(c.forgetting), c);
 }
 std::unique_ptr<Estimator> extended_kalman(const IdentifierConfig& c) {
-  return behind_surface(ExtendedKalman(c.forgetting), c);
+  return for_unknown_surface(ExtendedKalman(c.forgetting), c);
 }
 std::unique_ptr<Estimator> kelvin_voigt(const IdentifierConfig& c) {
   if (c.surface_known) return std::make_unique<Of<KelvinVoigt>>(KelvinVoigt(c.forgetting));

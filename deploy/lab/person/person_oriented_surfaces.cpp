@@ -14,7 +14,7 @@ namespace {
 constexpr double kSide_m = 0.02;
 constexpr double kShare = 0.2;
 constexpr double kNoise_n = 0.1;
-constexpr double kCalm_n = 0.3;
+constexpr double kQuiet_n = 0.3;
 constexpr double kStop_nm_per_rad = 10.0;
 
 /// As far as the store, or what the hand was not given of it before, pays for a wall that was learnt late,
@@ -32,7 +32,7 @@ PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double 
   return {{"the tool presses too little to judge, N", least_n - m.tool_n, 0.0},
           {"shortfall of the force, N", (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
           {"force over the tool's, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
 }
 
 void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -66,7 +66,7 @@ PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
   return {{"the tool presses too little to judge, N", 0.5 - m.tool_n, 0.0},
           {"shortfall of the force, N", (1.0 - kShare) * due_n - m.felt_n, kNoise_n},
           {"force over the tool's, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
 }
 PersonChecks judge_slot_in_rate_mode(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all{in_front(seen)};

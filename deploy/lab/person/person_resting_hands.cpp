@@ -11,8 +11,8 @@ namespace longreach {
 namespace {
 
 constexpr double kWall_m = 0.03, kFarWall_m = 0.05;
-constexpr double kCalm_n = 0.2;  // swing of a force that has settled
-constexpr double kShare = 0.2;   // of what is due, by which less may be felt
+constexpr double kQuiet_n = 0.2;  // swing of a force that has settled
+constexpr double kShare = 0.2;    // of what is due, by which less may be felt
 
 /// What is rendered of the wall's stiffness.
 double rendered(const PersonScenario& s, double wall_n_per_m) {
@@ -30,7 +30,7 @@ PersonChecks felt_by_depth(const PersonScenario& s, const MoveSeen& m, double k,
   const double due_n = std::min({k * depth_m, s.master.rendering.force_max_n, store_pays_n(s, k)});
   return {{"shortfall of the force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"force over the wall's, N", m.felt_n - 1.1 * k * depth_m, 0.05},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
 }
 
 double behind_wall_m(const PersonScenario& s, const MoveSeen& m) {
@@ -61,7 +61,7 @@ PersonChecks judge_stop_inside(const PersonScenario& s, const PersonSeen& seen) 
   const MoveSeen& m = seen.move[1];
   const double depth_m = behind_wall_m(s, m);
   return {{"force over the wall's, N", m.felt_n - 1.1 * 1000.0 * std::max(0.0, depth_m), 0.05},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n},
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n},
           in_front(seen)};
 }
 
@@ -78,7 +78,7 @@ PersonChecks judge_hold_and_engage(const PersonScenario&, const PersonSeen& seen
   return {{"not engaged again", m.engaged ? 0.0 : 1.0, 0.0},
           {"force at the hand over that at the tool, N", std::abs(m.felt_n - m.tool_n), 0.3 + 0.1 * m.tool_n},
           {"shortfall of 0.2 N, N", 0.2 - m.felt_n, 0.0},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
 }
 
 // Rate mode, the handle held out against a wall.
@@ -101,7 +101,7 @@ PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
   return {{"shortfall of the force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"force over the wall's, N", m.felt_n - 1.1 * k * std::max(0.0, m.goal_m.x() - wall_m), 0.05},
           {"handle beyond its centre, m", -m.hand_m.x(), 1e-4},
-          {"swing of the force, N", m.felt_swing_n, kCalm_n}};
+          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
 }
 /// Held out far enough for a hand to bear it: 2 or 3 N, or what the store pays for, if that is less, for a
 /// stiffness that is found to be 2 % too low and less 4 % that a hand takes by giving way. (500 N/m and a

@@ -16,7 +16,7 @@ constexpr double kNormal_rad =
     std::numbers::pi / 90.0;  // of a surface whose normal noise at the touch has turned
 
 /// Of the tool, in all moves.
-PersonCheck calm(const PersonSeen& seen) {
+PersonCheck stable(const PersonSeen& seen) {
   double most = 0.0;
   for (const MoveSeen& m : seen.move) most = std::max(most, m.tool_m_per_s2);
   return {"acceleration of the tool, m/s^2", most, 1.5};
@@ -112,7 +112,7 @@ void stop_and_engage(PersonScenario& s) {
 }
 PersonChecks judge_stop_and_engage(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
-  return {calm(seen),
+  return {stable(seen),
           {"more force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
           {"not engaged again", m.engaged ? 0.0 : 1.0, 0.0}};
 }
@@ -128,7 +128,7 @@ void clutch_in_motion(PersonScenario& s, MotionMode mode) {
 }
 PersonChecks judge_clutch_in_motion(const PersonScenario&, const PersonSeen& seen) {
   const double way_m = (seen.move[2].goal_m - seen.move[0].goal_m).norm();
-  return {{"way of the goal while clutched, m", way_m, 1e-3}, calm(seen)};
+  return {{"way of the goal while clutched, m", way_m, 1e-3}, stable(seen)};
 }
 
 // A stop at speed; limits, scale and mode that are changed in motion.
@@ -139,7 +139,7 @@ void stop_at_speed(PersonScenario& s) {
              {.to_m = {0.045, 0, 0}, .speed_m_per_s = 0.15, .wait_s = 2.0, .stop = true}};
 }
 PersonChecks judge_stop_at_speed(const PersonScenario&, const PersonSeen& seen) {
-  return {calm(seen), {"still engaged", seen.move[1].engaged ? 1.0 : 0.0, 0.0}};
+  return {stable(seen), {"still engaged", seen.move[1].engaged ? 1.0 : 0.0, 0.0}};
 }
 void set_in_motion(PersonScenario& s) {
   clear(s);
@@ -155,7 +155,7 @@ void set_in_motion(PersonScenario& s) {
       {.to_m = {-0.02, 0, 0}, .speed_m_per_s = 0.1, .wait_s = 0.0, .wait_rtt = 0.0},
       {.to_m = {-0.02, 0, 0}, .wait_s = 1.0, .mode = MotionMode::kRate}};
 }
-PersonChecks judge_set_in_motion(const PersonScenario&, const PersonSeen& seen) { return {calm(seen)}; }
+PersonChecks judge_set_in_motion(const PersonScenario&, const PersonSeen& seen) { return {stable(seen)}; }
 
 // What is felt has the direction of the surface: pressed, then slid along, then pressed more.
 PersonChecks judge_direction(const PersonSeen& seen, const Vector3& out) {
@@ -233,7 +233,7 @@ void blackout_in_contact(PersonScenario& s) {
              {.to_m = {0.041, 0, 0}, .wait_s = 3.0, .wait_rtt = 2.0, .blackout_s = 0.7}};
 }
 PersonChecks judge_blackout_in_contact(const PersonScenario&, const PersonSeen& seen) {
-  return {in_front(seen), calm(seen), {"the tool moves, m", seen.move[1].tool_span_m(), 1e-3}};
+  return {in_front(seen), stable(seen), {"the tool moves, m", seen.move[1].tool_span_m(), 1e-3}};
 }
 void blackout_at_a_touch(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
@@ -245,7 +245,7 @@ void blackout_at_a_touch(PersonScenario& s) {
 }
 PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
-          calm(seen),
+          stable(seen),
           {"more force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
           {"not engaged again", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }

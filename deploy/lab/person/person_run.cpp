@@ -144,9 +144,9 @@ class Blackout {
 
 /// Takes the tool's place and the direction in which it is held back out of the reports, and forgets no
 /// surface.
-class Blind : public Meddler {
+class Blind : public FaultHooks {
  public:
-  void slave_answered(SlaveOutput& out) override {
+  void after_slave_step(SlaveOutput& out) override {
     if (!out.report) return;
     for (ContactReport* contact : {&out.report->translation, &out.report->rotation}) {
       contact->place.setZero();
@@ -183,7 +183,7 @@ void ask(Laboratory& lab, const PersonMove& move, MasterConfig& master) {
 PersonSeen run_person(const PersonScenario& s) {
   Laboratory lab(s.master, s.slave, s.seed);
   Blind blind;
-  if (s.blind) lab.let_meddle(blind);
+  if (s.blind) lab.set_fault_hooks(blind);
   PersonSeen all;
   HandTarget rest;
   rest.grip = s.grip;

@@ -9,8 +9,8 @@
 
 #include "common/recording/mcap_writer.hpp"
 #include "common/recording/recording_file.hpp"
-#include "master/recording/master_tape.hpp"
-#include "slave/recording/slave_tape.hpp"
+#include "master/recording/master_record_buffer.hpp"
+#include "slave/recording/slave_record_buffer.hpp"
 
 namespace longreach {
 
@@ -39,8 +39,8 @@ class LabRecording {
 
   RecordingFile file_;
   McapWriter writer_;
-  MasterTape master_;
-  SlaveTape slave_;
+  MasterRecordBuffer master_;
+  SlaveRecordBuffer slave_;
   std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
   std::uint64_t undrained_ = 0;  // records, at most
   bool finished_ = false;

@@ -4,8 +4,8 @@
 #include "common/recording/recorded_values.hpp"
 #include "common/recording/recording_error.hpp"
 #include "deploy/lab/recording/message_difference.hpp"
-#include "master/recording/master_tape.hpp"
-#include "slave/recording/slave_tape.hpp"
+#include "master/recording/master_record_buffer.hpp"
+#include "slave/recording/slave_record_buffer.hpp"
 
 namespace longreach {
 namespace {

@@ -123,18 +123,18 @@ class GuardCommands {
 
   void step(SlaveInput& in, bool engaged, bool changed) {
     in.peer_session_count = 1;
-    if (heard_) in.last_heard = command_.received;
+    if (received_) in.last_heard = command_.received;
     if (in.now.time_since_epoch().count() % 5000000 != 0 || (changed && case_.then == Then::kSilence)) return;
     const double end_m = kGuardWall_m + 0.02 + case_.speed_m_per_s * case_.round_trip_s;
     if (engaged) goal_m_ = std::min(end_m, goal_m_ + 5e-3 * case_.speed_m_per_s);
     ++command_.sequence;
     command_.sent = PeerTime{in.now.time_since_epoch()};
     command_.received = in.now;
-    if (heard_) command_.echo_sent = in.now - from_seconds(case_.round_trip_s);
+    if (received_) command_.echo_sent = in.now - from_seconds(case_.round_trip_s);
     command_.message.engagement = 1;
     command_.message.request = changed && case_.then == Then::kStop ? Request::kStop : Request::kEngage;
     command_.message.position_m.x() = goal_m_;
-    heard_ = true;
+    received_ = true;
     in.commands = {&command_, 1};
     in.last_heard = in.now;
   }
@@ -144,7 +144,7 @@ class GuardCommands {
   GuardCase case_;
   Received<MotionCommand> command_{};
   double goal_m_ = 0.0;
-  bool heard_ = false;
+  bool received_ = false;
 };
 
 inline GuardTouch guard_touch(const GuardCase& c) {

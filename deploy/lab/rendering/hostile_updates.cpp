@@ -165,9 +165,9 @@ HandTarget motion(double t, Grip grip) {
 }
 
 /// One master in one hand under one attack.
-class Siege {
+class AttackRun {
  public:
-  Siege(MasterConfig config, const Hand& hand, Attack attack, const Random& random)
+  AttackRun(MasterConfig config, const Hand& hand, Attack attack, const Random& random)
       : config_(prepared(std::move(config), hand)),
         hand_(hand),
         devices_(config_.device),
@@ -295,8 +295,8 @@ std::vector<Metric> run_hostile_updates(const ExperimentRun& run) {
     for (const Hand& hand : kHands) {
       const Random stream = random.child(std::string(kAttackNames[static_cast<std::size_t>(a)]) + hand.name);
       const int updates = kUpdates / kCases;
-      const Outcome one = Siege(config, hand, static_cast<Attack>(a), stream).run(updates);
-      const Outcome other = Siege(naive, hand, static_cast<Attack>(a), stream).run(updates);
+      const Outcome one = AttackRun(config, hand, static_cast<Attack>(a), stream).run(updates);
+      const Outcome other = AttackRun(naive, hand, static_cast<Attack>(a), stream).run(updates);
       worsen(ours, one);
       worsen(theirs, other);
       naive_sum_j += other.energy_min_j;

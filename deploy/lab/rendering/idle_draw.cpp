@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "deploy/lab/rendering/port_witness.hpp"
+#include "deploy/lab/rendering/port_meter.hpp"
 #include "master/master_node.hpp"
 #include "master/simulation/hand_model.hpp"
 #include "master/simulation/simulated_devices.hpp"
@@ -20,16 +20,16 @@ constexpr double kTurn_rad_per_s = 0.5;
 constexpr double kSurface_m = 0.002;  // of the goal, from the anchor
 constexpr double kSurface_rad = 0.02;
 constexpr double kLetsGo_s = 4.0;
-constexpr double kLeans_s = 5.0;  // in rate mode, as much as is felt until then
-constexpr double kCalm_s = 10.0;  // and its ripple
-constexpr double kStill_s = 8.0;  // judged from here on
+constexpr double kLeans_s = 5.0;   // in rate mode, as much as is felt until then
+constexpr double kQuiet_s = 10.0;  // and its ripple
+constexpr double kStill_s = 8.0;   // judged from here on
 
 /// The slave: it engages when asked, and touches where the goal has come to the surface.
 class PlayedSlave {
  public:
   explicit PlayedSlave(const IdleDraw& draw) : draw_(draw) {}
 
-  void hear(const MotionCommand& c, std::uint64_t sequence) {
+  void receive(const MotionCommand& c, std::uint64_t sequence) {
     report_.engagement = c.engagement;
     report_.state = c.request == Request::kEngage ? SafetyState::kEngaged : SafetyState::kObserving;
     touch(report_.translation, draw_.wall_n_per_m, draw_.inward.dot(c.position_m) - kSurface_m, sequence);
@@ -113,7 +113,7 @@ class IdleRun {
     asked_ = asked_ || in.requests.engage;
     if (asked_ && ++tick_ % 10 == 0) in.reports = {&report, 1};
     const MasterOutput out = node_.step(in);
-    if (out.command) slave_.hear(*out.command, out.sequence);
+    if (out.command) slave_.receive(*out.command, out.sequence);
     return out;
   }
 
@@ -131,8 +131,8 @@ class IdleRun {
     }
     if (t_s < kStill_s) return;
     if (!rests_) rest();
-    linear_.watch(F.force, x_, t_s > kCalm_s + 1.0);
-    angular_.watch(F.moment, log_rotation(q_), t_s > kCalm_s + 1.0);
+    linear_.watch(F.force, x_, t_s > kQuiet_s + 1.0);
+    angular_.watch(F.moment, log_rotation(q_), t_s > kQuiet_s + 1.0);
     injected_ = injected_ || m.damping_injected;
   }
 
@@ -216,7 +216,7 @@ class IdleRun {
   SimulatedDevices devices_;
   MasterNode node_;
   PlayedSlave slave_;
-  PortWitness linear_, angular_;
+  PortMeter linear_, angular_;
   std::array<Wrench, kWaiting> waiting_{};  // commanded, newest first
   Vector3 x_ = Vector3::Zero();
   Quaternion q_ = Quaternion::Identity();

@@ -20,7 +20,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "deploy/lab/on_all_cores.hpp"
-#include "deploy/lab/robot/lying_sensor.hpp"
+#include "deploy/lab/robot/faulty_sensor.hpp"
 #include "deploy/lab/trace.hpp"
 #include "slave/config/guard_config.hpp"
 
@@ -60,11 +60,11 @@ struct Outcome {
   double force_n = 0.0;  // true, largest while the way lasts
   double way_m = 0.0;    // away from the wall, largest; of a wrong sign towards it, from the first 0.8 G on
   bool used_up = false;
-  std::optional<double> stopped_s{}, told_s{};  // used up and at rest; the right words
-  std::optional<double> sign_s{};               // a fault of the sensor is told
-  double sign_force_n = 0.0;                    // true, then
-  std::optional<double> near_s{};               // 0.8 G felt
-  HoldCause held{};                             // the first that was told
+  std::optional<double> stopped_s{}, reported_s{};  // used up and at rest; the right words
+  std::optional<double> sign_s{};                   // a fault of the sensor is told
+  double sign_force_n = 0.0;                        // true, then
+  std::optional<double> near_s{};                   // 0.8 G felt
+  HoldCause held{};                                 // the first that was told
 };
 
 /// What the operator is to read: retreat against x.
@@ -74,8 +74,10 @@ bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign;
 }
 
-/// Of a sensor whose sign is wrong, "no relief" is right, too.
-bool stops_a_wrong_sign(HoldCause cause) { return of_the_sensor(cause) || cause == HoldCause::kNoRelief; }
+/// Of a sensor whose sign is wrong, "force persists" is right, too.
+bool stops_a_wrong_sign(HoldCause cause) {
+  return of_the_sensor(cause) || cause == HoldCause::kForcePersists;
+}
 
 double guard_n(const Cell& c) {
   return c.wall_m_per_s == 0.0 && c.wall_n_per_m < 500.0 ? kSoftGuard_n : kGuard_n;
@@ -144,9 +146,9 @@ Outcome met(const ExperimentRun& run, const Cell& c) {
   const proto::LabConfig config = wall_config(c);
   const SlaveConfig slave = to_struct(config.slave());
   Laboratory lab(to_struct(config.master()), slave, run.seed);
-  LyingSensor sensor(slave.robot);
-  if (c.wrong_sign) sensor.lie({Lie::kSign});
-  lab.tamper([&](Time now, RobotState& robot) { sensor.tell(now, robot); });
+  FaultySensor sensor(slave.robot);
+  if (c.wrong_sign) sensor.sensor_fault({SensorFaultKind::kSign});
+  lab.tamper([&](Time now, RobotState& robot) { sensor.apply(now, robot); });
   Outcome out;
   const double from_m = lab.arm().start_pose().p.x(), until_s = watched_s(c);
   double near_m = 0.0;
@@ -167,7 +169,7 @@ Outcome met(const ExperimentRun& run, const Cell& c) {
     if (!out.used_up) out.force_n = std::max(out.force_n, force_n);
     const bool rests = lab.arm().true_velocity().norm() < kStopped * c.wall_m_per_s;
     if (out.used_up && rests && !out.stopped_s) out.stopped_s = lab.now_s();
-    if (!out.told_s && right_words(lab.slave().cause)) out.told_s = lab.now_s();
+    if (!out.reported_s && right_words(lab.slave().cause)) out.reported_s = lab.now_s();
     const HoldCause cause = lab.slave().cause;
     if (out.held == HoldCause::kNone && lab.now_s() > kTouched_s) out.held = cause;
     if (c.wrong_sign ? stops_a_wrong_sign(cause) : of_the_sensor(cause)) {
@@ -220,12 +222,12 @@ std::vector<Cell> all_cells() {
 }
 
 struct Sum {
-  double runs = 0.0, used_up = 0.0, over_guard = 0.0, over_bound = 0.0, late_s = 0.0, not_told = 0.0,
+  double runs = 0.0, used_up = 0.0, over_guard = 0.0, over_bound = 0.0, late_s = 0.0, not_reported = 0.0,
          way_m = 0.0, false_signs = 0.0;
   // Of layers; under a hand that moves, of walls and of layers: within 250 N/s, and beyond.
   std::array<double, 2> layers_over_guard{};
   std::array<double, 4> moved_over_guard{};
-  double moved = 0.0, moved_no_relief = 0.0;
+  double moved = 0.0, moved_force_persists = 0.0;
   double signs = 0.0, at_rest = 0.0, near = 0.0, found = 0.0, sign_late_s = 0.0, sign_way_m = 0.0,
          rest_force = 0.0;
 
@@ -240,16 +242,16 @@ struct Sum {
     over = std::max(over, o.force_n / (within || c.layers ? kGuard_n : bound_n(c)));
     if (!o.used_up) return;
     used_up += 1.0;
-    if (!o.stopped_s || !o.told_s) {
-      not_told += 1.0;
+    if (!o.stopped_s || !o.reported_s) {
+      not_reported += 1.0;
     } else {
-      late_s = std::max(late_s, std::abs(*o.told_s - *o.stopped_s));
+      late_s = std::max(late_s, std::abs(*o.reported_s - *o.stopped_s));
     }
   }
   void add_moved(const Cell& c, const Outcome& o) {
     moved += 1.0;
     false_signs += o.sign_s ? 1.0 : 0.0;
-    moved_no_relief += o.held == HoldCause::kNoRelief ? 1.0 : 0.0;
+    moved_force_persists += o.held == HoldCause::kForcePersists ? 1.0 : 0.0;
     const bool within = c.wall_n_per_m * nears_m_per_s(c) <= kHaste_n_per_s;
     double& over = moved_over_guard[(c.layers ? 2 : 0) + (within ? 0 : 1)];
     over = std::max(over, o.force_n / kGuard_n);
@@ -296,7 +298,7 @@ std::vector<Metric> run_moving_wall(const ExperimentRun& run) {
     sum.add(c, o);
     trace.row({static_cast<double>(i), static_cast<double>(c.arm), c.wall_n_per_m, c.wall_m_per_s,
                c.wrong_sign ? 1.0 : 0.0, c.wall_n_per_m * c.wall_m_per_s, o.force_n, o.force_n / bound_n(c),
-               o.way_m, o.stopped_s.value_or(-1.0), o.told_s.value_or(-1.0), o.sign_s.value_or(-1.0),
+               o.way_m, o.stopped_s.value_or(-1.0), o.reported_s.value_or(-1.0), o.sign_s.value_or(-1.0),
                o.near_s.value_or(-1.0), o.sign_force_n, c.layers ? 1.0 : 0.0, c.hand_m_per_s,
                static_cast<double>(o.held)});
   }
@@ -309,7 +311,7 @@ std::vector<Metric> run_moving_wall(const ExperimentRun& run) {
           {"layers_force_over_guard_max", sum.layers_over_guard[0], ""},
           {"layers_fast_force_over_guard_max", sum.layers_over_guard[1], ""},
           {"used_up", sum.used_up, ""},
-          {"not_told", sum.not_told, ""},
+          {"not_told", sum.not_reported, ""},
           {"told_beside_stop_max_s", sum.late_s, "s"},
           {"way_max_m", sum.way_m, "m"},
           {"false_signs", sum.false_signs, ""},
@@ -318,7 +320,7 @@ std::vector<Metric> run_moving_wall(const ExperimentRun& run) {
           {"hand_moves_fast_force_over_guard_max", sum.moved_over_guard[1], ""},
           {"hand_moves_layers_force_over_guard_max", sum.moved_over_guard[2], ""},
           {"hand_moves_layers_fast_force_over_guard_max", sum.moved_over_guard[3], ""},
-          {"hand_moves_no_relief", sum.moved_no_relief, ""},
+          {"hand_moves_no_relief", sum.moved_force_persists, ""},
           {"wrong_sign_runs", sum.signs, ""},
           {"wrong_sign_pressed", sum.near, ""},
           {"wrong_sign_found", sum.found, ""},

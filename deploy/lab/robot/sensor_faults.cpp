@@ -20,7 +20,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "deploy/lab/on_all_cores.hpp"
-#include "deploy/lab/robot/lying_sensor.hpp"
+#include "deploy/lab/robot/faulty_sensor.hpp"
 #include "deploy/lab/trace.hpp"
 
 namespace longreach {
@@ -29,7 +29,7 @@ namespace {
 constexpr double kWall_m = 0.02;  // from the start, along x
 constexpr double kWall_n_per_m = 2000.0;
 constexpr double kHand_m_per_s = 0.02;
-constexpr double kLie_s = 4.5;  // when it begins, the hand rests since then
+constexpr double kFault_s = 4.5;  // when it begins, the hand rests since then
 constexpr double kWatched_s = 4.0;
 constexpr double kGuard_n = 20.0;
 constexpr double kUnanswered_m = 0.02;
@@ -50,49 +50,54 @@ constexpr std::size_t kStates = static_cast<std::size_t>(In::kCount);
 bool touches(In in) { return in == In::kContact || in == In::kHoldingContact; }
 
 /// `leap`: no surface makes it, so it is implausible when it begins.
-struct Lied {
-  SensorLie lie;
+struct SensorFaultOutcome {
+  SensorFault sensor_fault;
   bool leap = false;
 };
 
-std::vector<Lied> lies() {
+std::vector<SensorFaultOutcome> sensor_faults() {
   const Vector3 askew = Vector3(1, 1, 1).normalized();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  return {{{Lie::kNone}},
-          {{Lie::kBias, 9.0 * std::sqrt(3.0), askew}},
-          {{Lie::kBias, 60.0, askew}, true},
-          {{Lie::kDrift, 6.0, askew}},
-          {{Lie::kStuck, 15.0, askew}},
-          {{Lie::kStuck, 60.0, askew}, true},
-          {{Lie::kFrozen}},
-          {{Lie::kSpike, 1e300, askew}, true},
-          {{Lie::kSpike, nan, askew}, true},
-          {{Lie::kSaturation, 3.0}},
-          {{Lie::kSign}},
-          {{Lie::kFrame, 0.5 * std::numbers::pi, Vector3::UnitX()}},
-          {{Lie::kFrame, 0.5 * std::numbers::pi, Vector3::UnitY()}},
-          {{Lie::kFrame, 0.5 * std::numbers::pi, Vector3::UnitZ()}},
-          {{Lie::kAxes}}};
+  return {{{SensorFaultKind::kNone}},
+          {{SensorFaultKind::kBias, 9.0 * std::sqrt(3.0), askew}},
+          {{SensorFaultKind::kBias, 60.0, askew}, true},
+          {{SensorFaultKind::kDrift, 6.0, askew}},
+          {{SensorFaultKind::kStuck, 15.0, askew}},
+          {{SensorFaultKind::kStuck, 60.0, askew}, true},
+          {{SensorFaultKind::kFrozen}},
+          {{SensorFaultKind::kSpike, 1e300, askew}, true},
+          {{SensorFaultKind::kSpike, nan, askew}, true},
+          {{SensorFaultKind::kSaturation, 3.0}},
+          {{SensorFaultKind::kSign}},
+          {{SensorFaultKind::kFrame, 0.5 * std::numbers::pi, Vector3::UnitX()}},
+          {{SensorFaultKind::kFrame, 0.5 * std::numbers::pi, Vector3::UnitY()}},
+          {{SensorFaultKind::kFrame, 0.5 * std::numbers::pi, Vector3::UnitZ()}},
+          {{SensorFaultKind::kAxes}}};
 }
 
 /// A wrong sign or frame is there from the beginning.
-bool built_in(Lie lie) { return lie == Lie::kSign || lie == Lie::kFrame || lie == Lie::kAxes; }
+bool built_in(SensorFaultKind sensor_fault) {
+  return sensor_fault == SensorFaultKind::kSign || sensor_fault == SensorFaultKind::kFrame ||
+         sensor_fault == SensorFaultKind::kAxes;
+}
 
 struct Outcome {
   double way_m = 0.0;
   double force_n = 0.0;  // true, largest
   std::optional<double> implausible_s{};
-  std::optional<double> told_s{};
+  std::optional<double> reported_s{};
 };
 
 /// Nothing moves here: what comes is the sensor's, too.
 bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
-         cause == HoldCause::kNoRelief || cause == HoldCause::kWallComes;
+         cause == HoldCause::kForcePersists || cause == HoldCause::kWallComes;
 }
 
 /// What a sensor that drifts says of a wall grows at rest and answers to giving way, as one that comes does.
-bool fakes_an_answer(In in, Lie lie) { return touches(in) && lie == Lie::kDrift; }
+bool fakes_an_answer(In in, SensorFaultKind sensor_fault) {
+  return touches(in) && sensor_fault == SensorFaultKind::kDrift;
+}
 
 /// The hand on its way to the wall, or not.
 HandTarget hand_at(In in, double t_s) {
@@ -109,8 +114,8 @@ void bring(Laboratory& lab, In in, double t_s) {
   if ((in == In::kHolding || in == In::kHoldingContact) && at(3.5)) lab.kill_master();
 }
 
-Outcome lied(const ExperimentRun& run, const char* arm, In in, const Lied& what,
-             const std::function<Vector3(const Laboratory&)>& answer = {}) {
+Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const SensorFaultOutcome& what,
+                   const std::function<Vector3(const Laboratory&)>& answer = {}) {
   const bool engages = in != In::kIdle && in != In::kObserving;
   const std::string x = std::to_string(kWall_m);
   const proto::LabConfig config =
@@ -122,43 +127,44 @@ Outcome lied(const ExperimentRun& run, const char* arm, In in, const Lied& what,
                 find_deploy_folder());
   const SlaveConfig slave = to_struct(config.slave());
   Laboratory lab(to_struct(config.master()), slave, run.seed);
-  LyingSensor sensor(slave.robot);
-  if (built_in(what.lie.lie)) sensor.lie(what.lie);
+  FaultySensor sensor(slave.robot);
+  if (built_in(what.sensor_fault.sensor_fault)) sensor.sensor_fault(what.sensor_fault);
   lab.tamper([&](Time now, RobotState& robot) {
-    sensor.tell(now, robot);
-    if (answer && lab.now_s() > kLie_s) robot.F_F_W.force = answer(lab);
+    sensor.apply(now, robot);
+    if (answer && lab.now_s() > kFault_s) robot.F_F_W.force = answer(lab);
   });
   Outcome out;
   Vector3 from_m = Vector3::Zero();
   double from_n = 0.0;
   bool began = false;
-  while (lab.now_s() < kLie_s + kWatched_s) {
+  while (lab.now_s() < kFault_s + kWatched_s) {
     const double t_s = lab.now_s();
     lab.drive(hand_at(in, t_s));
     bring(lab, in, t_s);
-    if (t_s >= kLie_s && !began) {
+    if (t_s >= kFault_s && !began) {
       began = true;
       from_m = lab.arm().true_pose().p;
       from_n = lab.arm().true_wrench().force.norm();
-      if (!built_in(what.lie.lie)) sensor.lie(what.lie);
+      if (!built_in(what.sensor_fault.sensor_fault)) sensor.sensor_fault(what.sensor_fault);
       if (what.leap) out.implausible_s = t_s;
     }
     lab.step();
     const double force_n = lab.arm().true_wrench().force.norm();
     out.force_n = std::max(out.force_n, force_n);
-    if (!out.told_s && of_the_sensor(lab.slave().cause)) out.told_s = lab.now_s();
+    if (!out.reported_s && of_the_sensor(lab.slave().cause)) out.reported_s = lab.now_s();
     if (!began) continue;
-    const double relieved_m = std::max(from_n - force_n, 0.0) / kWall_n_per_m;
-    out.way_m = std::max(out.way_m, (lab.arm().true_pose().p - from_m).norm() - relieved_m);
+    const double eased_m = std::max(from_n - force_n, 0.0) / kWall_n_per_m;
+    out.way_m = std::max(out.way_m, (lab.arm().true_pose().p - from_m).norm() - eased_m);
     // It has given way as far as it may, and nothing answered.
-    if (!out.implausible_s && what.lie.lie != Lie::kNone && out.way_m > 0.99 * kUnanswered_m)
+    if (!out.implausible_s && what.sensor_fault.sensor_fault != SensorFaultKind::kNone &&
+        out.way_m > 0.99 * kUnanswered_m)
       out.implausible_s = lab.now_s();
   }
   return out;
 }
 
 struct Cell {
-  std::size_t arm, state, lie;
+  std::size_t arm, state, sensor_fault;
 };
 
 }  // namespace
@@ -173,11 +179,12 @@ std::vector<Plot> sensor_faults_plots() {
 }
 
 std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
-  const std::vector<Lied> all = lies();
+  const std::vector<SensorFaultOutcome> all = sensor_faults();
   std::vector<Cell> cells;
   for (std::size_t arm = 0; arm < kArms.size(); ++arm) {
     for (std::size_t state = 0; state < kStates; ++state) {
-      for (std::size_t lie = 0; lie < all.size(); ++lie) cells.push_back({arm, state, lie});
+      for (std::size_t sensor_fault = 0; sensor_fault < all.size(); ++sensor_fault)
+        cells.push_back({arm, state, sensor_fault});
     }
   }
   std::vector<Outcome> outcomes(cells.size());
@@ -185,25 +192,27 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
       cells.size(),
       [&](std::size_t i) {
         const Cell& c = cells[i];
-        outcomes[i] = lied(run, kArms[c.arm], static_cast<In>(c.state), all[c.lie]);
+        outcomes[i] = was_faulty(run, kArms[c.arm], static_cast<In>(c.state), all[c.sensor_fault]);
       },
       run.progress);
   Trace trace(run.out, "sensor_faults", {"run", "arm", "state", "lie", "way_m", "force_n", "told_s"});
-  double way_m = 0.0, force_n = 0.0, faked_m = 0.0, faked_n = 0.0, late_s = 0.0, never = 0.0, told = 0.0,
+  double way_m = 0.0, force_n = 0.0, faked_m = 0.0, faked_n = 0.0, late_s = 0.0, never = 0.0, reported = 0.0,
          false_faults = 0.0, honest = 0.0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Outcome& o = outcomes[i];
-    const bool lies_now = all[cells[i].lie].lie.lie != Lie::kNone;
-    const bool fakes = fakes_an_answer(static_cast<In>(cells[i].state), all[cells[i].lie].lie.lie);
+    const bool faulty_now = all[cells[i].sensor_fault].sensor_fault.sensor_fault != SensorFaultKind::kNone;
+    const bool fakes = fakes_an_answer(static_cast<In>(cells[i].state),
+                                       all[cells[i].sensor_fault].sensor_fault.sensor_fault);
     (fakes ? faked_m : way_m) = std::max(fakes ? faked_m : way_m, o.way_m);
     (fakes ? faked_n : force_n) = std::max(fakes ? faked_n : force_n, o.force_n);
-    told += lies_now && o.told_s ? 1.0 : 0.0;
-    honest += lies_now ? 0.0 : 1.0;
-    false_faults += !lies_now && o.told_s ? 1.0 : 0.0;
-    if (o.implausible_s && !o.told_s) never += 1.0;
-    if (o.implausible_s && o.told_s && !fakes) late_s = std::max(late_s, *o.told_s - *o.implausible_s);
+    reported += faulty_now && o.reported_s ? 1.0 : 0.0;
+    honest += faulty_now ? 0.0 : 1.0;
+    false_faults += !faulty_now && o.reported_s ? 1.0 : 0.0;
+    if (o.implausible_s && !o.reported_s) never += 1.0;
+    if (o.implausible_s && o.reported_s && !fakes)
+      late_s = std::max(late_s, *o.reported_s - *o.implausible_s);
     trace.row({static_cast<double>(i), static_cast<double>(cells[i].arm), static_cast<double>(cells[i].state),
-               static_cast<double>(cells[i].lie), o.way_m, o.force_n, o.told_s.value_or(-1.0)});
+               static_cast<double>(cells[i].sensor_fault), o.way_m, o.force_n, o.reported_s.value_or(-1.0)});
   }
   trace.close();
   // The figure must come out bad for a force that answers to the way, though it is none.
@@ -212,17 +221,17 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
     if (!start) start = p_m;
     return Vector3((18.0 - 130.0 * (p_m - *start).norm()) * Vector3::UnitY());
   };
-  const Outcome control = lied(run, kArms[3], In::kHolding, {}, answers);
+  const Outcome control = was_faulty(run, kArms[3], In::kHolding, {}, answers);
   const double runs = static_cast<double>(cells.size());
   return {{"runs", runs, ""},
           {"way_max_m", way_m, "m"},
           {"true_force_over_guard", force_n / kGuard_n, ""},
           {"faked_answer_way_max_m", faked_m, "m"},
           {"faked_answer_true_force_over_guard", faked_n / kGuard_n, ""},
-          {"told", told, ""},
+          {"told", reported, ""},
           {"told_late_max_s", late_s, "s"},
           {"implausible_never_told", never, ""},
-          {"not_revealed", runs - honest - told, ""},
+          {"not_revealed", runs - honest - reported, ""},
           {"honest_runs", honest, ""},
           {"false_faults", false_faults, ""},
           {"control_way_m", control.way_m, "m"}};

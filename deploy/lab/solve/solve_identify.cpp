@@ -79,9 +79,9 @@ Json to_json(const ContactAnswer& answer) {
   Json values, sd;
   for (const Named& n : kNamed) {
     const Identified& p = answer.*n.value;
-    const bool told =
+    const bool reported =
         answer.valid && p.verdict != Verdict::kNotIdentifiable && p.verdict != Verdict::kNoPowerLaw;
-    values[n.name] = told ? Json(p.value) : Json(nullptr);
+    values[n.name] = reported ? Json(p.value) : Json(nullptr);
     sd[n.name] = answer.valid ? Json(p.sd) : Json(nullptr);
   }
   values["sd"] = sd;

@@ -15,9 +15,9 @@ namespace {
 
 /// A master in the hand of nobody, with a slave made of reports.
 struct Bench {
-  explicit Bench(const MasterConfig& c = {}) : config(c), node(config) { hear(); }
+  explicit Bench(const MasterConfig& c = {}) : config(c), node(config) { receive(); }
 
-  void hear() {
+  void receive() {
     in.last_heard = in.now;
     in.telemetry = {};
   }

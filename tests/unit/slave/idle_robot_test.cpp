@@ -7,7 +7,7 @@ namespace {
 
 using test::Loop;
 
-TEST(SlaveNode, CommandsTheRobotWhileItIsEngagedHoldsOrStopsAndAtNoOtherTime) {
+TEST(SlaveNode, CommandsRobotOnlyWhileEngagedHoldingOrStopping) {
   Loop loop(test::wall_config(5.0, 1000.0));
   const auto commanded = [&](double seconds) {
     int ticks = 0;
@@ -77,15 +77,15 @@ TEST(SlaveNode, ARobotMovedBySomebodyElseStaysThereAndIsEngagedThere) {
 }
 
 TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
-  const auto waits = [](const std::function<void(RobotState&)>& lie) {
+  const auto waits = [](const std::function<void(RobotState&)>& sensor_fault) {
     Loop loop(test::wall_config(5.0, 1000.0));
     loop.run(0.2);
-    loop.lie = lie;
+    loop.sensor_fault = sensor_fault;
     loop.command.engagement = 1;
     loop.command.request = Request::kEngage;
     loop.run(0.4);
     const bool waited = !loop.node.engaged() && loop.view().unready != HoldCause::kNone;
-    loop.lie = {};
+    loop.sensor_fault = {};
     loop.run(0.1);
     return waited && loop.node.engaged();
   };
@@ -111,41 +111,41 @@ TEST(SlaveNode, AnEngagementWaitsUntilTheRobotRestsWithinItsLimits) {
 }
 
 TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
-  struct Lie {
+  struct SensorFaultKind {
     const char* what;
     std::function<void(RobotState&)> tell;
     HoldCause cause = HoldCause::kJointLeapt;
   };
-  const Lie lies[] = {
+  const SensorFaultKind sensor_faults[] = {
       {"leap", [](RobotState& robot) { robot.joint_rad[1] += 0.3; }},
       {"all", [](RobotState& robot) { robot.joint_rad.array() += 1.0; }},
       {"huge", [](RobotState& robot) { robot.joint_rad[0] = 1e300; }},
       {"speed", [](RobotState& robot) { robot.joint_rad_per_s[0] = 1e9; }, HoldCause::kJointTooFast},
       {"beyond", [](RobotState& robot) { robot.joint_rad[4] = -1.7; }}};
-  for (const Lie& lie : lies) {
+  for (const SensorFaultKind& sensor_fault : sensor_faults) {
     Loop loop(test::wall_config(5.0, 1000.0));
     loop.engage();
     loop.move_to(0.2, 0.1);
     JointVector before = *loop.out.joint_setpoint_rad;
     const Vector3 at_m = loop.arm.true_pose().p;
-    loop.lie = lie.tell;
+    loop.sensor_fault = sensor_fault.tell;
     for (int i = 0; i < 1000; ++i) {
-      if (i == 20) loop.lie = {};
+      if (i == 20) loop.sensor_fault = {};
       loop.tick();
-      ASSERT_NE(loop.view().state, SafetyState::kEngaged) << lie.what;
+      ASSERT_NE(loop.view().state, SafetyState::kEngaged) << sensor_fault.what;
       if (!loop.out.joint_setpoint_rad) continue;
-      ASSERT_LT((*loop.out.joint_setpoint_rad - before).cwiseAbs().maxCoeff(), 1e-3) << lie.what;
+      ASSERT_LT((*loop.out.joint_setpoint_rad - before).cwiseAbs().maxCoeff(), 1e-3) << sensor_fault.what;
       before = *loop.out.joint_setpoint_rad;
     }
-    EXPECT_EQ(loop.view().state, SafetyState::kFault) << lie.what;
-    EXPECT_EQ(loop.view().cause, lie.cause) << lie.what;
+    EXPECT_EQ(loop.view().state, SafetyState::kFault) << sensor_fault.what;
+    EXPECT_EQ(loop.view().cause, sensor_fault.cause) << sensor_fault.what;
     // Braking from 0.1 m/s, by the slowest of the joints.
-    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << lie.what;
+    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << sensor_fault.what;
     loop.command.position_m.setZero();
     loop.engage(2);
     loop.run(0.5);
-    EXPECT_TRUE(loop.node.engaged()) << lie.what;
-    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << lie.what;
+    EXPECT_TRUE(loop.node.engaged()) << sensor_fault.what;
+    EXPECT_LT((loop.arm.true_pose().p - at_m).norm(), 0.01) << sensor_fault.what;
   }
 }
 

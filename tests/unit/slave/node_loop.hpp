@@ -29,7 +29,7 @@ struct Loop {
   bool echo = true;
   RobotState broken{};
   bool use_broken = false;
-  std::function<void(RobotState&)> lie{};  // of the robot about itself
+  std::function<void(RobotState&)> sensor_fault{};  // of the robot about itself
   std::vector<Received<MotionCommand>> commands;
   std::optional<Time> last_heard;
   SlaveOutput out;
@@ -58,7 +58,7 @@ struct Loop {
     in.now = now;
     in.robot = arm.read(now);
     if (use_broken) in.robot = broken;
-    if (lie) lie(in.robot);
+    if (sensor_fault) sensor_fault(in.robot);
     in.commands = commands;
     in.last_heard = last_heard;
     in.peer_session_count = last_heard ? sessions : 0;

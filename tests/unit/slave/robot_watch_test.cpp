@@ -69,7 +69,7 @@ TEST(RobotWatch, AMotorWithoutPowerIsAFaultAndNothingIsCommandedThen) {
   w.powered = false;
   for (int i = 0; i < 100 && w.node.view().state == SafetyState::kEngaged; ++i) w.run(0.1, 0.2);
   EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotAstray);
+  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotTrackingLost);
   EXPECT_FALSE(w.out.joint_setpoint_rad);
   // Power again: nothing moves until the operator engages anew.
   w.powered = true;
@@ -84,7 +84,7 @@ TEST(RobotWatch, AMotorWithoutPowerIsAFaultAndNothingIsCommandedThen) {
   EXPECT_LT((w.arm.true_pose().p - at_m).norm(), 1e-6);
 }
 
-TEST(RobotWatch, AJointThatMovesOnInAHoldOrAStopIsAFaultAndHindersAnEngagement) {
+TEST(RobotWatch, UncommandedJointMotionIsFaultAndBlocksEngagement) {
   for (const Request request : {Request::kHold, Request::kStop}) {
     Watched w;
     w.run(0.5);
@@ -95,7 +95,7 @@ TEST(RobotWatch, AJointThatMovesOnInAHoldOrAStopIsAFaultAndHindersAnEngagement) 
     EXPECT_EQ(w.node.view().state, request == Request::kHold ? SafetyState::kHolding : SafetyState::kStopped);
     w.run(0.4);
     EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-    EXPECT_EQ(w.node.view().cause, HoldCause::kRobotRestless);
+    EXPECT_EQ(w.node.view().cause, HoldCause::kRobotUncommandedMotion);
     w.command.message.request = Request::kEngage;
     w.command.message.engagement = 2;
     w.run(0.5);
@@ -116,7 +116,7 @@ TEST(RobotWatch, ASlowDriftIsNoticedWhenTheRobotIsAstray) {
   EXPECT_EQ(w.node.view().state, SafetyState::kHolding);
   w.run(3.0);
   EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotAstray);
+  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotTrackingLost);
 }
 
 TEST(RobotWatch, ALinkThatSwingsToRestIsNotRestless) {
@@ -128,7 +128,7 @@ TEST(RobotWatch, ALinkThatSwingsToRestIsNotRestless) {
     state.joint_rad[0] = 0.05 * std::sin(12.0 * t_s) * std::exp(-0.2 * t_s);
     state.joint_rad_per_s[0] = 0.6 * std::cos(12.0 * t_s) * std::exp(-0.2 * t_s);
     watch.step(state, JointVector::Zero(), true, true, 1e-3);
-    ASSERT_FALSE(watch.restless() || watch.astray()) << t_s;
+    ASSERT_FALSE(watch.uncommanded_motion() || watch.tracking_lost()) << t_s;
   }
 }
 

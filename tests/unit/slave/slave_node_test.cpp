@@ -165,7 +165,7 @@ TEST(SlaveNode, AFastTouchKeepsTheForceGuard) {
   EXPECT_TRUE(loop.view().clamps.force_guard);
 }
 
-TEST(SlaveNode, GoesToFaultOnANonFiniteRobotStateAndKeepsASaneSetpoint) {
+TEST(SlaveNode, NonFiniteRobotStateIsFaultAndKeepsSetpoint) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int what = 0; what < 3; ++what) {
     Loop loop(test::wall_config(0.9, 1000.0));

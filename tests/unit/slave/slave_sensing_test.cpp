@@ -23,15 +23,15 @@ TEST(SlaveSensing, AForceThatOpposesItsReliefLeavesNoSurface) {
   loop.run(0.2);
   EXPECT_FALSE(knows_a_surface(loop));
   const double begun_m = loop.travelled();
-  loop.lie = [&](RobotState& told) {
-    told.F_F_W.force.x() += 21.0 + 2000.0 * std::max(loop.travelled() - begun_m, 0.0);
+  loop.sensor_fault = [&](RobotState& reported) {
+    reported.F_F_W.force.x() += 21.0 + 2000.0 * std::max(loop.travelled() - begun_m, 0.0);
   };
   loop.run(0.02);
   EXPECT_TRUE(knows_a_surface(loop)) << "before the lie is found";
   loop.run(5.0);
   ASSERT_EQ(loop.view().cause, HoldCause::kSensorSign);
   EXPECT_FALSE(knows_a_surface(loop));
-  loop.lie = {};
+  loop.sensor_fault = {};
   loop.engage(2);
   loop.run(0.5);
   EXPECT_FALSE(knows_a_surface(loop));
@@ -45,11 +45,13 @@ TEST(SlaveSensing, WhatPressesWhenTheSensorIsRightAgainIsANewTouch) {
   loop.run(1.0);
   ASSERT_TRUE(loop.view().in_contact);
   const std::uint32_t touch = loop.view().touch;
-  loop.lie = [](RobotState& told) { told.F_F_W.force.x() = std::numeric_limits<double>::infinity(); };
+  loop.sensor_fault = [](RobotState& reported) {
+    reported.F_F_W.force.x() = std::numeric_limits<double>::infinity();
+  };
   loop.run(0.1);
   EXPECT_EQ(loop.view().cause, HoldCause::kSensorFault);
   EXPECT_FALSE(knows_a_surface(loop));
-  loop.lie = {};
+  loop.sensor_fault = {};
   loop.engage(2);
   loop.run(0.1);
   EXPECT_TRUE(loop.view().in_contact);

@@ -270,7 +270,7 @@ TEST(Ceiling, LimitsAreNumbersInOrder) {
   }
 }
 
-TEST(Ceiling, AGapTimerByTheSendRateIsShortenedByWhatIsShorterForEveryMaster) {
+TEST(Ceiling, ShorterValuesReduceGapTimerDerivedFromSendRate) {
   const proto::SlaveConfig start;
   EXPECT_EQ(beyond_ceiling(start, with(start, "safety.gap_s", "0.1")), std::nullopt);
   EXPECT_NE(beyond_ceiling(start, with(start, "safety.gap_s", "0.101")), std::nullopt);

@@ -74,7 +74,7 @@ TEST_F(ResolveFiles, TakesWhatIsGivenInPlace) {
   EXPECT_EQ(config.scene().surface_size(), 0);
 }
 
-TEST_F(ResolveFiles, TakesTheRobotThatTheSceneIsMadeForUnlessAnotherOneIsNamed) {
+TEST_F(ResolveFiles, UsesRobotOfSceneUnlessAnotherIsNamed) {
   folder.write("robots/mine.txtpb", kRobot + " basis: \"mine\"");
   folder.write("scenes/wall.txtpb", kScene + " robot_file: \"robots/mine.txtpb\"");
   const proto::SlaveConfig empty = config;
@@ -332,7 +332,7 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
             "there is no link profile \"moon\" in " + folder.path().string() + "/x/links; known: none");
 }
 
-TEST(DeployFolder, PrefersTheEnvironmentThenTheProgramThenTheWorkingFolder) {
+TEST(DeployFolder, PrefersEnvironmentThenProgramThenWorkingFolder) {
   const TemporaryFolder folder;
   const fs::path root = folder.path();
   for (const char* name : {"home/links", "program/deploy/links", "work/deploy/robots",

@@ -84,7 +84,7 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
             "presence, presence_s, gap_s, delay_rise_max_s");
 }
 
-TEST(TextFile, RefusesAGapTimerThatIsTooShortForAnyMasterAndAHoldThatWouldLoseTheContact) {
+TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
   EXPECT_EQ(load_error<proto::SlaveConfig>("safety { gap_s: 0.01 }"),
             ":1:10: safety.gap_s = 0.01 is neither 0 (by the send rate of the master) nor from 0.02 to 2");
   EXPECT_EQ(

@@ -70,7 +70,7 @@ TEST(DelayMonitor, KnowsNothingBeforeTheFirstDatagram) {
   EXPECT_FALSE(monitor.last_heard());
 }
 
-TEST(DelayMonitor, WhatWasOvertakenByMoreThanHalfASecondIsNotHeard) {
+TEST(DelayMonitor, IgnoresDatagramsOvertakenByHalfASecond) {
   DelayMonitor monitor;
   const auto comes = [&monitor](double s, std::uint64_t sequence) {
     monitor.on_datagram(at(s), {DatagramType::kMotionCommand, 1, sequence},

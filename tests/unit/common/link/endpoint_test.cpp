@@ -128,9 +128,9 @@ TEST(Endpoint, NumbersAndStampsWhatLeaves) {
   EXPECT_EQ(header->type, DatagramType::kMotionCommand);
   EXPECT_EQ(header->session, kSession);
   EXPECT_EQ(header->sequence, 33U);
-  const Stamp unheard = endpoint.stamp_for(at(3.0));
-  EXPECT_EQ(unheard.sent, peer(3.0));
-  EXPECT_FALSE(unheard.echo);
+  const Stamp unreceived = endpoint.stamp_for(at(3.0));
+  EXPECT_EQ(unreceived.sent, peer(3.0));
+  EXPECT_FALSE(unreceived.echo);
 
   (void)receive(endpoint, at(3.8), {kType, kSession, 2}, {.sent = peer(78.0)});
   (void)receive(endpoint, at(4.0), {kType, kSession, 1}, {.sent = peer(77.0)});  // late, but what came last

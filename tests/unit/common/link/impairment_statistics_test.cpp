@@ -46,7 +46,7 @@ TEST(ImpairmentStatistics, JitterHasTheAskedMeanAndDeviation) {
   EXPECT_NEAR(d.sd_s, 0.03, 0.03 * 5.0 / std::sqrt(40000.0));
 }
 
-TEST(ImpairmentStatistics, JitterIsIndependentOfTheNeighboursAndSoChangesTheOrder) {
+TEST(ImpairmentStatistics, JitterIsIndependentAndReorders) {
   const auto outcome = run({.config = {.delay_s = 0.3, .jitter_s = 0.03}});
   int inversions = 0;
   for (std::size_t i = 1; i < outcome.arrivals.size(); ++i) {

@@ -57,7 +57,7 @@ TEST(Playout, InterpolatesBetweenTheTwoGoalsAroundThePlayoutTime) {
   EXPECT_NEAR(between->goal[5], -1.5, 1e-9);
 }
 
-TEST(Playout, HoldsTheLastGoalWhenTheLinkIsSilent) {
+TEST(Playout, HoldsLastGoalOnSilence) {
   Playout playout(kFixed100);
   playout.push(at(1.0), peer(0.0), 1, goal(1.0));
   playout.push(at(1.01), peer(0.01), 2, goal(2.0));

@@ -36,7 +36,7 @@ class Tap : public Channel {
 TEST(HostileSocket, NobodyWithoutTheSecretIsHeardOrAnswered) {
   UdpChannel slave_socket("127.0.0.1:0");
   UdpChannel master_socket("127.0.0.1:0", slave_socket.local_address());
-  UdpChannel stranger("127.0.0.1:0", slave_socket.local_address());
+  UdpChannel unknown_peer("127.0.0.1:0", slave_socket.local_address());
   Tap tap(slave_socket);
   SlavePort slave(tap, ImpairmentConfig{}, Random(2));
   MasterPort master(master_socket, ImpairmentConfig{}, Random(1));
@@ -54,13 +54,13 @@ TEST(HostileSocket, NobodyWithoutTheSecretIsHeardOrAnswered) {
   for (int i = 0; i < 100; ++i) talk();
   ASSERT_EQ(master.accepted_total() + slave.accepted_total(), 200u);
   Intruder intruder(Random(3));
-  for (const auto& bytes : tap.received) intruder.hear_towards(bytes);
-  for (const auto& bytes : tap.sent) intruder.hear_from(bytes);
+  for (const auto& bytes : tap.received) intruder.receive_towards(bytes);
+  for (const auto& bytes : tap.sent) intruder.receive_from(bytes);
 
   const Endpoint before = slave.endpoint();
   const int count = campaign(100'000, 10'000);
   for (int i = 0; i < count; ++i) {
-    stranger.send(intruder.make(static_cast<Attack>(i % static_cast<int>(Attack::kCount))));
+    unknown_peer.send(intruder.make(static_cast<Attack>(i % static_cast<int>(Attack::kCount))));
     if (i % 50 == 49) slave.receive(now);  // before the socket's buffer is full
   }
   slave.receive(now);

@@ -101,19 +101,19 @@ TEST(UdpChannel, TellsTheTrueSizeOfWhatWasCut) {
 TEST(UdpChannel, AnswersNobodyUntilItIsToldWhom) {
   UdpChannel slave("127.0.0.1:0");
   UdpChannel master("127.0.0.1:0", slave.local_address());
-  UdpChannel stranger("127.0.0.1:0", slave.local_address());
+  UdpChannel unknown_peer("127.0.0.1:0", slave.local_address());
   std::array<std::byte, 508> buffer{};
   slave.send(datagram(1));
   master.send(datagram(7));
   ASSERT_TRUE(next(slave, buffer));
   const Origin genuine = slave.origin();
   EXPECT_FALSE(slave.peer_address());
-  stranger.send(datagram(8));
+  unknown_peer.send(datagram(8));
   ASSERT_TRUE(next(slave, buffer));
   slave.answer_to(genuine);
   EXPECT_EQ(slave.peer_address(), master.local_address());
   slave.answer_to(slave.origin());
-  EXPECT_EQ(slave.peer_address(), stranger.local_address());
+  EXPECT_EQ(slave.peer_address(), unknown_peer.local_address());
   slave.answer_to(kNowhere);
   EXPECT_FALSE(slave.peer_address());
   EXPECT_FALSE(master.receive(buffer));
@@ -129,11 +129,11 @@ TEST(UdpChannel, TheCallingSideKeepsItsPeer) {
 TEST(UdpChannel, TheCallingSideDropsAndCountsStrangers) {
   UdpChannel slave("127.0.0.1:0");
   UdpChannel master("127.0.0.1:0", slave.local_address());
-  UdpChannel stranger("127.0.0.1:0", master.local_address());
+  UdpChannel unknown_peer("127.0.0.1:0", master.local_address());
   std::array<std::byte, 508> buffer{};
-  for (int i = 0; i < 3; ++i) stranger.send(datagram(9));
+  for (int i = 0; i < 3; ++i) unknown_peer.send(datagram(9));
   EXPECT_FALSE(master.receive(buffer));
-  EXPECT_EQ(master.strangers(), 3u);
+  EXPECT_EQ(master.unknown_peers(), 3u);
 }
 
 TEST(UdpChannel, SaysWhatToDoWhenThePortIsTaken) {

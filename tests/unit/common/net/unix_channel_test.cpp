@@ -45,18 +45,18 @@ struct UnixChannelTest : ::testing::Test {
   UnixChannel channel{"unix:" + path};
 
   /// As often as it takes to look for the other end again.
-  void look() {
+  void check_socket() {
     for (int i = 0; i < 30 && !channel.connected(); ++i) channel.send(bytes("x"));
   }
 };
 
 TEST_F(UnixChannelTest, SpeaksToWhatListensThereHoweverOftenItStartsAgain) {
-  look();
+  check_socket();
   EXPECT_FALSE(channel.connected());
   EXPECT_EQ(received(channel), "nothing");
   for (int i = 0; i < 3; ++i) {
     const int listener = listen_at(path);
-    look();
+    check_socket();
     ASSERT_TRUE(channel.connected());
     const int peer = ::accept(listener, nullptr, nullptr);
     channel.send(bytes("hello"));
@@ -76,7 +76,7 @@ TEST_F(UnixChannelTest, SpeaksToWhatListensThereHoweverOftenItStartsAgain) {
     EXPECT_EQ(received(channel), "nothing");
     EXPECT_FALSE(channel.connected());
   }
-  EXPECT_FALSE(channel.stranger());
+  EXPECT_FALSE(channel.unknown_peer());
 }
 
 TEST_F(UnixChannelTest, SaysNothingToWhatBelongsToAnotherUser) {
@@ -88,22 +88,22 @@ TEST_F(UnixChannelTest, SaysNothingToWhatBelongsToAnotherUser) {
   if (child == 0) {
     if (::setuid(65534) != 0) ::_exit(1);
     const int listener = listen_at(path);
-    [[maybe_unused]] const ssize_t told = ::write(pipes[1], "x", 1);
+    [[maybe_unused]] const ssize_t reported = ::write(pipes[1], "x", 1);
     const int peer = ::accept(listener, nullptr, nullptr);
     char byte = 0;
     ::_exit(::recv(peer, &byte, 1, 0) == 0 ? 0 : 2);
   }
   char ready = 0;
   ASSERT_EQ(::read(pipes[0], &ready, 1), 1);
-  for (int i = 0; i < 30 && !channel.stranger(); ++i) channel.send(bytes("x"));
-  EXPECT_EQ(channel.stranger(), 65534u);
+  for (int i = 0; i < 30 && !channel.unknown_peer(); ++i) channel.send(bytes("x"));
+  EXPECT_EQ(channel.unknown_peer(), 65534u);
   EXPECT_FALSE(channel.connected());
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(WEXITSTATUS(status), 0);  // it heard nothing
   ::close(pipes[0]);
   ::close(pipes[1]);
-  AdapterFigures figures{.present = true, .stranger = channel.stranger()};
+  AdapterFigures figures{.present = true, .unknown_peer = channel.unknown_peer()};
   EXPECT_NE(adapter_trouble(figures, "robot", "unix:/x").find("belongs to another user (65534)"),
             std::string::npos);
 }

@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "common/core/check.hpp"
-#include "common/program/outlet.hpp"
+#include "common/program/async_writer.hpp"
 
 namespace longreach {
 namespace {
@@ -45,7 +45,7 @@ std::string read_now(int fd) {
   return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
 }
 
-TEST(Log, AReaderThatStopsReadingDelaysNobodyAndIsToldWhatIsMissing) {
+TEST(Log, StalledReaderDelaysNothingAndGetsLossNotice) {
   const auto pipe =
       std::filesystem::temp_directory_path() / ("longreach-log-pipe-" + std::to_string(getpid()));
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -68,11 +68,11 @@ TEST(Log, AReaderThatStopsReadingDelaysNobodyAndIsToldWhatIsMissing) {
   ::close(reader);
   std::filesystem::remove(pipe);
   EXPECT_NE(read.find("info slave first"), std::string::npos);
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   const std::regex line("Z warning slave log lost=([0-9]+)\n");
   for (auto at = std::sregex_iterator(read.begin(), read.end(), line); at != std::sregex_iterator(); ++at)
-    told += std::stoull((*at)[1]);
-  EXPECT_EQ(told, log_lost() - before);
+    reported += std::stoull((*at)[1]);
+  EXPECT_EQ(reported, log_lost() - before);
   EXPECT_NE(read.find("line=999 "), std::string::npos);
 }
 
@@ -85,7 +85,7 @@ TEST(Log, AFullDiskLosesLinesAndIsSaidToHave) {
   EXPECT_EQ(log_lost(), before + 2);
 }
 
-TEST(Outlet, AFailedCheckEndsAProgramWhoseStandardErrorIsFull) {
+TEST(AsyncWriter, AFailedCheckEndsAProgramWhoseStandardErrorIsFull) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_NONBLOCK), 0);
   const std::string page(4096, 'a');
@@ -112,17 +112,17 @@ TEST(Outlet, AFailedCheckEndsAProgramWhoseStandardErrorIsFull) {
   ::close(ends[1]);
 }
 
-TEST(Outlet, KeepsTheNewestWhereNobodyReadsAndEndsAllTheSame) {
+TEST(AsyncWriter, KeepsTheNewestWhereNobodyReadsAndEndsAllTheSame) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   const std::string too_much(1 << 17, 'a');  // twice what a pipe takes
   {
-    Outlet outlet(ends[1], 0);
-    outlet.offer(too_much);
-    EXPECT_FALSE(outlet.drain(std::chrono::milliseconds(50)));
-    outlet.offer("second");
-    outlet.offer("third");
-    EXPECT_EQ(outlet.lost(), 1u);
+    AsyncWriter async_writer(ends[1], 0);
+    async_writer.offer(too_much);
+    EXPECT_FALSE(async_writer.drain(std::chrono::milliseconds(50)));
+    async_writer.offer("second");
+    async_writer.offer("third");
+    EXPECT_EQ(async_writer.lost(), 1u);
     std::string read;
     while (read.size() < too_much.size() + 5) read += read_now(ends[0]);
     EXPECT_EQ(read, too_much + "third");

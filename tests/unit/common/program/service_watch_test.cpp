@@ -48,19 +48,19 @@ TEST(ServiceWatch, TellsThatItIsReadyAndLivesOnlyWhileTheLoopTicks) {
   const TemporaryFolder folder;
   const Supervisor systemd(folder.path() / "notify");
   ServiceWatch watch;
-  watch.look(0);
+  watch.update(0);
   EXPECT_EQ(systemd.heard(), "");  // not ready before the first tick
-  watch.look(1);
+  watch.update(1);
   EXPECT_EQ(systemd.heard(), "READY=1");
   EXPECT_EQ(systemd.heard(), "WATCHDOG=1");
   for (int i = 0; i < 5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(12));
-    watch.look(1);
+    watch.update(1);
     EXPECT_EQ(systemd.heard(), "") << "the loop stands still";
   }
-  watch.look(2);
+  watch.update(2);
   EXPECT_EQ(systemd.heard(), "WATCHDOG=1");
-  watch.look(3);
+  watch.update(3);
   EXPECT_EQ(systemd.heard(), "") << "not more often than is asked for";
 }
 
@@ -70,8 +70,8 @@ TEST(ServiceWatch, WithoutAPeriodItTellsThatItIsReadyOnly) {
     const Supervisor systemd(folder.path() / "notify");
     *us == '\0' ? ::unsetenv("WATCHDOG_USEC") : ::setenv("WATCHDOG_USEC", us, 1);
     ServiceWatch watch;
-    watch.look(1);
-    watch.look(2);
+    watch.update(1);
+    watch.update(2);
     EXPECT_EQ(systemd.heard(), "READY=1") << us;
     EXPECT_EQ(systemd.heard(), "") << us;
   }
@@ -88,7 +88,7 @@ TEST(ServiceWatch, AnAbstractNameIsOneToo) {
   ::setenv("NOTIFY_SOCKET", ("@" + name).c_str(), 1);
   ServiceWatch watch;
   ::unsetenv("NOTIFY_SOCKET");
-  watch.look(1);
+  watch.update(1);
   std::array<char, 64> bytes{};
   EXPECT_EQ(::recv(heard, bytes.data(), bytes.size(), 0), 7);
   EXPECT_EQ(std::string(bytes.data()), "READY=1");
@@ -96,15 +96,15 @@ TEST(ServiceWatch, AnAbstractNameIsOneToo) {
 }
 
 TEST(ServiceWatch, SaysNothingToNobody) {
-  ServiceWatch nobody;
-  nobody.look(1);
+  ServiceWatch no_manager;
+  no_manager.update(1);
   // Neither a path nor an abstract name; and one that no address holds.
   const TemporaryFolder folder;
   const Supervisor systemd(folder.path() / "notify");
   for (const std::string& name : {std::string("notify"), std::string(), "/" + std::string(500, 'x')}) {
     ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
     ServiceWatch watch;
-    watch.look(1);
+    watch.update(1);
     EXPECT_EQ(systemd.heard(), "") << name;
   }
 }

@@ -72,7 +72,7 @@ TEST(CsvExport, HasARowAMessageAndAColumnANumber) {
       << commands;
 }
 
-TEST(CsvExport, TakesForeignSchemasWithListsAndTypesThatContainThemselves) {
+TEST(CsvExport, ExportsForeignSchemasWithListsAndRecursiveTypes) {
   const TemporaryFolder folder;
   {
     RecordingFile file(folder.path() / "a.mcap");
@@ -266,7 +266,7 @@ TEST(CsvExport, SaysWhyNot) {
   EXPECT_THROW((void)export_csv(folder.path() / "a.mcap", folder.path() / "a.mcap"), RecordingError);
 }
 
-TEST(CsvExport, TellsOfACutRecordingAndMakesNothingOfOneWithoutAMessage) {
+TEST(CsvExport, ReportsTruncatedAndRejectsEmptyRecording) {
   const TemporaryFolder folder;
   write_sample(folder.path() / "a.mcap");
   const std::string bytes = read_all(folder.path() / "a.mcap");

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <limits>
 
-#include "master/recording/master_tape.hpp"
-#include "slave/recording/slave_tape.hpp"
+#include "master/recording/master_record_buffer.hpp"
+#include "slave/recording/slave_record_buffer.hpp"
 
 namespace longreach {
 namespace {
@@ -102,7 +102,7 @@ StiffnessReport sample_report(Numbers& n) {
 Telemetry sample_telemetry(Numbers& n) {
   Telemetry t;
   t.state = SafetyState::kStopped;
-  t.cause = HoldCause::kRobotAstray;
+  t.cause = HoldCause::kRobotTrackingLost;
   t.engagement = 3;
   t.X_WE = n.pose();
   t.X_WE_goal = n.pose();

@@ -10,8 +10,8 @@
 #include "common/recording/mcap_reader.hpp"
 #include "common/recording/recording_error.hpp"
 #include "common/recording/recording_folder.hpp"
-#include "master/recording/master_tape.hpp"
-#include "slave/recording/slave_tape.hpp"
+#include "master/recording/master_record_buffer.hpp"
+#include "slave/recording/slave_record_buffer.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 constexpr double kRateHz = 1000.0;
 
 /// The loop's part: `count` ticks from `from` on.
-void add_ticks(MasterTape& tape, std::uint64_t from, std::uint64_t count) {
+void add_ticks(MasterRecordBuffer& record_buffer, std::uint64_t from, std::uint64_t count) {
   const Received<StiffnessReport> report{};
   const Received<Telemetry> telemetry{};
   for (std::uint64_t tick = from; tick < from + count; ++tick) {
@@ -29,8 +29,8 @@ void add_ticks(MasterTape& tape, std::uint64_t from, std::uint64_t count) {
     in.now = Time(Duration(1'000'000 * static_cast<std::int64_t>(tick)));
     if (tick % 100 == 0) in.reports = {&report, 1};
     if (tick % 30 == 0) in.telemetry = {&telemetry, 1};
-    tape.add_tick(tick, 0, in, MasterOutput{}, MasterView{});
-    if (tape.link_due(tick)) tape.add_link({.now = in.now});
+    record_buffer.add_tick(tick, 0, in, MasterOutput{}, MasterView{});
+    if (record_buffer.link_due(tick)) record_buffer.add_link({.now = in.now});
   }
 }
 
@@ -72,11 +72,12 @@ bool eventually(const Condition& holds) {
 
 TEST(Recorder, WritesEveryTickWithItsMessages) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
   Recorder recorder(
-      {.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000, .facts = {{"side", "master"}}}, tape);
-  tape.add_config(Time{}, 0, "text");
-  add_ticks(tape, 0, 3000);
+      {.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000, .facts = {{"side", "master"}}},
+      record_buffer);
+  record_buffer.add_config(Time{}, 0, "text");
+  add_ticks(record_buffer, 0, 3000);
   recorder.stop();
   const Ticks ticks = read_ticks(folder.path() / "a.mcap");
   EXPECT_EQ(ticks.count, 3000u);
@@ -95,21 +96,21 @@ TEST(Recorder, WritesEveryTickWithItsMessages) {
 
 TEST(Recorder, KeepsNothingOnceItHasEnded) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
-  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, tape);
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
+  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, record_buffer);
   recorder.stop();
   for (unsigned i = 0; i < 100; ++i) {
-    tape.add_config(Time{}, i, std::string(1000, 'c'));
-    tape.add_event(Time{}, "event");
+    record_buffer.add_config(Time{}, i, std::string(1000, 'c'));
+    record_buffer.add_event(Time{}, "event");
   }
-  EXPECT_EQ(tape.notes(), 0u);
+  EXPECT_EQ(record_buffer.notes(), 0u);
 }
 
 TEST(Recorder, HasWrittenWhatIsOlderBeforeItEnds) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
-  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, tape);
-  add_ticks(tape, 0, 500);
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
+  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, record_buffer);
+  add_ticks(record_buffer, 0, 500);
   // Somebody else reads the file while it is being written: that is what kill -9 leaves.
   EXPECT_TRUE(eventually([&] { return read_ticks(folder.path() / "a.mcap").count == 500; }));
   EXPECT_FALSE(read_ticks(folder.path() / "a.mcap").whole);
@@ -118,7 +119,7 @@ TEST(Recorder, HasWrittenWhatIsOlderBeforeItEnds) {
 
 TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
   std::atomic<int> ended = 0;
   Recorder recorder({.file = folder.path() / "a.mcap",
                      .max_bytes = 1'000'000,
@@ -127,15 +128,15 @@ TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
                            EXPECT_TRUE(status.failed);
                            ++ended;
                          }},
-                    tape);
+                    record_buffer);
   for (std::uint64_t i = 0; recorder.status().running && i < 100'000; ++i) {
-    add_ticks(tape, 100 * i, 100);
+    add_ticks(record_buffer, 100 * i, 100);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ASSERT_FALSE(recorder.status().running);
   EXPECT_EQ(recorder.status().ended, "it has reached its largest size of 1 MB");
   const std::uint64_t size = std::filesystem::file_size(folder.path() / "a.mcap");
-  add_ticks(tape, 0, 20'000);  // the loop goes on
+  add_ticks(record_buffer, 0, 20'000);  // the loop goes on
   recorder.stop();
   EXPECT_EQ(ended, 1);
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "a.mcap"), size);
@@ -146,14 +147,14 @@ TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
 
 TEST(Recorder, OnAFullDiskEndsAndSaysSo) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
-  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, tape);
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
+  Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, record_buffer);
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const rlimit full{3'000'000, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
   for (std::uint64_t i = 0; recorder.status().running && i < 100'000; ++i) {
-    add_ticks(tape, 100 * i, 100);
+    add_ticks(record_buffer, 100 * i, 100);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
@@ -168,22 +169,22 @@ TEST(Recorder, OnAFullDiskEndsAndSaysSo) {
 
 TEST(Recorder, CannotBeginWhereNothingCanBeWritten) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
-  EXPECT_THROW(Recorder({.file = folder.path() / "none" / "a.mcap", .max_bytes = 1'000'000}, tape),
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
+  EXPECT_THROW(Recorder({.file = folder.path() / "none" / "a.mcap", .max_bytes = 1'000'000}, record_buffer),
                RecordingError);
-  Recorder first({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000}, tape);
-  MasterTape other(kRateHz, Duration(0));
+  Recorder first({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000}, record_buffer);
+  MasterRecordBuffer other(kRateHz, Duration(0));
   EXPECT_THROW(Recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000}, other), RecordingError);
 }
 
-TEST(Tape, DropsAndCountsWholeTicksWhenNobodyReads) {
+TEST(RecordBuffer, DropsAndCountsWholeTicksWhenNobodyReads) {
   const TemporaryFolder folder;
-  MasterTape tape(kRateHz, Duration(0));
-  add_ticks(tape, 0, 20'000);
-  const std::uint64_t dropped = tape.ticks_dropped();
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
+  add_ticks(record_buffer, 0, 20'000);
+  const std::uint64_t dropped = record_buffer.ticks_dropped();
   EXPECT_GT(dropped, 10'000u);
   {
-    Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, tape);
+    Recorder recorder({.file = folder.path() / "a.mcap", .max_bytes = 1'000'000'000}, record_buffer);
     ASSERT_TRUE(eventually([&] { return recorder.status().bytes > 100'000; }));
     recorder.stop();
     EXPECT_EQ(recorder.status().ticks_not_recorded, dropped);
@@ -192,13 +193,13 @@ TEST(Tape, DropsAndCountsWholeTicksWhenNobodyReads) {
   EXPECT_EQ(ticks.count, 20'000u - dropped);
 }
 
-TEST(Tape, CostsTheLoopNoAllocation) {
-  MasterTape tape(kRateHz, Duration(0));
+TEST(RecordBuffer, CostsTheLoopNoAllocation) {
+  MasterRecordBuffer record_buffer(kRateHz, Duration(0));
   test::count_allocations(true);
-  add_ticks(tape, 0, 2000);
+  add_ticks(record_buffer, 0, 2000);
   test::count_allocations(false);
   EXPECT_EQ(test::allocations(), 0);
-  SlaveTape slave(kRateHz, Duration(0));
+  SlaveRecordBuffer slave(kRateHz, Duration(0));
   const Received<MotionCommand> command{};
   SlaveInput in;
   in.commands = {&command, 1};

@@ -199,7 +199,7 @@ TEST(RpcServer, StopsAtOnceWithFiftyWatchers) {
   EXPECT_EQ(ended, 50);
 }
 
-TEST(RpcServer, RefusesMoreWatchersThanItHasPlacesAndFreesThePlacesOfThoseWhoLeft) {
+TEST(RpcServer, LimitsWatchersAndReusesFreedSlots) {
   Served served;
   struct Watcher {
     Limited limited;
@@ -240,7 +240,7 @@ TEST(RpcServer, RefusesMoreWatchersThanItHasPlacesAndFreesThePlacesOfThoseWhoLef
 
 // More calls than it has threads, in a backend that does not come back: what else is asked waits, stop does
 // not.
-TEST(RpcServer, StopsAndTellsItsStatusWhileAllItsThreadsWaitForAChange) {
+TEST(RpcServer, StopsAndReportsStatusWhileAllThreadsWait) {
   Served served;
   served.side.block_changes(true);
   std::vector<std::thread> callers;

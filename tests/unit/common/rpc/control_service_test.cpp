@@ -93,7 +93,7 @@ TEST(ControlService, RefusesAFieldOfTheLinkThatItDoesNotKnow) {
   EXPECT_TRUE(side.calls().empty());
 }
 
-TEST(ControlService, DoesNotRepeatABlackoutThatIsOverWhenAnotherFieldChanges) {
+TEST(ControlService, DoesNotRepeatEndedBlackout) {
   FakeBackend side("slave");
   ControlService service(side);
   auto blackout = link_request(false);

@@ -43,7 +43,7 @@ struct Served {
     context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
     proto::Outcome outcome;
     const grpc::Status status = stub->Stop(&context, {}, &outcome);
-    EXPECT_TRUE(status.ok() || mistrusted(status) || other_role(status)) << status.error_message();
+    EXPECT_TRUE(status.ok() || distrusted(status) || other_role(status)) << status.error_message();
     return status.error_code();
   }
   grpc::StatusCode close_session(const RpcSecurity& security) const {

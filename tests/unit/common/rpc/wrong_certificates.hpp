@@ -90,7 +90,7 @@ inline std::string mismatched(const std::string& public_pem, const std::string& 
 inline std::vector<WrongCertificate> wrong_certificates(const Certificate& authority,
                                                         const std::string& name) {
   const Certificate other = make_authority("another site");
-  const Certificate good = issue(authority, {.name = name}), stranger = issue(other, {.name = name});
+  const Certificate good = issue(authority, {.name = name}), unknown_peer = issue(other, {.name = name});
   // Somebody who holds a good certificate plays authority with it.
   Certificate delegated = issue(good, {.name = name});
   delegated.certificate_pem += good.certificate_pem;
@@ -98,12 +98,13 @@ inline std::vector<WrongCertificate> wrong_certificates(const Certificate& autho
     return RpcSecurity{RpcCredentials{authority.certificate_pem, own.certificate_pem, own.key_pem}};
   };
   return {
-      {"of another site", with(stranger)},
+      {"of another site", with(unknown_peer)},
       {"self-signed", with(other)},
       {"expired", with(issue(authority, {.name = name, .not_after = "20010101000000Z"}))},
       {"not yet valid", with(issue(authority, {.name = name, .not_before = "99980101000000Z"}))},
       {"for servers only", with(issue(authority, {.name = name, .use = CertificateUse::kServer}))},
-      {"with another's key", with({good.certificate_pem, wrong::mismatched(good.key_pem, stranger.key_pem)})},
+      {"with another's key",
+       with({good.certificate_pem, wrong::mismatched(good.key_pem, unknown_peer.key_pem)})},
       {"with a forged signature", with({wrong::tampered(good.certificate_pem), good.key_pem})},
       {"issued by one that is no authority", with(delegated)},
       {"none at all", {RpcCredentials{authority.certificate_pem, "", ""}}},

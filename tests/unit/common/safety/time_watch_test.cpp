@@ -21,10 +21,10 @@ struct Side {
     overdue += late;
     watch.step(now, kGap_s, overdue);
   }
-  void hear(std::vector<double> rtts_s) {
+  void receive(std::vector<double> rtts_s) {
     std::vector<Received<int>> received(rtts_s.size());
     for (std::size_t i = 0; i < rtts_s.size(); ++i) received[i].rtt = from_seconds(rtts_s[i]);
-    watch.hear(now, std::span<const Received<int>>(received));
+    watch.receive(now, std::span<const Received<int>>(received));
   }
 };
 
@@ -32,30 +32,30 @@ struct Side {
 // fewer, now more of it.
 TEST(TimeWatch, AFallOfTheDelayIsNoRise) {
   Side side;
-  const auto hear = [&](double echo_age_s, int times) {
+  const auto receive = [&](double echo_age_s, int times) {
     std::vector<Received<int>> received(static_cast<std::size_t>(times));
     for (auto& one : received) {
       one.rtt = from_seconds(echo_age_s);
       one.echo_sent = side.now - one.rtt;
     }
-    side.watch.hear(side.now, std::span<const Received<int>>(received));
+    side.watch.receive(side.now, std::span<const Received<int>>(received));
   };
-  for (int i = 0; i < 3000; ++i) hear(2.6, 1), side.tick(1);
+  for (int i = 0; i < 3000; ++i) receive(2.6, 1), side.tick(1);
   side.watch.rebase();
   for (int i = 0; i < 4000; ++i) {
     const bool under_way = i < 2600, few = i < 1000;
-    hear(0.01, few ? 2 : 1);
-    if (under_way) hear(2.6, few ? 1 : 2);
+    receive(0.01, few ? 2 : 1);
+    if (under_way) receive(2.6, few ? 1 : 2);
     side.tick(1);
     ASSERT_FALSE(side.watch.delay().rose(1.0)) << i << " ms after";
   }
   EXPECT_LT(side.watch.delay().median_s().value_or(9.0), 0.02);
   side.tick(1500);
-  for (int i = 0; i < 1000; ++i) hear(1.5, 1), side.tick(1);
+  for (int i = 0; i < 1000; ++i) receive(1.5, 1), side.tick(1);
   EXPECT_TRUE(side.watch.delay().rose(1.0)) << "a rise is one still";
 }
 
-TEST(TimeWatch, ATickThatComesLaterThanTheGapTimerIsAStallFromTheTickBefore) {
+TEST(TimeWatch, LateTickBeyondGapTimerIsStallFromPreviousTick) {
   Side side;
   EXPECT_FALSE(side.watch.stalls(side.now + std::chrono::hours(9), kGap_s))
       << "there was none before the first";
@@ -90,13 +90,13 @@ TEST(TimeWatch, LateTicksBeforeAStallDoNotCountAfterIt) {
 TEST(TimeWatch, HearsTheRoundTripsOfWhatComesUntilTheNextEngagement) {
   Side side;
   for (int i = 0; i < 600; ++i) {
-    side.hear({0.05, -1.0, 0.05, 0.9});
+    side.receive({0.05, -1.0, 0.05, 0.9});
     side.tick(1);
   }
   EXPECT_NEAR(side.watch.delay().median_s().value_or(0.0), 0.05, 1e-6);
   EXPECT_NEAR(side.watch.delay().least_s().value_or(0.0), 0.05, 1e-3);
   for (int i = 0; i < 600; ++i) {
-    side.hear({0.4});
+    side.receive({0.4});
     side.tick(1);
   }
   EXPECT_NEAR(side.watch.delay().least_s().value_or(0.0), 0.05, 2e-3);

@@ -170,7 +170,7 @@ TEST(Pairing, WhatCrossesTheLinkContainsNeitherTokenNorPrivateKey) {
   const PairingRequest request(desk.token, "operator");
   const proto::PairingMessage answer = desk.answer(request);
   const SiteFiles files = request.accept(answer);
-  const std::string overheard = request.message().SerializeAsString() + answer.SerializeAsString();
+  const std::string eavesdropped = request.message().SerializeAsString() + answer.SerializeAsString();
   std::string bare;
   for (const char c : desk.token.text())
     if (c != '-') bare += c;
@@ -181,9 +181,9 @@ TEST(Pairing, WhatCrossesTheLinkContainsNeitherTokenNorPrivateKey) {
     secrets.push_back(key.substr(key.find('\n') + 1, 64));
     EXPECT_NE(key.find("PRIVATE KEY"), std::string::npos);
   }
-  for (const std::string& secret : secrets) EXPECT_EQ(overheard.find(secret), std::string::npos) << secret;
-  EXPECT_EQ(overheard.find("PRIVATE KEY"), std::string::npos);
-  EXPECT_NE(overheard.find("BEGIN CERTIFICATE"), std::string::npos)
+  for (const std::string& secret : secrets) EXPECT_EQ(eavesdropped.find(secret), std::string::npos) << secret;
+  EXPECT_EQ(eavesdropped.find("PRIVATE KEY"), std::string::npos);
+  EXPECT_NE(eavesdropped.find("BEGIN CERTIFICATE"), std::string::npos)
       << "what is public is there: the search works";
 }
 
@@ -210,7 +210,7 @@ TEST(Pairing, ARequestThatIsSignedByTheTokenButNoRequestIsRefused) {
 
 TEST(Pairing, GoesOverASocketAndSaysWhatIsWrong) {
   PairingToken token = PairingToken::draw();
-  PairingOffer offer(token, make_authority("one site"), monotonic_now());
+  PairingOffer offer(token, make_authority("one site"), boottime_now());
   std::vector<std::string> tried;
   PairingServer server("127.0.0.1:0", offer,
                        [&](const std::string&, const std::string& refusal) { tried.push_back(refusal); });
@@ -259,10 +259,10 @@ TEST(PairedSite, HasNoSlaveAndPairsNobody) {
   Desk desk;
   const PairingRequest request(desk.token, "operator");
   EXPECT_EQ(write_site(site, request.accept(desk.answer(request))), "");
-  for (const auto& wish : {+[](const fs::path& at) { (void)site_credentials(at, RpcRole::kSlave); },
-                           +[](const fs::path& at) { (void)site_authority(at); }}) {
+  for (const auto& page_command : {+[](const fs::path& at) { (void)site_credentials(at, RpcRole::kSlave); },
+                                   +[](const fs::path& at) { (void)site_authority(at); }}) {
     try {
-      wish(site);
+      page_command(site);
       ADD_FAILURE() << "not refused";
     } catch (const SiteError& e) {
       EXPECT_NE(std::string(e.what()).find("was made by pairing"), std::string::npos) << e.what();

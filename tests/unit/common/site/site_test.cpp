@@ -142,7 +142,7 @@ TEST(Site, WhatIsDamagedIsNamedWhicheverPartItIs) {
   expect("master.key", read_site_file(site / "client.key"), " does not belong to master.crt");
 }
 
-TEST(Site, AFileOrAFolderOfSomethingElseIsNoSiteWhoeverMayOpenIt) {
+TEST(Site, RejectsForeignFilesAndFolders) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "letter.txt") << "dear";
   const auto expect = [](const fs::path& path, const std::string& why) {

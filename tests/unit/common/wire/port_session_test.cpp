@@ -25,7 +25,7 @@ TEST(Ports, SayAndHearNothingWithoutASession) {
   EXPECT_EQ(slave.rejected_total(), 3u);
 }
 
-TEST(Ports, ANewSessionEndsTheOldOneAndTakesNumbersFromTheBeginning) {
+TEST(Ports, NewSessionEndsOldOneAndRestartsNumbers) {
   MemoryChannelPair channels;
   MasterPort master(channels.a(), ImpairmentConfig{}, Random(1));
   SlavePort slave(channels.b(), ImpairmentConfig{}, Random(2));

@@ -68,7 +68,7 @@ TEST(CommandLine, EveryOptionOfALinkSetsItsOwnField) {
   EXPECT_FALSE(set.clear);
 }
 
-TEST(CommandLine, ValuesOfALinkThatCannotBeMeantAreRefusedWithFieldAndRange) {
+TEST(CommandLine, RefusesLinkValuesOutOfRange) {
   expect_refused({"link", "set", "--loss", "2"}, "loss");
   expect_refused({"link", "set", "--loss", "2"}, "0 to 1");
   expect_refused({"link", "set", "--delay", "100.1s"}, "0 to 100");
@@ -213,7 +213,7 @@ TEST(CommandLine, AnAdapterIsOfADeviceOrOfARobot) {
       asked({"adapter", "check", "--push", "--robot", "unix:/r", "--robot-file", "f", "--patience", "2"});
   EXPECT_TRUE(pushed.push);
   EXPECT_EQ(pushed.robot_file, "f");
-  EXPECT_EQ(pushed.patience_s, 2.0);
+  EXPECT_EQ(pushed.push_timeout_s, 2.0);
   EXPECT_THROW(parse({"adapter", "check", "--push", "--robot", "unix:/r"}), UsageError);
   EXPECT_THROW(parse({"adapter", "check", "--push", "--device", "unix:/r", "--robot-file", "f"}), UsageError);
 }

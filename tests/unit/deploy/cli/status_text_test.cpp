@@ -29,7 +29,7 @@ BothReports reports() {
   return both;
 }
 
-TEST(StatusTable, ShowsQuantitiesWithTheirUnitsAndLeavesOutWhatNobodyKnows) {
+TEST(StatusTable, ShowsUnitsAndOmitsUnknownValues) {
   const std::string table = status_table(reports());
   for (const char* part :
        {"Holding (link silent)", "1.302 s", "2 %", "1.00 -20.50 0.00 mm", "127.0.0.1:47020"})

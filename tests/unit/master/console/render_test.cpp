@@ -235,7 +235,7 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   s.view.silent = s.view.resumes = true;
   EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s");
   EXPECT_TRUE(
-      contains(render(s, 80, false), "Holding, slave Engaged (no datagram comes from the other side)"));
+      contains(render(s, 80, false), "Holding, slave Engaged (no datagram arrives from the other side)"));
   s.view.resumes = false;
   EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s; engage when the link is back");
 }
@@ -247,7 +247,7 @@ TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
   s.link.silence_s = 0.0;
   s.view.hold_silence_s = 12.31;
   EXPECT_EQ(happening(s),
-            "holding: nothing came from the slave for 12.3 s; the link is back: engage to go on");
+            "holding: nothing came from the slave for 12.3 s; the link is back: engage to resume");
   EXPECT_TRUE(contains(render(s, 80, false), "(the link was silent)"));
   s.view.resumes = true;
   EXPECT_TRUE(contains(happening(s), "the link is back: it goes on by itself"));
@@ -298,17 +298,18 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
   s.view.silent = false;
   s.view.far_state = SafetyState::kFault;
   s.view.far.cause = HoldCause::kSensorFault;
-  EXPECT_EQ(happening(s),
-            "observing: the slave has a fault, the force sensor reports what no contact can cause; engage "
-            "when it is "
-            "mended");
+  EXPECT_EQ(
+      happening(s),
+      "observing: the slave has a fault, the force sensor reports values that no contact can cause; engage "
+      "when it is "
+      "mended");
 }
 
 TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
   ConsoleSnapshot s = touching();
   s.view.state = SafetyState::kHolding;
   s.view.cause = HoldCause::kDelayRose;
-  EXPECT_EQ(happening(s), "holding: the delay of the link has risen; engage to accept the new delay");
+  EXPECT_EQ(happening(s), "holding: the delay of the link has increased; engage to accept the new delay");
   s.view.rtt_least_s = 0.05;
   s.view.rtt_s = 25.05;
   EXPECT_EQ(happening(s), "holding: the round trip has risen from 0.05 to 25.05 s; engage to accept that");

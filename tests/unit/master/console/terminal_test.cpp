@@ -292,7 +292,7 @@ void draw_unread(TerminalView& view) {
   }
 }
 
-TEST(TerminalView, ATerminalThatNobodyReadsDelaysNobodyAndIsGivenBackAllTheSame) {
+TEST(TerminalView, UnreadTerminalDelaysNothingAndIsRestored) {
   ::setenv("TERM", "xterm", 1);
   const Pty pty;
   const int flags = ::fcntl(pty.inner, F_GETFL);

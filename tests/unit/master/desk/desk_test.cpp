@@ -123,7 +123,7 @@ TEST(Desk, PassesAimsOnWithinReachAndTheEndInOrder) {
   EXPECT_FALSE(desk.newest().holds);
 }
 
-TEST(Desk, AStreamThatEndsWithoutLettingGoLeavesItsLastWordToGrowOld) {
+TEST(Desk, StreamThatEndsWithoutReleaseTimesOut) {
   for (const bool broken : {false, true}) {
     Desk desk;
     {

@@ -116,28 +116,28 @@ TEST_F(DeviceAdapterTest, WhatIsNoDatagramChangesNothingButACounter) {
   HandleDatagram good = handle(0.05);
   end.exchange.stamp(good);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const auto spoil = [&](auto&& change) {
+  const auto mark_affected = [&](auto&& change) {
     HandleDatagram d = good;
     change(d);
     end.send_raw(d);
   };
-  spoil([](auto& d) { d.header.magic[0] = 'X'; });
-  spoil([](auto& d) { d.header.version = 2; });
-  spoil([](auto& d) { d.header.kind = adapter::kRobot; });
-  spoil([](auto& d) { d.header.size = 88; });
-  spoil([](auto& d) { d.header.session = 0; });
-  spoil([](auto& d) { d.position_m[2] = kNone; });
-  spoil([](auto& d) { d.velocity_m_per_s[0] = INFINITY; });
-  spoil([](auto& d) { d.angular_rad_per_s[0] = kNone; });
-  spoil([](auto& d) { d.orientation[1] = 0.5; });
-  spoil([](auto& d) { d.force_n[1] = kNone; });
+  mark_affected([](auto& d) { d.header.magic[0] = 'X'; });
+  mark_affected([](auto& d) { d.header.version = 2; });
+  mark_affected([](auto& d) { d.header.kind = adapter::kRobot; });
+  mark_affected([](auto& d) { d.header.size = 88; });
+  mark_affected([](auto& d) { d.header.session = 0; });
+  mark_affected([](auto& d) { d.position_m[2] = kNone; });
+  mark_affected([](auto& d) { d.velocity_m_per_s[0] = INFINITY; });
+  mark_affected([](auto& d) { d.angular_rad_per_s[0] = kNone; });
+  mark_affected([](auto& d) { d.orientation[1] = 0.5; });
+  mark_affected([](auto& d) { d.force_n[1] = kNone; });
   end.send_raw(WrenchDatagram{});
   end.send_raw(std::array<char, 500>{});
   EXPECT_EQ(device.read(at_ms(1)).p_MH.x(), 0.01);
   EXPECT_EQ(device.figures().malformed, 12u);
   // Old numbers and another session while this one lasts.
-  spoil([](auto& d) { d.header.sequence = 1; });
-  spoil([](auto& d) { d.header.session = 99; });
+  mark_affected([](auto& d) { d.header.sequence = 1; });
+  mark_affected([](auto& d) { d.header.session = 99; });
   EXPECT_EQ(device.read(at_ms(2)).p_MH.x(), 0.01);
   EXPECT_EQ(device.figures().late, 2u);
   end.send_raw(good);
@@ -145,7 +145,7 @@ TEST_F(DeviceAdapterTest, WhatIsNoDatagramChangesNothingButACounter) {
   EXPECT_EQ(device.figures().accepted, 2u);
 }
 
-TEST_F(DeviceAdapterTest, AnAdapterThatStartsAgainIsTakenAfterTheSilenceOfTheOldOne) {
+TEST_F(DeviceAdapterTest, AcceptsRestartedAdapterAfterTimeout) {
   end.send(handle(0.01));
   ASSERT_TRUE(device.read(at_ms(0)).ok);
   end.exchange = adapter::Exchange(1234);

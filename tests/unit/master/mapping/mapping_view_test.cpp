@@ -63,7 +63,7 @@ TEST(MasterView, SaysWhenAHandleIsToBeRelocated) {
 }
 
 /// What the slave tells of its gripper, knowing what was sent until `knows`.
-Received<Telemetry> told(const Bench& b, bool closed, bool holds, Time knows) {
+Received<Telemetry> reported(const Bench& b, bool closed, bool holds, Time knows) {
   Received<Telemetry> r;
   r.received = b.in.now;
   r.echo_sent = knows;
@@ -82,7 +82,7 @@ std::optional<bool> sent(Bench& b) {
 TEST(MasterView, TheGripperIsAsItIsUntilSomebodyAsksForAnother) {
   Bench b;
   EXPECT_EQ(sent(b), std::nullopt);
-  Received<Telemetry> r = told(b, true, true, b.in.now);
+  Received<Telemetry> r = reported(b, true, true, b.in.now);
   b.in.telemetry = {&r, 1};
   b.tick();
   b.in.telemetry = {};
@@ -95,7 +95,7 @@ TEST(MasterView, TheGripperIsAsItIsUntilSomebodyAsksForAnother) {
   EXPECT_EQ(sent(b), false);
 }
 
-TEST(MasterView, WhatIsAskedOfTheGripperIsSentUntilTheSlaveKnowsAndHasDoneIt) {
+TEST(MasterView, SendsGripperRequestUntilSlaveHasDoneIt) {
   Bench b;
   const Time before = b.in.now;
   b.in.requests.grip = true;
@@ -107,7 +107,7 @@ TEST(MasterView, WhatIsAskedOfTheGripperIsSentUntilTheSlaveKnowsAndHasDoneIt) {
   EXPECT_EQ(sent(b), false) << "closed and open again, before the slave has heard of either";
   for (const auto& [closed, knows, goes_on] :
        {std::tuple{false, before, true}, {true, b.in.now, true}, {false, b.in.now, false}}) {
-    Received<Telemetry> r = told(b, closed, false, knows);
+    Received<Telemetry> r = reported(b, closed, false, knows);
     b.in.telemetry = {&r, 1};
     b.tick();
     b.in.telemetry = {};
@@ -131,7 +131,7 @@ TEST(MasterView, ALoadIsFeltInRateMode) {
   double force_n[2];
   for (const bool load : {false, true}) {
     Bench b;
-    Received<Telemetry> r = told(b, true, load, b.in.now);
+    Received<Telemetry> r = reported(b, true, load, b.in.now);
     b.in.telemetry = {&r, 1};
     b.tick();
     b.in.telemetry = {};

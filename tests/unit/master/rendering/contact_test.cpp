@@ -180,7 +180,7 @@ TEST(Contact, IsForgottenWhenTheSlaveHasForgottenIt) {
 }
 
 // Both programs stood still, and the handle went on without force: what is known is old in the first tick.
-TEST(Contact, WhatFadesIsNotLoadedByAHandleThatHasGoneDeeperMeanwhile) {
+TEST(Contact, FadingContactIsNotReloadedByDeeperHandle) {
   const Vector3 n = Vector3::UnitX();
   for (const bool stale : {true, false}) {
     Bench b(n);

@@ -56,7 +56,7 @@ TEST(PortGuard, LimitsTheRiseOfTheForceAndNotItsFall) {
   EXPECT_EQ(guard.apply({Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true}, kTick_s), Vector3::Zero());
 }
 
-TEST(PortGuard, RampsToZeroWhenNothingIsEngagedButForWhatIsAlwaysThere) {
+TEST(PortGuard, RampsToZeroWhenDisengagedExceptConstantForces) {
   PortGuard guard = opened({.ramp_s = 0.05});
   const Vector3 gravity(0.0, 0.0, 1.0);
   PortForce force{Vector3(10.0, 0.0, 0.0), gravity, Vector3::Zero(), true};

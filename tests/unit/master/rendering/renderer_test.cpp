@@ -107,7 +107,7 @@ TEST(Renderer, ANewEngagementBeginsWithItsStoreAndEmptyTanks) {
 }
 
 /// The edge pushes back with 8 N as the engagement begins, and the hand gives way.
-TEST(Renderer, AnEngagementThatBeginsAtTheDevicesEdgeOwesNothingAndStartsFromItsForce) {
+TEST(Renderer, EngagementAtWorkspaceEdgeStartsFromItsForce) {
   Renderer renderer(RenderingConfig{}, RenderedDevice{});
   Mapping mapping{MappingConfig{}};
   RendererInput in;

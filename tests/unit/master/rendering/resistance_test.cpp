@@ -91,7 +91,7 @@ TEST(Resistance, TakesALoadWithoutAStepAndThenAsMotionPaysForIt) {
   EXPECT_NEAR(b.rest(3000).force.x(), before_n, 1e-3);
 }
 
-TEST(Resistance, LosesItsSpringInRateModeWithoutAStepWhenTheGoalFreezes) {
+TEST(Resistance, ReleasesSpringSmoothlyWhenGoalFreezes) {
   Bench b;
   b.in.mode = MotionMode::kRate;
   b.rest(1);

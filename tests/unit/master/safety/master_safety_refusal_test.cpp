@@ -20,7 +20,7 @@ struct Machine {
     safety.step(in);
     in.engage = false;
   }
-  void hear(int ms = 1) {
+  void receive(int ms = 1) {
     in.last_heard = in.now + milliseconds(ms);
     step(ms);
   }
@@ -30,28 +30,28 @@ Machine observing(bool asking) {
   Machine m;
   m.in.now = Time{std::chrono::hours(1)};
   m.in.rtt_s = 0.1;
-  m.hear();
+  m.receive();
   m.in.engage = asking;
-  m.hear();
+  m.receive();
   return m;
 }
 
-TEST(MasterSafetyRefusal, ARequestThatIsNotGrantedHasAReasonASecondAfterTheRoundTrip) {
+TEST(MasterSafetyRefusal, ReportsReasonOneSecondAfterRoundTrip) {
   for (const double rtt_s : {0.0, 0.6, 11.0}) {
     for (const bool says_why : {false, true}) {
       Machine m = observing(true);
       m.in.rtt_s = rtt_s;
       const Time asked = m.in.now;
       const Reason why{Cause::kJointLimit, 5, 2.15, 2.094};
-      while (to_seconds(m.in.now - asked) < rtt_s) m.hear(10);
+      while (to_seconds(m.in.now - asked) < rtt_s) m.receive(10);
       EXPECT_EQ(m.safety.refusal(), Cause::kNone);
       if (says_why) m.safety.on_report({.engagement = 0, .refused = m.safety.engagement(), .refusal = why});
-      while (to_seconds(m.in.now - asked) < rtt_s + 1.02) m.hear(10);
+      while (to_seconds(m.in.now - asked) < rtt_s + 1.02) m.receive(10);
       EXPECT_TRUE(m.safety.pending()) << "it may yet be granted";
       EXPECT_EQ(m.safety.refusal(), says_why ? Cause::kJointLimit : Cause::kUnanswered);
       EXPECT_EQ(m.safety.refusal().value, says_why ? 2.15 : 0.0);
       EXPECT_EQ(m.safety.refusal_is_far(), says_why);
-      while (m.safety.pending()) m.hear(10);
+      while (m.safety.pending()) m.receive(10);
       EXPECT_EQ(m.safety.cause(), says_why ? Cause::kJointLimit : Cause::kUnanswered);
       EXPECT_EQ(m.safety.cause_is_far(), says_why);
     }
@@ -61,7 +61,7 @@ TEST(MasterSafetyRefusal, ARequestThatIsNotGrantedHasAReasonASecondAfterTheRound
 TEST(MasterSafetyRefusal, ARequestThatThisSideDoesNotPassOnHasItsReasonAtOnce) {
   struct Row {
     Cause why;
-    void (*spoil)(MasterSafetyInput&);
+    void (*mark_affected)(MasterSafetyInput&);
   };
   const Row rows[] = {
       {Cause::kDeviceFault, [](MasterSafetyInput& in) { in.device_ok = false; }},
@@ -72,14 +72,14 @@ TEST(MasterSafetyRefusal, ARequestThatThisSideDoesNotPassOnHasItsReasonAtOnce) {
       {Cause::kStalled, [](MasterSafetyInput& in) { in.stalled_since = in.now; }}};
   for (const Row& row : rows) {
     Machine m = observing(false);
-    row.spoil(m.in);
+    row.mark_affected(m.in);
     m.in.engage = true;
     m.step();
     EXPECT_EQ(m.safety.refusal(), row.why) << text_of(row.why).name;
     EXPECT_FALSE(m.safety.refusal_is_far());
     EXPECT_FALSE(m.safety.pending());
     m.in = {.now = m.in.now, .engage = true, .rtt_s = 0.1};
-    m.hear();
+    m.receive();
     EXPECT_EQ(m.safety.refusal(), Cause::kNone) << "it is asked for anew";
     EXPECT_TRUE(m.safety.pending());
   }

@@ -55,7 +55,7 @@ struct Machine {
     in.engage = in.hold = in.stop = false;
     return begun;
   }
-  bool hear(int ms = 1) {
+  bool receive(int ms = 1) {
     in.last_heard = in.now + milliseconds(ms);
     return step(ms);
   }
@@ -64,7 +64,7 @@ struct Machine {
   }
   void let_go() {
     in.held = false;
-    for (int i = 0; i < 31; ++i) hear(10);
+    for (int i = 0; i < 31; ++i) receive(10);
   }
 };
 
@@ -74,22 +74,22 @@ Machine machine_at(Start start) {
   m.in.rtt_s = 0.1;
   m.step();
   if (start == Start::kIdle) return m;
-  m.hear();
+  m.receive();
   if (start == Start::kObserving) return m;
   m.in.engage = true;
-  m.hear();
+  m.receive();
   if (start == Start::kAsking) return m;
   m.slave_says(State::kEngaged);
-  m.hear();
+  m.receive();
   if (start == Start::kSilence) m.step(501);
   if (start == Start::kLetGo) m.let_go();
   if (start == Start::kSlaveHolds || start == Start::kExpired)
     m.slave_says(State::kHolding, Cause::kLinkSilent);
-  if (start == Start::kSlaveHolds) m.hear();
-  if (start == Start::kExpired) m.hear(), m.hear(1001);
+  if (start == Start::kSlaveHolds) m.receive();
+  if (start == Start::kExpired) m.receive(), m.receive(1001);
   m.in.stop = start == Start::kStopped;
   m.in.device_ok = start != Start::kFault;
-  if (start == Start::kStopped || start == Start::kFault) m.hear();
+  if (start == Start::kStopped || start == Start::kFault) m.receive();
   m.in.device_ok = true;
   return m;
 }
@@ -152,7 +152,7 @@ Expected expected(Start start, const Tick& t) {
   if (t.stalled) says = Slave::kOfAnotherNumber;  // likewise; what comes counts from the next tick on
   if (asked && says == Slave::kStopped && !t.restarted)
     return {State::kStopped, holding ? at.cause : Cause::kOperator, Request::kHold};
-  if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kRobotAstray, Request::kHold);
+  if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kRobotTrackingLost, Request::kHold);
   if (t.taken && (holding || at.state == State::kEngaged)) {
     const bool explains = !holding || at.cause == Cause::kLinkSilent;
     return {State::kHolding, explains ? Cause::kTaken : at.cause, Request::kHold};
@@ -179,7 +179,7 @@ bool apply(Machine& m, const Tick& t) {
   if (t.slave == Slave::kEngaged) m.slave_says(State::kEngaged);
   if (t.slave == Slave::kHolding) m.slave_says(State::kHolding, Cause::kLinkSilent);
   if (t.slave == Slave::kStopped) m.slave_says(State::kStopped, Cause::kOperator);
-  if (t.slave == Slave::kFault) m.slave_says(State::kFault, Cause::kRobotAstray);
+  if (t.slave == Slave::kFault) m.slave_says(State::kFault, Cause::kRobotTrackingLost);
   if (t.slave == Slave::kOfAnotherNumber)
     m.safety.on_report({.engagement = m.safety.engagement() + 7, .state = State::kEngaged});
   m.in.held = true;
@@ -198,7 +198,7 @@ bool apply(Machine& m, const Tick& t) {
   m.in.delay_rose = t.rose;
   m.in.overrun = t.overrun;
   if (t.restarted) ++m.in.peer_restarts;
-  if (t.heard) return m.hear();
+  if (t.heard) return m.receive();
   m.in.last_heard = m.in.last_heard ? std::optional<Time>(m.in.now - milliseconds(600)) : std::nullopt;
   return m.step();
 }
@@ -244,40 +244,40 @@ TEST(MasterSafetyTable, NothingButTheOperatorEndsAHoldOfMoreThanASecond) {
   for (const Start start : {Start::kSilence, Start::kLetGo, Start::kSlaveHolds}) {
     for (const int held_ms : {900, 1100}) {
       Machine m = machine_at(start);
-      for (int i = 0; i < held_ms; ++i) start == Start::kSilence ? m.step() : m.hear();
+      for (int i = 0; i < held_ms; ++i) start == Start::kSilence ? m.step() : m.receive();
       m.in.held = true;
       m.slave_says(State::kEngaged);
-      for (int i = 0; i < 100; ++i) m.hear();
+      for (int i = 0; i < 100; ++i) m.receive();
       const bool soon = held_ms < 1000;
       EXPECT_EQ(m.safety.state(), soon ? State::kEngaged : State::kHolding) << static_cast<int>(start);
       EXPECT_EQ(m.safety.request(), soon ? Request::kEngage : Request::kHold) << static_cast<int>(start);
       if (soon) continue;
       for (int i = 0; i < 20000; ++i)
-        m.slave_says(i % 2 == 0 ? State::kEngaged : State::kHolding), m.hear(10);
+        m.slave_says(i % 2 == 0 ? State::kEngaged : State::kHolding), m.receive(10);
       EXPECT_EQ(m.safety.request(), Request::kHold) << static_cast<int>(start);
       m.in.engage = true;
-      m.hear();
+      m.receive();
       m.slave_says(State::kEngaged);
-      EXPECT_TRUE(m.hear());
+      EXPECT_TRUE(m.receive());
     }
   }
 }
 
-TEST(MasterSafetyTable, AStallCountsFromTheLastTickBeforeItAndIsOverWhenTheSlaveSaysSo) {
+TEST(MasterSafetyTable, StallStartsAtLastTickAndEndsWhenSlaveReportsIt) {
   for (const int stall_ms : {150, 990, 1010, 60000}) {
     Machine m = machine_at(Start::kEngaged);
     m.in.stalled_since = m.in.now;
     m.in.engage = true;
-    m.hear(stall_ms);
+    m.receive(stall_ms);
     m.in.stalled_since.reset();
     EXPECT_EQ(m.safety.state(), State::kHolding) << stall_ms;
     EXPECT_EQ(m.safety.cause(), Cause::kStalled) << stall_ms;
     const bool soon = stall_ms < 1000;
     EXPECT_EQ(m.safety.request(), soon ? Request::kEngage : Request::kHold) << stall_ms;
-    m.hear();
+    m.receive();
     EXPECT_EQ(m.safety.state(), State::kHolding) << "what it had said before does not count";
     m.slave_says(State::kEngaged);
-    m.hear();
+    m.receive();
     EXPECT_EQ(m.safety.state(), soon ? State::kEngaged : State::kHolding) << stall_ms;
     EXPECT_EQ(m.safety.engagement(), 1U);
   }
@@ -294,15 +294,15 @@ TEST(MasterSafetyTable, ImpatienceBeginsNothingAnew) {
       ASSERT_NEAR(m.safety.answer_in_s(m.in).value_or(-1.0), 2.6 - waited_s, 1e-6);
     }
     if (waited_s > 2.6) m.slave_says(State::kEngaged);
-    m.hear();
+    m.receive();
     ASSERT_EQ(m.safety.engagement(), 1U) << i;
   }
   EXPECT_EQ(m.safety.state(), State::kEngaged);
   EXPECT_FALSE(m.safety.answer_in_s(m.in));
   m.in.hold = true;
-  m.hear();
+  m.receive();
   m.in.engage = true;
-  m.hear();
+  m.receive();
   EXPECT_EQ(m.safety.engagement(), 2U) << "held by the operator, it begins anew";
 }
 
@@ -311,50 +311,51 @@ TEST(MasterSafetyTable, ARequestThatNobodyAnswersLapses) {
     Machine m = machine_at(Start::kAsking);
     m.in.rtt_s = rtt_s;
     const Time asked = m.in.now;
-    while (m.safety.request() == Request::kEngage && m.in.now - asked < std::chrono::minutes(2)) m.hear(10);
+    while (m.safety.request() == Request::kEngage && m.in.now - asked < std::chrono::minutes(2))
+      m.receive(10);
     EXPECT_NEAR(to_seconds(m.in.now - asked), rtt_s + 3.0, 0.02);
     EXPECT_EQ(m.safety.state(), State::kObserving);
     EXPECT_EQ(m.safety.cause(), Cause::kUnanswered);
     m.slave_says(State::kEngaged);  // too late
-    m.hear();
+    m.receive();
     EXPECT_EQ(m.safety.state(), State::kObserving);
   }
 }
 
-TEST(MasterSafetyTable, ARequestThatTheSlaveHasTakenAndHoldsInLapsesWhenItCannotGoOn) {
+TEST(MasterSafetyTable, AcceptedRequestExpiresWhenSlaveCannotResume) {
   Machine m = machine_at(Start::kAsking);
   m.in.rtt_s = 2.6;
   m.slave_says(State::kHolding, Cause::kDelayRose);
-  for (int i = 0; i < 990; ++i) m.hear();
+  for (int i = 0; i < 990; ++i) m.receive();
   EXPECT_EQ(m.safety.request(), Request::kEngage) << "it may go on by itself";
-  for (int i = 0; i < 20; ++i) m.hear();
+  for (int i = 0; i < 20; ++i) m.receive();
   EXPECT_EQ(m.safety.request(), Request::kHold);
   EXPECT_EQ(m.safety.cause(), Cause::kDelayRose);
   EXPECT_TRUE(m.safety.cause_is_far());
   m.in.engage = true;
-  m.hear();
+  m.receive();
   EXPECT_EQ(m.safety.engagement(), 2U);
   EXPECT_EQ(m.safety.request(), Request::kEngage);
 }
 
-TEST(MasterSafetyTable, AHandThatIsAwayForAMomentDoesNotMatterAndOneThatIsNotThereDoesNotEngage) {
+TEST(MasterSafetyTable, IgnoresBriefReleaseAndDoesNotEngageWithoutHand) {
   Machine m = machine_at(Start::kEngaged);
   m.in.held = false;
-  for (int i = 0; i < 290; ++i) m.hear();
+  for (int i = 0; i < 290; ++i) m.receive();
   EXPECT_EQ(m.safety.state(), State::kEngaged);
-  for (int i = 0; i < 20; ++i) m.hear();
+  for (int i = 0; i < 20; ++i) m.receive();
   EXPECT_EQ(m.safety.state(), State::kHolding);
   EXPECT_EQ(m.safety.cause(), Cause::kHandleLetGo);
   EXPECT_EQ(m.safety.request(), Request::kLetGo);
-  for (int i = 0; i < 1100; ++i) m.hear();
+  for (int i = 0; i < 1100; ++i) m.receive();
   EXPECT_EQ(m.safety.request(), Request::kHold);
   EXPECT_TRUE(m.safety.hand_missing());
   m.in.engage = true;
-  m.hear();
+  m.receive();
   EXPECT_EQ(m.safety.request(), Request::kHold);
   m.in.held = true;
   m.in.engage = true;
-  m.hear();
+  m.receive();
   EXPECT_EQ(m.safety.request(), Request::kEngage);
 }
 
@@ -363,12 +364,12 @@ TEST(MasterSafetyTable, WithoutThePresenceRuleAHandThatIsAwayChangesNothing) {
   m.safety.configure({.silence_s = 0.5, .resume_s = 1.0});
   m.in.now = Time{std::chrono::hours(1)};
   m.in.held = false;
-  m.hear();
+  m.receive();
   m.in.engage = true;
-  m.hear();
+  m.receive();
   m.slave_says(State::kEngaged);
-  EXPECT_TRUE(m.hear());
-  for (int i = 0; i < 5000; ++i) m.hear();
+  EXPECT_TRUE(m.receive());
+  for (int i = 0; i < 5000; ++i) m.receive();
   EXPECT_EQ(m.safety.state(), State::kEngaged);
 }
 

@@ -15,18 +15,18 @@ struct Driver {
     in.engage = in.hold = in.stop = false;
     return begun;
   }
-  void hear(double t_s) { in.last_heard = Time{} + from_seconds(t_s); }
+  void receive(double t_s) { in.last_heard = Time{} + from_seconds(t_s); }
   void slave_says(SafetyState state, HoldCause cause = HoldCause::kNone) {
     safety.on_report({.engagement = safety.engagement(), .state = state, .cause = cause});
   }
   /// Up to Engaged at t = 1 s.
   void engage() {
-    hear(0.9);
+    receive(0.9);
     tick(0.9);
     in.engage = true;
     tick(0.95);
     slave_says(SafetyState::kEngaged);
-    hear(1.0);
+    receive(1.0);
     ASSERT_TRUE(tick(1.0));
   }
 
@@ -41,14 +41,14 @@ TEST(MasterSafety, IsIdleUntilTheSlaveIsHeard) {
   d.in.engage = true;  // nobody there to engage with
   d.tick(0.1);
   EXPECT_EQ(d.safety.request(), Request::kHold);
-  d.hear(0.2);
+  d.receive(0.2);
   d.tick(0.2);
   EXPECT_EQ(d.safety.state(), SafetyState::kObserving);
 }
 
 TEST(MasterSafety, EngagesOnlyWhenTheSlaveConfirmsTheNumber) {
   Driver d;
-  d.hear(0.0);
+  d.receive(0.0);
   d.in.engage = true;
   d.tick(0.0);
   EXPECT_EQ(d.safety.request(), Request::kEngage);
@@ -61,7 +61,7 @@ TEST(MasterSafety, EngagesOnlyWhenTheSlaveConfirmsTheNumber) {
   EXPECT_FALSE(d.tick(0.3)) << "an engagement begins once";
 }
 
-TEST(MasterSafety, HoldsWhenTheLinkFallsSilentAndGoesOnWhenItComesBackSoon) {
+TEST(MasterSafety, HoldsOnLinkSilenceAndResumesAfterShortGap) {
   Driver d({.silence_s = 0.5, .resume_s = 1.0});
   d.engage();
   d.tick(1.49);
@@ -69,7 +69,7 @@ TEST(MasterSafety, HoldsWhenTheLinkFallsSilentAndGoesOnWhenItComesBackSoon) {
   d.tick(1.51);
   EXPECT_EQ(d.safety.state(), SafetyState::kHolding);
   EXPECT_EQ(d.safety.cause(), HoldCause::kLinkSilent);
-  d.hear(2.0);
+  d.receive(2.0);
   EXPECT_FALSE(d.tick(2.0)) << "the same engagement, not a new one";
   EXPECT_EQ(d.safety.state(), SafetyState::kEngaged);
   EXPECT_EQ(d.safety.false_holds(), 1U);
@@ -79,7 +79,7 @@ TEST(MasterSafety, NeedsANewEngagementAfterALongSilence) {
   Driver d({.silence_s = 0.5, .resume_s = 1.0});
   d.engage();
   for (double t = 1.5; t < 3.0; t += 0.01) d.tick(t);
-  d.hear(3.0);
+  d.receive(3.0);
   d.tick(3.0);
   EXPECT_EQ(d.safety.state(), SafetyState::kHolding);
   EXPECT_EQ(d.safety.request(), Request::kHold);
@@ -104,7 +104,7 @@ TEST(MasterSafety, StopIsLatchedUntilANewEngagement) {
 
 TEST(MasterSafety, StopsBeforeItEngagesWhenBothAreAskedFor) {
   Driver d;
-  d.hear(0.0);
+  d.receive(0.0);
   d.in.engage = d.in.stop = true;
   d.tick(0.0);
   EXPECT_EQ(d.safety.request(), Request::kStop);
@@ -126,7 +126,7 @@ TEST(MasterSafety, FollowsTheSlaveIntoItsHoldAndOutOfIt) {
 TEST(MasterSafety, EngagesASlaveThatAnotherMasterHasStopped) {
   Driver d;
   d.safety.on_report({.engagement = 5, .state = SafetyState::kStopped, .cause = HoldCause::kOperator});
-  d.hear(0.0);
+  d.receive(0.0);
   d.tick(0.0);
   d.in.engage = true;
   d.tick(0.1);
@@ -161,25 +161,25 @@ TEST(MasterSafety, FaultsWithTheDevice) {
   EXPECT_EQ(d.safety.state(), SafetyState::kFault) << "latched";
 }
 
-TEST(MasterSafety, AFaultOfTheSlaveHasTheCauseThatItNamesElseItIsTheRobots) {
-  for (const HoldCause told : {HoldCause::kNone, HoldCause::kSensorFault}) {
+TEST(MasterSafety, SlaveFaultUsesReportedCauseElseRobotFault) {
+  for (const HoldCause reported : {HoldCause::kNone, HoldCause::kSensorFault}) {
     Driver d;
     d.engage();
-    d.slave_says(SafetyState::kFault, told);
+    d.slave_says(SafetyState::kFault, reported);
     d.tick(1.1);
     EXPECT_EQ(d.safety.state(), SafetyState::kHolding);
-    EXPECT_EQ(d.safety.cause(), told == HoldCause::kNone ? HoldCause::kRobotFault : told);
+    EXPECT_EQ(d.safety.cause(), reported == HoldCause::kNone ? HoldCause::kRobotFault : reported);
   }
 }
 
 TEST(MasterSafety, AHoldBeforeTheFirstAnswerIsNoFalseHold) {
   Driver d({.silence_s = 0.5, .resume_s = 1.0});
-  d.hear(0.0);
+  d.receive(0.0);
   d.in.engage = true;
   d.tick(0.0);
   d.tick(0.6);
   ASSERT_EQ(d.safety.state(), SafetyState::kHolding);
-  d.hear(0.7);
+  d.receive(0.7);
   d.slave_says(SafetyState::kEngaged);
   EXPECT_TRUE(d.tick(0.7)) << "it begins now";
   EXPECT_EQ(d.safety.false_holds(), 0U);
@@ -187,16 +187,16 @@ TEST(MasterSafety, AHoldBeforeTheFirstAnswerIsNoFalseHold) {
 
 TEST(MasterSafety, SaysWhenTheAnswerCanBeHere) {
   Driver d;
-  d.hear(0.0);
+  d.receive(0.0);
   d.tick(0.0);
   d.in.rtt_s = 2.5;
   EXPECT_FALSE(d.safety.answer_in_s(d.in)) << "nobody has asked";
   d.in.engage = true;
   d.tick(0.1);
-  d.hear(1.0);
+  d.receive(1.0);
   d.tick(1.1);
   EXPECT_NEAR(d.safety.answer_in_s(d.in).value_or(-1.0), 1.5, 1e-9);
-  d.hear(3.0);
+  d.receive(3.0);
   d.tick(3.1);
   EXPECT_EQ(d.safety.answer_in_s(d.in), 0.0) << "it is late";
   d.in.rtt_s.reset();
@@ -207,10 +207,10 @@ TEST(MasterSafety, SaysWhenTheAnswerCanBeHere) {
   EXPECT_FALSE(d.safety.answer_in_s(d.in)) << "it is here";
 }
 
-TEST(MasterSafety, ByItselfItEngagesNeitherWithoutAHandNorAfterTheOperatorHasSpoken) {
+TEST(MasterSafety, DoesNotEngageWithoutHandOrAfterOperatorRequest) {
   Driver d({.engage_at_start = true, .presence = Presence::kHold});
   d.in.held = false;
-  d.hear(0.0);
+  d.receive(0.0);
   d.tick(0.0);
   EXPECT_EQ(d.safety.engagement(), 0U);
   d.in.held = true;
@@ -221,7 +221,7 @@ TEST(MasterSafety, ByItselfItEngagesNeitherWithoutAHandNorAfterTheOperatorHasSpo
   Driver held({.engage_at_start = true});
   held.in.hold = true;
   held.tick(0.0);
-  held.hear(0.1);
+  held.receive(0.1);
   held.tick(0.1);
   held.tick(0.2);
   EXPECT_EQ(held.safety.engagement(), 0U);
@@ -246,7 +246,7 @@ TEST(MasterSafety, ARobotThatIsTakenInASilenceExplainsIt) {
 
 TEST(MasterSafety, EngagesByItselfOnceWhenConfigured) {
   Driver d({.engage_at_start = true});
-  d.hear(0.0);
+  d.receive(0.0);
   d.tick(0.0);
   EXPECT_EQ(d.safety.engagement(), 1U);
   d.in.stop = true;

@@ -40,7 +40,7 @@ struct Touching {
   }
 };
 
-TEST(GoalLimiterGuard, WhereTheForceGrowsTheSpeedIsBoundedWhateverItsDirection) {
+TEST(GoalLimiterGuard, BoundsSpeedWhereForceGrows) {
   for (const double force_n : {0.0, 15.0, 19.9, 20.0, 25.0}) {
     for (const double lead_m : {-1e-3, 0.0, 1e-4}) {
       Touching t(force_n);
@@ -76,7 +76,7 @@ TEST(GoalLimiterGuard, WhereTheForceGrowsMattersInContactOnly) {
   EXPECT_NEAR(t.go_to(Vector3(0, 2, 0)).y(), kSpeed, 1e-12);
 }
 
-TEST(GoalLimiterGuard, WhileNobodyHoldsTheHandleTheGuardIsTheHoldLimit) {
+TEST(GoalLimiterGuard, UsesHoldLimitWhileHandleIsReleased) {
   Touching t(kHold_n + 2.0);
   EXPECT_GE(t.go_to(Vector3(0.1, 0, 0)).x(), 0.0);
   t.let_go = true;
@@ -92,7 +92,7 @@ TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {
     const double k = stiffness > 0.0 ? stiffness : kStiffest_n_per_m;
     EXPECT_NEAR(t.go_to(Vector3(0.1, 0, 0)).x(), -2.0 / (k * kBleed_s), 1e-12) << stiffness;
     EXPECT_TRUE(t.out.force_guard);
-    EXPECT_FALSE(t.out.no_relief);
+    EXPECT_FALSE(t.out.force_persists);
   }
   Touching soft(kGuard_n + 10.0);
   soft.contact.stiffness_n_per_m = 10.0;
@@ -101,15 +101,15 @@ TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {
 
 TEST(GoalLimiterGuard, AToolThatWasPushedInComesOutByTheStiffnessThatItShows) {
   constexpr double kTrue_n_per_m = 5e3, kPushed_n = 130.0;
-  for (const double told_n_per_m : {0.0, 5e3, 6e5, 1e8}) {
+  for (const double reported_n_per_m : {0.0, 5e3, 6e5, 1e8}) {
     Touching t(kPushed_n);
-    t.contact.stiffness_n_per_m = told_n_per_m;
+    t.contact.stiffness_n_per_m = reported_n_per_m;
     for (int i = 0; i < 4000; ++i) {
       t.go_to(Vector3(0.1, 0, 0), 1);
       t.contact.force_n = kPushed_n + kTrue_n_per_m * t.out.X_WE.p.x();
     }
-    EXPECT_LT(t.contact.force_n, 1.15 * kGuard_n) << told_n_per_m;
-    EXPECT_GT(t.contact.force_n, 0.8 * kGuard_n) << told_n_per_m;
+    EXPECT_LT(t.contact.force_n, 1.15 * kGuard_n) << reported_n_per_m;
+    EXPECT_GT(t.contact.force_n, 0.8 * kGuard_n) << reported_n_per_m;
   }
 }
 
@@ -122,7 +122,7 @@ TEST(GoalLimiterGuard, WhatIsStillComingIsTakenBackButNoFurther) {
   EXPECT_NEAR(behind.go_to(Vector3(0.1, 0, 0)).x(), -1.0 / (kStiffest_n_per_m * kBleed_s), 1e-12);
 }
 
-TEST(GoalLimiterGuard, GivesWayToNothingThatIsNotTrustedNorWhereTheForceGrows) {
+TEST(GoalLimiterGuard, DoesNotRetreatFromUntrustedOrGrowingForce) {
   for (const bool holds : {false, true}) {
     const auto moves_out = [&](bool trusted, const Vector3& grows) {
       Touching t(kGuard_n + 10.0);
@@ -140,7 +140,7 @@ TEST(GoalLimiterGuard, GivesWayToNothingThatIsNotTrustedNorWhereTheForceGrows) {
   }
 }
 
-TEST(GoalLimiterGuard, AForceThatDoesNotAnswerIsGivenWayToForTwentyMillimetres) {
+TEST(GoalLimiterGuard, RetreatsTwentyMillimetresFromUnresponsiveForce) {
   for (const bool holds : {false, true}) {
     Touching t(kGuard_n + 10.0);
     t.contact.stiffness_n_per_m = 100.0;
@@ -149,27 +149,27 @@ TEST(GoalLimiterGuard, AForceThatDoesNotAnswerIsGivenWayToForTwentyMillimetres) 
     else
       t.go_to(Vector3(0.1, 0, 0), 3000);
     EXPECT_NEAR(kOut.dot(t.limiter.setpoint().p), 0.02, 5e-4) << holds;
-    EXPECT_TRUE(t.out.no_relief) << holds;
+    EXPECT_TRUE(t.out.force_persists) << holds;
     EXPECT_TRUE(t.limiter.velocity().linear.isZero(1e-9)) << holds;
   }
 }
 
-TEST(GoalLimiterGuard, AForceThatHasGoneForFiftyMillisecondsIsANewOneWhenItComes) {
-  for (const int calm_ticks : {40, 60}) {
-    for (const double calm_n : {0.0, 15.0}) {
+TEST(GoalLimiterGuard, ForceAfterFiftyMillisecondGapIsNewContact) {
+  for (const int stable_ticks : {40, 60}) {
+    for (const double stable_n : {0.0, 15.0}) {
       Touching t(kGuard_n + 10.0);
       t.contact.stiffness_n_per_m = 100.0;
       t.go_to(Vector3(0.1, 0, 0), 3000);
-      ASSERT_TRUE(t.out.no_relief);
+      ASSERT_TRUE(t.out.force_persists);
       const Vector3 there_m = t.limiter.setpoint().p;
-      t.contact.force_n = calm_n;
-      t.contact.in_contact = calm_n > 0.0;
-      t.go_to(there_m, calm_ticks);
+      t.contact.force_n = stable_n;
+      t.contact.in_contact = stable_n > 0.0;
+      t.go_to(there_m, stable_ticks);
       t.contact.in_contact = true;
       t.contact.force_n = kGuard_n + 10.0;
       t.go_to(there_m, 3000);
-      EXPECT_NEAR(kOut.dot(t.limiter.setpoint().p - there_m), calm_ticks > 50 ? 0.02 : 0.0, 5e-4)
-          << calm_ticks << ' ' << calm_n;
+      EXPECT_NEAR(kOut.dot(t.limiter.setpoint().p - there_m), stable_ticks > 50 ? 0.02 : 0.0, 5e-4)
+          << stable_ticks << ' ' << stable_n;
     }
   }
 }
@@ -192,7 +192,7 @@ TEST(GoalLimiterGuard, AHoldBelowItsLimitKeepsTheContactAsItIs) {
     t.hold();
     EXPECT_TRUE(t.limiter.at_rest()) << force_n;
     EXPECT_EQ(t.limiter.setpoint().p, Vector3::Zero()) << force_n;
-    EXPECT_FALSE(t.out.no_relief);
+    EXPECT_FALSE(t.out.force_persists);
   }
 }
 
@@ -284,7 +284,7 @@ TEST(Pursue, BacksOutWithinItsSpeedWhileTheRestOfTheMotionEnds) {
   EXPECT_NEAR(p.velocity.x(), -limits.speed, 1e-3);
 }
 
-TEST(GoalLimiterGuard, GivesWayAsFastAsItIsToldWhateverTheGoal) {
+TEST(GoalLimiterGuard, RetreatsAtGivenSpeedForAnyGoal) {
   constexpr double kRetreat = 0.01;
   Touching t(18.0);
   t.contact.gives_way = t.contact.gave_way = true;
@@ -298,12 +298,12 @@ TEST(GoalLimiterGuard, GivesWayAsFastAsItIsToldWhateverTheGoal) {
   t.contact.gives_way = false;
   t.contact.force_n = 15.0;
   EXPECT_GT(t.go_to(Vector3(2, 0, 0), 1000).x(), 0.0);
-  EXPECT_FALSE(t.out.no_relief);
+  EXPECT_FALSE(t.out.force_persists);
   t.contact.force_n = 25.0;
   EXPECT_LT(t.go_to(Vector3(2, 0, 0)).x(), 0.0);
   t.contact.in_contact = false;
   EXPECT_GT(t.go_to(Vector3(2, 0, 0)).x(), 0.2);
-  EXPECT_FALSE(t.out.no_relief);
+  EXPECT_FALSE(t.out.force_persists);
 }
 
 /// Likewise of a contact by rotation about z, that turns the tool back.
@@ -338,7 +338,7 @@ TEST(GoalLimiterGuard, WhereTheMomentGrowsTheTurnIsBounded) {
   EXPECT_TRUE(about_x.out.moment_guard);
 }
 
-TEST(GoalLimiterGuard, AWallThatComesInJerksIsGivenWayToNoFartherInAHold) {
+TEST(GoalLimiterGuard, HoldBoundsRetreatFromJerkyWall) {
   constexpr double kWay_m = 0.015;
   CommandConfig config;
   config.give_way_m = kWay_m;

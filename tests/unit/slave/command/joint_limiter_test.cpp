@@ -207,7 +207,7 @@ TEST(JointLimiter, RestIsExactAndSettled) {
   EXPECT_NE(stays, goal);
 }
 
-TEST(JointLimiter, ASmallJerkLimitLowersTheAccelerationInsteadOfWaitingLonger) {
+TEST(JointLimiter, SmallJerkLimitLowersAcceleration) {
   RobotConfig robot = six_alike();
   for (JointConfig& j : robot.joint) j.jerk_max_rad_per_s3 = 1.0;  // 8 s of window otherwise
   JointLimiter limiter(robot);
@@ -228,7 +228,7 @@ TEST(JointLimiter, MovesJointsOutsideTheirLimitsInside) {
   EXPECT_EQ(limiter.setpoint_rad(), JointVector::Constant(-1.0));
 }
 
-TEST(JointLimiter, ReachesInOneStepWhatNeitherAccelerationNorAChangeOfShapeForbids) {
+TEST(JointLimiter, ReachesAllowedGoalInOneStep) {
   JointLimiter limiter(six_alike());
   limiter.reset(JointVector::Zero());
   limiter.step(JointVector::Zero(), {}, kDt);

@@ -87,7 +87,7 @@ TEST(MomentGuard, WhileNobodyHoldsTheHandleItIsTheHoldLimit) {
   EXPECT_LT(t.turn_to(0.5).z(), 0.0);
 }
 
-TEST(MomentGuard, AMomentThatDoesNotAnswerIsGivenWayToForATenthOfARadian) {
+TEST(MomentGuard, RetreatsTenthRadianFromUnresponsiveMoment) {
   for (const bool holds : {false, true}) {
     TurnedAgainst t(kGuard_nm + 3.0);
     t.moment.stiffness_n_per_m = 5.0;
@@ -96,7 +96,7 @@ TEST(MomentGuard, AMomentThatDoesNotAnswerIsGivenWayToForATenthOfARadian) {
     else
       t.turn_to(0.1, 5000);
     EXPECT_NEAR(t.turned_rad(), -0.1, 2e-3) << holds;
-    EXPECT_TRUE(t.out.no_relief) << holds;
+    EXPECT_TRUE(t.out.force_persists) << holds;
   }
 }
 

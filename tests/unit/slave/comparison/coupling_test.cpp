@@ -45,7 +45,7 @@ TEST(PaidStep, TakesAwayOnlyWhatIsNotPaidForAndOnlyAlongTheForce) {
   EXPECT_EQ(paid_step(-step_m, force_n, -1.0), -step_m);
 }
 
-TEST(PassivityCoupling, PressesAsFarAsTheMastersEnergyGoesAndMakesUpForItLater) {
+TEST(PassivityCoupling, PressesWithinMasterEnergyAndCatchesUp) {
   PassivityCoupling coupling({.slave_speed_max_m_per_s = 0.5});
   ComparisonCommand command{.position_m = along(5e-4), .energy_j = 4e-4};
   EXPECT_NEAR(coupling.step(input(command, -2.0), kT_s).setpoint_m.x(), 2e-4, 1e-15);

@@ -238,13 +238,13 @@ TEST(Surfaces, ACurvedLawIsToldByItsTangentFromTheFootOn) {
   b.go(0.0125 * kX);
   b.go(0.0131 * kX);
   const ReportedSurface s = b.facing(-kX);
-  const double depth = b.contact.foremost().told().depth_m();
+  const double depth = b.contact.foremost().reported().depth_m();
   EXPECT_NEAR(s.stiffness, 6e5 * depth, 0.05 * 6e5 * depth);
   EXPECT_NEAR(s.foot, 0.5 * depth, 0.05 * depth);
 }
 
 // A wall that came has gone again, and the tool is pressed into the one behind it.
-TEST(ContactSurfaces, AForceFromTheOtherSideIsOfAnotherSurfaceAndGuardedAtOnce) {
+TEST(ContactSurfaces, OppositeForceIsNewSurfaceAndGuarded) {
   SlaveContact contact(SensingConfig{}, EstimatorConfig{});
   const auto press = [&contact](const Vector3& force_n, int ticks) {
     for (int i = 0; i < ticks; ++i) contact.step({Vector3::Zero(), Vector3::Zero(), force_n, 0.0, 1.0, 1e-3});

@@ -38,7 +38,7 @@ TEST(ReportedTangent, AppearsWhenKnownHoldsAndIsRenewedWhenItsSdHasHalved) {
   EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
 }
 
-TEST(ReportedTangent, IsNotReplacedByTheSlopeAtAnotherDepthUnlessNoLawAllowsBoth) {
+TEST(ReportedTangent, KeepsTangentUnlessNoLawFitsBothSlopes) {
   constexpr double kAsked_m = 2e-3;
   const auto after = [&](double stiffness_n_per_m, double depth_m, double fraction) {
     ReportedTangent reported(EstimatorConfig{});

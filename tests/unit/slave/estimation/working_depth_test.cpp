@@ -90,7 +90,7 @@ TEST(LocalTangent, SaysNothingOfADepthThatDoesNotChange) {
   EXPECT_FALSE(local.answer(0.0).valid);
 }
 
-TEST(WorkingDepth, OfAContactThatHasChangedUnderTheHandBeginsWhereTheHandIs) {
+TEST(WorkingDepth, ChangedContactStartsAtHandPosition) {
   WorkingDepth depth;
   depth.begin_at(7e-3);
   EXPECT_EQ(depth.depth_m(2e-3), 7e-3);

@@ -34,41 +34,41 @@ TEST(RobotWatchLaw, AJointThatIsOffForHalfASecondIsAstrayWithAnyServo) {
     RobotWatch watch(robot_with_servo(hz));
     run(watch, 1.0, at(0.0));
     run(watch, 0.45, at(-0.2));
-    EXPECT_FALSE(watch.astray()) << hz;
+    EXPECT_FALSE(watch.tracking_lost()) << hz;
     run(watch, 0.1, at(-0.2));
-    EXPECT_TRUE(watch.astray()) << hz;
+    EXPECT_TRUE(watch.tracking_lost()) << hz;
     run(watch, 0.01, at(0.05));
-    EXPECT_FALSE(watch.astray()) << "it is back, " << hz;
+    EXPECT_FALSE(watch.tracking_lost()) << "it is back, " << hz;
   }
 }
 
 TEST(RobotWatchLaw, NobodyCommandsARobotThatMayBeAnywhere) {
   RobotWatch watch(robot_with_servo(10.0));
   run(watch, 5.0, at(1.0), false);
-  EXPECT_FALSE(watch.astray());
+  EXPECT_FALSE(watch.tracking_lost());
 }
 
-TEST(RobotWatchLaw, AJointThatWasMovedWhileThisSideStoodStillIsAstrayAtOnce) {
+TEST(RobotWatchLaw, JointMovedDuringStallLosesTrackingAtOnce) {
   RobotWatch watch(robot_with_servo(0.0));
   run(watch, 1.0, at(0.0));
   watch.step(at(0.05), JointVector::Zero(), true, true, kDt, true);
-  EXPECT_FALSE(watch.astray()) << "within what a joint gives way by";
+  EXPECT_FALSE(watch.tracking_lost()) << "within what a joint gives way by";
   watch.step(at(0.2), JointVector::Zero(), true, true, kDt, true);
-  EXPECT_TRUE(watch.astray());
+  EXPECT_TRUE(watch.tracking_lost());
 }
 
-TEST(RobotWatchLaw, AJointThatMovesOnWhileItsSetpointRestsIsRestlessOnceTheServoHasSettled) {
+TEST(RobotWatchLaw, DetectsUncommandedMotionAfterServoSettles) {
   for (const double hz : {0.0, 1.0}) {
     const double settling_s = hz > 0.0 ? 0.4775 : 0.0;  // 3/(2π f)
     RobotWatch watch(robot_with_servo(hz));
     run(watch, settling_s + 0.48, at(0.0, 0.2));
-    EXPECT_FALSE(watch.restless()) << hz;
+    EXPECT_FALSE(watch.uncommanded_motion()) << hz;
     run(watch, 0.05, at(0.0, 0.2));
-    EXPECT_TRUE(watch.restless()) << hz;
+    EXPECT_TRUE(watch.uncommanded_motion()) << hz;
     run(watch, 0.01, at(0.0, 0.05));
-    EXPECT_FALSE(watch.restless()) << "slower than a tenth of its limit, " << hz;
+    EXPECT_FALSE(watch.uncommanded_motion()) << "slower than a tenth of its limit, " << hz;
     run(watch, 5.0, at(0.0, 0.2), true, false);
-    EXPECT_FALSE(watch.restless()) << "its setpoint moves, " << hz;
+    EXPECT_FALSE(watch.uncommanded_motion()) << "its setpoint moves, " << hz;
   }
 }
 

@@ -43,9 +43,9 @@ enum class Heard { kNow, kBeforeTheGap, kLongBefore };
 struct Tick {
   Ask ask = Ask::kNothing;
   Heard heard = Heard::kNow;
-  bool robot_fault = false, restless = false, astray = false, stop = false;
+  bool robot_fault = false, uncommanded_motion = false, tracking_lost = false, stop = false;
   int session = 0;  // 0: the same, 1: another, 2: another that has taken the robot
-  bool sensor_fault = false, sensor_sign = false, no_relief = false;
+  bool sensor_fault = false, sensor_sign = false, force_persists = false;
   bool old_news = false;  // what the master last heard of this side is older than the bound
   bool stalled = false;   // this tick came later than the gap timer
   bool rose = false;      // the delay
@@ -158,13 +158,13 @@ Expected expected(Start start, const Tick& t) {
   if (t.robot_fault) return to_fault(Cause::kRobotFault);
   if (t.sensor_fault) return to_fault(Cause::kSensorFault);
   if (t.sensor_sign && (engaged || holding || stopped)) return to_fault(Cause::kSensorSign);
-  if (t.restless && (holding || stopped || fault)) return to_fault(Cause::kRobotRestless);
-  if (t.astray && (engaged || holding || stopped)) return to_fault(Cause::kRobotAstray);
+  if (t.uncommanded_motion && (holding || stopped || fault)) return to_fault(Cause::kRobotUncommandedMotion);
+  if (t.tracking_lost && (engaged || holding || stopped)) return to_fault(Cause::kRobotTrackingLost);
   if ((t.stop || t.ask == Ask::kStop) && !fault)
     return {State::kStopped, at.cause == Cause::kNone ? Cause::kOperator : at.cause};
-  if (f.asks_new && !f.silent && !t.restless)
+  if (f.asks_new && !f.silent && !t.uncommanded_motion)
     if (!fault || !(t.stop || t.ask == Ask::kStop)) return {State::kEngaged, Cause::kNone, true};
-  if (t.no_relief && (engaged || holding)) return to_hold(Cause::kNoRelief);
+  if (t.force_persists && (engaged || holding)) return to_hold(Cause::kForcePersists);
   if (engaged) {
     if (t.session == 2) return to_hold(Cause::kTaken);
     if (t.session == 1) return to_hold(Cause::kPeerRestarted);
@@ -201,7 +201,7 @@ std::vector<Tick> all_ticks() {
           for (unsigned sensor = 0; sensor < 4; ++sensor) {  // one of them at a time
             tick.sensor_fault = sensor == 1;
             tick.sensor_sign = sensor == 2;
-            tick.no_relief = sensor == 3;
+            tick.force_persists = sensor == 3;
             all.push_back(tick);
           }
         }
@@ -214,21 +214,22 @@ std::vector<Tick> all_ticks() {
 std::string name(Start start, const Tick& t) {
   return "start " + std::to_string(static_cast<int>(start)) + " ask " +
          std::to_string(static_cast<int>(t.ask)) + " heard " + std::to_string(static_cast<int>(t.heard)) +
-         " fault, restless, astray, stop " + std::to_string(t.robot_fault) + std::to_string(t.restless) +
-         std::to_string(t.astray) + std::to_string(t.stop) + " session " + std::to_string(t.session) +
-         " old news " + std::to_string(t.old_news) + " stalled, rose, overrun " + std::to_string(t.stalled) +
-         std::to_string(t.rose) + std::to_string(t.overrun) + " sensor " + std::to_string(t.sensor_fault) +
-         std::to_string(t.sensor_sign) + std::to_string(t.no_relief);
+         " fault, uncommanded_motion, tracking_lost, stop " + std::to_string(t.robot_fault) +
+         std::to_string(t.uncommanded_motion) + std::to_string(t.tracking_lost) + std::to_string(t.stop) +
+         " session " + std::to_string(t.session) + " old news " + std::to_string(t.old_news) +
+         " stalled, rose, overrun " + std::to_string(t.stalled) + std::to_string(t.rose) +
+         std::to_string(t.overrun) + " sensor " + std::to_string(t.sensor_fault) +
+         std::to_string(t.sensor_sign) + std::to_string(t.force_persists);
 }
 
 bool apply(Machine& m, const Tick& t) {
   SlaveSafetyInput& in = m.in;
   in.robot = t.robot_fault ? Cause::kRobotFault : Cause::kNone;
-  in.robot_restless = t.restless;
-  in.robot_astray = t.astray;
+  in.robot_uncommanded_motion = t.uncommanded_motion;
+  in.robot_tracking_lost = t.tracking_lost;
   in.sensor_fault = t.sensor_fault;
   in.sensor_sign = t.sensor_sign;
-  in.no_relief = t.no_relief;
+  in.force_persists = t.force_persists;
   in.stop = t.stop;
   if (t.stalled) in.stalled_since = in.now - milliseconds(200);
   in.delay_rose = t.rose;
@@ -282,8 +283,8 @@ TEST(SlaveSafetyTable, TheMoreSevereOfTwoDemandsWins) {
           Tick t;
           t.ask = a == 4 || b == 4 ? Ask::kStop : a == 5 || b == 5 ? Ask::kHold : Ask::kNothing;
           t.robot_fault = a == 0 || b == 0;
-          t.restless = a == 1 || b == 1;
-          t.astray = a == 2 || b == 2;
+          t.uncommanded_motion = a == 1 || b == 1;
+          t.tracking_lost = a == 2 || b == 2;
           t.stop = a == 3 || b == 3;
           Machine m = machine_at(start);
           apply(m, t);
@@ -346,7 +347,7 @@ TEST(SlaveSafetyTable, TheAgeIsThatOfTheNewestEchoOnThisClockAlone) {
   }
 }
 
-TEST(SlaveSafetyTable, TheGapTimerIsThirtySendPeriodsAndAtLeastATenthOfASecond) {
+TEST(SlaveSafetyTable, GapTimerIsThirtySendPeriodsMinimumTenthSecond) {
   struct Row {
     double set_s, send_hz;
     int holds_after_ms;

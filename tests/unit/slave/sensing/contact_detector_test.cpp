@@ -27,13 +27,15 @@ TEST(ContactDetector, TouchesAboveOneForceAndReleasesBelowAnother) {
 }
 
 TEST(ContactDetector, WhatMayBeNoForceMakesNoContactButEndsNoneEither) {
-  constexpr double kDoubt_n = 2.0;
+  constexpr double kUncertainty_n = 2.0;
   ContactDetector detector(SensingConfig{});
-  for (int i = 0; i < 200; ++i) ASSERT_FALSE(detector.step(Vector3(-2.2, 0, 0), kDt, kDoubt_n).in_contact);
+  for (int i = 0; i < 200; ++i)
+    ASSERT_FALSE(detector.step(Vector3(-2.2, 0, 0), kDt, kUncertainty_n).in_contact);
   bool touches = false;
-  for (int i = 0; i < 200; ++i) touches = detector.step(Vector3(-2.4, 0, 0), kDt, kDoubt_n).in_contact;
+  for (int i = 0; i < 200; ++i) touches = detector.step(Vector3(-2.4, 0, 0), kDt, kUncertainty_n).in_contact;
   EXPECT_TRUE(touches);
-  for (int i = 0; i < 200; ++i) ASSERT_TRUE(detector.step(Vector3(-1.0, 0, 0), kDt, kDoubt_n).in_contact);
+  for (int i = 0; i < 200; ++i)
+    ASSERT_TRUE(detector.step(Vector3(-1.0, 0, 0), kDt, kUncertainty_n).in_contact);
 }
 
 TEST(ContactDetector, AGreatForceThatWasThereDoesNotHideWhatPressesNow) {

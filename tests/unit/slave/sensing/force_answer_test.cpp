@@ -32,7 +32,7 @@ struct OnTheRail {
   std::function<double(double)> wall_m = [](double) { return 0.0; };
   double sign = 1.0;  // of the sensor
   double noise_n = 0.0;
-  std::function<double(double)> lie_n{};  // instead of the wall's force
+  std::function<double(double)> fault_n{};  // instead of the wall's force
   ForceAnswer answer{ForceAnswerLimits{}};
   bool may_move = true;
   double t_s = 0.0, tool_m = 0.0, speed_m_per_s = 0.0;
@@ -40,7 +40,7 @@ struct OnTheRail {
   Random random{3};
 
   [[nodiscard]] double true_n() const {
-    if (lie_n) return lie_n(t_s);
+    if (fault_n) return fault_n(t_s);
     const double depth_m = wall_m(t_s) - tool_m;
     double force_n = wall_n_per_m * std::max(depth_m, 0.0);
     for (const Layer& layer : layers) force_n += layer.n_per_m * std::max(depth_m - layer.depth_m, 0.0);
@@ -136,7 +136,7 @@ TEST(ForceAnswer, AWrongSignIsFoundOnAWallThatComes) {
 }
 
 /// The tool goes back as the guard asks it to, without a trend: into the wall where the sign is wrong.
-State relieved(double wall_n_per_m, double sign, double aside = 0.0) {
+State eased(double wall_n_per_m, double sign, double aside = 0.0) {
   ForceAnswer answer{ForceAnswerLimits{}};
   double out_m = 0.0, way_m = 0.0;
   for (int i = 0; i < 20000 && answer.state() != State::kWrongSign; ++i) {
@@ -160,9 +160,9 @@ State relieved(double wall_n_per_m, double sign, double aside = 0.0) {
 
 TEST(ForceAnswer, AWrongSignIsFoundAsTheGuardGivesWayToAWallAtRest) {
   for (const double k : {200.0, 2e3, 2e4}) {
-    EXPECT_EQ(relieved(k, -1.0), State::kWrongSign) << k;
-    EXPECT_EQ(relieved(k, 1.0), State::kRest) << k;
-    EXPECT_NE(relieved(k, -1.0, 0.5), State::kWrongSign) << k << ": it slides, and may meet more";
+    EXPECT_EQ(eased(k, -1.0), State::kWrongSign) << k;
+    EXPECT_EQ(eased(k, 1.0), State::kRest) << k;
+    EXPECT_NE(eased(k, -1.0, 0.5), State::kWrongSign) << k << ": it slides, and may meet more";
   }
 }
 
@@ -211,7 +211,7 @@ bool called_wrong(double wall_n_per_m, double stiffer, double m_per_s, double ha
 }
 
 // Its growth becomes many times as fast while the tool gives way.
-TEST(ForceAnswer, AWallOfLayersThatComesIsNoWrongSignWhateverTheHandDoes) {
+TEST(ForceAnswer, ApproachingLayeredWallIsNotWrongSign) {
   for (const double k : {200.0, 600.0, 2e3}) {
     for (const double stiffer : {2.0, 4.0, 10.0}) {
       for (const double v : {1e-3, 3e-3, 0.01, 0.03}) {
@@ -249,7 +249,7 @@ TEST(ForceAnswer, AWallThatSwingsIsNoWrongSign) {
 
 TEST(ForceAnswer, AForceThatTheToolDoesNotMakeAnswersNothing) {
   OnTheRail drift;
-  drift.lie_n = [](double t_s) { return 6.0 * t_s; };
+  drift.fault_n = [](double t_s) { return 6.0 * t_s; };
   drift.noise_n = 0.02;
   drift.go(3.2);
   EXPECT_EQ(drift.answer.state(), State::kGivingWay);

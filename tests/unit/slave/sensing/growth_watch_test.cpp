@@ -22,8 +22,8 @@ TEST(GrowthWatch, SeesAWrongSignOrFrameBeforeTheForceIsHalfAGuard) {
           test::turned(-kQuarter, Vector3::UnitY()), test::turned(2.1, Vector3::UnitZ())}) {
       PressedTool tool(stiffness);
       tool.sensor = sensor;
-      while (!tool.accused && tool.force_n() < 10.0) tool.go(0.01 * kIn);
-      EXPECT_TRUE(tool.accused) << stiffness << '\n' << sensor;
+      while (!tool.suspected && tool.force_n() < 10.0) tool.go(0.01 * kIn);
+      EXPECT_TRUE(tool.suspected) << stiffness << '\n' << sensor;
       EXPECT_GT(tool.watch.direction().dot(kIn), 0.99) << stiffness;
       EXPECT_NEAR(tool.watch.slope_n_per_m(), stiffness, 0.1 * stiffness);
       EXPECT_EQ(tool.watch.across(), std::abs((sensor * kIn).dot(kIn)) < 0.3);
@@ -31,7 +31,7 @@ TEST(GrowthWatch, SeesAWrongSignOrFrameBeforeTheForceIsHalfAGuard) {
   }
 }
 
-TEST(GrowthWatch, NeverAccusesAWallThatIsNoStifferThanWhatItReckonsWith) {
+TEST(GrowthWatch, NeverFlagsWallWithinStiffnessBound) {
   for (const double stiffness : {100.0, 1e3, 5e3, 2e4}) {
     for (const double slant : {0.0, 0.6, 1.2, 1.5}) {  // of the way, from straight in
       for (const double noise : {0.0, 0.05}) {
@@ -45,7 +45,7 @@ TEST(GrowthWatch, NeverAccusesAWallThatIsNoStifferThanWhatItReckonsWith) {
           tool.go(Vector3::Zero(), 0.3);
           tool.go(-0.9 * speed * way, 1.0);
         }
-        EXPECT_FALSE(tool.accused) << stiffness << ' ' << slant << ' ' << noise;
+        EXPECT_FALSE(tool.suspected) << stiffness << ' ' << slant << ' ' << noise;
       }
     }
   }
@@ -62,7 +62,7 @@ TEST(GrowthWatch, NeverAccusesAStifferWallThatIsPressedStraight) {
         tool.go(Vector3::Zero(), 0.3);
         tool.go(-0.9 * speed * kIn, 1.0);
       }
-      EXPECT_FALSE(tool.accused) << stiffness << ' ' << noise;
+      EXPECT_FALSE(tool.suspected) << stiffness << ' ' << noise;
     }
   }
 }
@@ -70,8 +70,8 @@ TEST(GrowthWatch, NeverAccusesAStifferWallThatIsPressedStraight) {
 TEST(GrowthWatch, AStifferWallThatIsSlidOnGrowsAcrossTheForce) {
   PressedTool tool(1e5);
   const Vector3 way(0.3, std::sqrt(1.0 - 0.3 * 0.3), 0.0);  // 3e4 N a metre of it
-  while (!tool.accused && tool.force_n() < 20.0) tool.go(0.005 * way);
-  EXPECT_TRUE(tool.accused);
+  while (!tool.suspected && tool.force_n() < 20.0) tool.go(0.005 * way);
+  EXPECT_TRUE(tool.suspected);
   EXPECT_TRUE(tool.watch.across());
   EXPECT_NEAR(tool.watch.slope_n_per_m(), 3e4, 3e3);
 }
@@ -85,45 +85,45 @@ TEST(GrowthWatch, KnowsThatASlowSensorIsLate) {
       tool.go(0.02 * kIn, 0.2);
       tool.go(-0.018 * kIn, 0.2);
     }
-    EXPECT_FALSE(tool.accused) << hz;
+    EXPECT_FALSE(tool.suspected) << hz;
   }
   PressedTool unaware(5e3);
   unaware.bandwidth_hz = 5.0;
   unaware.go(0.02 * kIn, 0.2);
   unaware.go(-0.018 * kIn, 0.2);
-  EXPECT_TRUE(unaware.accused) << "the case is one in which that matters";
+  EXPECT_TRUE(unaware.suspected) << "the case is one in which that matters";
 }
 
 TEST(GrowthWatch, WhatGrowsWhileTheToolRestsIsNotItsOwn) {
   PressedTool tool(0.0);
   tool.p_m = Vector3::Zero();
-  for (int i = 0; i < 1300; ++i) tool.tell((5.0 + 0.02 * i) * Vector3::UnitY());
+  for (int i = 0; i < 1300; ++i) tool.report((5.0 + 0.02 * i) * Vector3::UnitY());
   for (int i = 0; i < 1000; ++i) {
     tool.p_m += 1e-5 * kIn;
-    tool.tell(31.0 * Vector3::UnitY());
+    tool.report(31.0 * Vector3::UnitY());
   }
-  EXPECT_FALSE(tool.accused);
+  EXPECT_FALSE(tool.suspected);
 }
 
 TEST(GrowthWatch, WhatComesAtOnceIsNotByTheWayGone) {
   PressedTool tool(0.0);
   for (int i = 0; i < 50; ++i) {
     tool.p_m += 1e-6 * kIn;
-    tool.tell((i < 5 ? 1.0 : 16.0) * Vector3::UnitY());
+    tool.report((i < 5 ? 1.0 : 16.0) * Vector3::UnitY());
   }
-  EXPECT_FALSE(tool.accused);
+  EXPECT_FALSE(tool.suspected);
 }
 
 TEST(GrowthWatch, WhatGrewOnceIsForgottenWhereItDoesNotGrowAgain) {
   PressedTool tool(1e3);
   tool.sensor = -Matrix3::Identity();
   tool.go(0.01 * kIn, 0.5);
-  ASSERT_TRUE(tool.accused);
+  ASSERT_TRUE(tool.suspected);
   Vector3 seen_m = tool.watch.place_m();
   double way_m = 0.0;
   for (int i = 0; i < 1000 && !tool.watch.direction().isZero(0.0); ++i) {
     tool.p_m += 1e-5 * kIn;
-    tool.tell(0.99 * tool.told_n);
+    tool.report(0.99 * tool.reported_n);
     if (tool.watch.age_s() == 0.0) seen_m = tool.watch.place_m();
     way_m = (tool.watch.place_m() - seen_m).norm();
   }
@@ -136,9 +136,9 @@ TEST(GrowthWatch, TheContactsEndEndsIt) {
   tool.sensor = -Matrix3::Identity();
   tool.go(0.01 * kIn, 0.5);
   ASSERT_FALSE(tool.watch.direction().isZero(0.0));
-  tool.tell(Vector3::Zero());
+  tool.report(Vector3::Zero());
   EXPECT_TRUE(tool.watch.direction().isZero(0.0));
-  tool.tell(5.0 * kIn);  // the next contact begins anew, here
+  tool.report(5.0 * kIn);  // the next contact begins anew, here
   EXPECT_EQ(tool.watch.size_n(), 5.0);
   EXPECT_EQ(tool.watch.place_m(), tool.p_m);
 }
@@ -149,33 +149,33 @@ TEST(GrowthWatch, PlacesOfHalfASecondAgoDoNotCount) {
   const auto creep = [&](double from_n, double to_n, int ticks) {
     for (int i = 0; i < ticks; ++i) {
       tool.p_m += 2.5e-8 * kIn;  // 25 um/s: one place a second
-      tool.tell((from_n + (to_n - from_n) * i / ticks) * Vector3::UnitY());
+      tool.report((from_n + (to_n - from_n) * i / ticks) * Vector3::UnitY());
     }
   };
   creep(2.0, 2.15, 600);
   creep(2.15, 2.3, 600);
   creep(2.3, 2.45, 600);
-  EXPECT_FALSE(tool.accused) << "0.45 N, but never within half a second";
+  EXPECT_FALSE(tool.suspected) << "0.45 N, but never within half a second";
 }
 
 TEST(GrowthWatch, BeginsAnewWithAnEngagement) {
   PressedTool tool(2e3);
   tool.sensor = -Matrix3::Identity();
-  while (!tool.accused) tool.go(0.01 * kIn);
+  while (!tool.suspected) tool.go(0.01 * kIn);
   tool.watch.reset();
   EXPECT_TRUE(tool.watch.direction().isZero(0.0));
   EXPECT_FALSE(tool.watch.in_contact());
-  tool.accused = false;
+  tool.suspected = false;
   tool.go(Vector3::Zero(), 0.5);
-  EXPECT_FALSE(tool.accused);
+  EXPECT_FALSE(tool.suspected);
   tool.go(0.01 * kIn, 0.5);
-  EXPECT_TRUE(tool.accused);
+  EXPECT_TRUE(tool.suspected);
 }
 
 TEST(GrowthWatch, WhatWasSeenDoesNotCountAsTheToolGivesWay) {
   PressedTool tool(2e3);
   tool.sensor = -Matrix3::Identity();
-  while (!tool.accused) tool.go(0.01 * kIn);
+  while (!tool.suspected) tool.go(0.01 * kIn);
   tool.watch.forget();
   EXPECT_TRUE(tool.watch.direction().isZero(0.0));
   EXPECT_TRUE(tool.watch.in_contact());

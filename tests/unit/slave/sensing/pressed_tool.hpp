@@ -20,10 +20,10 @@ struct PressedTool {
   double noise_n = 0.0;
   double bandwidth_hz = 0.0;
   Vector3 p_m = Vector3::Zero();
-  Vector3 told_n = Vector3::Zero();
+  Vector3 reported_n = Vector3::Zero();
   Random random{1};
   GrowthWatch watch{GrowthBounds{}};
-  bool accused = false;  // ever
+  bool suspected = false;  // ever
 
   explicit PressedTool(double stiffness_n_per_m) : wall_n_per_m(stiffness_n_per_m) {}
 
@@ -39,14 +39,14 @@ struct PressedTool {
     p_m += kDt * m_per_s;
     const Vector3 true_n = sensor * (force_n() * normal);
     const double share = bandwidth_hz > 0.0 ? -std::expm1(-6.283185307179586 * bandwidth_hz * kDt) : 1.0;
-    told_n += share * (true_n - told_n);
+    reported_n += share * (true_n - reported_n);
     const Vector3 noise(random.normal(), random.normal(), random.normal());
-    tell(told_n + noise_n * noise);
+    report(reported_n + noise_n * noise);
   }
   /// A tick in which the sensor says this, whatever the wall does.
-  void tell(const Vector3& force_n) {
+  void report(const Vector3& force_n) {
     watch.step({p_m, force_n, force_n.norm() > 0.1, kDt});
-    accused = accused || !watch.direction().isZero(0.0);
+    suspected = suspected || !watch.direction().isZero(0.0);
   }
   void go(const Vector3& m_per_s, double seconds) {
     for (int i = 0; i < std::lround(seconds / kDt); ++i) go(m_per_s);

@@ -77,9 +77,9 @@ TEST(SensorWatch, AtTheEndOfItsRangeItIsBelievedForFiftyMilliseconds) {
   s.configure();
   for (int i = 0; i < 49; ++i) ASSERT_TRUE(s.read(reading(Vector3(0, 99.6 + 1e-3 * i, 0)))) << i;
   EXPECT_TRUE(s.read(reading(Vector3(0, 90.0, 0)))) << "a break";
-  bool believed = true;
-  for (int i = 0; i < 52; ++i) believed = s.read(reading(Vector3(0, -99.6 - 1e-3 * i, 0)));
-  EXPECT_FALSE(believed);
+  bool accepted_value = true;
+  for (int i = 0; i < 52; ++i) accepted_value = s.read(reading(Vector3(0, -99.6 - 1e-3 * i, 0)));
+  EXPECT_FALSE(accepted_value);
   Sensor endless;
   for (int i = 0; i < 200; ++i) ASSERT_TRUE(endless.read(reading(Vector3(0, 99.6, 0)))) << "no range, no end";
 }
@@ -88,7 +88,7 @@ TEST(SensorWatch, FrozenIsWhatStaysTheSameWhileTheToolGoesOn) {
   struct Case {
     const char* what;
     double noise_n, resolution_n, force_n, moves_m;
-    bool believed;
+    bool accepted_value;
   };
   for (const Case& c :
        {Case{"frozen", 0.05, 0.0, 3.0, 1e-4, false}, Case{"at rest", 0.05, 0.0, 3.0, 1e-6, true},
@@ -101,10 +101,10 @@ TEST(SensorWatch, FrozenIsWhatStaysTheSameWhileTheToolGoesOn) {
     s.configure();
     for (int i = 0; i < 45; ++i)
       ASSERT_TRUE(s.read(reading(c.force_n * Vector3(1, -1, 0.5)), 1.0, c.moves_m));
-    bool believed = true;
+    bool accepted_value = true;
     for (int i = 0; i < 20; ++i)
-      believed = s.read(reading(c.force_n * Vector3(1, -1, 0.5)), 1.0, c.moves_m) && believed;
-    EXPECT_EQ(believed, c.believed) << c.what;
+      accepted_value = s.read(reading(c.force_n * Vector3(1, -1, 0.5)), 1.0, c.moves_m) && accepted_value;
+    EXPECT_EQ(accepted_value, c.accepted_value) << c.what;
     EXPECT_TRUE(s.read(reading(Vector3(1, 2, 3)), 1.0, c.moves_m)) << c.what << ": it has changed";
   }
   Sensor slow;  // 50 ms and 1 mm, both
@@ -122,17 +122,19 @@ TEST(SensorWatch, NoContactLeapsByMoreThanHardnessAndWay) {
       s.configure();
       s.motion.speed_m_per_s = speed;
       s.motion.elapsed_s = 1e-3 * ms;
-      constexpr double kDoubt_n = 2.0;
-      const double leap_n = 20.0 + 0.5 + 0.5 + kDoubt_n + 1e-3 * ms * (1e7 * speed + 2e3);
+      constexpr double kUncertainty_n = 2.0;
+      const double leap_n = 20.0 + 0.5 + 0.5 + kUncertainty_n + 1e-3 * ms * (1e7 * speed + 2e3);
       const Vector3 n = Vector3(1, 2, -2) / 3.0;
-      EXPECT_TRUE(s.watch.felt(1e4 * n, s.motion, kDoubt_n)) << "what is first felt may be anything";
-      EXPECT_TRUE(s.watch.felt((1e4 + 0.999 * leap_n) * n, s.motion, kDoubt_n));
-      EXPECT_FALSE(s.watch.felt((1e4 + 2.0 * leap_n) * n, s.motion, kDoubt_n));
-      EXPECT_TRUE(s.watch.felt(Vector3::Zero(), s.motion, kDoubt_n)) << "an edge, a latch: gone at once";
-      EXPECT_TRUE(s.watch.felt(0.999 * leap_n * n, s.motion, kDoubt_n));
-      EXPECT_TRUE(s.watch.felt(-0.999 * leap_n * n, s.motion, kDoubt_n)) << "another contact, from none";
-      EXPECT_FALSE(s.watch.felt(1.001 * leap_n * n, s.motion, kDoubt_n));
-      EXPECT_TRUE(s.watch.felt(0.3 * leap_n * n, s.motion, kDoubt_n)) << "less";
+      EXPECT_TRUE(s.watch.felt(1e4 * n, s.motion, kUncertainty_n)) << "what is first felt may be anything";
+      EXPECT_TRUE(s.watch.felt((1e4 + 0.999 * leap_n) * n, s.motion, kUncertainty_n));
+      EXPECT_FALSE(s.watch.felt((1e4 + 2.0 * leap_n) * n, s.motion, kUncertainty_n));
+      EXPECT_TRUE(s.watch.felt(Vector3::Zero(), s.motion, kUncertainty_n))
+          << "an edge, a latch: gone at once";
+      EXPECT_TRUE(s.watch.felt(0.999 * leap_n * n, s.motion, kUncertainty_n));
+      EXPECT_TRUE(s.watch.felt(-0.999 * leap_n * n, s.motion, kUncertainty_n))
+          << "another contact, from none";
+      EXPECT_FALSE(s.watch.felt(1.001 * leap_n * n, s.motion, kUncertainty_n));
+      EXPECT_TRUE(s.watch.felt(0.3 * leap_n * n, s.motion, kUncertainty_n)) << "less";
     }
   }
 }

@@ -59,24 +59,24 @@ TEST(SensorMotionEstimate, FollowsASmoothMotion) {
   SensorMotionEstimate estimate;
   const Vector3 gravity(0.0, 0.0, -9.81);
   constexpr double dt = 1e-3;
-  SensorMotion told;
+  SensorMotion reported;
   double t = 0.0;
   for (int n = 0; n < 700; ++n, t += dt) {
     const Twist V{angular(t), slope([](double u) { return pose(u).p; }, t)};
-    told = estimate.step(pose(t).q, V, gravity, 0.0, dt);
+    reported = estimate.step(pose(t).q, V, gravity, 0.0, dt);
   }
   const SensorMotion truth = motion(t - 1.5 * dt, gravity);  // a backward difference is half a sample late
-  EXPECT_LT((told.gravity - motion(t - dt, gravity).gravity).norm(), 1e-9);
-  EXPECT_LT((told.acceleration - truth.acceleration).norm(), 0.01);
-  EXPECT_LT((told.angular_acceleration - truth.angular_acceleration).norm(), 0.01);
+  EXPECT_LT((reported.gravity - motion(t - dt, gravity).gravity).norm(), 1e-9);
+  EXPECT_LT((reported.acceleration - truth.acceleration).norm(), 0.01);
+  EXPECT_LT((reported.angular_acceleration - truth.angular_acceleration).norm(), 0.01);
 }
 
 TEST(SensorMotionEstimate, SaysNothingOfAccelerationAtFirst) {
   SensorMotionEstimate estimate;
-  const SensorMotion told =
+  const SensorMotion reported =
       estimate.step(Quaternion::Identity(), {Vector3::Ones(), Vector3::Ones()}, {0, 0, -1}, 0.0, 1e-3);
-  EXPECT_EQ(told.acceleration, Vector3::Zero());
-  EXPECT_EQ(told.angular_acceleration, Vector3::Zero());
+  EXPECT_EQ(reported.acceleration, Vector3::Zero());
+  EXPECT_EQ(reported.angular_acceleration, Vector3::Zero());
 }
 
 /// Velocity of the sensor in W.
@@ -166,7 +166,7 @@ TEST(ToolCompensation, KeepsTheLastZeroWhenTheNextIsAbandonedOrReadsNonsense) {
   EXPECT_EQ(compensation.bias().force.x(), 2.0);
 }
 
-TEST(ToolCompensation, AZeroThatIsTakenWhileSomethingPressesHidesNoMoreThanItsBound) {
+TEST(ToolCompensation, ZeroTakenUnderLoadHidesAtMostItsBound) {
   SensingConfig config;
   config.zero_s = 0.01;
   ToolCompensation compensation(config, {.zero_n = 10.0});

@@ -9,10 +9,10 @@ namespace {
 
 /// A sensor that tells `told` of a push along each axis of W, in a pose R_WE.
 template <class Told>
-Finding judged(const Matrix3& R_WE, const Told& told) {
+Finding judged(const Matrix3& R_WE, const Told& reported) {
   PushedSensor sensor;
   for (int i = 0; i < 3; ++i)
-    sensor.push[static_cast<std::size_t>(i)] = {R_WE, told(Vector3(20.0 * Vector3::Unit(i)))};
+    sensor.push[static_cast<std::size_t>(i)] = {R_WE, reported(Vector3(20.0 * Vector3::Unit(i)))};
   const std::vector<Finding> found = judge_pushes(sensor);
   EXPECT_EQ(found.size(), 2U);
   return found.back();
@@ -45,7 +45,7 @@ TEST(PushJudgement, SaysWhatItCannotKnow) {
 TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
   PushedSensor sensor;
   sensor.rest = {0.0, 0.0, -12.0};
-  for (int i = 0; i < 2; ++i) sensor.push[static_cast<std::size_t>(i)].told = 20.0 * Vector3::Unit(i);
+  for (int i = 0; i < 2; ++i) sensor.push[static_cast<std::size_t>(i)].reported = 20.0 * Vector3::Unit(i);
   const std::vector<Finding> found = judge_pushes(sensor);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].verdict, FindingVerdict::kFailure);

@@ -157,7 +157,7 @@ TEST(SphericalNetwork, TakesAnyPreviousCell) {
 }
 
 // Cells are 0.1 wide about home: the border of the middle one is at g = 0.05, half of the overlap at 0.06.
-TEST(SphericalNetwork, ChangesTheCellHalfWayIntoTheOverlapAndNotBackAtTheSamePlace) {
+TEST(SphericalNetwork, ChangesCellInOverlapWithHysteresis) {
   const SphericalNetwork net = network();
   SphericalEstimate estimate = net.forward(motors(Vector3::Zero()));
   double there = 0.0, back = 0.0;

@@ -116,7 +116,7 @@ TEST(DeltaStatics, CarriesAHorizontalArmLikeALever) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(torques.tau_nm[i], -2.0 * 9.81 * 0.5 * 0.110, 1e-12);
 }
 
-TEST(DeltaStatics, CarriesTheReconstructedDeviceWithTorquesLikeThosePublished) {
+TEST(DeltaStatics, TorquesMatchPublishedDevice) {
   const DeltaDesign d = reconstructed_delta();
   const DeltaKinematics k(d.geometry);
   const auto torques = [&](const Vector3& p) {

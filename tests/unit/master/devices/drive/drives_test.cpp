@@ -50,7 +50,7 @@ TEST(Drives, GiveTheMeanTorqueOfAFirstOrderLag) {
   }
 }
 
-TEST(Drives, HoldBelowCoulombFrictionWithoutCreepAndDissipateExactlyBeyond) {
+TEST(Drives, HoldBelowCoulombFrictionAndDissipateBeyond) {
   DriveConfig config = kIdeal;
   config.coulomb_nm = 0.01;
   Drives drives(config, 0);

@@ -1,0 +1,117 @@
+#pragma once
+// Energy and ripple at one port of the hand, from the force that was commanded and the true motion; the
+// equations are in idle_draw.hpp.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "common/spatial/spatial.hpp"
+#include "deploy/lab/rendering/idle_draw.hpp"
+
+namespace longreach {
+
+/// One port, as an outsider sees it.
+class PortMeter {
+ public:
+  static constexpr std::size_t kBlock = 1000;  // ticks of a second
+
+  /// After the handle has moved by `moved` to `x` under the force `f` that was commanded before.
+  void moved(const Vector3& f, const Vector3& moved) { energy_j_ -= f.dot(moved); }
+  void engaged() { energy_j_ = lowest_j_ = 0.0; }
+  /// Longest way of the handle within one count of every encoder, where it rests.
+  void rests(double count) { count_ = count; }
+  /// From the engagement on, while the hand is on the handle: springs began at rest.
+  void hold() { lowest_j_ = std::min(lowest_j_, energy_j_); }
+
+  /// While the hand is still.
+  void watch(const Vector3& f, const Vector3& x, bool stable) {
+    f_[ticks_] = f;
+    x_[ticks_] = x;
+    sum_j_ += energy_j_;
+    if (++ticks_ == kBlock) close_block(stable);
+  }
+
+  [[nodiscard]] IdlePort result() const {
+    return {.out_j = std::max(-lowest_j_, fallen_j_),
+            .ripple = ripple_,
+            .motion = motion_,
+            .count = count_,
+            .force = before_.f.norm(),
+            .quiet_s = static_cast<double>(quiet_s_)};
+  }
+
+ private:
+  using Second = std::array<Vector3, kBlock>;
+  struct Mean {
+    Vector3 f, x;
+    double e_j;
+  };
+
+  void close_block(bool stable) {
+    Mean now{Vector3::Zero(), Vector3::Zero(), sum_j_ / kBlock};
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      now.f += f_[i] / kBlock;
+      now.x += x_[i] / kBlock;
+    }
+    if (blocks_++ > 0) {
+      unspent_j_ += now.e_j - before_.e_j + 0.5 * (now.f + before_.f).dot(now.x - before_.x);
+      highest_j_ = std::max(highest_j_, unspent_j_);
+      fallen_j_ = std::max(fallen_j_, highest_j_ - unspent_j_);
+    }
+    if (stable) motion_ = std::max(motion_, to_and_fro(x_));
+    // A handle that goes on is no standstill: its spring follows.
+    if (stable && drift(x_, now.x) < 0.1 * count_) {
+      ripple_ = std::max(ripple_, ripple(f_, now.f));
+      ++quiet_s_;
+    }
+    before_ = now;
+    sum_j_ = 0.0;
+    ticks_ = 0;
+  }
+
+  static constexpr double kMiddle = 0.5 * (kBlock - 1), kSpread = kBlock * (kBlock * kBlock - 1.0) / 12.0;
+
+  /// Of the straight line that fits best, a tick.
+  static Vector3 slope(const Second& y, const Vector3& mean) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < kBlock; ++i)
+      sum += (static_cast<double>(i) - kMiddle) / kSpread * (y[i] - mean);
+    return sum;
+  }
+  static double drift(const Second& y, const Vector3& mean) { return kBlock * slope(y, mean).norm(); }
+
+  /// Peak to peak about that line.
+  static double ripple(const Second& y, const Vector3& mean) {
+    const Vector3 rise = slope(y, mean);
+    Vector3 low = Vector3::Constant(1e9), high = -low;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const Vector3 off = y[i] - mean - (static_cast<double>(i) - kMiddle) * rise;
+      low = low.cwiseMin(off);
+      high = high.cwiseMax(off);
+    }
+    return (high - low).norm();
+  }
+
+  /// The way that it went and came back, in either order: none of a handle that eases to its place.
+  static double to_and_fro(const Second& y) {
+    Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
+    for (const Vector3& at : y) {
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+      rise = rise.cwiseMax(at - low);
+      fall = fall.cwiseMax(high - at);
+    }
+    return rise.cwiseMin(fall).norm();
+  }
+
+  double energy_j_ = 0.0, lowest_j_ = 0.0;
+  double unspent_j_ = 0.0, highest_j_ = 0.0, fallen_j_ = 0.0;
+  double ripple_ = 0.0, motion_ = 0.0, sum_j_ = 0.0;
+  Second f_{}, x_{};
+  Mean before_{Vector3::Zero(), Vector3::Zero(), 0.0};
+  double count_ = 0.0;
+  std::size_t ticks_ = 0, blocks_ = 0, quiet_s_ = 0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,63 @@
+#pragma once
+// A force sensor that lies: what it tells of the wrench that a robot's own sensor measured. In the frame of
+// the tool, f the force, u the direction, a the amount, t since the lie began:
+//   bias f + a u    drift f + a t u    stuck a u    frozen f at t = 0    spike a u in one sample every period
+//   saturation each channel within ±a    sign -f    frame f turned by a about u
+//   axes channel x tells y, y tells z, z tells x    scale a f
+// Sign, frame, axes and scale act on the moment, too; frozen, stuck and bias leave it.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "slave/kinematics/kinematics.hpp"
+
+namespace longreach {
+
+enum class SensorFaultKind : std::uint8_t {
+  kNone,
+  kBias,
+  kDrift,
+  kStuck,
+  kFrozen,
+  kSpike,
+  kSaturation,
+  kSign,
+  kFrame,
+  kAxes,
+  kScale,
+  kCount
+};
+
+std::string_view name(SensorFaultKind sensor_fault);
+
+struct SensorFault {
+  SensorFaultKind sensor_fault = SensorFaultKind::kNone;
+  double amount = 0.0;                   // N, N/s, rad, or a factor; may be anything, NaN too
+  Vector3 direction = Vector3::UnitX();  // unit, in the frame of the tool
+  double period_s = 0.0;                 // of spikes; 0: one
+};
+
+class FaultySensor {
+ public:
+  explicit FaultySensor(const RobotConfig& robot) : kinematics_(robot) {}
+
+  /// From the next sample on; kNone: the truth.
+  void sensor_fault(const SensorFault& sensor_fault);
+  /// Changes what the robot said at `now`. The times of samples rise.
+  void apply(Time now, RobotState& robot);
+
+  [[nodiscard]] const SensorFault& sensor_fault() const { return sensor_fault_; }
+
+ private:
+  [[nodiscard]] Wrench reported(const Wrench& felt, double t_s);
+  [[nodiscard]] bool spikes(double t_s);
+
+  Kinematics kinematics_;
+  SensorFault sensor_fault_{};
+  std::optional<Time> begun_{};
+  Vector3 frozen_n_ = Vector3::Zero();
+  std::uint64_t spikes_ = 0;
+};
+
+}  // namespace longreach

@@ -1,0 +1,66 @@
+#pragma once
+// What the slave's loop writes down for a recording: each tick's inputs and outputs, exactly, so that a node
+// can be run again on them; and, less often, what it shows. The loop's calls cost copies into memory that is
+// there already: they do not wait, allocate or call the system. A tick that the recorder has left no room for
+// is not recorded, and counted.
+
+#include <cstdint>
+#include <variant>
+
+#include "common/recording/record_buffer.hpp"
+#include "common/recording/record_ring.hpp"
+#include "slave/slave_node.hpp"
+
+namespace longreach {
+
+/// A step of the node. `input` without the messages, which are recorded before it.
+struct SlaveTickRecord {
+  std::uint64_t tick = 0;    // from 0 at the node's first step
+  std::uint32_t config = 0;  // number of the configuration that the node has
+  std::uint32_t commands = 0;
+  SlaveInput input{};
+  SlaveOutput output{};
+};
+
+class SlaveRecordBuffer : public RecordBuffer {
+ public:
+  SlaveRecordBuffer(double rate_hz, Duration to_log_time);
+
+  /// Loop: a step that was taken, and what the node shows after it.
+  void add_tick(std::uint64_t tick, std::uint32_t config, const SlaveInput& input, const SlaveOutput& output,
+                const SlaveView& view);
+  /// Loop: whether the link is due, after this tick.
+  [[nodiscard]] bool link_due(std::uint64_t tick) const { return tick % link_every_ == 0; }
+  void add_link(const LinkSample& sample);
+
+ private:
+  struct ViewRecord {
+    std::uint64_t tick = 0;
+    Time now{};
+    SlaveView view{};
+  };
+  using Record = std::variant<Received<MotionCommand>, SlaveTickRecord, ViewRecord, LinkSample>;
+
+  void declare_ticks(McapWriter& writer) override;
+  void drain_ticks(McapWriter& writer) override;
+  void write_record(const Received<MotionCommand>& record, McapWriter& writer);
+  void write_record(const SlaveTickRecord& record, McapWriter& writer);
+  void write_record(const ViewRecord& record, McapWriter& writer);
+  void write_record(const LinkSample& record, McapWriter& writer) { write_link(record, writer); }
+
+  std::uint64_t view_every_, link_every_;  // ticks
+  RecordRing<Record> ring_;
+  std::uint16_t command_channel_ = 0, tick_channel_ = 0, view_channel_ = 0;
+  recording::ReceivedCommand command_;
+  recording::SlaveTick tick_;
+  recording::SlaveView view_;
+};
+
+/// Without the messages, whose number is in `out` already.
+void write(const SlaveInput& input, recording::SlaveInput& out);
+void write(const SlaveOutput& output, recording::SlaveOutput& out);
+void write(const SlaveView& view, recording::SlaveView& out);
+/// Throws RecordingError.
+SlaveInput read(const recording::SlaveInput& in);
+
+}  // namespace longreach

@@ -1,0 +1,73 @@
+#pragma once
+// Can the joints be where the robot says they are? From one sample to the next, which came later by T,
+//   |Δq| <= 1.5 V (T + 20 ms) + 0.02 rad (or m),   |q̇| <= 10 V + 0.1 rad/s,   V the joint's speed limit
+// and within 0.1 rad of their position limits, which is more than a link on a spring swings. After a leap the
+// joints are believed again when they are back where they were believed last, or when the robot has failed
+// and works again: then it may be anywhere. Not noticed: leaps below the bound, and readings that stand still
+// (robot_watch notices those once a setpoint has moved on).
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "common/core/time.hpp"
+#include "common/link/hold_cause.hpp"
+#include "slave/config/robot_config.hpp"
+
+namespace longreach {
+
+class JointPlausibility {
+ public:
+  explicit JointPlausibility(const RobotConfig& robot) : robot_(robot) {}
+
+  /// `robot`: ok and finite. What is wrong with it, first of its joints.
+  Reason check(const RobotState& robot, Time now) {
+    const Time measured = now - from_seconds(robot.age_s);
+    Reason found;
+    for (int i = 0; i < kMaxJoints && found == HoldCause::kNone; ++i) found = check_joint(i, robot, measured);
+    if (found == HoldCause::kNone) {
+      accepted_ = Sample{robot.joint_rad, measured};
+      leapt_ = false;
+    }
+    leapt_ = leapt_ || found == HoldCause::kJointLeapt;
+    return found;
+  }
+  /// The robot has failed: it may be moved meanwhile.
+  void forget() {
+    accepted_.reset();
+    leapt_ = false;
+  }
+
+ private:
+  static constexpr double kSwiftShare = 1.5, kJitter_s = 0.02, kLeap = 0.02;
+  static constexpr double kSpeedShare = 10.0, kSpeed = 0.1, kOutside = 0.1;
+
+  struct Sample {
+    JointVector rad;
+    Time at;
+  };
+
+  [[nodiscard]] Reason check_joint(int i, const RobotState& robot, Time measured) const {
+    const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
+    const double q = robot.joint_rad[i];
+    if (j.kind == JointKind::kFixed) return {};
+    if (accepted_) {
+      // After a leap the time does not make it likelier.
+      const double apart_s = leapt_ ? 0.0 : std::max(0.0, to_seconds(measured - accepted_->at));
+      const double from = accepted_->rad[i];
+      if (std::abs(q - from) > kSwiftShare * j.speed_max_rad_per_s * (apart_s + kJitter_s) + kLeap)
+        return {HoldCause::kJointLeapt, i + 1, q, from};
+    }
+    if (q < j.min_rad - kOutside) return {HoldCause::kJointOutside, i + 1, q, j.min_rad};
+    if (q > j.max_rad + kOutside) return {HoldCause::kJointOutside, i + 1, q, j.max_rad};
+    if (std::abs(robot.joint_rad_per_s[i]) > kSpeedShare * j.speed_max_rad_per_s + kSpeed)
+      return {HoldCause::kJointTooFast, i + 1, robot.joint_rad_per_s[i], j.speed_max_rad_per_s};
+    return {};
+  }
+
+  RobotConfig robot_;
+  std::optional<Sample> accepted_{};
+  bool leapt_ = false;  // and not been back
+};
+
+}  // namespace longreach

@@ -1,0 +1,117 @@
+#pragma once
+// A robot whose force sensor lies, through the slave's node and the simulated arm: the gantry of
+// guard_touch.hpp goes towards a wall at a constant speed and on behind it, or rests in front of it; then the
+// lie begins, and the master goes on, falls silent or stops. What is judged is the plant: its place and the
+// true force.
+
+#include "deploy/lab/rendering/guard_touch.hpp"
+#include "deploy/lab/robot/faulty_sensor.hpp"
+
+namespace longreach::test {
+
+struct SensorFaultCase {
+  SensorFault sensor_fault{};
+  GuardCase guard{.guard_n = 20.0, .delay_s = 1e-3, .mass_kg = 0.0};
+  double behind_m = 0.05;  // the goal ends so far behind the wall; negative: in front of it
+  double fault_s = 0.0;    // when the lie begins
+  double silent_s = 1e9;   // when the master falls silent
+  double end_s = 6.0;
+  double coming_m_per_s = 0.0;  // of the wall, against the robot
+};
+
+struct SensorFaultRow {
+  double t_s;
+  Vector3 tool_m;  // from where it starts
+  double force_n;  // true
+  SafetyState state;
+  HoldCause cause;
+};
+
+struct SensorFaultRun {
+  std::vector<SensorFaultRow> rows{};
+  double peak_n = 0.0;
+  double reported_s = -1.0;  // when the state first had a cause of the sensor
+  HoldCause reported = HoldCause::kNone;
+  std::uint64_t limit_violations = 0;
+  std::uint32_t touches = 0;
+
+  /// Greatest distance from where the tool was at `from_s`, afterwards.
+  [[nodiscard]] double way_m(double from_s) const {
+    double way = 0.0;
+    const SensorFaultRow* at = nullptr;
+    for (const SensorFaultRow& row : rows) {
+      if (at == nullptr && row.t_s >= from_s) at = &row;
+      if (at != nullptr) way = std::max(way, (row.tool_m - at->tool_m).norm());
+    }
+    return way;
+  }
+};
+
+inline bool of_the_sensor(HoldCause cause) {
+  return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
+         cause == HoldCause::kForcePersists;
+}
+
+/// `stalls(tick)`: the adapter, and the robot in it, stand still in this tick; what it said last is all there
+/// is.
+template <class Stalls>
+SensorFaultRun sensor_fault_run(const SensorFaultCase& c, const SlaveConfig& config, Stalls&& stalls) {
+  SlaveNode node(config);
+  SimulatedArm arm(config, Random(c.guard.seed));
+  FaultySensor sensor(config.robot);
+  Received<MotionCommand> command{};
+  double goal_m = 0.0;
+  RobotState said{};
+  SensorFaultRun run;
+  for (int i = 1; i * 1e-3 < c.end_s; ++i) {
+    const double t_s = 1e-3 * i;
+    SlaveInput in;
+    in.now = Time{std::chrono::milliseconds(i)};
+    const bool stalled = stalls(i);
+    if (!stalled) said = arm.read(in.now);
+    in.robot = said;
+    if (t_s >= c.fault_s && sensor.sensor_fault().sensor_fault != c.sensor_fault.sensor_fault)
+      sensor.sensor_fault(c.sensor_fault);
+    sensor.apply(in.now, in.robot);
+    in.peer_session_count = 1;
+    if (i > 5) in.last_heard = command.received;
+    if (i % 5 == 0 && t_s < c.silent_s) {
+      if (node.engaged()) goal_m = std::min(kGuardWall_m + c.behind_m, goal_m + 5e-3 * c.guard.speed_m_per_s);
+      ++command.sequence;
+      command.sent = PeerTime{in.now.time_since_epoch()};
+      command.received = in.now;
+      if (i > 5) command.echo_sent = in.now - std::chrono::milliseconds(5);
+      command.message.engagement = 1;
+      command.message.request = Request::kEngage;
+      command.message.position_m.x() = goal_m;
+      in.commands = {&command, 1};
+      in.last_heard = in.now;
+    }
+    const auto setpoint_rad = node.step(in).joint_setpoint_rad;
+    if (!stalled) arm.write(setpoint_rad);
+    const double force_n = arm.true_wrench().force.norm();
+    run.peak_n = std::max(run.peak_n, force_n);
+    const SlaveView& view = node.view();
+    if (run.reported_s < 0.0 && of_the_sensor(view.cause)) {
+      run.reported_s = t_s;
+      run.reported = view.cause;
+    }
+    run.rows.push_back({t_s, arm.true_pose().p - arm.start_pose().p, force_n, view.state, view.cause});
+  }
+  run.limit_violations = node.view().limit_violations;
+  run.touches = node.view().touch;
+  return run;
+}
+
+inline SlaveConfig sensor_fault_config(const SensorFaultCase& c) {
+  SlaveConfig config = guard_config(c.guard);
+  if (c.coming_m_per_s != 0.0)
+    config.scene.surface.front().movement = MovementConfig{-c.coming_m_per_s * Vector3::UnitX()};
+  return config;
+}
+
+inline SensorFaultRun sensor_fault_run(const SensorFaultCase& c) {
+  return sensor_fault_run(c, sensor_fault_config(c), [](int) { return false; });
+}
+
+}  // namespace longreach::test
