@@ -39,7 +39,7 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
-  bool taken = false;               // another master has the robot: a level
+  bool taken = false;               // another master has control of the robot: a level
   bool hand_stale = false;          // what is known of the hand is too old
   std::optional<double> rtt_s{};    // of the link, once known
   bool may_send = true;             // within the budget of the link

@@ -14,11 +14,10 @@ std::string adapter_path(const std::string& address) { return address.substr(kSc
 
 std::string adapter_address_trouble(const std::string& address) {
   if (!address.starts_with(std::string(kScheme) + "/"))
-    return " is not where an adapter listens: write unix:/PATH, its socket on this machine (an adapter of "
-           "something "
-           "elsewhere runs here, too, and goes there itself)";
+    return " is not an address of an adapter: write unix:/PATH, the path of its socket on this machine (an "
+           "adapter for a remote device also runs on this machine and connects to the device itself)";
   if (adapter_path(address).size() > kPathMax)
-    return " is longer than the path of a socket may be, " + std::to_string(kPathMax) +
+    return " is too long for the path of a socket: the maximum is " + std::to_string(kPathMax) +
            " bytes: choose a shorter one";
   return "";
 }

@@ -53,13 +53,13 @@ std::string why(const Message& start, const Message& after, const FieldPath& pat
   constexpr const char* kInstead = "; change it in the file at that side and restart";
   const std::string name = path_text(start, path);
   const FieldDescriptor* field = path.back().field;
-  if (holds_messages(*field)) return name + " is not changed from afar" + kInstead;
+  if (holds_messages(*field)) return name + " cannot be changed by a client" + kInstead;
   const std::string text = value_text(holder(start, path), path.back());
   if (remote(*field) == proto::NEVER)
-    return name + " is not changed from afar: it is " + (text.empty() ? "not set" : text) + kInstead;
-  return name + " = " + value_text(holder(after, path), path.back()) + " is looser than " +
+    return name + " cannot be changed by a client: it is " + (text.empty() ? "not set" : text) + kInstead;
+  return name + " = " + value_text(holder(after, path), path.back()) + " is less restrictive than " +
          ceiling_text(holder(start, path), path.back()) +
-         ", which this side was started with; from afar it can only be tightened" + kInstead;
+         ", the value at the start of this side; a client can only tighten it" + kInstead;
 }
 
 }  // namespace

@@ -75,9 +75,10 @@ Finding is_direction(const Message& message, const char* field,
   if (numbers.size() != 3) return std::nullopt;  // absent, or the count is at fault
   const double length = std::hypot(numbers.Get(0), numbers.Get(1), numbers.Get(2));
   if (length >= 1e-9 && length <= 1e9) return std::nullopt;
-  return at(
-      message, field,
-      " has the length " + format_number(length) + ", which is outside 1e-9 to 1e9: it gives no direction");
+  return at(message, field,
+            " has the length " + format_number(length) +
+                ", which is outside 1e-9 to 1e9 and does not define a "
+                "direction");
 }
 
 // A rotation vector; one of more than a whole turn is meant in degrees.
@@ -86,7 +87,7 @@ Finding is_rotation(const Message& message, const google::protobuf::RepeatedFiel
   if (square <= 6.3 * 6.3) return std::nullopt;
   return at(message, "rotation_rad",
             " has the length " + format_number(std::sqrt(square)) +
-                ", more than a turn; it is in rad, and this looks like degrees");
+                ", more than one turn; the unit is rad, and this value seems to be in degrees");
 }
 
 Finding check_joint(const proto::Joint& joint) {
@@ -124,7 +125,7 @@ Finding check_neighbours(const proto::Robot& robot) {
     return at_element(robot, "joint", modified ? i + 1 : i, "alpha_rad",
                       " = " + format_number(between.alpha_rad()) + " with a_m = " +
                           format_number(between.a_m()) + " lets the joints " + std::to_string(i) + " and " +
-                          std::to_string(i + 1) + " turn about one axis; one of them is lost");
+                          std::to_string(i + 1) + " rotate about the same axis; a degree of freedom is lost");
   }
   return std::nullopt;
 }
@@ -150,7 +151,7 @@ Finding check_robot(const proto::Robot& robot) {
   if (std::abs(ways.determinant()) > 1e-3) return std::nullopt;
   return at_element(robot, "joint", prismatic[1], "alpha_rad",
                     " = " + format_number(robot.joint(prismatic[1]).alpha_rad()) +
-                        ": the three prismatic joints move the tool in a plane only");
+                        ": the three prismatic joints move the tool only in a plane");
 }
 
 // Names that a path can address: "material.wall.exponent".
@@ -165,7 +166,7 @@ Finding check_names(const Message& parent, const char* list, const List& element
         name.find_first_not_of("0123456789") == std::string::npos) {
       return at_element(
           parent, list, i, "name",
-          " = \"" + name + "\" cannot be part of a path; use letters, and neither \".\" nor \"=\"");
+          " = \"" + name + "\" cannot be part of a path; use letters, but neither \".\" nor \"=\"");
     }
     if (!seen.insert(name).second) {
       return at_element(parent, list, i, "name",
@@ -184,7 +185,7 @@ Finding check_shape(const proto::Surface& surface) {
     if (!holds_messages(*field) || field->message_type() == proto::Movement::descriptor()) continue;
     if (first) {
       return Violation{{{field, -1}},
-                       " is a second shape beside " + std::string(first->name()) + "; a surface has one"};
+                       " is a second shape besides " + std::string(first->name()) + "; a surface has one"};
     }
     first = field;
   }
@@ -208,7 +209,7 @@ Finding check_surfaces(const proto::Scene& scene) {
     const auto [body, first] = material_of_body.try_emplace(surface.body(), wanted);
     if (!first && body->second != wanted) {
       return at_element(scene, "surface", i, "material",
-                        " = \"" + wanted + "\" is another one than \"" + body->second + "\" of the body \"" +
+                        " = \"" + wanted + "\" differs from \"" + body->second + "\" of the body \"" +
                             surface.body() + "\"; a body has one material");
     }
   }
@@ -222,7 +223,7 @@ Finding check_needs(const proto::Scene& scene) {
     const bool turns = scene.surface(i).has_hinge();
     if (turns ? scene.needs().rotation() : scene.needs().contact()) continue;
     return at(scene, "needs",
-              " leaves out " + std::string(turns ? "rotation" : "contact") + ", which the surface \"" +
+              " omits " + std::string(turns ? "rotation" : "contact") + ", which the surface \"" +
                   scene.surface(i).name() + "\" needs");
   }
   return std::nullopt;
@@ -231,7 +232,7 @@ Finding check_needs(const proto::Scene& scene) {
 Finding check_path(const proto::Path& path) {
   if (path.waypoint_size() >= 2) return std::nullopt;
   return at(path, "waypoint",
-            " has " + std::to_string(path.waypoint_size()) + " elements; a way has two ends");
+            " has " + std::to_string(path.waypoint_size()) + " elements; a path has two ends");
 }
 
 Finding check_scene(const proto::Scene& scene) {
@@ -255,7 +256,7 @@ Finding check_safety(const proto::SlaveSafety& safety) {
   if (safety.gap_s() == 0.0 || safety.gap_s() >= kLeast_s) return std::nullopt;
   return at(safety, "gap_s",
             " = " + format_number(safety.gap_s()) +
-                " is neither 0 (by the send rate of the master) nor from 0.02 to 2");
+                " is neither 0 (derived from the send rate of the master) nor between 0.02 and 2");
 }
 
 // Fewer than 50 commands a second are too few for any gap timer.
@@ -298,7 +299,7 @@ Finding check_guarded(const proto::SlaveConfig& config) {
   if (hold_n > 0.0 && hold_n <= touch_n) {
     return within(section, at(config.command(), "hold_force_n",
                               " = " + format_number(hold_n) + " is not above sensing.touch_n = " +
-                                  format_number(touch_n) + ": a hold would lose the contact"));
+                                  format_number(touch_n) + ": the contact would be lost in a hold"));
   }
   const std::string why = unguarded(config);
   if (why.empty()) return std::nullopt;
@@ -307,7 +308,7 @@ Finding check_guarded(const proto::SlaveConfig& config) {
 
 // The laboratory is virtual time, which nothing real keeps.
 Finding check_laboratory(const proto::LabConfig& lab) {
-  const char* const why = " is for programs; the laboratory has simulated devices and robots alone";
+  const char* const why = " is for the real programs; the laboratory has only simulated devices and robots";
   const auto adapted = [&](const char* side, const Message& config, const char* field,
                            const proto::Adapter& adapter) -> Finding {
     if (adapter.address().empty()) return std::nullopt;
@@ -369,8 +370,8 @@ Finding check_program(const Message& message) {
   const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
   return within(section, at(master->rendering(), "law",
                             " = " + proto::Rendering::Law_Name(master->rendering().law()) +
-                                " is a law to compare with, in the laboratory only; a program takes "
-                                "STIFFNESS"));
+                                " is a law for comparison, available only in the laboratory; the programs "
+                                "accept STIFFNESS"));
 }
 
 Finding find_in_parts(const Message& message) {

@@ -39,13 +39,13 @@ fs::path find_deploy_folder(const DeploySearch& search) {
     if (is_deploy_folder(home)) return home;
     throw ConfigError(
         "LONGREACH_HOME = " + home.string() +
-        " holds none of the folders config, links, devices, robots, scenes; set it to the deploy folder");
+        " contains none of the folders config, links, devices, robots, scenes; set it to the deploy folder");
   }
   if (const auto folder = nearest_above(search.program_folder)) return *folder;
   if (const auto folder = nearest_above(search.working_folder)) return *folder;
   throw ConfigError(
       "no deploy folder above " + search.program_folder.string() + " or " + search.working_folder.string() +
-      "; set LONGREACH_HOME to the folder that holds config, links, devices, robots and scenes");
+      "; set LONGREACH_HOME to the folder that contains config, links, devices, robots and scenes");
 }
 
 namespace {

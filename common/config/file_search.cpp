@@ -71,7 +71,7 @@ fs::path FileSearch::find(std::string_view what, const std::string& name) const 
   for (const fs::path& folder : folders_) {
     if (is_there(folder / name)) return folder / name;
   }
-  throw ConfigError(std::string(what) + " = \"" + name + "\": there is no such file in " + list(folders_));
+  throw ConfigError(std::string(what) + " = \"" + name + "\": the file does not exist in " + list(folders_));
 }
 
 fs::path FileSearch::find_named(const std::string& what, const std::string& folder,

@@ -79,7 +79,7 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
         if (!fresh)
           throw ConfigError(where + "the face has an edge in the same direction as that of line " +
                             std::to_string(first->second) +
-                            "; faces go round anticlockwise, seen from outside");
+                            "; the vertices of a face must be in anticlockwise order, seen from outside");
       }
     }
   }
@@ -87,7 +87,7 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
   for (const auto& [edge, line] : edges) {
     if (!edges.contains({edge.second, edge.first}))
       throw ConfigError(name + ":" + std::to_string(line) +
-                        ": the mesh is not closed: an edge of this face has no face on its other side");
+                        ": the mesh is not closed: an edge of this face has no second face");
   }
 }
 
@@ -108,7 +108,7 @@ void load_scene_files(proto::Bodies& bodies, const std::function<fs::path(const 
     const fs::path beside = file.parent_path() / name;
     if (name.find('/') != std::string::npos || fs::path(name).extension() != ".obj")
       throw ConfigError(where + "\"" + name +
-                        "\" is not a mesh beside the file; name an OBJ file in its folder");
+                        "\" is not a mesh in the folder of the file; name an OBJ file in that folder");
     const std::string obj = read_beside(where, beside);
     require_closed_mesh(beside.string(), obj);
     add(bodies, name, obj);

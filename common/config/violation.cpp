@@ -51,8 +51,8 @@ std::string broken_range(double value, const FieldDescriptor& field) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const bool degrees =
       field.name().ends_with("_rad") && value * kDegree >= range.min() && value * kDegree <= range.max();
-  return outside + (degrees ? "; it is in rad, and this looks like degrees: " + format_number(value) +
-                                  " degrees are " + format_number(value * kDegree)
+  return outside + (degrees ? "; the unit is rad, and this value seems to be in degrees: " +
+                                  format_number(value) + " degrees are " + format_number(value * kDegree)
                             : "");
 }
 
@@ -63,7 +63,7 @@ std::optional<Violation> find_in_element(const Message& message, FieldPath& path
   if (holds_messages(*step.field)) return find_in_message(message_at(message, step), path);
   if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
     if (is_utf8(text_at(message, step))) return std::nullopt;
-    return Violation{path, " is not UTF-8: save the file, or type the text, in that encoding"};
+    return Violation{path, " is not UTF-8: save the file, or enter the text, in UTF-8"};
   }
   const auto value = number_at(message, step);
   const std::string broken = value ? broken_range(*value, *step.field) : "";
@@ -110,8 +110,8 @@ std::optional<Violation> find_unknown(const Message& message, FieldPath path) {
   }
   const std::string number = std::to_string(entry.number());
   return Violation{path, path.empty()
-                             ? "field number " + number + " is not known to this version"
-                             : " has the field number " + number + ", which this version does not know"};
+                             ? "field number " + number + " is unknown to this version"
+                             : " has the field number " + number + ", which is unknown to this version"};
 }
 
 std::optional<Violation> find_in_message(const Message& message, FieldPath& path) {

@@ -30,7 +30,7 @@ struct Echo {
 /// The part of a datagram's body that is common to all messages.
 struct Stamp {
   PeerTime sent{};             // sender's clock
-  std::optional<Echo> echo{};  // none: nothing heard yet
+  std::optional<Echo> echo{};  // none: no datagram yet
 };
 
 constexpr Duration kNoRtt{-1};  // a round trip that is not known; so is any below zero

@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kApart = 0.9;     // correlation of what cannot be told apart
+constexpr double kApart = 0.9;     // correlation above which two parameters are not identifiable separately
 constexpr double kGivenSd = 1e-5;  // of n: it was not estimated
 
 std::string number(double value, int digits) {
@@ -27,7 +27,7 @@ std::string judged(Verdict verdict, const std::string& known, const std::string&
     case Verdict::kNoPowerLaw:
       break;
   }
-  return name + " cannot be told";
+  return name + " not identifiable";
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string law_in_words(const ContactEstimate& e) {
 }
 
 std::string in_words(const GripperState& gripper) {
-  if (!gripper.closed) return gripper.holds ? "open, and something is in it" : "open";
+  if (!gripper.closed) return gripper.holds ? "open, but holds something" : "open";
   if (!gripper.holds) return "closed";
   if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
   return "closed, holds " + number(gripper.load_kg, 3) + " kg (standard deviation " +

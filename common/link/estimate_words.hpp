@@ -1,5 +1,5 @@
 #pragma once
-// What of a contact and of a load is known, how well, and what cannot be told, as an operator would say it.
+// The estimates of a contact and of a load as text for the operator: values, accuracy, and what is not identifiable.
 // Pure.
 
 #include <string>
@@ -12,7 +12,7 @@ namespace longreach {
 /// "1.02e+03 N/m within 0.5 %", one standard deviation; `unit` of the stiffness. Empty without an estimate.
 std::string stiffness_in_words(const ContactEstimate& estimate, std::string_view unit);
 
-/// "n 1.5 within 0.02, lambda cannot be told apart from k". Empty without an estimate.
+/// "n 1.5 within 0.02, lambda not identifiable apart from k". Empty without an estimate.
 std::string law_in_words(const ContactEstimate& estimate);
 
 /// The gripper: open, closed, holds something, holds so many kg.

@@ -52,7 +52,8 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
     {"joint jumped", "a joint position has changed faster than the joint can move",
      "check its encoder, then restart the robot's adapter", Attribution::kSystem},
     {"joint outside", "a joint position is far beyond its limits",
-     "check robot_file and the units of the adapter, or move it back with the robot's own controls; then engage",
+     "check robot_file and the units of the adapter, or move it back with the robot's own controls; then "
+     "engage",
      Attribution::kSystem},
     {"joint too fast", "a joint reports an impossible speed", "check its encoder, then engage",
      Attribution::kSystem},
@@ -61,7 +62,8 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
     {"robot moves", "the robot is not at rest", "wait until it is at rest, then engage",
      Attribution::kSystem},
     {"tool outside", "the tool is outside its workspace",
-     "move it back with the robot's own controls, or start the slave with a larger command.workspace_m; then engage",
+     "move it back with the robot's own controls, or start the slave with a larger command.workspace_m; "
+     "then engage",
      Attribution::kSystem},
     {"sensor zeroing", "the force sensor is being zeroed",
      "leave the tool untouched for sensing.zero_s, then engage", Attribution::kSystem},
@@ -97,17 +99,17 @@ std::string sentence(const Reason& r) {
     return "the tool is " + rounded(r.value) + " m from the centre of its workspace, whose radius is " +
            rounded(r.limit) + " m";
   const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
-  if (!out.empty()) return std::string(text_of(r.cause).sentence) + ", the way out is along " + out;
+  if (!out.empty()) return std::string(text_of(r.cause).sentence) + ", the direction of retreat is " + out;
   if (r.joint == 0) return std::string(text_of(r.cause).sentence);
   switch (r.cause) {
     case HoldCause::kJointLeapt:
-      return joint + "has leapt from " + rounded(r.limit) + " to " + rounded(r.value) +
-             " rad (or m), as no joint can";
+      return joint + "has jumped from " + rounded(r.limit) + " to " + rounded(r.value) +
+             " rad (or m), faster than the joint can move";
     case HoldCause::kJointOutside:
     case HoldCause::kJointLimit:
       return joint + "is at " + rounded(r.value) + " rad (or m), beyond its limit of " + rounded(r.limit);
     case HoldCause::kJointTooFast:
-      return joint + "reports " + rounded(r.value) + " rad/s (or m/s), as no joint can";
+      return joint + "reports " + rounded(r.value) + " rad/s (or m/s), which is impossible";
     case HoldCause::kRobotMoves:
       return joint + "moves at " + rounded(r.value) + " rad/s (or m/s)";
     default:

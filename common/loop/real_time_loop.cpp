@@ -19,13 +19,13 @@ std::vector<std::string> ask_for_real_time(const LoopConfig& config) {
     if (error != 0) {
       notes.push_back(
           std::string("no real-time priority (") + std::strerror(error) +
-          "): ticks may be late; permit it with `ulimit -r` or CAP_SYS_NICE, or set loop.priority 0");
+          "): ticks may be late; grant it with `ulimit -r` or CAP_SYS_NICE, or set loop.priority to 0");
     }
   }
   // On fault: only what is used is locked, not every thread's whole stack.
   if (config.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
     notes.push_back(std::string("memory is not locked (") + std::strerror(errno) +
-                    "): ticks may be late; permit it with `ulimit -l`, or set loop.lock_memory false");
+                    "): ticks may be late; grant it with `ulimit -l`, or set loop.lock_memory to false");
   }
   return notes;
 }

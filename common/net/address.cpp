@@ -17,7 +17,7 @@ asio::ip::udp::endpoint parse_udp_address(const std::string& text) {
   const auto found = resolver.resolve(parts->host, std::to_string(parts->port), error);
   if (error || found.empty()) {
     throw AddressError("the host '" + parts->host + "' of '" + text +
-                       "' cannot be found; check its name or write its address in numbers");
+                       "' cannot be resolved; check its name or use its numeric address");
   }
   // A name with both kinds: IPv4, as the default listening addresses are.
   for (const auto& entry : found) {

@@ -48,13 +48,13 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
   if (!error) socket_.non_blocking(true, error);
   if (error) {
     throw std::runtime_error("cannot listen on udp " + listen + ": " + error.message() +
-                             "; choose another link.listen or end the program that uses it");
+                             "; set link.listen to another address or end the program that uses it");
   }
   // Less than asked for is fine.
   socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);
 }
 
-// Not by Asio: it does not tell the true size of what was cut.
+// Not by Asio: it does not report the true size of what was cut.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
   for (int i = 0; i < kUnknownPeersPerReceive; ++i) {
     Origin sender{};

@@ -56,14 +56,14 @@ std::string no_socket_there(const std::string& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0)
     return errno == ENOENT ? "there is no such file"
-                           : std::string("it cannot be reached: ") + std::strerror(errno);
+                           : std::string("it is not accessible: ") + std::strerror(errno);
   if (S_ISDIR(found.st_mode)) return "it is a folder, not a socket";
   return S_ISSOCK(found.st_mode) ? "" : "it is a file, not a socket";
 }
 
 std::string why_not_connected(const std::string& path, int error) {
   if (const std::string why = no_socket_there(path); !why.empty()) return why;
-  if (error == ECONNREFUSED) return "it is a socket, but nothing listens there";
+  if (error == ECONNREFUSED) return "it is a socket, but no program listens there";
   if (error == EPROTOTYPE) return "it is a socket of another type than SOCK_SEQPACKET";
   if (error == EAGAIN) return "another program is connected, and more are waiting";
   return std::string("it cannot be connected: ") + std::strerror(error);

@@ -53,7 +53,7 @@ inline void refuse_empty_values(CLI::App& app) {
            [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_items_expected_max() > 0; }))
     option->transform(CLI::Validator(  // which is asked before the option's own checks
         [](const std::string& text) {
-          return text.empty() ? "is empty; give it a value, or leave the option out" : std::string();
+          return text.empty() ? "is empty; give a value, or omit the option" : std::string();
         },
         ""));
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

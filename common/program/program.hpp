@@ -54,31 +54,32 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--profile", options.profile,
-                 "Link profile whose delay and loss to imitate: a name of deploy/links, or a .txtpb file")
+                 "Link profile whose delay and loss to emulate: a name in deploy/links, or a .txtpb file")
       ->type_name("NAME");
-  app.add_option("--seconds", options.seconds, "End after this time")
+  app.add_option("--seconds", options.seconds, "Exit after this time")
       ->check(number_above_zero())
       ->type_name("N");
   app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
       ->type_name("FILE");
   app.add_option("--site", options.site,
-                 "Folder of the certificates, made when there is none ($XDG_CONFIG_HOME/longreach)")
+                 "Folder of the certificates, created if it does not exist ($XDG_CONFIG_HOME/longreach)")
       ->type_name("DIR");
   app.add_option("--record", options.record,
-                 "Record from the start into this file, which `longreach-lab replay` can run again")
+                 "Record from the start into this file, which `longreach-lab replay` can replay")
       ->type_name("FILE.mcap");
   app.add_option("--recordings", options.recordings,
-                 "Folder for what `longreach record start` records ($XDG_STATE_HOME/longreach/recordings)")
+                 "Folder for recordings of `longreach record start` ($XDG_STATE_HOME/longreach/recordings)")
       ->type_name("DIR");
-  app.add_option("--record-max-mb", options.record_max_mb, "A recording from the start ends at this size")
+  app.add_option("--record-max-mb", options.record_max_mb, "Maximum size of a recording from the start")
       ->type_name("N")
       ->check(number_between(1.0, 1e6))
       ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
-               "RPC in clear and for everybody on this machine: simulated robots only");
+               "Unencrypted RPC for every user of this machine: simulated robots only");
   app.add_flag("--core-dumps", options.core_dumps,
-               "Permit core dumps and debuggers, which see the secret of the session");
-  app.add_flag("--check", options.check, "Check the configuration, print it as it would be used, and end");
+               "Permit core dumps and debuggers, which can read the secret of the session");
+  app.add_flag("--check", options.check,
+               "Check the configuration, print the effective configuration, and exit");
 }
 
 /// Throws SiteError.
@@ -91,8 +92,7 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
     put(STDERR_FILENO,
-        "INSECURE: RPC is neither encrypted nor authenticated; whoever is on this machine can take the "
-        "robot\n");
+        "INSECURE: RPC is neither encrypted nor authenticated; every user of this machine can take control of the robot\n");
     return {};
   }
   RpcSecurity security{site_credentials(site_of(options), role)};

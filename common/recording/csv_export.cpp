@@ -227,7 +227,7 @@ class Folder {
     for (auto one = path_; !one.empty() && !std::filesystem::exists(one, error); one = one.parent_path())
       made_.push_back(one);
     std::filesystem::create_directories(path_, error);
-    if (error) throw RecordingError("cannot make the folder " + path_.string() + ": " + error.message());
+    if (error) throw RecordingError("cannot create the folder " + path_.string() + ": " + error.message());
     return path_;
   }
   void undo() {
@@ -326,7 +326,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
   auto message = reader.next();
   if (!message)
     throw RecordingError(recording.string() + (reader.whole() ? " holds no messages" : " is cut") +
-                         ": there is nothing to export");
+                         ": nothing can be exported");
   const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);
@@ -342,8 +342,10 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
     if (!out.tables.empty()) return out;
     if (!out.damaged.empty())
       throw RecordingError(recording.string() +
-                           " is damaged, nothing of it can be exported: " + comma_separated(out.damaged));
-    throw RecordingError(recording.string() + " has no messages of protobuf, which alone are exported, but " +
+                           " is damaged and cannot be exported: " + comma_separated(out.damaged));
+    throw RecordingError(recording.string() +
+                         " has no protobuf messages, the only kind that can be "
+                         "exported, but " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

@@ -27,7 +27,7 @@ class Library {
   const char* package_;
 };
 
-[[noreturn]] void damaged() { throw RecordingError("a compressed chunk cannot be unpacked"); }
+[[noreturn]] void damaged() { throw RecordingError("a compressed chunk cannot be decompressed"); }
 
 std::string from_zstd(std::string_view bytes, std::size_t size) {
   static const Library library("libzstd.so.1", "libzstd1");
@@ -69,11 +69,11 @@ std::string from_lz4(std::string_view bytes, std::size_t size) {
 }  // namespace
 
 std::string decompress(std::string_view how, std::string_view bytes, std::uint64_t size) {
-  if (size > kSizeMax) throw RecordingError("a compressed chunk of more than 256 MiB is not read");
+  if (size > kSizeMax) throw RecordingError("a compressed chunk exceeds the maximum of 256 MiB");
   if (how == "zstd") return from_zstd(bytes, static_cast<std::size_t>(size));
   if (how == "lz4") return from_lz4(bytes, static_cast<std::size_t>(size));
   throw RecordingError("its chunks are compressed by \"" + std::string(how) +
-                       "\", and only zstd and lz4 are read; write it again with one of them");
+                       "\", but only zstd and lz4 are supported; compress it with one of them");
 }
 
 }  // namespace longreach

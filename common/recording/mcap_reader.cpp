@@ -28,7 +28,7 @@ McapReader::McapReader(const std::filesystem::path& path) : path_(path), file_(p
   std::array<char, kMagic.size()> magic{};
   if (left_ < magic.size() || !file_.read(magic.data(), magic.size()) ||
       std::string_view(magic.data(), magic.size()) != kMagic)
-    throw RecordingError(path.string() + " is no recording: it does not begin as an MCAP file does");
+    throw RecordingError(path.string() + " is not a recording: it does not begin like an MCAP file");
   left_ -= magic.size();
 }
 
@@ -88,9 +88,8 @@ void McapReader::open_chunk(std::string_view content) {
     }
     records = unpacked_;
   }
-  if (records.size() != size) damaged("a chunk has another size than it says");
-  if (crc != 0 && crc32(std::as_bytes(std::span(records))) != crc)
-    damaged("the checksum of a chunk is wrong");
+  if (records.size() != size) damaged("the size of a chunk differs from the stated size");
+  if (crc != 0 && crc32(std::as_bytes(std::span(records))) != crc) damaged("a chunk has a wrong checksum");
   chunk_ = records;
 }
 
@@ -122,7 +121,7 @@ void McapReader::take(const Record& record) {
 McapMessage McapReader::message(std::string_view content) {
   McapCursor cursor(content);
   const auto channel = channels_.find(cursor.take<std::uint16_t>());
-  if (channel == channels_.end()) damaged("a message is of no channel");
+  if (channel == channels_.end()) damaged("a message belongs to no channel");
   McapMessage out;
   out.channel = &channel->second;
   out.sequence = cursor.take<std::uint32_t>();

@@ -23,7 +23,7 @@ namespace longreach {
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))
-    throw RecordingError("a recorded value is none of its enumeration: " + std::to_string(value));
+    throw RecordingError("a recorded value is not in its enumeration: " + std::to_string(value));
   return static_cast<Enum>(value);
 }
 /// The schema's enumerations have the numbers of the structs'.

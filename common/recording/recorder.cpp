@@ -71,9 +71,9 @@ void Recorder::run() {
 }
 
 std::string Recorder::trouble() const {
-  if (file_.failed()) return "it could not be written any more: " + file_.error();
+  if (file_.failed()) return "writing failed: " + file_.error();
   if (writer_.size() >= options_.max_bytes)
-    return "it has reached its largest size of " + megabytes(options_.max_bytes);
+    return "it has reached its maximum size of " + megabytes(options_.max_bytes);
   return "";
 }
 

@@ -18,7 +18,7 @@ RecordingFile::RecordingFile(const std::filesystem::path& path) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor_ >= 0) return;
   const std::string why =
-      errno == EEXIST ? "there is such a file; choose another name" : std::strerror(errno);
+      errno == EEXIST ? "the file exists already; choose another name" : std::strerror(errno);
   throw RecordingError("cannot record into " + path.string() + ": " + why);
 }
 

@@ -26,7 +26,7 @@ void check_recording_name(const std::string& name) {
   constexpr std::size_t kShown = 40;
   if (is_name(name)) return;
   throw RecordingError("'" + (name.size() > kShown ? name.substr(0, kShown) + "..." : name) +
-                       "' is no name of a recording: letters, digits and . _ -, at most " +
+                       "' is not a valid name of a recording: use letters, digits and . _ -, at most " +
                        std::to_string(kNameMax) + ", not . or - first");
 }
 
@@ -35,7 +35,7 @@ std::filesystem::path default_recordings() {
   if (state != nullptr && *state == '/') return std::filesystem::path(state) / "longreach" / "recordings";
   const char* home = std::getenv("HOME");
   if (home == nullptr || *home != '/')
-    throw RecordingError("there is no folder for recordings: set HOME, or say --recordings DIR");
+    throw RecordingError("there is no folder for recordings: set HOME, or use --recordings DIR");
   return std::filesystem::path(home) / ".local" / "state" / "longreach" / "recordings";
 }
 
@@ -44,7 +44,7 @@ std::filesystem::path recording_path(const std::filesystem::path& folder, const 
   check_recording_name(name);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RecordingError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (error) throw RecordingError("cannot create the folder " + folder.string() + ": " + error.message());
   return folder / (name + "-" + side + ".mcap");
 }
 

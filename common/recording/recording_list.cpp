@@ -58,7 +58,7 @@ std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& 
   }
   if (found.empty())
     throw RecordingError("there is no recording " + name + (plain ? " here or in " + folder.string() : "") +
-                         "; `longreach record list` shows what there is");
+                         "; `longreach record list` lists the recordings");
   return found;
 }
 

@@ -89,13 +89,13 @@ class SideRecording {
   }
 
  private:
-  static constexpr const char* kNoAnswer = "the control loop did not answer within 1 s; try again";
+  static constexpr const char* kNoAnswer = "the control loop did not respond within 1 s; try again";
 
   static std::unique_ptr<RecordType> make_record_buffer(const Request& request) {
     try {
       return std::make_unique<RecordType>(request.rate_hz, monotonic_to_unix());
     } catch (const std::bad_alloc&) {
-      throw RecordingError("there is no memory for a recording");
+      throw RecordingError("not enough memory for a recording");
     }
   }
 

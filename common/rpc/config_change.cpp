@@ -19,7 +19,7 @@ std::string too_much(const Assignments& assignments) {
   for (const auto& [path, value] : assignments) bytes += path.size() + value.size();
   if (assignments.size() <= kAssignmentsMax && bytes <= kAssignmentsMaxBytes) return "";
   return std::to_string(assignments.size()) + " fields with " + std::to_string(bytes) +
-         " bytes are more than one call may set: " + std::to_string(kAssignmentsMax) + " fields with " +
+         " bytes exceed the limit of one call: " + std::to_string(kAssignmentsMax) + " fields with " +
          std::to_string(kAssignmentsMaxBytes) + " bytes";
 }
 
@@ -38,9 +38,8 @@ std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const 
     return Refusal{Refusal::Kind::kInvalid, e.what()};
   }
   if (const auto fixed = refused_changes(before, *change.after, false); !fixed.empty()) {
-    return Refusal{
-        Refusal::Kind::kPrecondition,
-        joined(fixed) + " is read once at start; write it into the configuration file and restart"};
+    return Refusal{Refusal::Kind::kPrecondition,
+                   joined(fixed) + " is read only at start; set it in the configuration file and restart"};
   }
   if (auto beyond = beyond_ceiling(config.start, *change.after))
     return Refusal{Refusal::Kind::kPrecondition, *std::move(beyond)};

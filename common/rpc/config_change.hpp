@@ -37,7 +37,7 @@ enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another mas
 inline std::optional<Refusal> ask(StopLevel& stops) {
   if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
   return Refusal{Refusal::Kind::kUnavailable,
-                 "the control loop did not answer within 1 s; it stops as soon as it goes on"};
+                 "the control loop did not respond within 1 s; it stops as soon as it resumes"};
 }
 
 /// Hands a command to the loop. `not_while_engaged`: of the change, for the refusal.
@@ -47,14 +47,14 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
   const auto answer = mailbox.post(std::move(command), std::chrono::milliseconds(1000));
   if (!answer) {
     return Refusal{Refusal::Kind::kUnavailable,
-                   "the control loop did not answer within 1 s; nothing has changed, try again"};
+                   "the control loop did not respond within 1 s; nothing has changed, try again"};
   }
   if (*answer == LoopAnswer::kDone) return std::nullopt;
   if (*answer == LoopAnswer::kOccupied) {
-    return Refusal{Refusal::Kind::kPrecondition, "another master has the robot"};
+    return Refusal{Refusal::Kind::kPrecondition, "another master has control of the robot"};
   }
   return Refusal{Refusal::Kind::kPrecondition,
-                 not_while_engaged + " may not change while the robot is engaged; stop first"};
+                 not_while_engaged + " cannot be changed while the robot is engaged; stop it first"};
 }
 
 }  // namespace longreach

@@ -27,7 +27,8 @@ constexpr std::size_t kAcceptedAtOnce = 64;
 constexpr std::uint64_t kProvenBytes = 1000;  // a certificate and its signature have more
 constexpr std::size_t kGivenBackBy = 32;      // connections that ended
 constexpr const char* kNoDescriptors =
-    "no descriptors are left: close what uses them, or allow more with `ulimit -n` or LimitNOFILE=";
+    "no file descriptors are left: close unused connections, or raise the limit with `ulimit -n` or "
+    "LimitNOFILE=";
 
 int bound(const addrinfo& at) {
   const int fd = ::socket(at.ai_family, at.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, at.ai_protocol);
@@ -146,7 +147,7 @@ bool ConnectionLimiter::accept_one() {
   // What has come with it is heard before others make it the oldest.
   if (silent_.size() <= kSilentMax) return true;
   receive();
-  while (silent_.size() > kSilentMax - kAcceptedAtOnce) close_oldest("too many connections that say nothing");
+  while (silent_.size() > kSilentMax - kAcceptedAtOnce) close_oldest("too many silent connections");
   return true;
 }
 
@@ -168,7 +169,10 @@ void ConnectionLimiter::receive() {
 }
 
 void ConnectionLimiter::expire() {
-  while (!silent_.empty() && Clock::now() - silent_.front().since > kSilent) close_oldest("it says nothing");
+  while (!silent_.empty() && Clock::now() - silent_.front().since > kSilent)
+    close_oldest(
+        "the connection "
+        "is silent");
 }
 
 void ConnectionLimiter::let_in(int fd) {
@@ -203,7 +207,7 @@ void ConnectionLimiter::shut_unproven(const Inside& in_favour_of) {
            info.tcpi_bytes_received < kProvenBytes;
   });
   if (found == inside_.end()) return;
-  note_rpc_refusal(address_of(found->fd), "its handshake does not end");
+  note_rpc_refusal(address_of(found->fd), "the handshake timed out");
   ::shutdown(found->fd, SHUT_RDWR);  // its owner closes it then
   inside_.erase(found);
 }

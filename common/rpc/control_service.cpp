@@ -102,7 +102,7 @@ ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_config(const proto::SetConfigRequest& request) {
-  if (request.assignment().empty()) return invalid("no field is named: give at least one path and value");
+  if (request.assignment().empty()) return invalid("no field is given: give at least one path and value");
   Assignments assignments;
   bool sets_link = false;
   for (const proto::Assignment& assignment : request.assignment()) {
@@ -138,14 +138,14 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
 
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {
   // An unknown mode of a newer client arrives as a mode that is not set.
-  if (!request.has_mode()) return invalid("mode is missing or not known: it is RATE or POSITION");
+  if (!request.has_mode()) return invalid("mode is missing or unknown: give RATE or POSITION");
   const std::lock_guard lock(changing_);
   return outcome(backend_.set_mode(request.mode()),
                  request.mode() == proto::Mapping::RATE ? "mode is rate" : "mode is position");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::SetScaleRequest& request) {
-  if (!request.has_scale()) return invalid("scale is missing: it is a number from 0.05 to 1");
+  if (!request.has_scale()) return invalid("scale is missing: give a number from 0.05 to 1");
   proto::Mapping mapping;  // knows the range
   mapping.set_scale(request.scale());
   if (std::optional<Refusal> refusal = wrong(mapping)) return *refusal;
@@ -174,7 +174,10 @@ ControlService::Result<proto::Outcome> ControlService::close_session(
 
 ControlService::Result<proto::Outcome> ControlService::start_recording(
     const proto::StartRecordingRequest& request) {
-  if (!(request.max_mb() >= 1.0 && request.max_mb() <= 1e6)) return invalid("max_mb is from 1 to 1000000");
+  if (!(request.max_mb() >= 1.0 && request.max_mb() <= 1e6))
+    return invalid(
+        "max_mb must be from 1 to "
+        "1000000");
   const std::lock_guard lock(changing_);
   return said(backend_.start_recording(request.name(), request.max_mb()));
 }

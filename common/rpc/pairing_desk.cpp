@@ -42,12 +42,12 @@ void print_token(const std::string& token, const std::string& address) {
   if (is_wildcard(hosts.front())) hosts = own_addresses();
   if (hosts.empty()) hosts.emplace_back("ADDRESS");
   std::printf(
-      "Token: %s\nGood for one use, five tries and 10 minutes. On the host that joins, which asks for "
-      "it:\n\n",
+      "Token: %s\nIt is valid for one use, five attempts and 10 minutes. On the host that joins, run this "
+      "command, which asks for the token:\n\n",
       token.c_str());
   for (const std::string& host : hosts)
     std::printf("  longreach pair --slave %s%s\n", host.c_str(), address.substr(colon).c_str());
-  std::printf("\nWaiting; Ctrl-C makes the token void.\n");
+  std::printf("\nWaiting; Ctrl-C invalidates the token.\n");
   std::fflush(stdout);
 }
 
@@ -65,15 +65,15 @@ void report_try(const std::string& from, const std::string& refusal, const Pairi
 const char* ending(PairingOffer::State state) {
   switch (state) {
     case PairingOffer::State::kUsed:
-      return "paired: that host can be master and client of this site now";
+      return "paired: that host can now be a master and client of this site";
     case PairingOffer::State::kExpired:
-      return "nobody was paired: the token has expired";
+      return "no host was paired: the token has expired";
     case PairingOffer::State::kSpent:
-      return "nobody was paired: all tries are used up, the token is void";
+      return "no host was paired: no attempts are left, and the token is invalid";
     case PairingOffer::State::kOpen:
       break;
   }
-  return "nobody was paired: ended, the token is void";
+  return "no host was paired: the program was ended, and the token is invalid";
 }
 
 }  // namespace

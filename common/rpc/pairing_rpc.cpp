@@ -62,7 +62,7 @@ PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tri
   builder.RegisterService(&state_->service);
   state_->server = builder.BuildAndStart();
   if (!state_->server || port == 0)
-    throw std::runtime_error("cannot listen for the host to pair on " + listen +
+    throw std::runtime_error("cannot listen for the joining host on " + listen +
                              ": end the program that uses this port, or choose another with --pair-listen");
   address_ = listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
 }
@@ -88,10 +88,11 @@ proto::PairingMessage ask_to_join(const std::string& address, const PairingReque
   if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ||
       status.error_message().find("onnection refused") != std::string::npos ||
       status.error_message().find("o route") != std::string::npos)
-    throw PairingError("nobody pairs at " + address +
-                       ": start longreach-slave --pair there; it is open for 10 minutes or one use");
-  throw PairingError("what answers at " + address +
-                     " is no longreach slave that pairs: longreach-slave --pair prints address and port");
+    throw PairingError("no slave waits for pairing at " + address +
+                       ": start longreach-slave --pair there; it waits for 10 minutes or one use");
+  throw PairingError("the program at " + address +
+                     " is not a longreach slave that waits for pairing: longreach-slave --pair prints "
+                     "address and port");
 }
 
 }  // namespace longreach

@@ -20,7 +20,7 @@ std::string in_words(const RecordingStatus& recording) {
   std::string out = fmt::format("{}: {:.1f} s, {:.1f} MB", recording.file, recording.seconds,
                                 1e-6 * static_cast<double>(recording.bytes));
   if (recording.ticks_not_recorded > 0)
-    out += fmt::format("; {} ticks are not in it", recording.ticks_not_recorded);
+    out += fmt::format("; {} ticks are missing", recording.ticks_not_recorded);
   return out;
 }
 

@@ -39,7 +39,7 @@ std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address) {
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security) {
   if (!security.credentials && !is_loopback(address))
-    throw std::runtime_error(address + " is not on this machine: leave out --insecure to go there");
+    throw std::runtime_error(address + " is not on this machine: omit --insecure to connect to it");
   if (!security.credentials) return connect_in_clear(address);
   take_rpc_log();
   grpc::ChannelArguments arguments = patient();

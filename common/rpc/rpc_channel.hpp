@@ -27,8 +27,8 @@ bool other_role(const grpc::Status& status);
 /// to do.
 bool distrusted(const grpc::Status& status);
 inline constexpr std::string_view kMistrust =
-    "does not trust this program's certificate, or shows one of another site; use one site folder for both "
-    "(--site), "
-    "and --insecure with both or with none";
+    "does not trust this program's certificate, or has a certificate of another site; use the same site "
+    "folder for both "
+    "(--site), and --insecure with both or with neither";
 
 }  // namespace longreach

@@ -135,7 +135,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     const Slot slot(*this);
     if (!slot.taken())
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-              std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: end one of them"};
+              std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: close one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
       if (is_revoked(*context->auth_context()) || !writer->Write(status())) break;
     return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " ends")
@@ -323,8 +323,8 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
     : state_(std::make_unique<State>(backend, side, security.credentials.has_value())) {
   const std::string address = listen_address(listen, side);
   if (!security.credentials && !is_loopback(address))
-    throw std::runtime_error("the " + std::string(side) + " will not serve RPC on " + address +
-                             " in clear: leave out --insecure, or set rpc.listen to an address on loopback");
+    throw std::runtime_error("the " + std::string(side) + " does not serve RPC on " + address +
+                             " without encryption: omit --insecure, or set rpc.listen to a loopback address");
   raise_descriptor_limit();
   take_rpc_log();
   state_->socket = std::make_unique<ListeningSocket>(address);

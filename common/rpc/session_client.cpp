@@ -39,12 +39,12 @@ std::string sentence(const std::string& address, const grpc::ClientContext& cont
     return begin + status.error_message();
   if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED) return begin + status.error_message();
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
-    return begin + "it does not know this call; use programs of one version";
-  if (other_role(status)) return begin + "what answers there is no slave; set link.slave_rpc";
+    return begin + "it does not support this call; use programs of the same version";
+  if (other_role(status)) return begin + "the program there is not a slave; set link.slave_rpc";
   if (distrusted(status)) return begin + "it " + std::string(kMistrust);
   return begin +
-         "it does not answer; start longreach-slave there, or set link.slave_rpc to where its RPC server "
-         "listens";
+         "it does not answer; start longreach-slave there, or set link.slave_rpc to the address of its RPC "
+         "server";
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ std::string SessionClient::connect(std::uint64_t present) {
   }
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
-           ") has taken the robot from this one; end that one, or start this one anew with --take";
+           ") has taken control of the robot; end that master, or restart this one with --take";
   if (!status.ok()) return sentence(address_, context, status);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 
@@ -158,13 +158,15 @@ std::string SessionClient::connect(std::uint64_t present) {
                       (session.cipher != Cipher::kAes256Gcm || has_aes256gcm());
   if (!usable)
     return "no session with the slave at " + address_ +
-           ": its answer cannot be used; use programs of one version";
+           ": its answer is invalid; use programs of the same version";
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
   wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn
   adopted_at_ = std::chrono::steady_clock::now();
   return adopt_(session) ? ""
-                         : "no session with the slave at " + address_ + ": the control loop did not take it";
+                         : "no session with the slave at " + address_ +
+                               ": the control loop did not accept "
+                               "it";
 }
 
 /// The slave knows the session, and nothing comes of it: datagrams do not get through where RPC does.
@@ -175,9 +177,8 @@ std::string SessionClient::unreceived(const Present& present) const {
   const bool due = std::chrono::steady_clock::now() - adopted_at_ > round_trip + kBesides;
   if (present.session == 0 || std::isfinite(present.silence_s) || !due) return "";
   return "RPC at " + address_ + " answers, but no datagram comes back from " + present.slave +
-         ": let UDP through the firewalls in both directions, and see that link.slave and link.slave_rpc "
-         "lead to the "
-         "same slave";
+         ": allow UDP through the firewalls in both directions, and check that link.slave and "
+         "link.slave_rpc name the same slave";
 }
 
 /// False: it is time to end.

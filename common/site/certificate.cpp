@@ -35,7 +35,7 @@ void require(bool done) {
   if (done) return;
   std::array<char, 256> text{};
   ERR_error_string_n(ERR_get_error(), text.data(), text.size());
-  throw std::runtime_error(std::string("cannot make or read certificates: ") + text.data());
+  throw std::runtime_error(std::string("cannot create or read certificates: ") + text.data());
 }
 
 std::string text_of(BIO* bio) {
@@ -234,18 +234,17 @@ std::string certificate_trouble(const std::string& authority_pem, const std::str
     const X509Cert authority = read_certificate(authority_pem),
                    certificate = read_certificate(certificate_pem);
     if (!key_pem.empty() && !is_key(key_pem)) return "its key cannot be read";
-    if (!key_pem.empty() && !belong_together({certificate_pem, key_pem}))
-      return "it does not belong to its key";
+    if (!key_pem.empty() && !belong_together({certificate_pem, key_pem})) return "it does not match its key";
     const Store store(X509_STORE_new());
     const StoreContext context(X509_STORE_CTX_new());
     require(store != nullptr && context != nullptr &&
             X509_STORE_add_cert(store.get(), authority.get()) == 1 &&
             X509_STORE_CTX_init(context.get(), store.get(), certificate.get(), nullptr) == 1);
     if (X509_verify_cert(context.get()) != 1)
-      return std::string("it is not good for this site: ") +
+      return std::string("it is not valid for this site: ") +
              X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()));
     if (!name.empty() && X509_check_host(certificate.get(), name.data(), name.size(), 0, nullptr) != 1)
-      return "it is not made out to " + name;
+      return "it is not issued to " + name;
     return "";
   } catch (const std::runtime_error&) {
     return "it cannot be read";

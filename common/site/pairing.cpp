@@ -22,11 +22,11 @@ std::string plain(const std::string& name) {
 }
 
 std::string tries_in_words(int tries) {
-  if (tries == 0) return "no try is left: the token is void";
-  return tries == 1 ? "1 try is left" : std::to_string(tries) + " tries are left";
+  if (tries == 0) return "no attempts are left: the token is invalid";
+  return tries == 1 ? "1 attempt is left" : std::to_string(tries) + " attempts are left";
 }
 
-constexpr std::string_view kAnother = "; ask for another one with longreach-slave --pair";
+constexpr std::string_view kAnother = "; get another token with longreach-slave --pair";
 
 }  // namespace
 
@@ -45,11 +45,11 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
     case State::kOpen:
       break;
     case State::kUsed:
-      return "the token has been used already" + std::string(kAnother);
+      return "the token has already been used" + std::string(kAnother);
     case State::kExpired:
-      return "the token has expired: it was good for 10 minutes" + std::string(kAnother);
+      return "the token has expired: it was valid for 10 minutes" + std::string(kAnother);
     case State::kSpent:
-      return "no try is left: the token is void" + std::string(kAnother);
+      return "no attempts are left: the token is invalid" + std::string(kAnother);
   }
   --tries_left_;
   if (!token_.verifies(message.tag(), kRequest, message.body()))
@@ -58,16 +58,17 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
   proto::PairingAnswer answer;
   try {
     if (!request.ParseFromString(message.body()))
-      return "the request cannot be read; use programs of one version";
+      return "the request is invalid; use programs of the same version";
     answer.set_master(certify(authority_, request.master_request(), terms_of(RpcRole::kMaster)));
     answer.set_client(certify(authority_, request.client_request(), terms_of(RpcRole::kClient)));
   } catch (const std::runtime_error&) {
-    return "the request asks for no certificates of ours; use programs of one version";
+    return "the request does not ask for certificates of this site; use programs of the same version";
   }
   try {
     if (record_) record_(plain(request.host()), answer.master(), answer.client());
   } catch (const std::runtime_error& error) {
-    return std::string("who is paired could not be written down, so nobody is: ") + error.what();
+    return std::string("the list of paired hosts could not be written, so no host is paired: ") +
+           error.what();
   }
   used_ = true;
   answer.set_authority(authority_.certificate_pem);
@@ -92,8 +93,8 @@ PairingRequest::PairingRequest(const PairingToken& token, const std::string& hos
 SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
   if (!token_.verifies(message.tag(), kAnswer, message_.tag() + message.body()))
     throw PairingError(
-        "the answer is not from the slave that printed the token: somebody stands between, or it is another "
-        "slave's; nothing was kept");
+        "the answer is not from the slave that printed the token: it is from another slave, or from an "
+        "attacker in between; nothing was stored");
   proto::PairingAnswer answer;
   const bool good = answer.ParseFromString(message.body()) &&
                     certificate_trouble(answer.authority(), answer.master(), master_.key_pem,
@@ -102,7 +103,7 @@ SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
                     certificate_trouble(answer.authority(), answer.client(), client_.key_pem,
                                         terms_of(RpcRole::kClient).name)
                         .empty();
-  if (!good) throw PairingError("the slave's answer cannot be used; use programs of one version");
+  if (!good) throw PairingError("the slave's answer is invalid; use programs of the same version");
   const std::string master = file_stem(RpcRole::kMaster), client = file_stem(RpcRole::kClient);
   return {{"authority.crt", answer.authority()},
           {master + ".crt", answer.master()},

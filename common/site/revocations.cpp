@@ -47,7 +47,7 @@ void append(const fs::path& file, const std::string& lines) {
   if (at >= 0) ::close(at);
   if (!done)
     throw SiteError("cannot write " + file.string() + ": " + std::strerror(error) +
-                    "; make room on the disk, or the folder writable, and try again");
+                    "; free space on the disk, or make the folder writable, and try again");
 }
 
 std::vector<std::string> lines_of(const fs::path& file) {
@@ -75,8 +75,8 @@ std::set<std::string> revoked_in(const fs::path& site) {
     if (!is_fingerprint(word))
       throw SiteError(
           (site / "revoked").string() +
-          " is damaged: a line begins with no fingerprint; revoke that certificate again with longreach "
-          "unpair, and take the line out");
+          " is damaged: a line does not begin with a fingerprint; remove the line, and revoke that "
+          "certificate again with longreach unpair");
     out.insert(word);
   }
   return out;
@@ -161,7 +161,7 @@ std::vector<std::string> revoke(const fs::path& site, const std::vector<std::str
       if (one.host == name) out.push_back(one.fingerprint);
     if (out.size() == before)
       throw SiteError("no host " + name + " was paired with " + site.string() +
-                      "; longreach pair --list shows who was");
+                      "; longreach pair --list lists the paired hosts");
   }
   std::string lines;
   for (const std::string& one : out) lines += one + " since=" + now_text() + "\n";

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::array kRoles = {RpcRole::kSlave, RpcRole::kMaster, RpcRole::kClient};
 
 constexpr const char* kRestore =
-    "; restore it, or put the folder of the site aside: a new site is made then, which paired hosts do not "
-    "trust";
+    "; restore it, or move the folder of the site away: a new site is then created, which paired hosts do "
+    "not trust";
 
 CertificateUse use_of(RpcRole role) {
   switch (role) {
@@ -62,12 +62,12 @@ fs::path draft(const fs::path& site, const SiteFiles& files) {
   std::error_code error;
   fs::create_directories(site.parent_path(), error);
   if (error)
-    throw SiteError("cannot make " + site.parent_path().string() + ": " + error.message() +
-                    "; choose another place with --site DIR");
+    throw SiteError("cannot create " + site.parent_path().string() + ": " + error.message() +
+                    "; choose another folder with --site DIR");
   std::string folder = site.string() + ".XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr)
-    throw SiteError("cannot make " + site.string() + ": " + std::strerror(errno) +
-                    "; choose another place with --site DIR");
+    throw SiteError("cannot create " + site.string() + ": " + std::strerror(errno) +
+                    "; choose another folder with --site DIR");
   try {
     for (const auto& [name, text] : files) write(fs::path(folder) / name, text);
   } catch (...) {
@@ -98,9 +98,9 @@ void require_private(const fs::path& path) {
   if (::stat(path.c_str(), &status) != 0)
     throw SiteError("cannot read " + path.string() + ": " + std::strerror(errno) + kRestore);
   if (status.st_uid != ::geteuid())
-    throw SiteError(path.string() + " belongs to another user; choose a folder of your own with --site DIR");
+    throw SiteError(path.string() + " belongs to another user; choose your own folder with --site DIR");
   if ((status.st_mode & 077U) != 0)
-    throw SiteError(path.string() + " is open to other users; close it with chmod -R go= " +
+    throw SiteError(path.string() + " is accessible to other users; close it with chmod -R go= " +
                     (fs::is_directory(path) ? path : path.parent_path()).string());
 }
 
@@ -114,8 +114,8 @@ void require_site(const fs::path& folder) {
     if (entry.path().extension() == ".crt" || entry.path().extension() == ".key") return;
   throw NoSiteError(folder.string() +
                     (error ? " cannot be read (" + error.message() + ")"
-                           : std::string(" is no site: it holds neither certificates nor keys")) +
-                    "; choose another folder with --site DIR, or one that is not there yet");
+                           : std::string(" is not a site: it contains neither certificates nor keys")) +
+                    "; choose another folder with --site DIR, or one that does not exist yet");
 }
 
 fs::path made(const fs::path& site) {
@@ -135,7 +135,7 @@ std::string read_certificate_of(const fs::path& folder, const std::string& stem)
   const fs::path file = folder / (stem + ".crt");
   std::string text = read_site_file(file);
   if (!is_certificate(text))
-    throw SiteError(file.string() + " is damaged: it holds no certificate" + kRestore);
+    throw SiteError(file.string() + " is damaged: it contains no certificate" + kRestore);
   return text;
 }
 
@@ -143,9 +143,8 @@ Certificate read_pair(const fs::path& folder, const std::string& stem) {
   const fs::path file = folder / (stem + ".key");
   Certificate out{read_certificate_of(folder, stem), read_site_file(file)};
   if (!is_key(out.key_pem))
-    throw SiteError(file.string() + " is damaged: it holds no private key" + kRestore);
-  if (!belong_together(out))
-    throw SiteError(file.string() + " does not belong to " + stem + ".crt" + kRestore);
+    throw SiteError(file.string() + " is damaged: it contains no private key" + kRestore);
+  if (!belong_together(out)) throw SiteError(file.string() + " does not match " + stem + ".crt" + kRestore);
   return out;
 }
 
@@ -154,8 +153,7 @@ void require_origin(const fs::path& folder) {
   if (fs::exists(folder / "authority.key") || !fs::exists(folder / "master.key")) return;
   throw SiteError(
       folder.string() +
-      " was made by pairing, for a master and its client; a slave runs, and pairs others, on the host "
-      "whose slave gave the token; choose another folder with --site DIR");
+      " was created by pairing, for a master and its client; a slave runs, and pairs other hosts, only on the host whose slave issued the token; choose another folder with --site DIR");
 }
 
 }  // namespace
@@ -172,8 +170,7 @@ fs::path default_site() {
   if (const passwd* user = ::getpwuid(::geteuid()); home.empty() && user != nullptr) home = user->pw_dir;
   if (!home.empty()) return fs::path(home) / ".config" / "longreach";
   throw SiteError(
-      "neither XDG_CONFIG_HOME nor HOME is an absolute path; say with --site DIR where the certificates are "
-      "kept");
+      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site DIR");
 }
 
 std::string file_stem(RpcRole role) {
@@ -225,7 +222,8 @@ fs::path write_site(const fs::path& site, const SiteFiles& files) {
   if (!error) return aside;
   const std::string why = error.message();
   fs::remove_all(whole, error);
-  throw SiteError("cannot make " + folder.string() + ": " + why + "; choose another place with --site DIR");
+  throw SiteError("cannot create " + folder.string() + ": " + why +
+                  "; choose another folder with --site DIR");
 }
 
 }  // namespace longreach

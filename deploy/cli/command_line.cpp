@@ -82,12 +82,12 @@ Grammar::Grammar() {
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout,
-                  "longest wait for an answer, connecting included [3 s; doctor 20, pair 120]")
+                  "timeout for an answer, including the connection [3 s; doctor 20, pair 120]")
       ->type_name("S");
   app_.add_option("--site", site_, "folder of the certificates [$XDG_CONFIG_HOME/longreach]")
       ->type_name("DIR");
-  app_.add_flag("--insecure", insecure_, "talk to sides that were started with --insecure");
-  app_.add_flag("--json", json_, "answer in JSON, also to errors");
+  app_.add_flag("--insecure", insecure_, "connect to sides that were started with --insecure");
+  app_.add_flag("--json", json_, "print answers and errors as JSON");
   declare_views();
   declare_fields();
   declare_link();
@@ -108,12 +108,12 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 void Grammar::declare_views() {
   declare(app_, "status", "show both sides once", kStatusMore);
   CLI::App* watch = declare(app_, "watch", "show both sides live", kWatchMore);
-  watch->add_flag("--plain", plain_, "one line an update, without colour, on a terminal, too");
+  watch->add_flag("--plain", plain_, "one line per update, without colour, also on a terminal");
   watch->add_option("--hz", words_.hz, "updates a second, 0.1 to 60 [4]")->type_name("HZ");
-  watch->add_option("--count", words_.count, "end after this many updates")->type_name("N");
-  declare(app_, "view", "serve a page for the browser: the robot, what is felt, a hand", kViewMore)
+  watch->add_option("--count", words_.count, "exit after this number of updates")->type_name("N");
+  declare(app_, "view", "serve a page for the browser: the robot, forces, a hand", kViewMore)
       ->add_option("--listen", words_.listen,
-                   "address of the page; port 0: any free one [" + words_.listen + "]")
+                   "address of the page; port 0: any free port [" + words_.listen + "]")
       ->type_name("HOST:PORT");
 }
 
@@ -123,12 +123,11 @@ void Grammar::declare_fields() {
                           "Fields, units and ranges: proto/config.proto.\n"
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
-  get->add_option("PATH", words_.path, "field or group; all when left out");
+  get->add_option("PATH", words_.path, "field or group; default: all");
   CLI::App* set =
-      declare(app_, "set", "change fields of a side's configuration, all of them or none", kSetMore);
+      declare(app_, "set", "change fields of the configuration of a side, either all or none", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
-  set->add_option("PATH VALUE", words_.assignments, "field and its new value, as often as wanted")
-      ->required();
+  set->add_option("PATH VALUE", words_.assignments, "field and its new value, repeatable")->required();
 }
 
 CLI::Option* Grammar::declare_direction(CLI::App& command) {
@@ -151,9 +150,9 @@ void Grammar::declare_link() {
     set->add_option(kFieldOptions[i].name, field_words_[i], kFieldOptions[i].help)
         ->type_name(kFieldOptions[i].value);
   declare_direction(*set);
-  CLI::App* blackout = declare(*link_, "blackout", "lose everything for a while, from now",
+  CLI::App* blackout = declare(*link_, "blackout", "drop all datagrams for a time, from now on",
                                "Example: longreach link blackout 2s --direction down");
-  blackout->add_option("DURATION", words_.duration, "how long: 500ms, 2s or plain seconds (0 to 1e6 s)")
+  blackout->add_option("DURATION", words_.duration, "duration: 500ms, 2s or plain seconds (0 to 1e6 s)")
       ->required();
   declare_direction(*blackout);
   declare_direction(
@@ -161,55 +160,60 @@ void Grammar::declare_link() {
 }
 
 void Grammar::declare_motion() {
-  declare(app_, "mode", "choose how the hand moves the robot",
+  declare(app_, "mode", "set the mode of motion",
           "rate: deflection commands speed, coarse and fast; position: scaled position, fine and exact.\n"
           "Example: longreach mode position")
       ->add_option("MODE", words_.mode, "rate or position")
       ->required()
       ->transform(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
-  declare(app_, "scale", "set the scale of motion: robot over hand, 0.05 to 1",
+  declare(app_, "scale", "set the scale of motion (robot over hand), 0.05 to 1",
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1, or up or down by 0.05")
       ->required();
-  declare(
-      app_, "engage", "let the robot follow the hand",
-      "The first goal is where the robot is: nothing jumps. Asked of the master.\nExample: longreach engage");
+  declare(app_, "engage", "make the robot follow the hand",
+          "The first goal is the current pose of the robot, so nothing jumps. The request goes to the "
+          "master.\nExample: longreach engage");
   declare(app_, "stop", "stop the robot until it is engaged again",
-          "Asks both sides, and is done when one of them has answered.\nExample: longreach stop");
+          "The request goes to both sides; the command is done when one of them has answered.\nExample: "
+          "longreach stop");
 }
 
 void Grammar::declare_site() {
   CLI::App* pair = declare(app_, "pair", "join the site of a slave on another host", kPairMore);
   pair->add_option("TOKEN", words_.token)->group("");  // to be refused
   pair->add_option("--token-file", words_.token_file,
-                   "file with the token, of yours alone; -: standard input [asked for on the terminal]")
+                   "file with the token, readable only by you; -: standard input [prompt on the terminal]")
       ->type_name("FILE");
-  pair->add_flag("--list", list_, "show who was paired with this host's site");
-  declare(app_, "unpair", "revoke what a paired host has got", kUnpairMore)
-      ->add_option("NAME", words_.names, "host as pair --list names it, or a fingerprint")
+  pair->add_flag("--list", list_, "list the hosts that were paired with the site of this host");
+  declare(app_, "unpair", "revoke the certificates of a paired host", kUnpairMore)
+      ->add_option("NAME", words_.names, "name of the host in pair --list, or a fingerprint")
       ->required()
       ->expected(-1);
-  CLI::App* doctor = declare(app_, "doctor", "look for what is wrong, and say what to do", kDoctorMore);
-  doctor->add_option("--seconds", words_.seconds, "how long sides and loop are watched, 0.2 to 60 [2]")
+  CLI::App* doctor = declare(app_, "doctor", "find problems and print remedies", kDoctorMore);
+  doctor->add_option("--seconds", words_.seconds, "duration of the measurement, 0.2 to 60 s [2]")
       ->type_name("N");
-  pair->add_flag("--replace", replace_, "put a site folder that is here already aside");
+  pair->add_flag("--replace", replace_, "move an existing site folder away");
 }
 
 void Grammar::declare_adapter() {
-  adapter_ = declare(app_, "adapter", "try an adapter of a real device or robot",
+  adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
                      "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
-  CLI::App* check = declare(*adapter_, "check", "does it keep the rules of the protocol?", kAdapterCheckMore);
+  CLI::App* check =
+      declare(*adapter_, "check", "check that it follows the rules of the protocol", kAdapterCheckMore);
   check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
   check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check->add_option("--force", words_.force, "force that a device is asked for, 0.01 to 10 N [0.5]")
+  check->add_option("--force", words_.force, "commanded force of a device, 0.01 to 10 N [0.5]")
       ->type_name("N");
-  check->add_option("--move", words_.move, "way that a robot's first joint moves, -0.5 to 0.5 rad or m [0]")
+  check
+      ->add_option("--move", words_.move,
+                   "commanded motion of the first joint of a robot, -0.5 to 0.5 rad "
+                   "or m [0]")
       ->type_name("RAD");
   check->add_flag("--push", words_.push,
-                  "ask a person to push and turn the robot's tool instead: sign, axes, zero");
-  check->add_option("--robot-file", words_.robot_file, "what the robot is, for --push")->type_name("FILE");
-  check->add_option("--patience", words_.push_timeout, "how long --push waits for each, 1 to 600 s [30]")
+                  "prompt the user to push and turn the tool of the robot instead: checks sign, axes, zero");
+  check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
+  check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");
 }
 
@@ -228,7 +232,7 @@ std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* a
     throw UsageError(std::string(error.what()) + "; see longreach --help");
   }
   if (json_ && (app_.get_subcommands().empty() || (link_->parsed() && link_->get_subcommands().empty())))
-    throw UsageError("no command is given; see longreach --help");
+    throw UsageError("a command is missing; see longreach --help");
   if (app_.get_subcommands().empty()) return Printout{app_.help(), ExitStatus::kUsage};
   if (link_->parsed() && link_->get_subcommands().empty())
     return Printout{link_->help("longreach"), ExitStatus::kUsage};
@@ -287,9 +291,8 @@ Command Grammar::command() const {
 PairCommand Grammar::pair_command() const {
   if (!words_.token.empty())
     throw UsageError(
-        "pair takes no token in its arguments, where other users of this machine can read it: leave it out "
-        "and "
-        "type it when it is asked for, or give --token-file FILE");
+        "pair accepts no token as an argument, because other users of this machine can read it: omit it and "
+        "enter it at the prompt, or use --token-file FILE");
   if (list_) return {.token_file = {}, .list = true};
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
@@ -299,7 +302,7 @@ PairCommand Grammar::pair_command() const {
 AdapterCheckCommand Grammar::adapter_command() const {
   if (words_.device.empty() == words_.robot.empty())
     throw UsageError(
-        "adapter check needs --device unix:/PATH or --robot unix:/PATH, where the adapter listens");
+        "adapter check needs --device unix:/PATH or --robot unix:/PATH, the socket of the adapter");
   AdapterCheckCommand check;
   check.robot = !words_.robot.empty();
   check.address = check.robot ? words_.robot : words_.device;
@@ -313,7 +316,8 @@ AdapterCheckCommand Grammar::adapter_command() const {
       bounded("--patience", words_.push_timeout, parse_number(words_.push_timeout), 1.0, 600.0, " s");
   if (check.push && (!check.robot || check.robot_file.empty()))
     throw UsageError(
-        "adapter check --push needs --robot unix:/PATH and --robot-file FILE, as longreach-slave has it");
+        "adapter check --push needs --robot unix:/PATH and --robot-file FILE, the robot file of "
+        "longreach-slave");
   return check;
 }
 
@@ -349,9 +353,7 @@ LinkSetCommand Grammar::link_command() const {
     set_field(set.fields, kFieldOptions[i].field, field_words_[i]);
     any = true;
   }
-  if (!any)
-    throw UsageError(
-        "link set has nothing to set: give --profile or at least one field, see link set --help");
+  if (!any) throw UsageError("link set needs --profile or at least one field, see link set --help");
   return set;
 }
 

@@ -68,7 +68,7 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   if (!command.value) {
     const proto::Status status = master.status();
     if (!status.has_scale())
-      throw SideError(SideError::Kind::kRefused, "the master does not say what the scale is: give a value");
+      throw SideError(SideError::Kind::kRefused, "the master does not report the scale: give a value");
     // To the grid of 1e-6, so that steps up and down come back to where they began.
     const double stepped = status.scale() + command.steps * kScaleStep;
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
@@ -133,7 +133,8 @@ std::string stop_sides(const Options& options) {
   if (master_error && slave_error)
     throw SideError(SideError::Kind::kDown,
                     "nothing was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
-  if (slave_error) return "stopped at the master, which tells the slave; " + std::string(slave_error->what());
+  if (slave_error)
+    return "stopped at the master, which forwards it to the slave; " + std::string(slave_error->what());
   if (master_error) return "stopped at the slave; " + std::string(master_error->what());
   return "stopped at the master and at the slave";
 }

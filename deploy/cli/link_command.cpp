@@ -62,7 +62,7 @@ std::string put_back(std::vector<Change>& changes, std::size_t changed) {
     const std::string name(name_of(changes[i].side));
     try {
       changes[i].client.set_link(changes[i].before, true);
-      outcome += "; the " + name + "'s direction is put back";
+      outcome += "; the " + name + "'s direction is restored";
     } catch (const SideError& error) {
       outcome += "; the " + name + "'s direction stays changed: " + error.what();
     }

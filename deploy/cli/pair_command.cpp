@@ -109,7 +109,7 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command) {
   std::string all;
   for (const std::string& one : gone) all += " " + one;
   print_done(options, "revoked: programs with the site " + site_of(options).string() +
-                          " refuse it from now on; on another host that runs a master of this site, give "
+                          " refuse it from now on; on every other host that runs a master of this site, run "
                           "longreach unpair" +
                           all);
   return ExitStatus::kDone;
@@ -121,28 +121,27 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   // Before the token is spent.
   if (site_exists(site) && !command.replace)
     throw PairingError("this host has a site at " + site.string() +
-                       " already; put it aside with --replace, or choose another folder with --site DIR");
+                       " already; move it away with --replace, or choose another folder with --site DIR");
   const std::string text = read_token(command.token_file);
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(
-        "no token was given: the input is empty; type it in a terminal, or give a file with "
-        "--token-file; longreach-slave --pair prints one");
+        "the token is missing: the input is empty; enter it in a terminal, or give a file with --token-file; longreach-slave --pair prints a token");
   const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(
-        "the token is mistyped: it has 24 letters and digits, as longreach-slave --pair printed it");
+        "the token is invalid: enter the 24 letters and digits that longreach-slave --pair printed");
   const PairingRequest request(*token, host_name());
   if (!options.json) std::cerr << "asking " << options.slave_address << " ...\n";
   const auto answer = ask_to_join(options.slave_address, request, options.timeout_s);
   const std::filesystem::path aside = write_site(site, request.accept(answer));
   std::string done =
       "paired: " + site.string() + " belongs to the site of the slave at " + options.slave_address;
-  if (!aside.empty()) done += "; what was there is in " + aside.string() + " now";
+  if (!aside.empty()) done += "; the previous folder is now " + aside.string() + " now";
   print_done(options, done);
   if (!options.json) {
     const std::string host = options.slave_address.substr(0, options.slave_address.rfind(':'));
     const std::string with = options.site.empty() ? "" : " --site " + shell_word(site.string());
-    std::cout << "Next, with the ports that the slave listens on:\n"
+    std::cout << "Next, with the ports of the slave:\n"
               << "  longreach --slave " << host << ":47020" << with << " status\n"
               << "  longreach-master --set link.slave=" << host << ":47001" << with << "\n";
   }

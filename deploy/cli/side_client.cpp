@@ -34,7 +34,7 @@ std::string down_sentence(Side side, const Options& options, bool timed_out) {
     std::snprintf(within.data(), within.size(), " within %g s", options.timeout_s);
     sentence += within.data();
   }
-  return sentence + ": start longreach-" + name + ", or say where it is with --" + name + " HOST:PORT";
+  return sentence + ": start longreach-" + name + ", or give its address with --" + name + " HOST:PORT";
 }
 
 bool refused_by_side(const grpc::ClientContext& context) {
@@ -43,7 +43,7 @@ bool refused_by_side(const grpc::ClientContext& context) {
 
 SideError wrong_side(Side side, const Options& options, const std::string& found) {
   const std::string name(name_of(side));
-  return {SideError::Kind::kRefused, "what answers at " + address_of(side, options) + " is the " + found +
+  return {SideError::Kind::kRefused, "the program at " + address_of(side, options) + " is the " + found +
                                          ", not the " + name + ": correct --" + name};
 }
 
@@ -83,10 +83,10 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kDown, down_sentence(side, options, false)};
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return {SideError::Kind::kRefused,
-              the_side + " answers with more than this program reads: " + status.error_message()};
+              the_side + " sends an answer that is too large: " + status.error_message()};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
-                                             " does not know this call: use programs of one version"};
+                                             " does not support this call: use programs of the same version"};
     default:
       return {SideError::Kind::kRefused, refusal};
   }

@@ -35,7 +35,7 @@ std::string state(const Status& status) {
 
 std::string silence(const Status& status) {
   if (!status.link().has_silence_s()) return "";
-  if (status.link().silence_s() < 0.0) return "nothing heard yet";
+  if (status.link().silence_s() < 0.0) return "no datagram yet";
   return with_unit(status.link().silence_s(), "s") + " ago";
 }
 
@@ -69,9 +69,9 @@ constexpr auto kRows = std::to_array<Row>({
     {"version", [](const Status& s) { return s.version(); }},
     {"running for", [](const Status& s) { return s.has_uptime_s() ? print("%.1f s", s.uptime_s()) : ""; }},
     {"state", state},
-    {"other side, as heard", [](const Status& s) { return s.far_state(); }},
+    {"other side, as received", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
-    {"robot is with", [](const Status& s) { return s.lease(); }},
+    {"robot controlled by", [](const Status& s) { return s.lease(); }},
     {"round trip",
      [](const Status& s) { return s.link().rtt_known() ? with_unit(s.link().rtt_s(), "s") : std::string(); }},
     {"jitter, received",
@@ -82,7 +82,7 @@ constexpr auto kRows = std::to_array<Row>({
      [](const Status& s) { return s.link().has_loss() ? percent(s.link().loss()) : std::string(); }},
     {"reordered, received",
      [](const Status& s) { return s.link().has_reorder() ? percent(s.link().reorder()) : std::string(); }},
-    {"age of what it acts on",
+    {"age of the data in use",
      [](const Status& s) { return s.link().has_age_s() ? with_unit(s.link().age_s(), "s") : std::string(); }},
     {"rate, received",
      [](const Status& s) {

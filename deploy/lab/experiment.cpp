@@ -304,7 +304,7 @@ void make_folder(const std::filesystem::path& folder) {
   if (!error && !std::filesystem::is_directory(folder))
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
-    throw ConfigError("cannot make the folder " + folder.string() + ": " + error.message() +
+    throw ConfigError("cannot create the folder " + folder.string() + ": " + error.message() +
                       "; choose another with --out");
 }
 

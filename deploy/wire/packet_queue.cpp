@@ -46,7 +46,7 @@ PacketQueue::PacketQueue(const WireConfig& config, std::uint16_t number)
   if (queue_ == nullptr) refuse("no packet queue " + std::to_string(number));
   // The kernel keeps the packets: their bytes do not come here.
   if (nfq_set_mode(queue_, NFQNL_COPY_META, 0) < 0 || nfq_set_queue_maxlen(queue_, kPacketsMax) < 0)
-    refuse("the packet queue takes no settings");
+    refuse("the packet queue accepts no settings");
   nfnl_rcvbufsiz(nfq_nfnlh(handle_.get()), kReceiveBufferBytes);
 }
 

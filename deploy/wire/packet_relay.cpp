@@ -28,7 +28,7 @@ Descriptor opened(const std::string& file, int flags) {
 
 void enter(const Descriptor& network_namespace, const std::string& whose) {
   if (::setns(network_namespace.number(), CLONE_NEWNET) != 0)
-    throw std::runtime_error("no way into the network namespace of " + whose + ": " + std::strerror(errno));
+    throw std::runtime_error("cannot enter the network namespace of " + whose + ": " + std::strerror(errno));
 }
 
 /// One end of the cable, in the network namespace of a process.
@@ -45,7 +45,8 @@ Descriptor cable_end(pid_t host) {
   const bool made = ::ioctl(tunnel.number(), TUNSETIFF, &request) == 0;
   const std::string why = std::strerror(errno);
   enter(here, "this process");
-  if (!made) throw std::runtime_error("no interface for the cable at process " + process + ": " + why);
+  if (!made)
+    throw std::runtime_error("cannot create the interface of the cable at process " + process + ": " + why);
   return tunnel;
 }
 

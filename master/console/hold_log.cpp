@@ -16,8 +16,8 @@ std::string machine_words(const HoldRecord& hold) {
   const bool here = is_machine(hold.cause);
   const bool stalled = (here ? hold.cause : hold.far_cause) == HoldCause::kStalled;
   std::string text = here ? "the master's control loop " : "the slave's control loop ";
-  if (!stalled) return text + "ran late: this machine is too slow or busy";
-  return text + "stalled: this machine is busy";
+  if (!stalled) return text + "is late: its machine is too slow or busy";
+  return text + "stalled: its machine is busy";
 }
 
 /// The trouble of the hand that a fault of the device began with; empty: none.
@@ -39,7 +39,8 @@ std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& han
   const bool follows = hold.far_cause == HoldCause::kPeerHolds && hold.cause != HoldCause::kNone;
   if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause && !follows)
     text += ", at the slave " + sentence(hold.far_cause);
-  return text + (hold.attribution == HoldAttribution::kOutage ? ", as the link's profile has it" : "");
+  return text +
+         (hold.attribution == HoldAttribution::kOutage ? ", as the profile of the link specifies" : "");
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ Tone tone_of(SafetyState state) {
 
 std::string state_line(const ConsoleSnapshot& s) {
   std::string line(state_in_words(s.view.state));
-  line += ", slave " + (s.view.far_known ? std::string(state_in_words(s.view.far_state)) : "not heard yet");
+  line += ", slave " + (s.view.far_known ? std::string(state_in_words(s.view.far_state)) : "no data yet");
   if (s.view.cause != HoldCause::kNone) line += " (" + cause_in_words(s.view) + ")";
   return line;
 }
@@ -121,7 +121,7 @@ std::string link_line(const LinkFigures& link) {
   const std::string rtt = link.rtt_s ? text("RTT %.3f s", *link.rtt_s) : "RTT unknown";
   const std::string age = link.age_s ? text("  age %.2f s", *link.age_s) : "";
   const std::string silence =
-      std::isfinite(link.silence_s) ? text("  silent %.2f s", link.silence_s) : "  never heard";
+      std::isfinite(link.silence_s) ? text("  silent %.2f s", link.silence_s) : "  no datagram yet";
   return rtt + age + text("  jitter %.1f ms", link.jitter_s * 1e3) + silence;
 }
 
@@ -137,7 +137,7 @@ std::string gripper_in_words(const MasterView& view) {
 }
 
 std::string tool_line(const ConsoleSnapshot& s) {
-  if (!s.view.far_known) return "not heard yet";
+  if (!s.view.far_known) return "no data yet";
   const Vector3& p = s.view.far.X_WE.p;
   std::string line = text("x %+8.4f  y %+8.4f  z %+8.4f m", p.x(), p.y(), p.z());
   if (const auto age_s = age_of_news_s(s)) line += text("  (%.1f s ago)", *age_s);
@@ -183,10 +183,10 @@ void add_forces(Page& page, const ConsoleSnapshot& s, int width) {
   page.line("hand",
             text("%7.2f N ", hand) + bar(hand, s.force_max_n, length) + text(" %.0f N", s.force_max_n),
             s.view.force_clamped ? Tone::kWarn : Tone::kPlain);
-  page.line(
-      "robot",
-      text("%7.2f N ", robot) + bar(robot, s.force_max_n, length) + (s.view.silent ? " when last heard" : ""),
-      s.view.silent ? Tone::kDim : Tone::kPlain);
+  page.line("robot",
+            text("%7.2f N ", robot) + bar(robot, s.force_max_n, length) +
+                (s.view.silent ? " when last received" : ""),
+            s.view.silent ? Tone::kDim : Tone::kPlain);
 }
 
 void add_clamps(Page& page, const MasterView& view) {
@@ -220,13 +220,13 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.whole("");
   page.line("hand at", millimetres(s.view.p_MH));
   page.line("goal", millimetres(s.view.goal_m) + " from anchor");
-  page.line("forecast", millimetres(s.view.forecast.p) + " when the robot hears it");
+  page.line("forecast", millimetres(s.view.forecast.p) + " when the robot receives it");
   page.line("tool at", tool_line(s));
   page.whole("");
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
   page.line("contact", contact_line(s), s.view.in_contact ? Tone::kPlain : Tone::kDim);
   add_forces(page, s, width);
-  page.line("energy", text("%+.2f mJ into the hand's port, least %+.2f mJ", s.view.port_energy_j * 1e3,
+  page.line("energy", text("%+.2f mJ into the hand's port, minimum %+.2f mJ", s.view.port_energy_j * 1e3,
                            s.view.port_energy_min_j * 1e3));
   page.whole("");
   add_clamps(page, s.view);

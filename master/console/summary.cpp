@@ -126,21 +126,20 @@ std::string RunSummary::engaged_in_words(const Summary& s) const {
   std::string text = formatted("engaged for %.1f of %.1f s (%.0f %%)", s.engaged_s, last_s_,
                                last_s_ > 0.0 ? 100.0 * s.engaged_s / last_s_ : 0.0);
   if (s.engaged_s > 0.0) return text;
-  if (s.refusal.empty()) return text + ": nobody has asked for it, or the slave was not received";
+  if (s.refusal.empty()) return text + ": no engagement was requested, or the slave was not received";
   return text + ": " + s.refusal;
 }
 
 void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) const {
   std::vector<SummaryCheck>& checks = s.checks;
-  checks.push_back(
-      {s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: nothing measured",
-       s.rtt_s.has_value()});
+  checks.push_back({s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: not measured",
+                    s.rtt_s.has_value()});
   checks.push_back({engaged_in_words(s), s.engaged_s > 0.0});
   const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
   if (cut_to_n_per_m_ > 0.0) {
     std::string line = "the wall is stiffer than this device can render: ";
     if (config_.wall_n_per_m) line += formatted("%.3f N/mm were ", 1e-3 * config_.ke * *config_.wall_n_per_m);
-    checks.push_back({line + formatted("cut to %.3f N/mm", 1e-3 * cut_to_n_per_m_), true, true});
+    checks.push_back({line + formatted("limited to %.3f N/mm", 1e-3 * cut_to_n_per_m_), true, true});
   } else if (both) {
     const double shown = *s.displayed_stiffness_n_per_m;
     const double estimated = *s.expected_stiffness_n_per_m;
@@ -152,13 +151,13 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
     checks.push_back({line, std::fabs(error) <= config_.stiffness_error_max});
   } else if (config_.contact_expected) {
     checks.push_back(
-        {s.touched ? "displayed stiffness: touched too shortly to measure it" : "no contact", false});
+        {s.touched ? "displayed stiffness: the contact was too short to measure it" : "no contact", false});
   }
-  checks.push_back({formatted("port energy at least %.3f mJ, %.3f mJ came out of the rendering",
+  checks.push_back({formatted("minimum port energy %.3f mJ, %.3f mJ were returned to the operator",
                               in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
                     s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
                         s.energy_drawdown_j <= config_.energy_out_max_j});
-  checks.push_back({formatted("largest rise of the force by a report %.3f N", s.force_step_max_n),
+  checks.push_back({formatted("largest increase of the force by a report %.3f N", s.force_step_max_n),
                     s.force_step_excess_n <= 0.0});
   const RunCounters& n = s.counters;
   std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
@@ -167,7 +166,7 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
   add_holds(s, hand);
   checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
   std::string limits = count_text(n.limit_violations, "limit violations");
-  if (n.limit_violations > 0) limits += ": which ones is in the slave's log and in longreach status";
+  if (n.limit_violations > 0) limits += ": the slave's log and longreach status name them";
   checks.push_back({limits, n.limit_violations == 0});
 }
 

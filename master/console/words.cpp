@@ -34,17 +34,17 @@ std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
   if (robot.joint_position)
-    return "a joint of the robot is at the end of its range: it does not follow any further this way";
+    return "a joint of the robot is at the end of its range: it follows no further in this direction";
   if (robot.workspace)
-    return "the robot stands at the edge of its workspace: it does not follow any further this way";
+    return "the robot is at the edge of its workspace: it follows no further in this direction";
   if (robot.unreachable)
-    return "the goal is out of the robot's reach: it does not follow any further this way";
-  if (robot.force_guard) return "the force guard lets the robot go no deeper";
-  if (robot.moment_guard) return "the moment guard lets the robot turn no further";
+    return "the goal is out of the robot's reach: it follows no further in this direction";
+  if (robot.force_guard) return "the force guard stops the robot from going deeper";
+  if (robot.moment_guard) return "the moment guard stops the robot from turning further";
   if (!behind(view.far)) return "";
-  if (robot.singularity) return "near a singular pose the robot follows slowly";
-  if (robot.joint_speed) return "a joint of the robot is at its speed limit: it follows late";
-  if (robot.tool_speed) return "the robot is at its speed limit: it follows late";
+  if (robot.singularity) return "the robot follows slowly near a singular pose";
+  if (robot.joint_speed) return "a joint of the robot is at its speed limit: the robot lags";
+  if (robot.tool_speed) return "the robot is at its speed limit: it lags";
   return "";
 }
 
@@ -56,43 +56,43 @@ bool turned_against(const MasterView& view) {
 std::string touching(const ConsoleSnapshot& s) {
   const double k = s.view.stiffness_n_per_m;
   if (turned_against(s.view))
-    return formatted("turned against a stop: it gives %.3g N m/rad", s.view.rotational_stiffness_nm_per_rad);
-  if (!(k > 0.0)) return "touching: the slave is still measuring the wall";
+    return formatted("turned against a stop of %.3g N m/rad", s.view.rotational_stiffness_nm_per_rad);
+  if (!(k > 0.0)) return "contact: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
-    return formatted("the robot touches; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
+    return formatted("contact of the robot; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
   }
-  return formatted("touching: the wall gives %.2f N/mm", k * 1e-3);
+  return formatted("contact: the wall has %.2f N/mm", k * 1e-3);
 }
 
 std::string engaging(const ConsoleSnapshot& s) {
-  if (s.view.refusal != HoldCause::kNone) return "engaging, not granted yet: " + refusal_in_words(s.view);
+  if (s.view.refusal != HoldCause::kNone) return "engaging, not yet granted: " + refusal_in_words(s.view);
   if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's answer";
   if (*s.view.answer_in_s < 0.05)
     return formatted("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
-  return formatted("engaging: the slave's answer can be here in %.1f s (round trip %.2f s)",
+  return formatted("engaging: the slave's answer can arrive in %.1f s (round trip %.2f s)",
                    *s.view.answer_in_s, *s.link.rtt_s);
 }
 
 std::string following(const ConsoleSnapshot& s) {
-  if (s.view.clutched) return "clutch: the hand moves freely, the robot keeps its place";
+  if (s.view.clutched) return "clutch: the hand moves freely, the robot stays in place";
   const std::string limit = held_back(s.view);
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
   if (turned_against(s.view)) {
-    return formatted("the stop is remembered here, %.3g N m/rad; the robot is not touching it",
+    return formatted("remembered stop, %.3g N m/rad; the robot does not touch it",
                      s.view.rotational_stiffness_nm_per_rad) +
            as_of(s);
   }
   if (s.view.spring_force_n.norm() > 0.0) {
-    return formatted("the wall is remembered here, %.2f N/mm; the robot is not touching it",
+    return formatted("remembered wall, %.2f N/mm; the robot does not touch it",
                      s.view.stiffness_n_per_m * 1e-3) +
            as_of(s);
   }
   const bool rate = s.view.mode == MotionMode::kRate;
-  return (rate ? "moving freely: the hand's deflection sets the robot's speed"
-               : formatted("moving freely: the robot follows the hand, scaled by %.2f", s.view.scale)) +
-         (s.turns ? "" : "; its orientation stays, as this handle does not turn") + as_of(s);
+  return (rate ? "free motion: the deflection of the hand sets the speed of the robot"
+               : formatted("free motion: the robot follows the hand, scaled by %.2f", s.view.scale)) +
+         (s.turns ? "" : "; its orientation is constant, because this handle does not turn") + as_of(s);
 }
 
 std::string holding(const ConsoleSnapshot& s) {
@@ -102,13 +102,13 @@ std::string holding(const ConsoleSnapshot& s) {
   const std::string begin = "holding: " + cause_in_words(view);
   if (view.cause == HoldCause::kLinkSilent && !view.cause_is_far) {
     if (view.silent)
-      return formatted("holding: nothing has come from the slave for %.1f s", s.link.silence_s) +
-             (view.resumes ? "" : "; engage when the link is back");
-    return formatted("holding: nothing came from the slave for %.1f s; the link is back: ",
+      return formatted("holding: nothing received from the slave for %.1f s", s.link.silence_s) +
+             (view.resumes ? "" : "; engage when the link has recovered");
+    return formatted("holding: nothing was received from the slave for %.1f s; the link has recovered: ",
                      view.hold_silence_s) +
-           (view.resumes ? "it goes on by itself" : "engage to resume");
+           (view.resumes ? "it resumes automatically" : "engage to resume");
   }
-  if (view.resumes) return begin + "; it goes on by itself if that is over at once";
+  if (view.resumes) return begin + "; it resumes automatically if this ends at once";
   if (view.cause == HoldCause::kDelayRose && !view.cause_is_far && view.rtt_s && view.rtt_least_s)
     return formatted("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
                      *view.rtt_least_s, *view.rtt_s);
@@ -117,18 +117,18 @@ std::string holding(const ConsoleSnapshot& s) {
 
 std::string observing(const ConsoleSnapshot& s) {
   if (s.view.silent)
-    return formatted("observing: nothing has come from the slave for %.1f s; engage when it is back",
+    return formatted("observing: nothing received from the slave for %.1f s; engage when it is back",
                      s.link.silence_s);
-  if (s.view.hand_missing) return "observing: the robot is at rest; take hold of the handle to engage";
+  if (s.view.hand_missing) return "observing: the robot is at rest; grasp the handle to engage";
   if (s.view.refusal != HoldCause::kNone) return "observing: not engaged: " + refusal_in_words(s.view);
   if (s.view.far_state == SafetyState::kFault) {
     const std::string why = s.view.far_known ? sentence(s.view.far.cause) : "";
     return "observing: the slave has a fault" + (why.empty() ? "" : ", " + why) +
-           "; engage when it is mended";
+           "; engage when it is repaired";
   }
   if (s.view.cause != HoldCause::kNone)
     return "observing: " + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
-  return "observing: the robot is at rest; engage to take it";
+  return "observing: the robot is at rest; engage to take control";
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ std::string cause_in_words(const MasterView& view) {
   if (!view.cause_is_far) return sentence(view.cause);
   const bool lasts = view.far_state == SafetyState::kHolding || view.far_state == SafetyState::kStopped ||
                      view.far_state == SafetyState::kFault || view.state == SafetyState::kObserving;
-  return (lasts ? "at the slave: " : "at the slave, over now: ") + sentence(view.cause);
+  return (lasts ? "at the slave: " : "at the slave, now over: ") + sentence(view.cause);
 }
 
 std::string refusal_in_words(const MasterView& view) {
@@ -166,23 +166,26 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   std::vector<std::string> words;
   if (view.force_clamped) words.emplace_back("hand force: at its limit");
   if (view.stiffness_clamped)
-    words.push_back(formatted("stiffness: cut to %.3g N/mm, the most that this device can render",
+    words.push_back(formatted("stiffness: limited to %.3g N/mm, the maximum that this device can render",
                               1e-3 * view.stiffness_max_n_per_m));
   if (view.rotational_stiffness_clamped)
     words.push_back(
-        formatted("rotational stiffness: cut to %.3g N m/rad, the most that this device can render",
+        formatted("rotational stiffness: limited to %.3g N m/rad, the maximum that this device can render",
                   view.rotational_stiffness_max_nm_per_rad));
-  if (view.damping_injected) words.emplace_back("hand: damped so that no energy comes out");
-  if (view.at_boundary) words.emplace_back("hand: at the edge of its space, move it back with the clutch");
+  if (view.damping_injected) words.emplace_back("hand: damped so that no energy is returned");
+  if (view.at_boundary)
+    words.emplace_back(
+        "hand: at the edge of its workspace, move it back with the "
+        "clutch");
   if (!view.far_known || view.silent) return words;  // what was clamped then
   const Clamps& robot = view.far.clamps;
   const bool late = behind(view.far);
   if (robot.tool_speed && late) words.emplace_back("robot: at its tool speed limit, it will catch up");
   if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
   if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
-  if (robot.workspace) words.emplace_back("robot: the goal is outside of the workspace");
-  if (robot.force_guard) words.emplace_back("robot: the force guard lets it go no deeper");
-  if (robot.moment_guard) words.emplace_back("robot: the moment guard lets it turn no further");
+  if (robot.workspace) words.emplace_back("robot: the goal is outside the workspace");
+  if (robot.force_guard) words.emplace_back("robot: stopped by the force guard");
+  if (robot.moment_guard) words.emplace_back("robot: stopped by the moment guard");
   if (robot.singularity && late) words.emplace_back("robot: slowed down near a singular pose");
   if (robot.unreachable) words.emplace_back("robot: the goal is out of reach");
   return words;
@@ -190,7 +193,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
 
 std::string happening(const ConsoleSnapshot& s) {
   if (!s.trouble.empty()) return s.trouble;
-  if (!heard(s)) return "waiting for the first news from the slave";
+  if (!heard(s)) return "waiting for the first datagram of the slave";
   switch (s.view.state) {
     case SafetyState::kIdle:
     case SafetyState::kObserving:

@@ -68,7 +68,7 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
                                  grpc::ServerWriter<proto::Frame>* writer) {
   if (!take(followers_, kFollowersMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            std::to_string(kFollowersMax) + " clients follow the master already: end one of them"};
+            std::to_string(kFollowersMax) + " clients already follow the master: close one of them"};
   }
   // A frame that waits in a buffer is an old frame.
   const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
@@ -84,7 +84,7 @@ grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<
                                proto::Outcome* answer) {
   if (!take(hands_there_, kHandsMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            std::to_string(kHandsMax) + " hands reach for the handle already: end one of them"};
+            std::to_string(kHandsMax) + " clients already control a hand: close one of them"};
   }
   const grpc::Status status = follow_hand(*context, *reader, *answer);
   leave_handle(*context);
@@ -97,25 +97,27 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
   const std::uint64_t hand = take_handle(context);
   if (hand == 0) {
     return {grpc::StatusCode::FAILED_PRECONDITION,
-            "another hand is on the handle; it has to let go first, or to be silent for 0.3 s"};
+            "another hand is on the handle; it must release the handle first, or be silent for 0.3 s"};
   }
   for (proto::HandAim message; reader.Read(&message);) {
     if (is_revoked(*context.auth_context()))
       return {grpc::StatusCode::PERMISSION_DENIED, "the certificate of this host has been revoked"};
     if (message.lets_go()) {
       (void)pass(hand, {});
-      answer.set_message("the hand has let go");
+      answer.set_message("the hand has released the handle");
       return grpc::Status::OK;
     }
     const auto aim = to_aim(message, reach_);
     if (!aim) {
       return {grpc::StatusCode::INVALID_ARGUMENT,
-              "position_m and rotation_rad are three finite numbers each, up to 1e6"};
+              "position_m and rotation_rad must be three finite numbers each, up to 1e6"};
     }
     if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand has taken the handle"};
   }
   // What it last said grows old, and that is a hold. A stream that breaks may look like one that was closed.
-  return {grpc::StatusCode::CANCELLED, "the hand has gone without letting go: the robot holds"};
+  return {grpc::StatusCode::CANCELLED,
+          "the connection of the hand ended without releasing the handle: the "
+          "robot holds"};
 }
 
 bool DeskService::take(int& taken, int places) {

@@ -7,7 +7,7 @@
 //
 // c is what must have happened, whatever lies in the cells. It never points against the motion and is zero
 // while the handle stays within a cell, so that damping -B v, too, takes energy or does nothing. Where the
-// handle turns round it says nothing for the width of a cell; in motion it is that of the encoders. A count
+// handle turns round, the encoder reports nothing for the width of a cell; in motion it is that of the encoders. A count
 // that comes alone, t after the last, is a speed of c/t at most and no blow: a = min(1, 20 ms/t).
 //
 // A spring on the cells of the encoders is a relay, which with the delay of a sample feeds a cycle within a

@@ -90,15 +90,14 @@ void Keyboard::read_all(MotionMode mode) {
 std::string_view Keyboard::notice() const {
   if (!trouble_.empty()) return "";
   if (parser_.overdue())
-    return "a paste or a control string at the keyboard has no end: of its keys only x (stop) acts; press "
-           "Esc";
-  if (let_go_) return "no key came for 2 s in rate mode: the hand went home; Enter held keeps it where it is";
+    return "a paste or a control string at the keyboard has not ended: only the key x (stop) acts; press Esc";
+  if (let_go_) return "no key for 2 s in rate mode: the hand went home; hold Enter to keep it in place";
   return "";
 }
 
 void Keyboard::end(const std::string& why) {
   ended_ = true;
-  trouble_ = (used_ ? "the keyboard has ended" : "no keyboard is there") + (" (" + why) +
+  trouble_ = (used_ ? "the keyboard input has ended" : "no keyboard is available") + (" (" + why) +
              "); start longreach-master in a terminal, or use another operator";
 }
 

@@ -2,7 +2,7 @@
 // Keys, and what they ask for. Pure.
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
-// the large step; space: let go, home; m mode; + - scale; c clutch; g gripper closed or open; e engage;
+// the large step; space: home; m: mode; + - scale; c clutch; g gripper closed or open; e engage;
 // x stop; q quit; ? keys. Other keys, as Enter, only keep the hand where it is in rate mode.
 
 #include <string_view>

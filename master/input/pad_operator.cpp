@@ -20,16 +20,16 @@ const AxisHandState& PadOperator::poll(MotionMode mode, double felt, double dt_s
 
 std::string PadOperator::trouble() const {
   if (last_.silent)
-    return gamepad_ ? "the gamepad reports nothing new: it counts as let go; move or release the sticks"
-                    : "the SpaceMouse reports nothing new: it counts as let go; move or release the puck";
+    return gamepad_ ? "the gamepad sends no new reports and counts as released; move or release the sticks"
+                    : "the SpaceMouse sends no new reports and counts as released; move or release the puck";
   if (last_.armed) return "";
   if (last_.level.present) {
-    return gamepad_ ? "the sticks are not at rest; let go of them once"
-                    : "the puck is not at rest; let go of it once";
+    return gamepad_ ? "the sticks are not at rest; release them once"
+                    : "the puck is not at rest; release it once";
   }
-  if (space_mouse_) return "no SpaceMouse is there; plug it in and start spacenavd, then engage";
-  if (config_.pad.empty()) return "no gamepad or joystick is there; plug it in, then engage";
-  return "no gamepad or joystick with \"" + config_.pad + "\" in its name is there; plug it in, then engage";
+  if (space_mouse_) return "no SpaceMouse found; plug it in and start spacenavd, then engage";
+  if (config_.pad.empty()) return "no gamepad or joystick found; plug it in, then engage";
+  return "no gamepad or joystick found with \"" + config_.pad + "\" in its name; plug it in, then engage";
 }
 
 std::string_view PadOperator::key_line() const {

@@ -1,7 +1,7 @@
 #pragma once
 // A SpaceMouse by spacenavd: the puck's six deflections and its buttons. libspnav is loaded by the first
 // object, and by nobody else; one object at a time. Poll it in one thread, outside the loop. A daemon that
-// ends, or says that the device is unplugged, is a device that is not there; both are looked for again.
+// ends, or reports that the device is unplugged, is a device that is not there; both are looked for again.
 //
 //   push the puck away: x, to the left: y, up: z; turns likewise
 

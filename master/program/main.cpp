@@ -102,7 +102,9 @@ std::string notes_on(const MasterConfig& config, const std::string& before) {
                      formatted(": renders at most %.3g N/mm, ", 1e-3 * most_n_per_m) +
                      formatted("workspace up to %.3g mm", 1e3 * config.device.delta.workspace_m) + "\n";
   if (!config.device.turns)
-    text += before + "the handle does not turn: the robot keeps its orientation, and no moment is rendered\n";
+    text += before +
+            "the handle does not turn: the orientation of the robot is constant, and no moment is "
+            "rendered\n";
   return text;
 }
 
@@ -123,9 +125,8 @@ void log_device(const MasterConfig& config, bool chosen) {
   spdlog::info("device adapter={}", config.device_adapter.address);
   if (!chosen)
     spdlog::warn(
-        "device file=default because=\"device_file is not set: what is rendered relies on the damping, mass "
-        "and "
-        "encoders of {}\" do=\"set device_file to that of your device\"",
+        "device file=default because=\"device_file is not set: the rendering relies on the damping, mass "
+        "and encoders of {}\" do=\"set device_file to the file of your device\"",
         config.device.name);
 }
 
@@ -201,31 +202,36 @@ int operate(const MasterOptions& options) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "The operator's side of longreach: reads the hands, commands the slave, renders what it touches.",
+      "The operator's side of longreach: reads the handles, commands the slave, renders the contacts.",
       "longreach-master"};
   longreach::MasterOptions options;
   longreach::add_program_options(app, options, "longreach-master " LONGREACH_VERSION);
   app.add_option(
          "--operator", options.operator_kind,
-         "Who moves the hand: script, keyboard, gamepad (or joystick), spacemouse or none (operator.kind)")
+         "Operator of the simulated handle: script, keyboard, gamepad (or joystick), spacemouse or none "
+         "(operator.kind)")
       ->type_name("KIND")
       ->check(CLI::IsMember(longreach::names_of(*longreach::proto::Operator::Kind_descriptor()),
                             CLI::ignore_case));
   app.add_option("--adapter", options.adapter,
-                 "A real haptic device: where its adapter listens (device_adapter.address); without it a "
-                 "simulated one")
+                 "Address of the adapter of a real haptic device (device_adapter.address); default: a "
+                 "simulated device")
       ->type_name("unix:/PATH");
   app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")
       ->type_name("MODE")
       ->check(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
-  app.add_flag("--engage", options.engage, "Engage when the slave is first heard (safety.engage_at_start)");
+  app.add_flag("--engage", options.engage,
+               "Engage when the first datagram of the slave arrives "
+               "(safety.engage_at_start)");
   app.add_flag("--take", options.take,
-               "Take the robot from a master that has it; it holds until this one engages");
-  app.add_option("--view", options.view, "auto: live on a terminal, else plain; plain: a line a second; none")
+               "Take control of the robot from another master; the robot holds until this master engages");
+  app.add_option("--view", options.view,
+                 "auto: live on a terminal, otherwise plain; plain: a line per "
+                 "second; none")
       ->transform(CLI::IsMember({"auto", "plain", "none"}, CLI::ignore_case))
       ->capture_default_str();
   app.add_option("--wall", options.wall_n_per_m,
-                 "True stiffness of what will be touched, where it is known: the summary judges by it")
+                 "True stiffness of the touched object, if known; the summary compares against it")
       ->type_name("N_PER_M")
       ->check(longreach::number_above_zero());
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });

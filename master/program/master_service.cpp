@@ -141,14 +141,12 @@ std::optional<Refusal> MasterService::engage() {
   const double silence_s = snapshot().side.link.silence_s;
   if (!(silence_s <= config_.present()->safety().silence_s())) {
     return Refusal{Refusal::Kind::kPrecondition,
-                   "the slave is not heard; check that longreach-slave runs and that link.slave and "
-                   "link.slave_rpc lead to "
-                   "it; the master's log says more"};
+                   "no datagram arrives from the slave; check that longreach-slave runs and that link.slave "
+                   "and link.slave_rpc are its addresses; the master's log has details"};
   }
   if (snapshot().view.hand_missing) {
-    return Refusal{
-        Refusal::Kind::kPrecondition,
-        "no hand is on the handle; take hold of it and engage then, or set safety.presence to IGNORE"};
+    return Refusal{Refusal::Kind::kPrecondition,
+                   "no hand is on the handle; grasp it and then engage, or set safety.presence to IGNORE"};
   }
   OperatorRequests requests;
   requests.engage = true;
@@ -182,11 +180,11 @@ bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(
 
 std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
     const proto::OpenSessionRequest&, const std::string&) {
-  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are opened at the slave"};
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; open sessions at the slave"};
 }
 
 std::optional<Refusal> MasterService::close_session(std::uint64_t) {
-  return Refusal{Refusal::Kind::kPrecondition, "this is the master; sessions are closed at the slave"};
+  return Refusal{Refusal::Kind::kPrecondition, "this is the master; close sessions at the slave"};
 }
 
 SideRecording<MasterRecordBuffer>::Request MasterService::recording_request(double max_mb) const {

@@ -48,7 +48,7 @@ struct MasterSafetyInput {
   Time now{};
   std::optional<Time> last_heard{};  // any valid datagram of the slave
   std::uint32_t peer_restarts = 0;   // sessions of the slave after its first
-  bool taken = false;                // another master has the robot: a level
+  bool taken = false;                // another master has control of the robot: a level
   bool device_ok = true;
   bool held = true;         // a hand is on the handle
   bool hand_stale = false;  // what is known of it is too old: a level

@@ -42,10 +42,10 @@ void SimulatedDelta::require_workspace() const {
       return;
     throw GeometryError(name);
   };
-  require(Vector3::Zero(), "home_height_m: the platform cannot be there");
+  require(Vector3::Zero(), "home_height_m: the platform cannot reach this position");
   each_direction([&](const Vector3& d) {
     require(kDeltaBeyond * workspace_m_ * d,
-            "workspace_m: the device cannot move that far from home everywhere");
+            "workspace_m: the device cannot move this far from home in every direction");
   });
 }
 

@@ -38,7 +38,7 @@ double sd_along(const Eigen::Matrix4d& covariance, const Eigen::Vector4d& h) {
   return std::sqrt(std::max(h.dot(covariance * h), 0.0));
 }
 
-// At the touch, while the speed has hardly changed, elastic and damping force cannot be told apart. What
+// At the touch, while the speed has hardly changed, elastic and damping force are not distinguishable. What
 // helps is that contacts are met slowly. Given up as soon as the samples contradict. a may be far off and a v
 // not small, so this is done where the law is nearly linear: in b = d ln F/dv and ln F at the mean speed,
 // which does not depend on b.

@@ -51,7 +51,7 @@ Placed Refinement::moved(const Placed& from, bool damped) const {
   return at(from.joint_rad + newton_step(J_m, e_m));
 }
 
-// Each step the better of two: one leaves out directions that are all but lost, and so keeps their rounding
+// Each step the better of two: one omits directions that are all but lost, and so keeps their rounding
 // out; the other goes along with them first, towards the one root of two that have met.
 bool Refinement::newton(Placed& placed) const {
   constexpr int kStepsMax = 24, kTimeout = 2;  // between two roots that met, a step halves the distance

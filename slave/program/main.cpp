@@ -72,9 +72,8 @@ void warn_of_singular_start(const SlaveConfig& config) {
   const InverseResult at = inverse.solve(inverse.kinematics().forward(start_rad), start_rad, {});
   if (at.conditioning >= kSingularBand) return;
   spdlog::warn(
-      "start pose=singular conditioning={:.3f} below={} because=\"in some directions the tool cannot move "
-      "from "
-      "there; choose another robot.joint.start_rad\"",
+      "start pose=singular conditioning={:.3f} below={} because=\"the tool cannot move from this pose in "
+      "some directions; choose another robot.joint.start_rad\"",
       at.conditioning, kSingularBand);
 }
 
@@ -89,8 +88,7 @@ void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& 
   if (from_file && !config.has_robot_file())
     spdlog::warn(
         "robot file=default because=\"robot_file is not set: joints, limits and kinematics are those of {}\" "
-        "do=\"set "
-        "robot_file to that of your robot\"",
+        "do=\"set robot_file to the file of your robot\"",
         config.robot().name());
 }
 
@@ -109,7 +107,8 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
   if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
   if (!config.scene().has_bodies()) left_out += left_out.empty() ? "free bodies" : ", free bodies";
   if (!left_out.empty())
-    spdlog::info("left out=\"{}\" because=\"the scene {} needs none\"", left_out, config.scene().name());
+    spdlog::info("left out=\"{}\" because=\"the scene {} does not need it\"", left_out,
+                 config.scene().name());
 }
 
 struct SlaveOptions : ProgramOptions {
@@ -192,19 +191,20 @@ int serve(const SlaveOptions& options) {
 }  // namespace longreach
 
 int main(int argc, char** argv) {
-  CLI::App app{"The robot's side of longreach: follows an engaged master, and acts alone when it must.",
-               "longreach-slave"};
+  CLI::App app{
+      "The robot's side of longreach: follows an engaged master, and acts autonomously if "
+      "necessary.",
+      "longreach-slave"};
   longreach::SlaveOptions options;
   longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
   app.add_flag(
       "--pair", options.pair,
-      "Do not drive the robot: print a token by which another host becomes master and client of this "
-      "site, and wait for it (log: pairing.log in the site folder)");
-  app.add_option(
-         "--adapter", options.adapter,
-         "A real robot: where its adapter listens (robot_adapter.address); without it a simulated one")
+      "Do not drive the robot: print a token that lets another host become a master and client of this "
+      "site, and wait for that host (log: pairing.log in the site folder)");
+  app.add_option("--adapter", options.adapter,
+                 "Address of the adapter of a real robot (robot_adapter.address); default: a simulated robot")
       ->type_name("unix:/PATH");
-  app.add_option("--pair-listen", options.pair_listen, "Where to wait for it")
+  app.add_option("--pair-listen", options.pair_listen, "Address to wait at for the joining host")
       ->type_name("ADDRESS:PORT")
       ->check(longreach::address_by_its_form())
       ->capture_default_str();

@@ -19,7 +19,7 @@ namespace {
 using google::protobuf::util::MessageDifferencer;
 
 Refusal at_the_master(const std::string& what) {
-  return {Refusal::Kind::kPrecondition, what + " is decided at the master; the slave only follows"};
+  return {Refusal::Kind::kPrecondition, what + " is set at the master; the slave only follows"};
 }
 
 /// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
@@ -31,7 +31,7 @@ std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
          " is less than three send periods of a master with "
          "link.send_hz = " +
          format_number(send_hz) + ": set it to " + format_number(least_s) +
-         " or more at the slave, or link.send_hz higher at the master";
+         " or more at the slave, or increase link.send_hz at the master";
 }
 
 /// limit_violations_LIMIT each, as limit_violations_joint_speed.
@@ -155,8 +155,10 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
   }
   const double send_hz = request.send_hz();
   if (!(send_hz >= 50.0 && send_hz <= 4000.0)) {
-    return Refusal{Refusal::Kind::kInvalid, "a master sends 50 to 4000 times a second, not " +
-                                                format_number(send_hz) + "; use programs of one version"};
+    return Refusal{Refusal::Kind::kInvalid, "a master must send 50 to 4000 times a second, not " +
+                                                format_number(send_hz) +
+                                                "; use programs of the same "
+                                                "version"};
   }
   if (std::string why = too_short(config_.present()->safety(), send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
@@ -181,14 +183,14 @@ Refusal SlaveService::occupied(const std::string& caller) {
   if (caller != refused_) spdlog::warn("lease refused={} holder={}", caller, holder);
   refused_ = caller;
   return {Refusal::Kind::kPrecondition,
-          "another master has the robot (" + holder +
-              "); end that one, wait until it has been silent for 1 s, or start this one with --take",
+          "another master has control of the robot (" + holder +
+              "); end that master, wait until it has been silent for 1 s, or start this one with --take",
           holder};
 }
 
 std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
   if (post(shell_.mailbox(), SlaveCommand(SlaveReturn{session})))
-    return Refusal{Refusal::Kind::kPrecondition, "this master does not have the robot"};
+    return Refusal{Refusal::Kind::kPrecondition, "this master does not have control of the robot"};
   spdlog::info("lease returned by={}", lease());
   recording_.add_event("lease returned by " + lease());
   set_lease("");

@@ -70,7 +70,7 @@ class SlaveShell {
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
-  /// `taken`: whether another master has the robot from this tick on.
+  /// `taken`: whether another master has control of the robot from this tick on.
   LoopAnswer obey(const SlaveCommand& command, Time now, bool& taken);
   [[nodiscard]] bool occupied(Time now) const;
   void write_down(const SlaveInput& in, const SlaveOutput& out);

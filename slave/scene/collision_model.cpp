@@ -124,7 +124,7 @@ struct CollisionModel::Engine {
     model->opt.mpr_iterations = 200;
   }
 
-  // For all contacts that any pose can have, whatever the file says: MuJoCo leaves out what has no room.
+  // For all contacts that any pose can have, whatever the file says: MuJoCo omits what has no room.
   void make_room(const std::string& file) {
     int pairs = 0;
     for (int a = 0; a < model->ngeom; ++a) {
@@ -137,8 +137,10 @@ struct CollisionModel::Engine {
       }
     }
     if (pairs > kPairsMax)
-      refuse(file, "has " + std::to_string(pairs) + " pairs of geoms that may meet; at most " +
-                       std::to_string(kPairsMax) + " are possible: part them with contype and conaffinity");
+      refuse(file, "has " + std::to_string(pairs) + " pairs of geoms that may touch; at most " +
+                       std::to_string(kPairsMax) +
+                       " are possible: exclude pairs with contype and "
+                       "conaffinity");
     model->nconmax = pairs * mjMAXCONPAIR;
   }
 
@@ -177,7 +179,7 @@ void CollisionModel::take_bodies() {
     if (m.body_parentid[b] != 0 || m.body_jntnum[b] != 1 || m.jnt_type[joint] != mjJNT_FREE)
       refuse(file_,
              "the body \"" + name +
-                 "\" is neither free nor at rest; give it a freejoint or no joint, and no parent that moves");
+                 "\" is neither free nor fixed; give it a freejoint or no joint, and no moving parent");
     if (name == kTool) {
       tool_body = b;
       continue;
@@ -190,7 +192,10 @@ void CollisionModel::take_bodies() {
     engine_->place.push_back(m.jnt_qposadr[joint]);
     engine_->X_IB.push_back(inverse(X_BI));
   }
-  if (tool_body < 0) refuse(file_, "has no body \"tool\" with a freejoint, for what moves with the tool");
+  if (tool_body < 0)
+    refuse(file_,
+           "has no body \"tool\" with a freejoint, which represents the parts that "
+           "move with the tool");
   if (bodies_.empty() || bodies_.size() > kBodiesMax)
     refuse(file_, "has " + std::to_string(bodies_.size()) + " free bodies besides the tool; 1 to " +
                       std::to_string(kBodiesMax) + " are possible");

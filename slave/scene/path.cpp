@@ -34,17 +34,17 @@ Path::Path(const PathConfig& config, const Vector3& p_WE_start) {
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {
     const Vector3 way = p[i + 1] - p[i];
     const double leg_m = way.norm();
-    if (!(leg_m > 0.0)) throw std::invalid_argument("path: two waypoints in one place");
+    if (!(leg_m > 0.0)) throw std::invalid_argument("path: two waypoints are at the same position");
     const Vector3 direction = way / leg_m;
     const bool last = i + 2 == p.size();
     const Vector3 next = last ? direction : (p[i + 2] - p[i + 1]).normalized();
     const double turn_rad = angle_between(direction, next);
-    if (turn_rad > kBackRad) throw std::invalid_argument("path: it turns back");
+    if (turn_rad > kBackRad) throw std::invalid_argument("path: it reverses its direction");
     const bool turns = turn_rad > kStraightRad && config.turn_radius_m > 0.0;
     const double next_cut_m = turns ? config.turn_radius_m * std::tan(0.5 * turn_rad) : 0.0;
     const double line_m = leg_m - cut_m - next_cut_m;
     if (!(line_m >= -kLegRounding * leg_m))
-      throw std::invalid_argument("path: a leg is too short for its turns");
+      throw std::invalid_argument("path: a segment is too short for its turns");
     add({.from_m = p[i] + cut_m * direction, .direction = direction, .length_m = std::max(line_m, 0.0)});
     if (turns) {
       add({.from_m = p[i + 1] - next_cut_m * direction,

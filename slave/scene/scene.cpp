@@ -27,8 +27,7 @@ HuntCrossley law_of(const SceneConfig& config, const SurfaceConfig& surface) {
 
 Vector3 direction(const SurfaceConfig& surface, const Vector3& v) {
   const double length = v.stableNorm();
-  if (!(length > 0.0) || !std::isfinite(length))
-    refuse(surface, "has an axis or a normal without a direction");
+  if (!(length > 0.0) || !std::isfinite(length)) refuse(surface, "has an axis or a normal of length zero");
   return v / length;
 }
 

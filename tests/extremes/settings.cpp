@@ -97,15 +97,21 @@ std::vector<ExtremeRow> extreme_settings() {
            [](const proto::Range& r) { return r.min() - 1e-3 * std::max(1e-3, std::abs(r.min())); })}};
   ExtremeRow nothing{"configuration: directions and shapes of nothing",
                      "refused with the reason",
-                     setting("one that is right", "scene.surface.0.plane.normal", "0,0,1", "no direction"),
-                     {setting("normal 0", "scene.surface.0.plane.normal", "0,0,0", "no direction"),
-                      setting("n 1e-200", "scene.surface.0.plane.normal", "1e-200,0,0", "no direction"),
-                      setting("operator 0", "operator.direction", "0,0,0", "no direction"),
+                     setting("one that is right", "scene.surface.0.plane.normal", "0,0,1",
+                             "does not define "
+                             "a direction"),
+                     {setting("normal 0", "scene.surface.0.plane.normal", "0,0,0",
+                              "does not define a "
+                              "direction"),
+                      setting("n 1e-200", "scene.surface.0.plane.normal", "1e-200,0,0",
+                              "does not define a "
+                              "direction"),
+                      setting("operator 0", "operator.direction", "0,0,0", "does not define a direction"),
                       setting("k = 0", "scene.material.0.stiffness_n_per_m", "0", "outside 0 (excluded)"),
                       setting("k = 1.1e9", "scene.material.0.stiffness_n_per_m", "1.1e9", "to 1e9"),
                       setting("n = 0.9", "scene.material.0.exponent", "0.9", "outside 1 to 3"),
                       setting("n = 3.1", "scene.material.0.exponent", "3.1", "outside 1 to 3"),
-                      setting("rows of 0", "slave.robot.joint.1.a_m", "0", "turn about one axis")}};
+                      setting("rows of 0", "slave.robot.joint.1.a_m", "0", "rotate about the same axis")}};
   return {numbers, nothing};
 }
 

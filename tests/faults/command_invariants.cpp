@@ -64,7 +64,7 @@ class Nonces : public Invariant {
 class Limits : public Invariant {
  public:
   explicit Limits(const Scenario&)
-      : Invariant("I20", "no limit is looser than the file's, whatever clients ask for") {}
+      : Invariant("I20", "no limit is less restrictive than the file's, whatever clients ask for") {}
   void see(const Moment& m) override {
     if (m.configured) that(m, m.loosened.empty(), m.loosened.c_str());
   }

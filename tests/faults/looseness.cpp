@@ -139,7 +139,10 @@ bool is_looser(const GuardedField& limit, const Message& start, const Message& n
 
 std::string first_looser(std::span<const GuardedField> limits, const Message& start, const Message& now) {
   for (const GuardedField& limit : limits)
-    if (is_looser(limit, start, now)) return std::string(limit.path) + " is looser than at the start";
+    if (is_looser(limit, start, now))
+      return std::string(limit.path) +
+             " is less restrictive than at the "
+             "start";
   return {};
 }
 

@@ -11,7 +11,7 @@
 
 namespace longreach {
 
-/// Which value is looser than that of the start.
+/// Which value is less restrictive than that of the start.
 enum class Loose : std::uint8_t { kAbove, kBelow, kOther };
 
 struct GuardedField {
@@ -23,7 +23,7 @@ struct GuardedField {
 std::span<const GuardedField> slave_limits();
 std::span<const GuardedField> master_limits();
 
-/// Which limit is looser than at the start; empty: none.
+/// Which limit is less restrictive than at the start; empty: none.
 std::string looser(const proto::SlaveConfig& start, const proto::SlaveConfig& now);
 std::string looser(const proto::MasterConfig& start, const proto::MasterConfig& now);
 

@@ -47,7 +47,7 @@ void expect_complete(std::span<const GuardedField> limits, const std::set<std::s
     EXPECT_EQ(limit.looser, by_schema) << path;
   }
   for (const auto& [path, remote] : due) EXPECT_TRUE(listed.contains(path)) << path << " is missing";
-  // Each exists, and none is looser than itself.
+  // Each exists, and none is less restrictive than itself.
   EXPECT_EQ(looser(Config(), Config()), "");
 }
 
@@ -59,7 +59,7 @@ TEST(FaultLists, EveryLimitOfTheSchemaIsAskedForAndJudged) {
 TEST(FaultLists, WhatIsLooserIsNamed) {
   proto::SlaveConfig start, now;
   now.mutable_safety()->set_delay_rise_max_s(2.0);
-  EXPECT_EQ(looser(start, now), "safety.delay_rise_max_s is looser than at the start");
+  EXPECT_EQ(looser(start, now), "safety.delay_rise_max_s is less restrictive than at the start");
   now = {};
   now.mutable_safety()->set_gap_s(0.05);
   EXPECT_EQ(looser(start, now), "");  // 0, at the start, finds at least 0.1 s
@@ -67,7 +67,7 @@ TEST(FaultLists, WhatIsLooserIsNamed) {
   EXPECT_NE(looser(start, now), "");
   now = {};
   now.mutable_sensing()->mutable_tool()->add_com_m(0.1);
-  EXPECT_EQ(looser(start, now), "sensing.tool.com_m is looser than at the start");
+  EXPECT_EQ(looser(start, now), "sensing.tool.com_m is less restrictive than at the start");
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
   says("robot-fk", R"({"robot": "ur1", "q": [0,0,0,0,0,0]})", "; did you mean \"ur10\"?");
-  says("robot-fk", R"({"robot": "none.txtpb", "q": [0,0,0,0,0,0]})", "there is no such file in ");
+  says("robot-fk", R"({"robot": "none.txtpb", "q": [0,0,0,0,0,0]})", "the file does not exist in ");
   says(
       "robot-fk",
       R"({"dh": [{"a":0,"d":0,"alpha":90},{"a":1,"d":0,"alpha":0},{"a":1,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0}], "q": [0,0,0,0,0,0]})",

@@ -93,8 +93,8 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_EQ(master_.status()->cause(), "device fault");
   expect_prompt_report(master_);
   const std::string why = master_.engage();
-  EXPECT_NE(why.find("has gone silent; if it stays so, start it again"), std::string::npos) << why;
-  EXPECT_TRUE(says(*master_program_, "has gone silent; if it stays so, start it again")) << outputs();
+  EXPECT_NE(why.find("sends nothing any more; if this persists, restart it"), std::string::npos) << why;
+  EXPECT_TRUE(says(*master_program_, "sends nothing any more; if this persists, restart it")) << outputs();
   // Back again, it is not engaged by itself.
   start(device_, "device");
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
@@ -110,7 +110,7 @@ TEST_F(Adapters, KilledRobotAdapterIsFaultAndRobotResumesInPlace) {
       << outputs();
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
   expect_prompt_report(slave_);
-  EXPECT_NE(slave_.status()->trouble().find("has gone silent; if it stays so, start it again"),
+  EXPECT_NE(slave_.status()->trouble().find("sends nothing any more; if this persists, restart it"),
             std::string::npos);
   start(robot_, "robot");
   ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
@@ -138,18 +138,18 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
     const char* advice;
   };
   const Case cases[] = {
-      {Flaw::kNoWatchdog, "it goes on for 0.6 s of silence as if longreach were there", "rule 4"},
-      {Flaw::kMute, "it does not go on sending when longreach is silent", "rule 4"},
-      {Flaw::kNoCount, "number 1 follows 1", "count every datagram"},
+      {Flaw::kNoWatchdog, "it continues for 0.6 s of silence as if longreach were connected", "rule 4"},
+      {Flaw::kMute, "it stops sending when longreach is silent", "rule 4"},
+      {Flaw::kNoCount, "number 1 follows 1", "count every sent datagram"},
       {Flaw::kNoEcho, "is 0 after", "echo the number"},
       {Flaw::kNotFinite, "a number is not finite", "compare with"},
       {Flaw::kShort, "191 bytes instead of 192", "compare with"},
       {Flaw::kSlow, "99 % of gaps", "500 to 4000 times a second"},
-      {Flaw::kTakesAnything, "it does not ignore another magic", "rules 1 and 3"},
-      {Flaw::kTakesOldNumbers, "it does not ignore an old number", "rules 1 and 3"},
-      {Flaw::kTakesNoRestart, "a program that starts again is not taken", "rule 3"},
-      {Flaw::kNoWrench, "asked 0.5 N along z, but force_n is 0 0 0", "tell in force_n"},
-      {Flaw::kFailed, "it says that it has failed", "set kOk"},
+      {Flaw::kTakesAnything, "it accepts a wrong magic", "rules 1 and 3"},
+      {Flaw::kTakesOldNumbers, "it accepts an old number", "rules 1 and 3"},
+      {Flaw::kTakesNoRestart, "a restarted program is not accepted", "rule 3"},
+      {Flaw::kNoWrench, "asked 0.5 N along z, but force_n is 0 0 0", "report in force_n"},
+      {Flaw::kFailed, "it reports a failure", "set kOk"},
       {Flaw::kTakesAnyone, "it answers a program of another user", "getsockopt(SO_PEERCRED)"}};
   const auto found = [](const Case& c, const Tried& tried) {
     if (c.flaw == Flaw::kTakesAnyone && ::geteuid() != 0) return true;  // root alone can try that
@@ -186,7 +186,7 @@ TEST_F(Adapters, TheCheckSaysWhyThereIsNoConnection) {
     for (const std::string kind : {"--device", "--robot"}) {
       const Tried tried = try_adapter({kind, "unix:" + path});
       EXPECT_EQ(tried.status, 1);
-      EXPECT_NE(tried.output.find("the adapter cannot be reached: " + words), std::string::npos)
+      EXPECT_NE(tried.output.find("cannot connect to the adapter: " + words), std::string::npos)
           << tried.output;
     }
   };
@@ -211,7 +211,7 @@ TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
     start_master({"--adapter", address});
     EXPECT_EQ(master_program_->wait(seconds(20)), 2);
     EXPECT_NE(master_program_->output().find("device_adapter.address = " + address +
-                                             " is not where an adapter listens: write unix:/PATH"),
+                                             " is not an address of an adapter: write unix:/PATH"),
               std::string::npos)
         << outputs();
     start_slave({"--adapter", address});
@@ -223,10 +223,10 @@ TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
 TEST_F(Adapters, NothingRealIsMovedByWhomRpcInClearLetsIn) {
   start_slave({"--insecure", "--adapter", "unix:/nowhere"});
   EXPECT_EQ(slave_program_->wait(seconds(20)), 2);
-  EXPECT_NE(slave_program_->output().find("leave out --insecure"), std::string::npos) << outputs();
+  EXPECT_NE(slave_program_->output().find("omit --insecure"), std::string::npos) << outputs();
   start_master({"--insecure", "--adapter", "unix:/nowhere"});
   EXPECT_EQ(master_program_->wait(seconds(20)), 2);
-  EXPECT_NE(master_program_->output().find("leave out --insecure"), std::string::npos) << outputs();
+  EXPECT_NE(master_program_->output().find("omit --insecure"), std::string::npos) << outputs();
 }
 
 TEST_F(Adapters, ASecondProgramIsNotHeardWhileTheFirstHasTheAdapter) {
@@ -237,7 +237,7 @@ TEST_F(Adapters, ASecondProgramIsNotHeardWhileTheFirstHasTheAdapter) {
   const Tried tried = try_adapter({"--robot", robot_address_, "--move", "0.1"});
   slave_program_->signal(SIGCONT);
   EXPECT_EQ(tried.status, 1);
-  EXPECT_NE(tried.output.find("nothing has come back in 2 s"), std::string::npos) << tried.output;
+  EXPECT_NE(tried.output.find("no datagram has arrived in 2 s"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
@@ -282,7 +282,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   robot.sensor_fault(0.3);
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
   EXPECT_TRUE(rests_for(500));
-  EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot has leapt"), std::string::npos)
+  EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot has jumped"), std::string::npos)
       << slave_.status()->trouble();
   robot.sensor_fault(0.0);
   EXPECT_TRUE(rests_for(500));
@@ -324,10 +324,10 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
     const char* advice;
   };
   const Case cases[] = {{SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
-                        {SensorFlaw::kBase, "is told along the axes of the base", "axes of the tool"},
+                        {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
                         {SensorFlaw::kExchanged, "told as x, y, z are y, x, z of the tool", "in the order"},
-                        {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N while nobody touches it", "sensing.tool"},
-                        {SensorFlaw::kDead, "tells nothing along y of the base", "a channel is dead"}};
+                        {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N without contact", "sensing.tool"},
+                        {SensorFlaw::kDead, "reports nothing along y of the base", "a channel is dead"}};
   // A person each, all at once.
   auto uncorrupted = std::async(std::launch::async, pushed, SensorFlaw::kNone);
   std::vector<std::future<Tried>> persons;

@@ -204,7 +204,7 @@ TEST(Client, ALinkIsPutBackWhenTheOtherSideRefuses) {
   station.master.refuse(Refusal{Refusal::Kind::kPrecondition, "not now"});
   const Ended ended = run(station.arguments({"link", "set", "--profile", "moon"}));
   expect_one_sentence(ended, 1, "not now");
-  expect_contains(ended.err, "put back");
+  expect_contains(ended.err, "restored");
   EXPECT_EQ(station.slave.present_link().SerializeAsString(), before.SerializeAsString());
   EXPECT_EQ(station.slave.calls().size(), 2U) << "there and back";
 }

@@ -106,7 +106,7 @@ TEST_F(Connections, WithoutDescriptorsTheSlaveSaysSoAndStopsWhenItIsAsked) {
   ASSERT_EQ(::prlimit(slave, RLIMIT_NOFILE, &few, nullptr), 0);
   const IdleConnections silent(ports_.slave_rpc, 100);
   ASSERT_EQ(silent.connected(), 100);
-  EXPECT_TRUE(says(*slave_program_, "no descriptors are left")) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "no file descriptors are left")) << outputs();
   expect_stops("no descriptors left");
 }
 

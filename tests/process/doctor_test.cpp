@@ -65,7 +65,7 @@ TEST_F(Doctor, FindsNothingWrongWhereNothingRunsAndMakesNothing) {
   const fs::path site = folder_.path() / "none";
   const Visit visit = this->visit({"--site", site.string()});
   EXPECT_EQ(visit.status, 0) << visit.text;
-  EXPECT_TRUE(visit.says("there is none yet")) << visit.text;
+  EXPECT_TRUE(visit.says("there is no site yet")) << visit.text;
   EXPECT_TRUE(visit.says("start longreach-slave")) << visit.text;
   EXPECT_FALSE(fs::exists(site));
 }
@@ -78,8 +78,10 @@ TEST_F(Doctor, FindsBothSidesWell) {
   const Visit visit = this->visit();
   EXPECT_EQ(visit.status, 0) << visit.text;
   for (const std::string words : {"0 failures", "of 1000 Hz", "5 of 5 of 508 bytes arrived",
-                                  "Engaged; the robot is with the master at 127.0.0.1:", "as this program",
-                                  "round trip", "certified by the authority, valid until 9999-12-31"})
+                                  "Engaged; the robot is controlled by the master at 127.0.0.1:",
+                                  "as this "
+                                  "program",
+                                  "round trip", "signed by the authority, valid until 9999-12-31"})
     EXPECT_TRUE(visit.says(words)) << words << "\n" << visit.text;
   EXPECT_EQ(slave_.state(), "Engaged");
   EXPECT_EQ(slave_.counter("rejected_version"), 5U);
@@ -126,9 +128,9 @@ TEST_F(Doctor, CertificatesThatDoNotBelongTogetherAreFailures) {
   std::ofstream(site / "slave.key") << old.key_pem;
   const Visit visit = this->visit({"--site", site.string()});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("master.crt: it does not belong to its key")) << visit.text;
-  EXPECT_TRUE(visit.says("client.crt: it does not belong to its key")) << visit.text;
-  EXPECT_TRUE(visit.says("slave.crt: it is not good for this site: certificate has expired")) << visit.text;
+  EXPECT_TRUE(visit.says("master.crt: it does not match its key")) << visit.text;
+  EXPECT_TRUE(visit.says("client.crt: it does not match its key")) << visit.text;
+  EXPECT_TRUE(visit.says("slave.crt: it is not valid for this site: certificate has expired")) << visit.text;
 }
 
 TEST_F(Doctor, AnotherSitesSlaveIsAFailure) {
@@ -136,7 +138,7 @@ TEST_F(Doctor, AnotherSitesSlaveIsAFailure) {
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
   const Visit visit = this->visit({"--site", new_site("stranger").string()});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("does not trust this program's certificate, or shows one of another site"))
+  EXPECT_TRUE(visit.says("does not trust this program's certificate, or has a certificate of another site"))
       << visit.text;
 }
 
@@ -146,7 +148,7 @@ TEST_F(Doctor, APortThatAnotherProgramHasIsAFailure) {
       context, {asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(ports_.slave_rpc)});
   const Visit visit = this->visit({"--timeout", "1"});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("another program has the port: ss -ltnp")) << visit.text;
+  EXPECT_TRUE(visit.says("another program uses the port: ss -ltnp")) << visit.text;
 }
 
 TEST_F(Doctor, AnotherVersionIsAFailure) {

@@ -34,7 +34,7 @@ class Hands : public Station {
 TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   start_slave({"--set", "scene_file=scenes/free.txtpb"});
   start_master({"--operator", "spacemouse", "--mode", "rate"});
-  ASSERT_TRUE(says(*master_program_, "no SpaceMouse is there; plug it in and start spacenavd, then engage"))
+  ASSERT_TRUE(says(*master_program_, "no SpaceMouse found; plug it in and start spacenavd, then engage"))
       << outputs();
   EXPECT_TRUE(eventually([this] { return master_.engage().find("plug it in") != std::string::npos; }));
 
@@ -61,7 +61,7 @@ TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   daemon.plugged_in();
   ASSERT_TRUE(eventually([&] {
     daemon.motion({0, 0, -350, 0, 0, 0});
-    return master_program_->output().find("the puck is not at rest; let go of it once") != std::string::npos;
+    return master_program_->output().find("the puck is not at rest; release it once") != std::string::npos;
   })) << outputs();
   daemon.motion({0, 0, 0, 0, 0, 0});
   ASSERT_TRUE(engaged()) << outputs();
@@ -109,7 +109,7 @@ TEST_F(Keys, APipeThatEndsIsAHandThatLetsGo) {
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
   move(ends[0], ends[1]);
   ::close(ends[1]);
-  expect_rest("the keyboard has ended (end of input)");
+  expect_rest("the keyboard input has ended (end of input)");
   ::close(ends[0]);
 }
 
@@ -119,7 +119,7 @@ TEST_F(Keys, AClosedTerminalIsAHandThatLetsGo) {
   ::fcntl(outer, F_SETFD, FD_CLOEXEC);
   move(inner, outer, {"--set", "safety.presence=HOLD"});
   ::close(outer);
-  expect_rest("the keyboard has ended (its terminal was closed)");
+  expect_rest("the keyboard input has ended (its terminal was closed)");
   ::close(inner);
 }
 
@@ -155,7 +155,8 @@ TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
   start_master({"--operator", "keyboard", "--mode", "position"}, {.in = terminal.inner});
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
   terminal.type("\x1b[200~hello ");
-  ASSERT_TRUE(says(*master_program_, "a paste or a control string at the keyboard has no end")) << outputs();
+  ASSERT_TRUE(says(*master_program_, "a paste or a control string at the keyboard has not ended"))
+      << outputs();
   terminal.type("e m W q\n\x1b[201~");
   terminal.type("m");
   ASSERT_TRUE(eventually([this] { return master_.status()->mode() != "position"; })) << outputs();
@@ -166,9 +167,9 @@ TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
 TEST_F(Keys, WithoutInputAtTheStartAreSaidToBeMissing) {
   for (const int in : {-1, Streams::kClosed}) {  // -1: /dev/null
     start_anew({"--operator", "keyboard", "--engage"}, in);
-    ASSERT_TRUE(says(*master_program_, "no keyboard is there (end of input)")) << outputs();
-    EXPECT_TRUE(
-        eventually([this] { return master_.engage().find("no keyboard is there") != std::string::npos; }));
+    ASSERT_TRUE(says(*master_program_, "no keyboard is available (end of input)")) << outputs();
+    EXPECT_TRUE(eventually(
+        [this] { return master_.engage().find("no keyboard is available") != std::string::npos; }));
   }
 }
 

@@ -34,7 +34,7 @@ TEST_F(Lease, PassesToTheNextWhenTheFirstReturnsIt) {
   const std::string first = lease();
   EXPECT_EQ(first.find("127.0.0.1:"), 0U) << first;
   const auto second = start_second({"--engage"});
-  ASSERT_TRUE(says(*second, "another master has the robot (" + first + ")")) << second->output();
+  ASSERT_TRUE(says(*second, "another master has control of the robot (" + first + ")")) << second->output();
   master_program_->signal(SIGTERM);
   EXPECT_TRUE(eventually([&] { return slave_.counter("peer_restarts") == 1 && slave_.state() == "Engaged"; }))
       << second->output();
@@ -52,7 +52,7 @@ TEST_F(Lease, IsTakenAndTheRobbedMasterKnowsByWhomAndWaits) {
   const std::string holder = lease();
   EXPECT_EQ(master_.status()->lease(), holder);
   EXPECT_EQ(master_.status()->state(), "Holding");
-  const std::string said = "another master (" + holder + ") has taken the robot from this one";
+  const std::string said = "another master (" + holder + ") has taken control of the robot";
   EXPECT_NE(master_.status()->trouble().find(said), std::string::npos) << master_.status()->trouble();
   EXPECT_TRUE(says(*master_program_, said)) << outputs();
   EXPECT_NE(master_.engage().find(said), std::string::npos) << "it is told so, too, and does not rob back";

@@ -78,7 +78,7 @@ TEST_F(Pairing, APairedHostIsMasterAndClientAndNotASlave) {
 
   RunningProgram false_slave("longreach-slave", {"--site", site_, "--set", "rpc.listen=127.0.0.1:0"});
   EXPECT_EQ(false_slave.wait(std::chrono::seconds(30)), 1);
-  EXPECT_NE(false_slave.output().find("was made by pairing"), std::string::npos) << false_slave.output();
+  EXPECT_NE(false_slave.output().find("was created by pairing"), std::string::npos) << false_slave.output();
 }
 
 TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
@@ -91,10 +91,10 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   const auto [wrong, sentence] =
       there(pair_words({offer.address, "0000-0000-0000-0000-0000-0000"}, {"--replace"}));
   EXPECT_EQ(wrong, 2);
-  EXPECT_NE(sentence.find("mistyped"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("the token is invalid"), std::string::npos) << sentence;
   const auto [empty, advice] = there({"pair", "--slave", offer.address, "--token-file", "-", "--replace"});
   EXPECT_EQ(empty, 2);  // the input of these programs is empty
-  EXPECT_NE(advice.find("no token was given: the input is empty"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("the token is missing: the input is empty"), std::string::npos) << advice;
   const auto [done, said] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(done, 0) << said;
   EXPECT_NE(said.find(":47020 --site " + site_ + " status\n"), std::string::npos) << said;
@@ -105,7 +105,8 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 0) << desk_->output();
   const auto [again, refused_peer] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(again, 1);
-  EXPECT_NE(refused_peer.find("nobody pairs at " + offer.address), std::string::npos) << refused_peer;
+  EXPECT_NE(refused_peer.find("no slave waits for pairing at " + offer.address), std::string::npos)
+      << refused_peer;
 }
 
 TEST_F(Pairing, RefusesTokenFromArgumentsOrReadableFile) {
@@ -167,10 +168,10 @@ TEST_F(Pairing, WhatIsNoSlaveThatPairsIsSaidToBeNone) {
   const auto [status, said] =
       there(pair_words({"127.0.0.1:" + std::to_string(ports_.slave_rpc), offer.token}));
   EXPECT_EQ(status, 1);
-  EXPECT_NE(said.find("is no longreach slave that pairs"), std::string::npos) << said;
+  EXPECT_NE(said.find("is not a longreach slave that waits for pairing"), std::string::npos) << said;
   desk_->signal(SIGINT);
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 1) << desk_->output();
-  EXPECT_NE(desk_->output().find("the token is void"), std::string::npos) << desk_->output();
+  EXPECT_NE(desk_->output().find("the token is invalid"), std::string::npos) << desk_->output();
 }
 
 }  // namespace

@@ -103,10 +103,10 @@ TEST_F(Recording, OnAFullDiskEndsWithAnEventAndChangesNothingElse) {
     const auto status = side->status();
     ASSERT_TRUE(status);
     EXPECT_TRUE(status->recording().failed());
-    EXPECT_EQ(status->recording().ended(), "it could not be written any more: File too large");
+    EXPECT_EQ(status->recording().ended(), "writing failed: File too large");
   }
   for (const RunningProgram* program : {slave_program_.get(), master_program_.get()}) {
-    EXPECT_TRUE(says(*program, "because=\"it could not be written any more: File too large\"")) << outputs();
+    EXPECT_TRUE(says(*program, "because=\"writing failed: File too large\"")) << outputs();
     EXPECT_TRUE(says(*program, "warn")) << outputs();
   }
   // Both loops go on.
@@ -317,7 +317,7 @@ TEST_F(Recording, OverwritesNothing) {
   ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();
   start_slave({"--record", file("slave.mcap")});
   EXPECT_EQ(slave_program_->wait(std::chrono::seconds(20)), 2) << outputs();
-  EXPECT_NE(slave_program_->output().find("there is such a file; choose another name"), std::string::npos)
+  EXPECT_NE(slave_program_->output().find("the file exists already; choose another name"), std::string::npos)
       << outputs();
 }
 

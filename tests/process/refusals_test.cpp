@@ -82,7 +82,7 @@ TEST_F(Refusals, ASecondMaster) {
       "longreach-master", {"--set", "link.slave=" + link_address(), "--set", "link.slave_rpc=" + slave_rpc(),
                            "--set", "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0", "--view",
                            "plain", "--operator", "none", "--engage"});
-  ASSERT_TRUE(says(second, "another master has the robot")) << second.output();
+  ASSERT_TRUE(says(second, "another master has control of the robot")) << second.output();
   EXPECT_TRUE(says(*slave_program_, "lease refused=127.0.0.1:")) << outputs();
   expect_undisturbed();
 }

@@ -52,7 +52,10 @@ TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
     expect({"--set", "link.listen=nowhere"}, "nowhere");
     expect({"--profile", "no-such-link"}, "no-such-link");
   }
-  expect_one_sentence(run("longreach-master", {"--set", "rendering.law=WAVE"}), 2, "laboratory only", "WAVE");
+  expect_one_sentence(run("longreach-master", {"--set", "rendering.law=WAVE"}), 2,
+                      "available only in the "
+                      "laboratory",
+                      "WAVE");
   expect_one_sentence(run("longreach-master", {"--operator", "ghost"}), 2, "ghost", "--operator ghost");
   expect_one_sentence(run("longreach-master", {"--wall", "nan"}), 2, "--wall: nan", "--wall nan");
   expect_one_sentence(run("longreach-slave", {"--pair", "--pair-listen", "127.0.0.1:99999"}), 2,
@@ -69,8 +72,8 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"report", "--out", "a", "--seed", "-1"}, "--seed: -1 is not");
   expect({"train", "spherical", "--seed", "-1"}, "--seed: -1 is not");
   expect({"run", "touch", "--out", ""}, "--out: is empty");
-  expect({"run", "touch", "--out", "/proc/longreach"}, "cannot make the folder /proc/longreach");
-  expect({"run", "touch", "--out", "/etc/passwd"}, "cannot make the folder /etc/passwd");
+  expect({"run", "touch", "--out", "/proc/longreach"}, "cannot create the folder /proc/longreach");
+  expect({"run", "touch", "--out", "/etc/passwd"}, "cannot create the folder /etc/passwd");
   expect({"run", "first-touch", "--set", "profile=lab"},
          "first-touch does not use profile, so nothing would change");
   expect({"run", "scenes-cost", "--set", "profile=lab"},
@@ -195,7 +198,7 @@ TEST(Usage, InsecureIsForThisMachineOnlyAndSaysWhatItIs) {
   const Ended open = run("longreach-slave",
                          {"--insecure", "--set", "link.listen=127.0.0.1:0", "--set", "rpc.listen=0.0.0.0:0"});
   EXPECT_EQ(open.status, 1) << open.output;
-  EXPECT_NE(open.output.find("leave out --insecure"), std::string::npos) << open.output;
+  EXPECT_NE(open.output.find("omit --insecure"), std::string::npos) << open.output;
   const Ended local = run("longreach-slave", {"--insecure", "--seconds", "0.2", "--set",
                                               "link.listen=127.0.0.1:0", "--set", "rpc.listen=127.0.0.1:0"});
   EXPECT_EQ(local.status, 0) << local.output;

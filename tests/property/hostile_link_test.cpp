@@ -1,4 +1,4 @@
-// Whoever does not know the secret cannot make either side accept anything, or change anything but a counter.
+// Without the secret, an attacker cannot make either side accept a datagram, or change anything except a counter.
 // LONGREACH_FULL=1: ten million datagrams.
 
 #include <gtest/gtest.h>

@@ -76,13 +76,14 @@ class AdapterCheck {
     }
     const std::string trouble = talk_->socket().trouble();
     if (!trouble.empty()) {
-      add(false, "answers", "the adapter cannot be reached: " + trouble,
-          "start the adapter, and give the path at which it listens");
+      add(false, "answers", "cannot connect to the adapter: " + trouble,
+          "start the adapter, and give the path of its socket");
     } else if (talk_->wrong().empty()) {
-      add(false, "answers", "nothing has come back in 2 s",
-          "start it; it has to answer the program that has connected");
+      add(false, "answers", "no datagram has arrived in 2 s",
+          "start it; it must answer the connected program");
     } else {
-      add(false, "answers", "what comes is no " + std::string(Subject::kSends) + ": " + wrong(),
+      add(false, "answers",
+          "the received datagrams are not a valid " + std::string(Subject::kSends) + ": " + wrong(),
           "compare with common/link/adapter_datagram.hpp");
     }
     return false;
@@ -91,7 +92,7 @@ class AdapterCheck {
   void private_to_the_user() {
     const bool open = talk_->socket().open_to_others();
     add(!open, "access", open ? "other users may connect to its path" : "other users cannot connect",
-        "listen with umask 077 or make the path's mode 0600, and close connections of other users");
+        "listen with umask 077 or set the mode of the path to 0600, and close connections of other users");
   }
 
   /// One program at a time: when this one has gone. What is said commands nothing.
@@ -101,22 +102,21 @@ class AdapterCheck {
     Talk unknown_peer(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
     const bool answers = !unknown_peer.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
     add(!answers, "peer",
-        answers ? "it answers a program of another user (number 65534)"
+        answers ? "it answers a program of another user (uid 65534)"
                 : "does not answer a program of another user",
-        "ask getsockopt(SO_PEERCRED) after accept(), and close the connection unless it is of the adapter's "
-        "own "
-        "user or of root");
+        "call getsockopt(SO_PEERCRED) after accept(), and close the connection unless the peer is the "
+        "adapter's own user or root");
   }
 
   /// Two seconds of what every tick has.
   void watch() {
     const Seen seen = talk_->talk(2.0, [this](double) { return subject_.nothing(); });
-    add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is one" : wrong(),
-        "compare with common/link/adapter_datagram.hpp; a number that is not known is 0, and kOk is cleared");
+    add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is valid" : wrong(),
+        "compare with common/link/adapter_datagram.hpp; send 0 for an unknown number, and clear kOk");
     judge_rate(seen);
     judge_sequence(seen);
     const bool works = std::ranges::all_of(seen, [](const auto& s) { return (s.in.flags & In::kOk) != 0; });
-    add(works, "works", works ? "it says so (kOk)" : "it says that it has failed: kOk is not always set",
+    add(works, "works", works ? "it reports kOk" : "it reports a failure: kOk is not always set",
         "set kOk while the hardware works");
   }
 
@@ -131,27 +131,27 @@ class AdapterCheck {
     const std::string text =
         in_text("%.0f a second", hz) + in_text(", 99 %% of gaps up to %.1f ms", 1e3 * p99_s);
     add(hz >= kLeast_hz && hz <= kMost_hz && p99_s <= kLongGap_s, "rate", text,
-        "send 500 to 4000 times a second, evenly: with real-time priority, by absolute deadlines");
+        "send 500 to 4000 times a second at a constant rate: use real-time priority and absolute deadlines");
     add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
     if (longest_s < kWatchdog_s) return;
     section_.findings.back().verdict = FindingVerdict::kWarning;
-    section_.findings.back().advice = "20 ms without a datagram are a fault: longreach holds then";
+    section_.findings.back().advice = "20 ms without a datagram are a fault: longreach then holds";
   }
 
   void judge_sequence(const Seen& seen) {
     std::string trouble;
     for (std::size_t i = 1; i < seen.size() && trouble.empty(); ++i) {
       const adapter::Header &before = seen[i - 1].in.header, &h = seen[i].in.header;
-      if (h.session != before.session) trouble = "the session changes while it runs";
+      if (h.session != before.session) trouble = "the session changes during the run";
       if (h.sequence != before.sequence + 1)
         trouble = "number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
     }
-    add(trouble.empty(), "sequence", trouble.empty() ? "counts by one in one session" : trouble,
-        "draw the session once at the start and count every datagram that is sent");
+    add(trouble.empty(), "sequence", trouble.empty() ? "counts by one within one session" : trouble,
+        "draw the session once at the start and count every sent datagram");
     const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
-        follows ? "follows what is sent"
+        follows ? "follows the sent datagrams"
                 : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " datagrams",
         "echo the number of the newest datagram that was accepted");
   }
@@ -175,10 +175,10 @@ class AdapterCheck {
         return out.joint_rad[0];
     };
     const std::pair<const char*, Corruption> kinds[] = {
-        {"another magic", [](Out& o) { o.header.magic[3] = 'X'; }},
-        {"another version", [](Out& o) { o.header.version = 9; }},
-        {"another kind", [](Out& o) { o.header.kind = 77; }},
-        {"another size in the header", [](Out& o) { o.header.size = 1; }},
+        {"a wrong magic", [](Out& o) { o.header.magic[3] = 'X'; }},
+        {"a wrong version", [](Out& o) { o.header.version = 9; }},
+        {"a wrong kind", [](Out& o) { o.header.kind = 77; }},
+        {"a wrong size in the header", [](Out& o) { o.header.size = 1; }},
         {"session 0", [](Out& o) { o.header.session = 0; }},
         {"a number that is not finite", [&number](Out& o) { number(o) = kNone; }},
         {"an old number", [](Out& o) { o.header.sequence = 1; }},
@@ -191,7 +191,7 @@ class AdapterCheck {
       const bool fine = !seen.empty() && std::ranges::all_of(seen, [this](const auto& s) {
         return s.excused || subject_.does(s.in);
       });
-      if (!fine) taken = std::string("it does not ignore ") + what + ": " + said(seen);
+      if (!fine) taken = std::string("it accepts ") + what + ": " + said(seen);
     };
     for (const auto& [what, mark_affected] : kinds)
       corrupted(what, [&, &mark_affected = mark_affected](const AdapterSocket& socket, const Out& meant) {
@@ -209,8 +209,9 @@ class AdapterCheck {
       if (size == sizeof poison) ++size;
       socket.send(std::span(bytes).first(size));
     });
-    add(taken.empty(), "garbage", taken.empty() ? "ignores what is not meant for it" : taken,
-        "check size, magic, version, kind, session, number and that every number is finite (rules 1 and 3)");
+    add(taken.empty(), "garbage", taken.empty() ? "ignores invalid datagrams" : taken,
+        "check size, magic, version, kind, session, sequence number and that every value is finite (rules 1 "
+        "and 3)");
   }
 
   void rests() {
@@ -231,22 +232,21 @@ class AdapterCheck {
     std::string text = "after 20 ms of silence it " + std::string(Subject::kRests);
     const bool heard = std::ranges::any_of(seen, [&](const auto& s) { return after_s(s) > 0.1; });
     if (!heard)
-      text = "it does not go on sending when longreach is silent";
+      text = "it stops sending when longreach is silent";
     else if (!rested)
-      text = "it goes on for 0.6 s of silence as if longreach were there";
+      text = "it continues for 0.6 s of silence as if longreach were connected";
     else if (!in_time)
       text = "only after " + silent_ms + " of silence it " + Subject::kRests;
     add(heard && rested && in_time, "watchdog", text,
-        "20 ms after the last datagram that counts (rule 4), and go on sending");
+        "20 ms after the last valid datagram (rule 4), and keep sending");
   }
 
   void goes_on() {
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "goes on",
-        does ? "works again with the next datagram"
-             : "after the silence it does not work again: " + said(seen),
-        "the watchdog ends with the next datagram that counts");
+        does ? "resumes with the next datagram" : "it does not resume after the silence: " + said(seen),
+        "the watchdog must end with the next valid datagram");
   }
 
   void restarts() {
@@ -255,9 +255,8 @@ class AdapterCheck {
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "restart",
-        does ? "takes a program that starts again"
-             : "a program that starts again is not taken: " + said(seen),
-        "after 20 ms of silence another session counts, from its number 1 on (rule 3)");
+        does ? "accepts a restarted program" : "a restarted program is not accepted: " + said(seen),
+        "after 20 ms of silence accept another session, from its number 1 on (rule 3)");
   }
 
   Seen ask(double seconds, const typename Talk::Beside& beside = {}) {
@@ -266,7 +265,7 @@ class AdapterCheck {
   }
   /// What was told instead of what was asked for.
   [[nodiscard]] std::string said(const Seen& seen) const {
-    if (seen.empty()) return "nothing comes any more";
+    if (seen.empty()) return "no datagram arrives any more";
     const auto other =
         std::ranges::find_if(seen, [this](const auto& s) { return !s.excused && !subject_.does(s.in); });
     return subject_.reported(other == seen.end() ? seen.back().in : other->in);

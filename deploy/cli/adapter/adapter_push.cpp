@@ -38,7 +38,7 @@ class Pushing {
     rest_ = listen(1.0);
     if (rest_.count == 0) {
       section_.findings.push_back({FindingVerdict::kFailure, "answers", nothing_came(),
-                                   "start it, and see what `longreach adapter check` says without --push"});
+                                   "start it, and run `longreach adapter check` without --push"});
       return std::move(section_);
     }
     judge_joints();
@@ -53,14 +53,14 @@ class Pushing {
     judge_way();
     section_.findings.push_back(
         {FindingVerdict::kOk, "unknown",
-         "a scale that is a little off, and an origin of the moments off the tool's, stay unknown"});
+         "a small scale error and an offset of the origin of the moments are not detected"});
     return std::move(section_);
   }
 
  private:
   [[nodiscard]] std::string nothing_came() const {
     const std::string trouble = talk_.socket().trouble();
-    return trouble.empty() ? "nothing has come back in 1 s" : "the adapter cannot be reached: " + trouble;
+    return trouble.empty() ? "no datagram has arrived in 1 s" : "cannot connect to the adapter: " + trouble;
   }
   Told listen(double seconds) {
     const auto seen = talk_.talk(seconds, [](double) { return SetpointDatagram{}; });
@@ -92,7 +92,8 @@ class Pushing {
       push.reported = felt(reported, turn);
       break;
     }
-    std::cout << (push.reported.isZero(0.0) ? "  nothing was felt" : "  felt") << "; let go" << std::endl;
+    std::cout << (push.reported.isZero(0.0) ? "  no force was measured" : "  felt") << "; release it"
+              << std::endl;
     for (double t_s = 0.0; t_s < timeout_s_ && felt(listen(kStep_s), turn).norm() > 0.5 * least;
          t_s += kStep_s)
       continue;
@@ -107,8 +108,8 @@ class Pushing {
   void judge_way() {
     if (moved_ <= kMoved) return;
     section_.findings.push_back({FindingVerdict::kWarning, "way",
-                                 in_text("the joints gave way by up to %.3f rad (or m)", moved_),
-                                 "without kMove a robot rests where it is, whatever pushes"});
+                                 in_text("the joints moved by up to %.3f rad (or m)", moved_),
+                                 "without kMove a robot must stay in place under any push"});
   }
 
   DescribedRobot robot_;

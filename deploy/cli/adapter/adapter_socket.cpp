@@ -45,8 +45,8 @@ void AdapterSocket::reach() const {
   const auto user = peer_user(fd_);
   if (!user || !may_be_trusted(*user)) {
     leave();
-    throw std::runtime_error("what listens at unix:" + path_ +
-                             " belongs to another user: start the adapter as the user who runs longreach");
+    throw std::runtime_error("the program that listens at unix:" + path_ +
+                             " belongs to another user: start the adapter as the user that runs longreach");
   }
   const int on = 1;
   ::setsockopt(fd_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);

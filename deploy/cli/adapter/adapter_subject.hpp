@@ -56,7 +56,7 @@ class DeviceSubject {
            in_text(" %g", in.force_n[2]);
   }
   [[nodiscard]] std::string advice() const {
-    return "give the wrench to the motors and tell in force_n and moment_nm what they make";
+    return "apply the wrench to the motors and report in force_n and moment_nm what they generate";
   }
 
  private:
@@ -71,7 +71,7 @@ class RobotSubject {
   static constexpr const char* kWhat = "robot";
   static constexpr const char* kSends = "RobotDatagram";
   static constexpr const char* kAsk = "setpoint";
-  static constexpr const char* kRests = "stops and says so (kStopped)";
+  static constexpr const char* kRests = "stops and reports kStopped";
   static constexpr double kSettle_s = 1.0;
 
   explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
@@ -97,14 +97,15 @@ class RobotSubject {
   }
   [[nodiscard]] bool rests(const In& in) const { return (in.flags & In::kStopped) != 0; }
   [[nodiscard]] std::string asked() const {
-    return move_rad_ == 0.0 ? "to stay where it is" : in_text("the first joint %g rad (or m) on", move_rad_);
+    return move_rad_ == 0.0 ? "to stay where it is"
+                            : in_text("move the first joint by %g rad (or m)", move_rad_);
   }
   [[nodiscard]] std::string reported(const In& in) const {
     return in_text("the first joint is at %g", in.joint_rad[0]) + in_text(", it was at %g", start_rad_[0]) +
-           (rests(in) ? ", and it says kStopped" : "");
+           (rests(in) ? ", and it reports kStopped" : "");
   }
   [[nodiscard]] std::string advice() const {
-    return "follow joint_rad while kMove is set, and clear kStopped then";
+    return "follow joint_rad while kMove is set, and clear kStopped";
   }
 
  private:

@@ -61,8 +61,8 @@ DescribedRobot::Wrong DescribedRobot::look(const Vector6& joint_rad) const {
     const bool degrees =
         j.kind() == proto::Joint::REVOLUTE && in_degrees >= j.min_rad() && in_degrees <= j.max_rad();
     return {"joint " + std::to_string(i + 1) + " is at " + format_number(q) + ", beyond its limits",
-            degrees ? "tell radians: this looks like degrees"
-                    : "tell rad (m of a prismatic joint), from the zero of the robot's file"};
+            degrees ? "report radians: these values seem to be degrees"
+                    : "report rad (m for a prismatic joint), from the zero of the robot file"};
   }
   return {};
 }

@@ -65,35 +65,36 @@ Finding judge_direction(const PushedSensor& sensor) {
       return {FindingVerdict::kOk, sensor.what, "has the sign and the axes of the tool"};
     return {
         FindingVerdict::kWarning, sensor.what,
-        "has the right sign, but the tool's axes are the base's in this pose",
-        "turn the tool by a quarter and check again: whether it is told along the tool cannot be known here"};
+        "has the correct sign, but the axes of tool and base coincide in this pose",
+        "turn the tool by 90 degrees and check again: this pose does not show whether the force is reported "
+        "in the axes of the tool"};
   }
   if (fits(sensor, against))
     return wrong(sensor, "has the wrong sign",
-                 "tell the " + name + " of the environment on the tool, not of the tool");
+                 "report the " + name + " of the environment on the tool, not of the tool");
   if (fits(sensor, in_base))
-    return wrong(sensor, "is told along the axes of the base",
-                 "turn it into the axes of the tool: f_E = R^T f_W, R the orientation of the tool now");
+    return wrong(sensor, "is reported in the axes of the base",
+                 "rotate it into the axes of the tool: f_E = R^T f_W, with the present orientation R of the "
+                 "tool");
   if (fits(sensor, against_base))
-    return wrong(sensor, "is told along the axes of the base, and has the wrong sign",
-                 "turn it into the axes of the tool and change its sign");
+    return wrong(sensor, "is reported in the axes of the base, and has the wrong sign",
+                 "rotate it into the axes of the tool and change its sign");
   if (const std::string axes = exchanged(sensor); !axes.empty())
-    return wrong(sensor, "axes are exchanged: told as x, y, z are " + axes + " of the tool",
-                 "tell them in the order x, y, z of the tool, right-handed");
+    return wrong(sensor, "axes are exchanged: the reported x, y, z are " + axes + " of the tool",
+                 "report them in the order x, y, z of the tool, right-handed");
   std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
     reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + " as " + in_text(sensor.push[i].reported);
-  return wrong(sensor, "fits no axes: of the base, " + reported + " " + sensor.unit,
-               "look at how the sensor is mounted, and that the robot's file is that of this robot and tool");
+  return wrong(sensor, "matches no axes: in the base, " + reported + " " + sensor.unit,
+               "check the mounting of the sensor, and that the robot file describes this robot and tool");
 }
 
 Finding judge_rest(const PushedSensor& sensor) {
-  const std::string text = "tells " + in_text(sensor.rest) + " " + sensor.unit + " while nobody touches it";
+  const std::string text = "tells " + in_text(sensor.rest) + " " + sensor.unit + " without contact";
   if (sensor.rest.norm() <= sensor.rest_max) return {FindingVerdict::kOk, "rest", text};
   return {FindingVerdict::kFailure, "rest", text,
-          "take the tool's weight off in the adapter, or describe it in sensing.tool with gravity; whether "
-          "it is weight "
-          "or no zero shows when the tool is turned over"};
+          "subtract the weight of the tool in the adapter, or describe it in sensing.tool with gravity; "
+          "turn the tool over to distinguish weight from a zero offset"};
 }
 
 }  // namespace
@@ -103,7 +104,7 @@ std::vector<Finding> judge_pushes(const PushedSensor& sensor) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!sensor.push[i].reported.isZero(0.0)) continue;
     found.push_back(
-        wrong(sensor, std::string("tells nothing along ") + kAxis[i] + " of the base",
+        wrong(sensor, std::string("reports nothing along ") + kAxis[i] + " of the base",
               "a channel is dead, or its unit is not " + std::string(sensor.unit) + "; or push harder"));
   }
   if (found.size() == 1) found.push_back(judge_direction(sensor));

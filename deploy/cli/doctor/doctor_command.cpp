@@ -38,7 +38,7 @@ ExitStatus run_doctor(const Options& options, const DoctorCommand& command) {
   };
   add(examine_site(options));
   {
-    std::optional<Progress> progress(std::in_place, "asking both sides");
+    std::optional<Progress> progress(std::in_place, "querying both sides");
     auto master = std::async(std::launch::async, examine_side, Side::kMaster, options, command.seconds);
     Section slave = examine_side(Side::kSlave, options, command.seconds);
     Section section = master.get();
@@ -47,7 +47,7 @@ ExitStatus run_doctor(const Options& options, const DoctorCommand& command) {
     add(std::move(section));
   }
   {
-    std::optional<Progress> progress(std::in_place, "trying how punctual this machine is");
+    std::optional<Progress> progress(std::in_place, "measuring the timing of this machine");
     Section machine = examine_machine(command.seconds);
     progress.reset();
     add(std::move(machine));

@@ -42,10 +42,10 @@ Finding examine_clock() {
   const std::time_t now = std::time(nullptr);
   std::array<char, 40> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
-  out.text += "; the wall clock says " + std::string(text.data()) + ", which only dates the log";
+  out.text += "; the wall clock says " + std::string(text.data()) + ", which is used only in the log";
   if (resolution_s > 1e-5) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "choose another clock source of the kernel: a loop of 1 kHz needs 10 us or better";
+    out.advice = "select another clock source of the kernel: a loop of 1 kHz needs 10 us or better";
   }
   return out;
 }
@@ -62,7 +62,7 @@ Finding examine_priority() {
     return {FindingVerdict::kOk, "priority", "SCHED_FIFO " + std::to_string(kPriority) + " is permitted"};
   return {FindingVerdict::kWarning, "priority",
           "SCHED_FIFO " + std::to_string(kPriority) + " is not permitted: " + std::strerror(error),
-          "permit it: LimitRTPRIO=50 in the systemd unit, 'rtprio 50' in /etc/security/limits.conf, or "
+          "grant it: LimitRTPRIO=50 in the systemd unit, 'rtprio 50' in /etc/security/limits.conf, or "
           "CAP_SYS_NICE; "
           "or set loop.priority 0"};
 }
@@ -74,7 +74,7 @@ Finding examine_memory() {
   if (locked) return {FindingVerdict::kOk, "memory", "locking is permitted"};
   return {FindingVerdict::kWarning, "memory",
           std::string("locking is not permitted: ") + std::strerror(error),
-          "permit it: LimitMEMLOCK=infinity in the systemd unit, 'memlock unlimited' in "
+          "grant it: LimitMEMLOCK=infinity in the systemd unit, 'memlock unlimited' in "
           "/etc/security/limits.conf, or "
           "CAP_IPC_LOCK; or set loop.lock_memory false"};
 }
@@ -92,11 +92,12 @@ Finding examine_processor() {
                 (std::strstr(system.version, "PREEMPT_RT") != nullptr ? " PREEMPT_RT" : "");
   if (cores < 2) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "use two cores or more: one side and its RPC keep one busy";
+    out.advice = "use two cores or more: one side and its RPC need one core";
   } else if (!governor.empty() && governor != "performance") {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
-        "set the governor to performance (cpupower frequency-set -g performance): slow cores wake up late";
+        "set the governor to performance (cpupower frequency-set -g performance): cores at a low frequency "
+        "wake up late";
   }
   return out;
 }
@@ -132,15 +133,17 @@ Finding examine_loop(double seconds) {
               "", histogram_of(late_s)};
   if (p99_s > 1.0 / kLoop_hz) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "end other programs, give the loop its priority, isolate a core, or lower loop.rate_hz";
+    out.advice =
+        "close other programs, give the loop real-time priority, isolate a core, or lower "
+        "loop.rate_hz";
   }
   // The programs hold when a tick comes later than their gap timer after the one before.
   constexpr double kGap_s = 0.1, kNear = 0.5;
   if (to_seconds(figures.lateness_max) > kNear * kGap_s) {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
-        "a loop on this machine stands still for nearly the gap timer (safety.gap_s, 0.1 s) or longer: end "
-        "other programs, or give the loop its priority";
+        "a loop on this machine stalls for nearly the gap timer (safety.gap_s, 0.1 s) or longer: close "
+        "other programs, or give the loop real-time priority";
   }
   return out;
 }

@@ -62,12 +62,12 @@ Finding not_running(Side side, const std::string& address) {
   const std::string program = "longreach-" + std::string(name_of(side));
   if (is_loopback(address))
     return {FindingVerdict::kWarning, "RPC",
-            "nobody listens at " + address + ": it does not run on this machine",
-            "start " + program + ", or say where it is with --" + std::string(name_of(side)) + " HOST:PORT"};
+            "no program listens at " + address + ": it does not run on this machine",
+            "start " + program + ", or give its address with --" + std::string(name_of(side)) + " HOST:PORT"};
   return {FindingVerdict::kFailure, "RPC", "no answer from " + address,
           "start " + program +
-              " there, with rpc.listen at an address that this host reaches (not 127.0.0.1), and let "
-              "TCP port " +
+              " there, with rpc.listen set to an address that this host can reach (not 127.0.0.1), and "
+              "allow TCP port " +
               port_of(address) + " through the firewalls"};
 }
 
@@ -75,22 +75,24 @@ Finding not_running(Side side, const std::string& address) {
 Finding unanswered(Side side, const std::string& address, const std::string& error, double timeout_s) {
   if (!takes_connections(address, timeout_s)) return not_running(side, address);
   return {FindingVerdict::kFailure, "RPC", error,
-          "somebody takes connections there: seconds away, give it more time with --timeout 120; if no "
-          "longreach-" +
-              std::string(name_of(side)) + " runs there, another program has the port: ss -ltnp 'sport = :" +
+          "a program accepts connections there: on a link of seconds, allow more time with --timeout 120; "
+          "if no longreach-" +
+              std::string(name_of(side)) + " runs there, another program uses the port: ss -ltnp 'sport = :" +
               port_of(address) + "' names it"};
 }
 
 Finding rpc_finding(const Watched& seen, bool insecure) {
   return {FindingVerdict::kOk, "RPC",
-          std::string(insecure ? "answers, in clear" : "answers, with a certificate of the same site") +
+          std::string(insecure ? "answers, without encryption"
+                               : "answers, with a certificate of the same "
+                                 "site") +
               "; median " + with_unit(median(seen.rpc_s), "s"),
           "", histogram_of(seen.rpc_s)};
 }
 
 Finding version_finding(const proto::Status& status) {
   if (status.version() == LONGREACH_VERSION)
-    return {FindingVerdict::kOk, "version", status.version() + ", as this program"};
+    return {FindingVerdict::kOk, "version", status.version() + ", like this program"};
   return {FindingVerdict::kFailure, "version",
           "it is " + status.version() + ", this program is " LONGREACH_VERSION,
           "install one version on all hosts"};
@@ -102,10 +104,10 @@ Finding state_finding(const proto::Status& status) {
   if (!status.refusal().empty())
     return {FindingVerdict::kFailure, "engagement", text + "; " + status.refusal()};
   if (status.side() == "slave")
-    text += status.lease().empty() ? "; the robot is free"
-                                   : "; the robot is with the master at " + status.lease();
+    text += status.lease().empty() ? "; no master has control of the robot"
+                                   : "; the robot is controlled by the master at " + status.lease();
   if (status.state() == "Fault")
-    return {FindingVerdict::kFailure, "state", text, "see its log; engage to begin anew"};
+    return {FindingVerdict::kFailure, "state", text, "see its log; engage to start again"};
   return {FindingVerdict::kOk, "state", text};
 }
 
@@ -119,7 +121,7 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
   const std::uint64_t very_late = counter(status, "ticks_late_100ms");
   Finding out{FindingVerdict::kOk, "loop",
               format_number(std::round(achieved_hz)) + " of " + format_number(wanted_hz) +
-                  " Hz; since its start 99 % of ticks late by at most " + with_unit(p99_s, "s") + ", worst " +
+                  " Hz; 99 % of ticks late by at most " + with_unit(p99_s, "s") + ", worst " +
                   with_unit(1e-6 * static_cast<double>(counter(status, "lateness_max_us")), "s") + ", " +
                   format_number(missed) + " missed, " + std::to_string(very_late) + " late by over 100 ms"};
   for (int i = 0; i < status.lateness_size(); ++i) {
@@ -127,9 +129,8 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
     out.histogram.bars.push_back({1e-6 * std::exp2(i), status.lateness(i)});
   }
   constexpr const char* kAdvice =
-      "compare with the bare loop below: is it late, too, the machine is busy or has no real-time rights; "
-      "else lower "
-      "loop.rate_hz";
+      "compare with the bare loop below: if it is late as well, the machine is busy or real-time priority "
+      "is not permitted; otherwise lower loop.rate_hz";
   if (achieved_hz < 0.9 * wanted_hz) {
     out.verdict = FindingVerdict::kFailure;
     out.advice = kAdvice;
@@ -145,13 +146,13 @@ Finding link_finding(const Watched& seen, Side side) {
   const std::string other = side == Side::kMaster ? "the slave" : "a master";
   if (link.silence_s() < 0.0)
     return {side == Side::kMaster ? FindingVerdict::kFailure : FindingVerdict::kOk, "link",
-            "nothing heard of " + other + " yet"};
+            "no datagram received from " + other + " yet"};
   if (side == Side::kSlave && seen.last.lease().empty())
     return {FindingVerdict::kOk, "link", "idle: no master is connected"};
   if (link.silence_s() > kSilence_s)
     return {FindingVerdict::kFailure, "link",
-            "nothing heard of " + other + " for " + with_unit(link.silence_s(), "s"),
-            "does it run, and does UDP get through in this direction?"};
+            "no datagram received from " + other + " for " + with_unit(link.silence_s(), "s"),
+            "check that it runs, and that UDP datagrams arrive in this direction"};
   std::string text =
       "round trip " + (link.rtt_known() ? with_unit(link.rtt_s(), "s") : std::string("not known yet"));
   text += ", jitter " + with_unit(link.jitter_s(), "s") + ", loss " +
@@ -162,7 +163,9 @@ Finding link_finding(const Watched& seen, Side side) {
   Finding out{FindingVerdict::kOk, "link", text, "", histogram_of(seen.udp_s)};
   if (link.loss() > kLoss) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "motion is late, not lost: lower link.send_hz if the link is too narrow";
+    out.advice =
+        "lost datagrams delay the motion: lower link.send_hz if the bandwidth of the link is too "
+        "low";
   }
   return out;
 }
@@ -170,12 +173,11 @@ Finding link_finding(const Watched& seen, Side side) {
 Finding refusals_finding(const proto::Status& status) {
   const std::uint64_t rpc = counter(status, "rpc_refused"),
                       forged = counter(status, "rejected_authentication");
-  if (rpc + forged == 0)
-    return {FindingVerdict::kOk, "intruders", "none: nobody was refused by certificate or seal"};
+  if (rpc + forged == 0) return {FindingVerdict::kOk, "intruders", "none"};
   return {FindingVerdict::kWarning, "intruders",
           std::to_string(rpc) + " connections or calls refused, " + std::to_string(forged) +
-              " datagrams forged or damaged; all without effect",
-          "its log says when and why (rpc refused=...)"};
+              " datagrams forged or corrupted; all without effect",
+          "see its log for times and reasons (rpc refused=...)"};
 }
 
 std::string unquoted(std::string text) {
@@ -194,7 +196,7 @@ std::string link_address(SideClient& client, const std::string& rpc) {
 Finding datagram_finding(Side side, SideClient& client, const std::string& address, const std::string& rpc) {
   if (is_loopback(address) && !is_loopback(rpc))
     return {FindingVerdict::kFailure, "datagrams",
-            "it takes datagrams of its own machine alone, at " + address,
+            "it accepts datagrams only from its own machine, at " + address,
             "start it with --set link.listen=0.0.0.0:" + port_of(address)};
   // Rejected by the version, or, at the master, since they are not the slave's: which counter tells.
   const std::string name = side == Side::kSlave ? "rejected_version" : "strangers";
@@ -215,8 +217,8 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
   return {FindingVerdict::kFailure, "datagrams",
           "none of " + std::to_string(probe.sent) + " of 508 bytes arrived at " + address + mtu +
               (probe.error.empty() ? "" : " (" + probe.error + ")"),
-          "let UDP port " + port_of(address) +
-              " through the firewalls, without fragments: the path needs an MTU of 536"};
+          "allow UDP port " + port_of(address) +
+              " through the firewalls, without fragmentation: the path needs an MTU of 536"};
 }
 
 void examine_running(Section& out, Side side, SideClient& client, const std::string& rpc, bool insecure,
@@ -238,7 +240,7 @@ void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
   out.findings.push_back({FindingVerdict::kFailure, "datagrams",
-                          std::string("another program has the UDP port of ") + kLink,
+                          std::string("another program uses the UDP port of ") + kLink,
                           "ss -ulnp 'sport = :47001' names it; end it, or choose another with link.listen"});
 }
 
@@ -252,7 +254,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
   if (!options.insecure && !site_exists(site)) {
     out.findings.push_back(takes_connections(address, options.timeout_s)
                                ? Finding{FindingVerdict::kFailure, "RPC",
-                                         "somebody listens, but this host has no site",
+                                         "a program listens, but this host has no site",
                                          "join its site with longreach pair"}
                                : not_running(side, address));
     return out;
@@ -262,7 +264,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
     examine_running(out, side, client, address, options.insecure, seconds);
   } catch (const SiteError&) {
     out.findings.push_back(
-        {FindingVerdict::kFailure, "RPC", "not asked: the site folder cannot be used, see above"});
+        {FindingVerdict::kFailure, "RPC", "not queried: the site folder is unusable, see above"});
   } catch (const std::runtime_error& error) {
     out.findings.push_back(unanswered(side, address, error.what(), options.timeout_s));
     if (side == Side::kSlave && is_loopback(address) &&

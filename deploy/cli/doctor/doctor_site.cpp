@@ -13,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kAnew =
-    "restore it; or put the folder aside: the next start makes a new site, and paired hosts pair again";
+    "restore it; or move the folder away: the next start creates a new site, and paired hosts must be "
+    "paired again";
 
 /// The folder and every file in it that has a key or a certificate.
 Finding examine_modes(const fs::path& site) {
@@ -30,10 +31,10 @@ Finding examine_modes(const fs::path& site) {
               "run as its owner, or choose another folder with --site DIR"};
     if ((status.st_mode & 077U) != 0)
       return {FindingVerdict::kFailure, "folder",
-              path.string() + " is open to other users: whoever reads it has the robot",
-              "chmod -R go= " + site.string() + "; if others may have read it, make the site anew"};
+              path.string() + " is accessible to other users: a user that can read it can control the robot",
+              "chmod -R go= " + site.string() + "; if others may have read it, create a new site"};
   }
-  return {FindingVerdict::kOk, "folder", "open to its owner alone"};
+  return {FindingVerdict::kOk, "folder", "accessible only to its owner"};
 }
 
 /// Empty: it cannot be read.
@@ -52,7 +53,7 @@ Finding examine_authority(const fs::path& site, const std::string& authority) {
   const std::string found = fingerprint(authority).substr(0, 23) + "...";
   if (!fs::exists(site / "authority.key"))
     return {FindingVerdict::kOk, "authority",
-            found + ", of another host: this one was paired, and cannot be a slave"};
+            found + ", of another host: this host was paired and cannot be a slave"};
   if (const std::string trouble =
           certificate_trouble(authority, authority, text_of(site / "authority.key"), "");
       !trouble.empty())
@@ -72,7 +73,7 @@ Finding examine_role(const fs::path& site, RpcRole role, const std::string& auth
                                                   std::string(name_of(role)));
   if (!trouble.empty())
     return {FindingVerdict::kFailure, stem, stem + ".crt: " + trouble, std::string(kAnew)};
-  return {FindingVerdict::kOk, stem, "certified by the authority, valid until " + valid_until(certificate)};
+  return {FindingVerdict::kOk, stem, "signed by the authority, valid until " + valid_until(certificate)};
 }
 
 }  // namespace
@@ -82,14 +83,14 @@ Section examine_site(const Options& options) {
   Section out{"Site " + site.string()};
   if (options.insecure) {
     out.findings.push_back({FindingVerdict::kWarning, "folder",
-                            "not used: RPC is in clear, on this machine alone",
-                            "leave out --insecure for anything but a test"});
+                            "not used: RPC is unencrypted, on this machine only",
+                            "use --insecure for tests only"});
     return out;
   }
   if (!site_exists(site)) {
     out.findings.push_back(
-        {FindingVerdict::kWarning, "folder", "there is none yet: nothing of longreach was started here",
-         "start longreach-slave where the robot is; on another host join it with longreach pair"});
+        {FindingVerdict::kWarning, "folder", "there is no site yet: no longreach program was started here",
+         "start longreach-slave at the robot; on another host join its site with longreach pair"});
     return out;
   }
   out.findings.push_back(examine_modes(site));

@@ -88,7 +88,7 @@ ExitStatus list(const Options& options, const RecordCommand& command) {
 
 std::string formatted_cut(double last_s) {
   char text[80];
-  std::snprintf(text, sizeof text, " is cut: what came after t_s = %.1f is lost", last_s);
+  std::snprintf(text, sizeof text, " is truncated: data after t_s = %.1f is lost", last_s);
   return text;
 }
 
@@ -110,19 +110,19 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   for (const auto& file : files) {
     const std::filesystem::path folder =
         command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
-    if (folder == file) throw UsageError("say with --out DIR where the tables shall go");
+    if (folder == file) throw UsageError("give the folder of the tables with --out DIR");
     const CsvExport written = export_csv(file, folder, zero_ns);
     for (const auto& table : written.tables) rows += table.rows;
     tables += written.tables.size();
     for (const std::string& what : written.damaged)
-      lost += "; " + file.string() + " is damaged, left out: " + what;
+      lost += "; " + file.string() + " is damaged and was skipped: " + what;
     if (!written.whole) lost += "; " + file.string() + formatted_cut(written.last_s);
     for (const std::string& topic : written.skipped) skipped += (skipped.empty() ? "" : ", ") + topic;
     if (folders.find(folder.string()) == std::string::npos)
       folders += (folders.empty() ? "" : " and ") + folder.string();
   }
   print_done(options, std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " +
-                          folders + (skipped.empty() ? "" : "; not protobuf, left out: " + skipped) + lost);
+                          folders + (skipped.empty() ? "" : "; not protobuf, skipped: " + skipped) + lost);
   return ExitStatus::kDone;
 }
 

@@ -6,8 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr const char* kRecordMore =
-    R"(Each side records into a folder of its own (its option --recordings); a recording begun so can be looked at, but not
-replayed: for that start the programs with --record FILE.
+    R"(Each side records into its own folder (its option --recordings). Such a recording can be exported, but not replayed:
+to replay, start the programs with --record FILE.
 Example: longreach record start drill-3)";
 
 CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, const char* more) {
@@ -22,27 +22,26 @@ CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, cons
 void RecordWords::declare(CLI::App& app) {
   record_ = declare_one(app, "record", "record both sides, list and export recordings", kRecordMore);
   record_->require_subcommand(1);
-  CLI::App* start =
-      declare_one(*record_, "start", "record both sides from now on",
-                  "Without a name: the time. A recording ends by itself at --max-mb, and when the "
-                  "disk is full.\nExample: longreach record start drill-3");
-  start->add_option("NAME", name_, "of the files: NAME-master.mcap, NAME-slave.mcap");
-  start->add_option("--max-mb", max_mb_, "size at which a recording ends, 1 to 1000000 [4096]")
-      ->type_name("N");
+  CLI::App* start = declare_one(*record_, "start", "record both sides from now on",
+                                "Default name: the time. A recording ends at --max-mb, or when the disk is "
+                                "full.\nExample: longreach record start drill-3");
+  start->add_option("NAME", name_, "name of the files: NAME-master.mcap, NAME-slave.mcap");
+  start->add_option("--max-mb", max_mb_, "maximum size of a recording, 1 to 1000000 [4096]")->type_name("N");
   declare_one(*record_, "stop", "end the recordings of both sides", "Example: longreach record stop");
   CLI::App* list = declare_one(*record_, "list", "list the recordings on this machine",
-                               "A recording that is still being written is shown as cut.\n"
+                               "A recording that is still being written is shown as truncated.\n"
                                "Example: longreach record list");
   list->add_option("DIR", folder_, "folder [$XDG_STATE_HOME/longreach/recordings]");
   CLI::App* csv =
-      declare_one(*record_, "export", "write a recording as tables, a CSV file a topic",
+      declare_one(*record_, "export", "export a recording as tables, one CSV file per topic",
                   "Columns: t_s since the first message of all files that are named, log_time_ns "
                   "(Unix time,\nby which tables of any recordings are joined), then every number.\n"
                   "Example: longreach record export drill-3");
-  csv->add_option("FILE", files_, "files, or names of `record start` and `record list`; drill-3: both sides")
+  csv->add_option("FILE", files_,
+                  "files, or names of `record start` and `record list`; a name stands for both sides")
       ->required();
-  csv->add_flag("--csv", csv_, "as CSV, which is the only form");
-  csv->add_option("--out", folder_, "folder; made if missing [FILE without .mcap]")->type_name("DIR");
+  csv->add_flag("--csv", csv_, "export as CSV, the only format");
+  csv->add_option("--out", folder_, "folder; created if missing [FILE without .mcap]")->type_name("DIR");
 }
 
 RecordCommand RecordWords::command() const {

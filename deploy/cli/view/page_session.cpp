@@ -34,16 +34,16 @@ http::response<http::string_body> response_to(ViewAnswer answer) {
     case ViewAnswer::kStyle:
       return file(page.style, "text/css; charset=utf-8");
     case ViewAnswer::kNotFound:
-      return plain(http::status::not_found, "there is nothing here\n");
+      return plain(http::status::not_found, "this page does not exist\n");
     case ViewAnswer::kNotAllowed:
     case ViewAnswer::kLive:
-      return plain(http::status::method_not_allowed, "only GET, and a WebSocket at live\n");
+      return plain(http::status::method_not_allowed, "only GET and a WebSocket at live are supported\n");
     case ViewAnswer::kForbidden:
       break;
   }
   return plain(http::status::forbidden,
-               "This address lacks the token, or has an old one. Open the whole address that longreach view "
-               "printed when it was\nstarted last: with every start the token is a new one.\n");
+               "The token in this address is missing or old. Open the complete address that the last start "
+               "of longreach view\nprinted: the token changes with every start.\n");
 }
 
 std::string_view field(const ViewHttpRequest& request, http::field name) {

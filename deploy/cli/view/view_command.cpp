@@ -80,7 +80,7 @@ class CommandQueue {
       LinkSetCommand command;
       command.profile = page_command.link;
       set_link(options_, command);
-      return "the link is now like " + page_command.link;
+      return "the link now has the profile " + page_command.link;
     }
     SideClient master(Side::kMaster, options_);
     if (page_command.kind == Kind::kMode) return master.set_mode(page_command.mode);

@@ -119,7 +119,7 @@ struct ViewServer::State {
   void on_opened(const std::shared_ptr<Viewer>& viewer) {
     if (viewers.size() >= static_cast<std::size_t>(kViewersMax)) {
       viewer->tell(std::make_shared<const std::string>(
-          R"({"full":"as many pages as may look are open already: close one of them"})"));
+          R"({"full":"the maximum number of pages is open: close one of them"})"));
       return;
     }
     viewers.insert(viewer);
@@ -142,7 +142,7 @@ struct ViewServer::State {
       // What was under way when the hand was lost is no mistake.
       if (page_command.kind != Kind::kAim && page_command.kind != Kind::kGive)
         viewer->tell(std::make_shared<const std::string>(
-            R"({"said":"take the hand first: only who has it may do that","refused":true})"));
+            R"({"said":"take the hand first: only the page that has the hand may do that","refused":true})"));
       return;
     }
     if (page_command.kind == Kind::kGive) {
@@ -157,7 +157,7 @@ struct ViewServer::State {
   void take(const std::shared_ptr<Viewer>& viewer) {
     if (holder && holder != viewer) {
       viewer->tell(std::make_shared<const std::string>(
-          R"({"said":"another page has the hand: it has to give it back first","refused":true})"));
+          R"({"said":"another page has the hand: it must return the hand first","refused":true})"));
       return;
     }
     holder = viewer;
@@ -178,7 +178,7 @@ struct ViewServer::State {
       if (error) return;
       if (holder && Clock::now() - aimed > kHandSilence) {
         holder->tell(std::make_shared<const std::string>(
-            R"({"said":"this page was silent for 1 s, so its hand has let go","refused":true})"));
+            R"({"said":"this page was silent for 1 s, so its hand has released the handle","refused":true})"));
         let_go(true);
         notify_holders();
       }

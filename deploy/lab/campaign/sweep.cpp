@@ -185,7 +185,7 @@ int merge(const MergeOptions& options) {
     folders.emplace_back(path);
     const std::string why = difference(folders.back().record(), folders.front().record());
     if (!why.empty())
-      throw ConfigError(path.string() + " does not belong to " + options.folders.front().string() +
+      throw ConfigError(path.string() + " does not match " + options.folders.front().string() +
                         ": its results are " + why);
   }
   const Grid grid(folders.front().record().campaign());

@@ -1,5 +1,5 @@
 // What a scene costs: microseconds of a step of the simulated robot and the slave's node with each scene that
-// ships, what it builds (1) and leaves out (0), and of the contact alone where the tool touches something;
+// ships, what it builds (1) and omits (0), and of the contact alone where the tool touches something;
 // then with 1 to 10,000 surfaces, at rest (found through a tree of bounds) and moving (asked one after the
 // other), and with 1 to 4 free bodies in a row, apart and touching. The one experiment whose figures are of
 // this machine and its load.

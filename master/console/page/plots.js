@@ -57,7 +57,7 @@ function content(plot, rows) {
     axes: { y: { valueRange: range(rows, plot, false) }, y2: { valueRange: range(rows, plot, true) } } };
 }
 
-/** Labels in seconds before the newest sample. Dygraphs leaves out a label at the very end of the axis. */
+/** Labels in seconds before the newest sample. Dygraphs omits a label at the very end of the axis. */
 function seconds_ago(from, to) {
   return [0, 1 / 3, 2 / 3, 1 - 1e-9].map((share) => {
     const ago = Math.round((1 - share) * SPAN_S);

@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kFlat = 1e-6;     // height over rod below which the two assemblies cannot be told apart
+constexpr double kFlat = 1e-6;     // height over rod below which the two assemblies are indistinguishable
 constexpr double kTrusted = 10.0;  // way over rod and volume of the unit rods at the start that a tick may go
 constexpr double kAnyWay = 1e300;  // where the start is no previous position
 constexpr double kInLine = 1e-7;   // |sin| of the angle in the triangle of centres below which it is a line

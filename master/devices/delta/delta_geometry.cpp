@@ -97,7 +97,7 @@ double DeltaGeometry::gap(const Vector3& p) const {
 void DeltaGeometry::require_closed_loop() const {
   constexpr int kHalf = 8;
   const double span = std::abs(radius_) + std::abs(side_) + size_m();
-  if (!std::isfinite(span * span)) throw GeometryError("the lengths are too large to compute with");
+  if (!std::isfinite(span * span)) throw GeometryError("the lengths are too large");
   // Where devices are used, first: it spares almost all of them the search.
   for (int k = -kHalf; k <= kHalf; ++k) {
     if (gap({0.0, 0.0, span / kHalf * k}) <= 0.0) return;
@@ -125,7 +125,7 @@ void DeltaGeometry::require_closed_loop() const {
     if (next == best) step *= 0.5;
     best = next;
   }
-  throw GeometryError("impossible loop: there is no position of the platform that all three legs reach");
+  throw GeometryError("impossible geometry: the three legs reach no common position of the platform");
 }
 
 }  // namespace longreach

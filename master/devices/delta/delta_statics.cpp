@@ -24,7 +24,7 @@ Matrix3 adjugate_columns(const Matrix3& rows) {
 void require_valid(const DeltaMasses& masses) {
   const auto mass = [](std::string_view name, double kg) {
     if (!std::isfinite(kg) || kg < 0.0)
-      throw GeometryError(std::string(name) + " must be a finite mass that is not negative");
+      throw GeometryError(std::string(name) + " must be a finite, non-negative mass");
   };
   mass("platform", masses.platform_kg);
   mass("arm", masses.arm_kg);

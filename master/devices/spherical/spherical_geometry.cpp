@@ -16,14 +16,14 @@ constexpr double kLeastLink = 1e-3;  // rad from 0 and from π
 double link(std::string_view name, double angle) {
   require_finite(name, angle);
   if (!(angle >= kLeastLink && angle <= std::numbers::pi - kLeastLink))
-    throw GeometryError(std::string(name) + " must lie between 0 and pi: a link needs an angle");
+    throw GeometryError(std::string(name) + " must be between 0 and pi");
   return angle;
 }
 
 double cone(std::string_view name, double angle) {
   require_finite(name, angle);
   if (!(angle >= 0.0 && angle <= std::numbers::pi))
-    throw GeometryError(std::string(name) + " must lie within 0 and pi");
+    throw GeometryError(std::string(name) + " must be from 0 to pi");
   return angle;
 }
 
@@ -101,7 +101,7 @@ void SphericalGeometry::require_distinct_legs() const {
     in_line &= legs_[i].v.cross(legs_[j].v).norm() < kSameAxis;
   }
   if (in_line)
-    throw GeometryError("beta2 or v: the platform axes lie in one line, so the platform turns freely");
+    throw GeometryError("beta2 or v: the platform axes are collinear, so the platform turns freely");
 }
 
 /// By how much, rad, the worst leg fails to reach orientation q; not positive where all reach.
@@ -143,7 +143,7 @@ void SphericalGeometry::require_closed_loop() const {
     if (!better) step *= 0.5;
     best = next;
   }
-  if (least > 0.0) throw GeometryError("impossible loop: there is no orientation that all three legs reach");
+  if (least > 0.0) throw GeometryError("impossible geometry: the three legs reach no common orientation");
 }
 
 }  // namespace longreach

@@ -185,8 +185,10 @@ void expect_held(const std::vector<Limit>& limits, const std::vector<Fixed>& fix
   for (const auto& [path, at, one, other] : fixed) {
     const Config start = with(Config{}, path, at);
     for (const std::string& value : {one, other})
-      EXPECT_TRUE(
-          beyond_ceiling(start, with(start, path, value)).value_or("").starts_with(path + " is not changed"))
+      EXPECT_TRUE(beyond_ceiling(start, with(start, path, value))
+                      .value_or("")
+                      .starts_with(path + " cannot be "
+                                          "changed"))
           << path << " = " << value;
   }
 }
@@ -287,23 +289,23 @@ TEST(Ceiling, LimitsGoBackUpToTheStartAndNoFurther) {
 
 TEST(Ceiling, SaysWhichFieldAtWhichCeilingAndWhatToDo) {
   const proto::SlaveConfig start;
-  EXPECT_EQ(
-      beyond_ceiling(start, with(start, "command.force_guard_n", "40")),
-      "command.force_guard_n = 40 is looser than 20, which this side was started with; from afar it can "
-      "only be tightened; change it in the file at that side and restart");
-  EXPECT_EQ(
-      beyond_ceiling(start, with(start, "sensing.zero_s", "100")),
-      "sensing.zero_s is not changed from afar: it is 0; change it in the file at that side and restart");
+  EXPECT_EQ(beyond_ceiling(start, with(start, "command.force_guard_n", "40")),
+            "command.force_guard_n = 40 is less restrictive than 20, the value at the start of this side; a "
+            "client can only tighten it; change it in the file at that side and restart");
+  EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.zero_s", "100")),
+            "sensing.zero_s cannot be changed by a client: it is 0; change it in the file at that side and "
+            "restart");
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.gravity_m_per_s2", "0,0,-9.81")),
-            "sensing.gravity_m_per_s2 is not changed from afar: it is not set; change it in the file at that "
+            "sensing.gravity_m_per_s2 cannot be changed by a client: it is not set; change it in the file "
+            "at that "
             "side and restart");
   proto::SlaveConfig more = start;
   more.mutable_scene()->add_material();
   EXPECT_EQ(beyond_ceiling(start, more),
-            "scene.material is not changed from afar; change it in the file at that side and restart");
+            "scene.material cannot be changed by a client; change it in the file at that side and restart");
   EXPECT_EQ(
       beyond_ceiling(start, with(start, "robot_file", "robots/other.txtpb")),
-      "robot_file is not changed from afar: it is robots/space_arm.txtpb; change it in the file at that "
+      "robot_file cannot be changed by a client: it is robots/space_arm.txtpb; change it in the file at that "
       "side and restart");
 }
 

@@ -84,8 +84,8 @@ TEST_F(Files, ThatASceneNamesAreBesideIt) {
 
 TEST_F(Files, ThatAreNowhereAreRefusedWithAllFolders) {
   config.set_robot_file("robots/none.txtpb");
-  EXPECT_EQ(error(), "robot_file = \"robots/none.txtpb\": there is no such file in " + path("home").string() +
-                         " or " + path("installed").string());
+  EXPECT_EQ(error(), "robot_file = \"robots/none.txtpb\": the file does not exist in " +
+                         path("home").string() + " or " + path("installed").string());
 }
 
 TEST_F(Files, OnACommandLineCountFromTheWorkingFolder) {
@@ -99,7 +99,7 @@ TEST_F(Files, OnACommandLineCountFromTheWorkingFolder) {
     EXPECT_EQ(placed_setting(same, search), same);
   }
   EXPECT_EQ(error_of([&] { placed_setting("robot_file=none.txtpb", search); }),
-            "robot_file = \"none.txtpb\": there is no such file in " + files.path().string() + ", " +
+            "robot_file = \"none.txtpb\": the file does not exist in " + files.path().string() + ", " +
                 path("home").string() + " or " + path("installed").string());
   files.write("mylink.txtpb", "up { delay_s: 3 }");
   EXPECT_EQ(load_link_profile(search, "mylink.txtpb").up().delay_s(), 3.0);

@@ -110,10 +110,11 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
             "4:7: surface.s.box.size_m.1 = -1 is outside 0 (excluded) to 1000");
   EXPECT_EQ(
       refused("", "cylinder { axis: [0, 0, 0] }"),
-      "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
+      "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9 and does not define a "
+      "direction");
   config.set_scene_file("scenes/none.txtpb");
   EXPECT_EQ(resolve_error(),
-            "scene_file = \"scenes/none.txtpb\": there is no such file in " + folder.path().string());
+            "scene_file = \"scenes/none.txtpb\": the file does not exist in " + folder.path().string());
 }
 
 // Nobody writes into a FIFO, and a device has no end.
@@ -141,27 +142,26 @@ TEST_F(ResolveFiles, ReadsRegularFilesOfABoundedSizeAlone) {
 TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
   const std::string solid = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
   folder.write("scenes/wall.txtpb", "bodies { mjcf_file: \"scenes/b.xml\" }");
-  EXPECT_EQ(resolve_error(), "scene.bodies.mjcf_file = \"scenes/b.xml\": there is no such file in " +
+  EXPECT_EQ(resolve_error(), "scene.bodies.mjcf_file = \"scenes/b.xml\": the file does not exist in " +
                                  path("scenes") + " or " + folder.path().string());
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   EXPECT_EQ(resolve_error(),
-            path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": there is no such file");
+            path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": the file does not exist");
   const std::string mesh = path("scenes/m.obj");
   folder.write("scenes/m.obj", solid);
-  EXPECT_EQ(resolve_error(),
-            mesh + ":5: the mesh is not closed: an edge of this face has no face on its other side");
+  EXPECT_EQ(resolve_error(), mesh + ":5: the mesh is not closed: an edge of this face has no second face");
   folder.write("scenes/m.obj", solid + "f 1 3 4\n");
   EXPECT_EQ(resolve_error(), mesh +
-                                 ":8: the face has an edge in the same direction as that of line 5; faces go "
-                                 "round anticlockwise, seen from outside");
+                                 ":8: the face has an edge in the same direction as that of line 5; the "
+                                 "vertices of a face must be in anticlockwise order, seen from outside");
   folder.write("scenes/m.obj", solid + "f 1 4 5\n");
   EXPECT_EQ(resolve_error(), mesh + ":8: the face names the vertex \"5\", and there are 4 before it");
   folder.write("scenes/m.obj", "v 0 0 0\n");
   EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
   folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
-  EXPECT_EQ(
-      resolve_error(),
-      path("scenes/b.xml") + ":1: \"m.stl\" is not a mesh beside the file; name an OBJ file in its folder");
+  EXPECT_EQ(resolve_error(), path("scenes/b.xml") +
+                                 ":1: \"m.stl\" is not a mesh in the folder of the file; name an OBJ file in "
+                                 "that folder");
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   folder.write("scenes/m.obj", solid + "f 1/1 4/2 3/3\n");
   EXPECT_EQ(resolve_error(), "no error");
@@ -179,9 +179,9 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
 TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   config.set_robot_file("robots/none.txtpb");
   EXPECT_EQ(resolve_error(),
-            "robot_file = \"robots/none.txtpb\": there is no such file in " + folder.path().string());
+            "robot_file = \"robots/none.txtpb\": the file does not exist in " + folder.path().string());
   config.set_robot_file("");
-  EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or give the robot in place");
+  EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or specify the robot in place");
   config.clear_robot_file();
 
   folder.write("robots/space_arm.txtpb", "name: \"arm\"");
@@ -205,8 +205,8 @@ TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
       "scenes/wall.txtpb",
       "material { name: \"m\" }\nsurface { name: \"a\" material: \"m\" plane {\n normal: [0, 0, 0] } }");
   EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
-                                 ":3:2: surface.a.plane.normal has the length 0, which is "
-                                 "outside 1e-9 to 1e9: it gives no direction");
+                                 ":3:2: surface.a.plane.normal has the length 0, which is outside 1e-9 to "
+                                 "1e9 and does not define a direction");
 }
 
 // Each bad row is refused with file, line, field and reason.
@@ -223,10 +223,9 @@ TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
   EXPECT_EQ(refused("a_m: nan"), "3:9: joint.2.a_m = nan is not a finite number");
   EXPECT_EQ(refused("a_m: 1 alpha_rad: inf"), "3:16: joint.2.alpha_rad = inf is not a finite number");
   EXPECT_EQ(refused("a_m: 1 min_rad: 2 max_rad: 1"), "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
-  EXPECT_EQ(
-      refused("a_m: 0 alpha_rad: 0"),
-      "3:16: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 turn about one axis; one of them is "
-      "lost");
+  EXPECT_EQ(refused("a_m: 0 alpha_rad: 0"),
+            "3:16: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 rotate about the same axis; a "
+            "degree of freedom is lost");
   EXPECT_EQ(refused("a_m: 1", "joint {}"), "1:1: joint has 7 elements; 6 are needed");
   EXPECT_EQ(refused("a_m: 1 kind: PRISMATIC"),
             "1:1: joint has 1 prismatic and 0 fixed elements; a robot has six revolute ones, or three "
@@ -244,8 +243,8 @@ TEST_F(ResolveFiles, RefusesPrismaticJointsThatMoveInAPlaneOnly) {
   folder.write("robots/space_arm.txtpb", text);
   EXPECT_EQ(resolve_error(),
             path("robots/space_arm.txtpb") +
-                ":2:25: joint.1.alpha_rad = 1.5707963267948966: the three prismatic joints move "
-                "the tool in a plane only");
+                ":2:25: joint.1.alpha_rad = 1.5707963267948966: the three prismatic joints move the tool "
+                "only in a plane");
 }
 
 TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
@@ -290,12 +289,13 @@ TEST_F(ResolveFiles, RecognisesDegrees) {
     return resolve_error();
   };
   EXPECT_NE(refused("a_m: 1", "a_m: 1 alpha_rad: 90")
-                .find("alpha_rad = 90 is outside -3.2 to 3.2; it is in rad, and this looks like degrees: 90 "
+                .find("alpha_rad = 90 is outside -3.2 to 3.2; the unit is rad, and this value seems to be "
+                      "in degrees: 90 "
                       "degrees are 1.57"),
             std::string::npos);
   EXPECT_NE(refused("servo_hz: 7", "tool { rotation_rad: [0, 0, 90] }")
-                .find("tool.rotation_rad has the length 90, more than a turn; it is in rad, and this "
-                      "looks like degrees"),
+                .find("tool.rotation_rad has the length 90, more than one turn; the unit is rad, and this "
+                      "value seems to be in degrees"),
             std::string::npos);
 }
 
@@ -323,7 +323,7 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
   folder.write("mine.txtpb", "up { delay_s: 0.7 }");
   const std::string mine = (folder.path() / "mine.txtpb").string();
   EXPECT_EQ(load_link_profile(folder.path(), mine).up().delay_s(), 0.7);
-  EXPECT_NE(error("/nowhere/mine.txtpb").find("/nowhere/mine.txtpb: there is no such file"),
+  EXPECT_NE(error("/nowhere/mine.txtpb").find("/nowhere/mine.txtpb: the file does not exist"),
             std::string::npos)
       << error("/nowhere/mine.txtpb");
   folder.write("links/moon.txtpb", "up { delay_s: -1 }");
@@ -344,17 +344,17 @@ TEST(DeployFolder, PrefersEnvironmentThenProgramThenWorkingFolder) {
   // build/deploy is nearer, but holds nothing that a user edits.
   EXPECT_EQ(find_deploy_folder({std::nullopt, program, root / "work/a/b"}), root / "program/deploy");
   EXPECT_EQ(find_deploy_folder({"", root / "empty", root / "work/a/b"}), root / "work/deploy");
-  EXPECT_EQ(
-      error_of([&] {
-        find_deploy_folder({(root / "empty").string(), program, root});
-      }),
-      "LONGREACH_HOME = " + (root / "empty").string() +
-          " holds none of the folders config, links, devices, robots, scenes; set it to the deploy folder");
+  EXPECT_EQ(error_of([&] {
+              find_deploy_folder({(root / "empty").string(), program, root});
+            }),
+            "LONGREACH_HOME = " + (root / "empty").string() +
+                " contains none of the folders config, links, devices, robots, scenes; set it to the deploy "
+                "folder");
   EXPECT_EQ(error_of([&] {
               find_deploy_folder({std::nullopt, root / "empty", root / "home"});
             }),
             "no deploy folder above " + (root / "empty").string() + " or " + (root / "home").string() +
-                "; set LONGREACH_HOME to the folder that holds config, links, devices, robots and scenes");
+                "; set LONGREACH_HOME to the folder that contains config, links, devices, robots and scenes");
 }
 
 }  // namespace

@@ -79,10 +79,10 @@ TEST(SetField, TakesUnitsWhereTheFieldHasThem) {
             "device.delta.workspace_m = \"2%\" is not a finite decimal number");
   EXPECT_EQ(
       set_error(kMaster, "link.impairment.delay_s", "2%"),
-      "link.impairment.delay_s = \"2%\" is not a finite decimal number of seconds, nor one with s, ms or us "
-      "behind it");
+      "link.impairment.delay_s = \"2%\" is not a finite decimal number of seconds, nor a number followed by "
+      "s, ms or us");
   EXPECT_EQ(set_error(kMaster, "link.impairment.loss", "2ms"),
-            "link.impairment.loss = \"2ms\" is not a finite decimal number, nor one with % behind it");
+            "link.impairment.loss = \"2ms\" is not a finite decimal number, nor a number followed by %");
 }
 
 TEST(SetField, RefusesTextThatIsNotAValueOfTheType) {

@@ -40,10 +40,9 @@ TEST(TextFile, TakesAByteOrderMarkAndSaysWhereOtherTextIsNot) {
   EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 0.5 }"), "no error");
   EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 7 }"), ":1:11: mapping.scale = 7 is outside 0.05 to 1");
   EXPECT_EQ(load_error<proto::Scene>("# c\nname: \"w\xE4ll\""),
-            ":2:1: name is not UTF-8: save the file, or type the text, in that encoding");
-  EXPECT_EQ(
-      load_error("mapping {\n \xC3\xA4: 1 }"),
-      ":2:2: a character that is not ASCII stands outside of quotes; only texts in quotes may have such");
+            ":2:1: name is not UTF-8: save the file, or enter the text, in UTF-8");
+  EXPECT_EQ(load_error("mapping {\n \xC3\xA4: 1 }"),
+            ":2:2: a character outside of quotes is not ASCII; only quoted text may contain such characters");
 }
 
 TEST(TextFile, NamesLineAndColumnOfARangeViolation) {
@@ -86,10 +85,12 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
 
 TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
   EXPECT_EQ(load_error<proto::SlaveConfig>("safety { gap_s: 0.01 }"),
-            ":1:10: safety.gap_s = 0.01 is neither 0 (by the send rate of the master) nor from 0.02 to 2");
+            ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the send rate of the master) nor between "
+            "0.02 and 2");
   EXPECT_EQ(
       load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
-      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");
+      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: the contact would be lost in a "
+      "hold");
 }
 
 TEST(TextFile, ListsTheValuesOfAnEnum) {
@@ -125,9 +126,9 @@ TEST(TextFile, SaysWhatIsWrongWithTheFileItself) {
   EXPECT_EQ(error(folder.path() / "none.txtpb"), root + "/none.txtpb: there is no such file");
   EXPECT_EQ(error(folder.path()), root + ": is a folder; name a file in it");
   EXPECT_EQ(error(folder.write("empty.txtpb", "")),
-            root + "/empty.txtpb: is empty; a file of defaults has at least a comment");
+            root + "/empty.txtpb: is empty; a file that only uses defaults must contain at least a comment");
   EXPECT_EQ(error(folder.write("blank.txtpb", " \n\t\n")),
-            root + "/blank.txtpb: is empty; a file of defaults has at least a comment");
+            root + "/blank.txtpb: is empty; a file that only uses defaults must contain at least a comment");
   // What a program wrote, with the files of its scene, is long.
   EXPECT_EQ(error(folder.write("long.txtpb", std::string(8 << 20, '#') + "\nloop { priority: 7 }")),
             "no error");

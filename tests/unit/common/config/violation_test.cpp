@@ -38,8 +38,8 @@ TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
   EXPECT_EQ(validation_error(lab), "no error");
   lab.mutable_slave()->mutable_robot_adapter()->set_address("unix:/r");
   EXPECT_EQ(validation_error(lab),
-            "slave.robot_adapter.address = unix:/r is for programs; the laboratory has simulated devices and "
-            "robots alone");
+            "slave.robot_adapter.address = unix:/r is for the real programs; the laboratory has only "
+            "simulated devices and robots");
   lab.mutable_master()->mutable_device_adapter()->set_address("unix:/d");
   EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d is for"));
   EXPECT_EQ(validation_error(lab.master()), "no error");
@@ -56,8 +56,8 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
     EXPECT_EQ(validation_error(program),
               name == "STIFFNESS" ? "no error"
                                   : "rendering.law = " + name +
-                                        " is a law to compare with, in the laboratory only; a program "
-                                        "takes STIFFNESS");
+                                        " is a law for comparison, available only in the laboratory; the "
+                                        "programs accept STIFFNESS");
   }
 }
 
@@ -85,9 +85,9 @@ TEST(Validation, RefusesEnumValuesAndFieldsThatTheSchemaDoesNotKnow) {
   EXPECT_EQ(validation_error(config), "mapping.mode = 7 is not one of RATE, POSITION");
   const auto field_99 = std::string("\x32\x03\x98\x06\x01", 5);  // mapping: field 99 = 1
   ASSERT_TRUE(config.ParseFromString(field_99));
-  EXPECT_EQ(validation_error(config), "mapping has the field number 99, which this version does not know");
+  EXPECT_EQ(validation_error(config), "mapping has the field number 99, which is unknown to this version");
   ASSERT_TRUE(config.ParseFromString(std::string("\x98\x06\x01", 3)));
-  EXPECT_EQ(validation_error(config), "field number 99 is not known to this version");
+  EXPECT_EQ(validation_error(config), "field number 99 is unknown to this version");
 }
 
 TEST(Validation, CountsListsOnlyWhenTheyAreGiven) {
@@ -106,7 +106,8 @@ TEST(Validation, RefusesDirectionsThatPointNowhere) {
     return validation_error(config);
   };
   EXPECT_EQ(error_with(0, 0, 0),
-            "operator.direction has the length 0, which is outside 1e-9 to 1e9: it gives no direction");
+            "operator.direction has the length 0, which is outside 1e-9 to 1e9 and does not define a "
+            "direction");
   EXPECT_NE(error_with(0, 1e-320, 0), "no error");
   EXPECT_NE(error_with(1e300, 1e300, 0), "no error");
   EXPECT_EQ(error_with(0, -1e-9, 0), "no error");
@@ -160,7 +161,7 @@ TEST(Validation, WantsOneShapeForEachSurface) {
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(0)->mutable_hinge();
   EXPECT_EQ(validation_error(scene),
-            "surface.front.hinge is a second shape beside sphere; a surface has one");
+            "surface.front.hinge is a second shape besides sphere; a surface has one");
 }
 
 TEST(Validation, WantsOneMaterialForABody) {
@@ -173,7 +174,7 @@ TEST(Validation, WantsOneMaterialForABody) {
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(1)->set_material("foam");
   EXPECT_EQ(validation_error(scene),
-            "surface.top.material = \"foam\" is another one than \"steel\" of the body \"step\"; a body has "
+            "surface.top.material = \"foam\" differs from \"steel\" of the body \"step\"; a body has "
             "one material");
   scene.mutable_surface(0)->clear_body();
   EXPECT_EQ(validation_error(scene), "no error");
@@ -182,13 +183,13 @@ TEST(Validation, WantsOneMaterialForABody) {
 TEST(Validation, WantsTheNeedsOfASceneToCoverItsSurfaces) {
   proto::Scene scene = one_wall();
   scene.mutable_needs()->set_rotation(true);
-  EXPECT_EQ(validation_error(scene), "needs leaves out contact, which the surface \"front\" needs");
+  EXPECT_EQ(validation_error(scene), "needs omits contact, which the surface \"front\" needs");
   scene.mutable_needs()->set_contact(true);
   scene.mutable_needs()->set_rotation(false);
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(0)->clear_plane();
   scene.mutable_surface(0)->mutable_hinge();
-  EXPECT_EQ(validation_error(scene), "needs leaves out rotation, which the surface \"front\" needs");
+  EXPECT_EQ(validation_error(scene), "needs omits rotation, which the surface \"front\" needs");
 }
 
 TEST(Validation, WantsABudgetThatFiftyCommandsASecondFitIn) {
@@ -238,7 +239,7 @@ TEST(Validation, WantsTextsInUtf8) {
 TEST(Validation, WantsAWayToHaveTwoEnds) {
   proto::Scene scene = one_wall();
   scene.mutable_path()->add_waypoint();
-  EXPECT_EQ(validation_error(scene), "path.waypoint has 1 elements; a way has two ends");
+  EXPECT_EQ(validation_error(scene), "path.waypoint has 1 elements; a path has two ends");
 }
 
 TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
@@ -259,7 +260,7 @@ TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
   EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs one");
   scene.mutable_material(1)->set_name("a.b");
   EXPECT_EQ(validation_error(scene),
-            "material.a.b.name = \"a.b\" cannot be part of a path; use letters, and neither \".\" nor \"=\"");
+            "material.a.b.name = \"a.b\" cannot be part of a path; use letters, but neither \".\" nor \"=\"");
   scene.mutable_material(1)->set_name("12");
   EXPECT_NE(validation_error(scene), "no error");
 

@@ -32,9 +32,9 @@ TEST(EstimateWords, SayWhatIsNotYetKnownAndWhatCannotBeTold) {
   ContactEstimate e = pressed();
   e.n_verdict = Verdict::kNotYet;
   e.lambda_verdict = Verdict::kNotIdentifiable;
-  EXPECT_EQ(law_in_words(e), "n not yet known, lambda cannot be told");
+  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not identifiable");
   e.correlation = -0.95;
-  EXPECT_EQ(law_in_words(e), "n not yet known, lambda cannot be told apart from k");
+  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not identifiable apart from k");
   e.lambda_verdict = Verdict::kNotYet;
   EXPECT_EQ(law_in_words(e), "n not yet known, lambda not yet known apart from k");
 }

@@ -35,13 +35,13 @@ TEST(HoldCauses, ThePlaceIsInTheSentence) {
   EXPECT_EQ(sentence({HoldCause::kJointLimit, 5, 2.15, 2.0944}),
             "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094");
   EXPECT_EQ(sentence({HoldCause::kJointLeapt, 3, 1.5, 0.25}),
-            "joint 3 of the robot has leapt from 0.25 to 1.5 rad (or m), as no joint can");
+            "joint 3 of the robot has jumped from 0.25 to 1.5 rad (or m), faster than the joint can move");
   EXPECT_EQ(sentence({HoldCause::kToolOutside, 0, 0.612, 0.5}),
             "the tool is 0.612 m from the centre of its workspace, whose radius is 0.5 m");
   EXPECT_EQ(sentence({HoldCause::kWallComes, 0, -1.0, 0.0}),
-            "a surface is moving towards the robot, the way out is along -x");
+            "a surface is moving towards the robot, the direction of retreat is -x");
   EXPECT_EQ(sentence({HoldCause::kWallComes, 0, 3.0, 0.0}),
-            "a surface is moving towards the robot, the way out is along +z");
+            "a surface is moving towards the robot, the direction of retreat is +z");
   for (const HoldCause cause : all_causes()) {
     EXPECT_NE(sentence({cause, 2, 1e300, -1e300}).find("joint 2"), std::string::npos) << text_of(cause).name;
     EXPECT_EQ(sentence(cause), text_of(cause).sentence);

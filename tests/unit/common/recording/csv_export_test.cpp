@@ -165,7 +165,7 @@ TEST(CsvExport, LeavesOutTopicsThatAreNotProtobuf) {
   } catch (const RecordingError& e) {
     EXPECT_EQ(std::string(e.what()),
               (folder.path() / "json.mcap").string() +
-                  " has no messages of protobuf, which alone are exported, but /json (json)");
+                  " has no protobuf messages, the only kind that can be exported, but /json (json)");
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "json"));
 }
@@ -217,7 +217,7 @@ TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
       (void)export_csv(file, folder.path() / "new" / "t");
       FAIL();
     } catch (const RecordingError& e) {
-      EXPECT_EQ(std::string(e.what()).find(file + " is damaged, nothing of it can be exported: " + why), 0u)
+      EXPECT_EQ(std::string(e.what()).find(file + " is damaged and cannot be exported: " + why), 0u)
           << e.what();
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -287,7 +287,7 @@ TEST(RecordingName, OfALongOneTheBeginningIsRepeated) {
       check_recording_name(name);
       FAIL() << name;
     } catch (const RecordingError& e) {
-      EXPECT_NE(std::string(e.what()).find("is no name of a recording"), std::string::npos);
+      EXPECT_NE(std::string(e.what()).find("is not a valid name of a recording"), std::string::npos);
       EXPECT_LT(std::string(e.what()).size(), 200u) << e.what();
     }
   }

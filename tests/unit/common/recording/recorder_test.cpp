@@ -134,7 +134,7 @@ TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ASSERT_FALSE(recorder.status().running);
-  EXPECT_EQ(recorder.status().ended, "it has reached its largest size of 1 MB");
+  EXPECT_EQ(recorder.status().ended, "it has reached its maximum size of 1 MB");
   const std::uint64_t size = std::filesystem::file_size(folder.path() / "a.mcap");
   add_ticks(record_buffer, 0, 20'000);  // the loop goes on
   recorder.stop();
@@ -160,7 +160,7 @@ TEST(Recorder, OnAFullDiskEndsAndSaysSo) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   ASSERT_FALSE(recorder.status().running);
   EXPECT_TRUE(recorder.status().failed);
-  EXPECT_EQ(recorder.status().ended, "it could not be written any more: File too large");
+  EXPECT_EQ(recorder.status().ended, "writing failed: File too large");
   EXPECT_LE(std::filesystem::file_size(folder.path() / "a.mcap"), 3'000'000u);
   const Ticks ticks = read_ticks(folder.path() / "a.mcap");
   EXPECT_GT(ticks.count, 0u);

@@ -136,7 +136,8 @@ TEST(SessionClient, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
   ASSERT_TRUE(eventually([&] { return search.loop.adopted().size() == 1; }));
   EXPECT_EQ(search.session_client.taken_by(), "");
   backend.put_session(78);
-  backend.refuse(Refusal{Refusal::Kind::kPrecondition, "another master has the robot", "192.0.2.9:4711"});
+  backend.refuse(
+      Refusal{Refusal::Kind::kPrecondition, "another master has control of the robot", "192.0.2.9:4711"});
   search.loop.fall_silent();
   ASSERT_TRUE(eventually([&] { return search.session_client.taken_by() == "192.0.2.9:4711"; }));
   // The words follow a moment later.

@@ -65,14 +65,14 @@ TEST(Pairing, AHostWithTheTokenBecomesMasterAndClientAndNothingElse) {
 
 TEST(Pairing, AWrongTokenCostsATryAndFiveMakeItVoid) {
   Desk desk;
-  for (const std::string left : {"4 tries are left", "3 tries are left", "2 tries are left", "1 try is left",
-                                 "no try is left: the token is void"}) {
+  for (const std::string left : {"4 attempts are left", "3 attempts are left", "2 attempts are left",
+                                 "1 attempt is left", "no attempts are left: the token is invalid"}) {
     const PairingRequest guess(PairingToken::draw(), "guesser");
     EXPECT_EQ(desk.refusal(guess.message()), "the token is wrong; " + left);
   }
   EXPECT_EQ(desk.offer.state(desk.began), PairingOffer::State::kSpent);
   const PairingRequest right(desk.token, "operator");
-  EXPECT_NE(desk.refusal(right.message()).find("no try is left"), std::string::npos);
+  EXPECT_NE(desk.refusal(right.message()).find("no attempts are left"), std::string::npos);
   EXPECT_EQ(desk.offer.paired(), "");
 }
 
@@ -88,7 +88,7 @@ TEST(Pairing, AnExpiredTokenIsRefusedWithWhatToDo) {
   const PairingRequest request(desk.token, "operator");
   EXPECT_EQ(
       desk.refusal(request.message(), minutes(10)),
-      "the token has expired: it was good for 10 minutes; ask for another one with longreach-slave --pair");
+      "the token has expired: it was valid for 10 minutes; get another token with longreach-slave --pair");
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10)), PairingOffer::State::kExpired);
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10) - seconds(1)), PairingOffer::State::kOpen);
 }
@@ -97,8 +97,8 @@ TEST(Pairing, AUsedTokenIsRefusedAlsoToTheSameRequest) {
   Desk desk;
   const PairingRequest request(desk.token, "operator");
   (void)desk.answer(request);
-  EXPECT_NE(desk.refusal(request.message()).find("used already"), std::string::npos);
-  EXPECT_NE(desk.refusal(PairingRequest(desk.token, "another").message()).find("used already"),
+  EXPECT_NE(desk.refusal(request.message()).find("already been used"), std::string::npos);
+  EXPECT_NE(desk.refusal(PairingRequest(desk.token, "another").message()).find("already been used"),
             std::string::npos);
   // Nor does what was overheard help with the next token.
   Desk later;
@@ -196,7 +196,7 @@ TEST(Pairing, ARequestThatIsSignedByTheTokenButNoRequestIsRefused) {
     return message;
   };
   proto::PairingRequest request;
-  EXPECT_NE(desk.refusal(sealed(request)).find("use programs of one version"), std::string::npos);
+  EXPECT_NE(desk.refusal(sealed(request)).find("use programs of the same version"), std::string::npos);
   // The key of somebody else, who has not signed: the signature stands at the end.
   const std::string good = make_request().request_pem;
   std::string forged = good;
@@ -224,10 +224,10 @@ TEST(Pairing, GoesOverASocketAndSaysWhatIsWrong) {
     }
   };
   EXPECT_EQ(join(PairingToken::draw()),
-            "the slave at " + server.address() + " refuses: the token is wrong; 4 tries are left");
+            "the slave at " + server.address() + " refuses: the token is wrong; 4 attempts are left");
   EXPECT_EQ(server.state(), PairingOffer::State::kOpen);
   EXPECT_EQ(join(token), "");
-  EXPECT_NE(join(token).find("used already"), std::string::npos);
+  EXPECT_NE(join(token).find("already been used"), std::string::npos);
   EXPECT_EQ(server.state(), PairingOffer::State::kUsed);
   EXPECT_EQ(tried.size(), 3U);
 }
@@ -265,7 +265,7 @@ TEST(PairedSite, HasNoSlaveAndPairsNobody) {
       page_command(site);
       ADD_FAILURE() << "not refused";
     } catch (const SiteError& e) {
-      EXPECT_NE(std::string(e.what()).find("was made by pairing"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("was created by pairing"), std::string::npos) << e.what();
     }
   }
 }

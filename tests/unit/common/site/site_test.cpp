@@ -66,7 +66,7 @@ TEST(Site, IsNotMadeBelowARelativeXdgConfigHome) {
 TEST(Site, SaysWhyAFolderCannotBeMade) {
   // Nobody makes folders there, root included; what is below it does not exist.
   const std::string refusal = refusal_of("/sys/nowhere/longreach");
-  EXPECT_TRUE(refusal.starts_with("cannot make /sys/nowhere: ")) << refusal;
+  EXPECT_TRUE(refusal.starts_with("cannot create /sys/nowhere: ")) << refusal;
   EXPECT_EQ(refusal.find("No such file"), std::string::npos) << refusal;
 }
 
@@ -135,11 +135,11 @@ TEST(Site, WhatIsDamagedIsNamedWhicheverPartItIs) {
     std::ofstream(site / name) << before;
     EXPECT_EQ(refusal_of(site), "");
   };
-  expect("authority.crt", "junk", " is damaged: it holds no certificate");
-  expect("master.crt", "junk", " is damaged: it holds no certificate");
-  expect("master.key", "junk", " is damaged: it holds no private key");
+  expect("authority.crt", "junk", " is damaged: it contains no certificate");
+  expect("master.crt", "junk", " is damaged: it contains no certificate");
+  expect("master.key", "junk", " is damaged: it contains no private key");
   expect("master.key", read_site_file(site / "master.key").substr(0, 100), " is damaged");
-  expect("master.key", read_site_file(site / "client.key"), " does not belong to master.crt");
+  expect("master.key", read_site_file(site / "client.key"), " does not match master.crt");
 }
 
 TEST(Site, RejectsForeignFilesAndFolders) {

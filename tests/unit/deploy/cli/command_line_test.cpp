@@ -77,8 +77,8 @@ TEST(CommandLine, RefusesLinkValuesOutOfRange) {
     expect_refused({"link", "set", "--delay", text}, "delay_s");
   expect_refused({"link", "set", "--delay", ""}, "--delay: is empty");
   expect_refused({"link", "blackout", "-2s"}, "blackout_duration_s");
-  expect_refused({"link", "set"}, "nothing to set");
-  expect_refused({"link", "set", "--direction", "up"}, "nothing to set");
+  expect_refused({"link", "set"}, "needs --profile or at least one field");
+  expect_refused({"link", "set", "--direction", "up"}, "needs --profile or at least one field");
   expect_refused({"link", "set", "--loss", "1%", "--direction", "left"}, "left");
 }
 

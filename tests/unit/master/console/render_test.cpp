@@ -50,7 +50,8 @@ TEST(Render, SaysThatAHandleThatDoesNotTurnLeavesTheOrientation) {
   s.view.far_known = true;
   EXPECT_EQ(happening(s).find("orientation"), std::string::npos);
   s.turns = false;
-  EXPECT_NE(happening(s).find("its orientation stays, as this handle does not turn"), std::string::npos);
+  EXPECT_NE(happening(s).find("its orientation is constant, because this handle does not turn"),
+            std::string::npos);
 }
 
 std::string without_colors(const std::string& text) {
@@ -73,7 +74,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
   const std::string expected =
       "longreach master  21.3 s, 39 s left  operator: press\n"
       "\n"
-      "touching: the wall gives 0.98 N/mm (1.3 s ago)\n"
+      "contact: the wall gives 0.98 N/mm (1.3 s ago)\n"
       "\n"
       "state     Engaged, slave Engaged\n"
       "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent 0.02 s\n"
@@ -82,11 +83,11 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "\n"
       "hand at   x   +12.30  y    -0.50  z    +0.00 mm\n"
       "goal      x    +9.84  y    -0.40  z    +0.00 mm from anchor\n"
-      "forecast  x    +0.00  y    +0.00  z    +0.00 mm when the robot hears it\n"
+      "forecast  x    +0.00  y    +0.00  z    +0.00 mm when the robot receives it\n"
       "tool at   x  +9.8123  y  +0.0000  z  +4.2500 m  (1.3 s ago)\n"
       "\n"
       "stiffness 0.981 N/mm at the hand, slave measures 1.002 within 0.5 %\n"
-      "contact   n 1.5 within 0.02, lambda cannot be told\n"
+      "contact   n 1.5 within 0.02, lambda not identifiable\n"
       "hand         3.00 N [========................................] 15 N\n"
       "robot        2.90 N [========................................]\n"
       "energy    +4.60 mJ into the hand's port, least -0.12 mJ\n"
@@ -156,10 +157,10 @@ TEST(View, FillsTheBarWithTheForce) {
 TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   ConsoleSnapshot s;
   s.link.silence_s = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(happening(s), "waiting for the first news from the slave");
+  EXPECT_EQ(happening(s), "waiting for the first datagram of the slave");
   s = touching();
   s.view.state = SafetyState::kObserving;
-  EXPECT_TRUE(contains(happening(s), "engage to take it"));
+  EXPECT_TRUE(contains(happening(s), "engage to take control"));
   s.view.engaging = true;
   EXPECT_EQ(happening(s), "engaging: waiting for the slave's answer");
   s.view.answer_in_s = 1.3;
@@ -171,13 +172,13 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.far_state = SafetyState::kEngaged;
   s.view.in_contact = false;
   s.view.spring_force_n.setZero();
-  EXPECT_EQ(happening(s), "moving freely: the robot follows the hand, scaled by 0.80 (1.3 s ago)");
+  EXPECT_EQ(happening(s), "free motion: the robot follows the hand, scaled by 0.80 (1.3 s ago)");
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   s.view.stiffness_n_per_m = 0.0;
-  EXPECT_EQ(happening(s), "touching: the slave is still measuring the wall (1.3 s ago)");
+  EXPECT_EQ(happening(s), "contact: the slave is still measuring the wall (1.3 s ago)");
   s.view.stiffness_n_per_m = 981.0;
-  EXPECT_EQ(happening(s), "touching: the wall gives 0.98 N/mm (1.3 s ago)");
+  EXPECT_EQ(happening(s), "contact: the wall gives 0.98 N/mm (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
@@ -190,20 +191,20 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
         &Clamps::moment_guard, &Clamps::singularity, &Clamps::joint_speed, &Clamps::tool_speed}) {
     s.view.far.clamps = {};
     s.view.far.clamps.*limit = true;
-    EXPECT_FALSE(contains(happening(s), "moving freely")) << happening(s);
+    EXPECT_FALSE(contains(happening(s), "free motion")) << happening(s);
     EXPECT_TRUE(contains(happening(s), "(1.3 s ago)")) << happening(s);
     seen.push_back(happening(s));
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
   s.view.far.X_WE_goal.p = s.view.far.X_WE.p + Vector3(0.002, 0.0, 0.0);
-  EXPECT_TRUE(contains(happening(s), "moving freely")) << "quick, and not behind: " << happening(s);
+  EXPECT_TRUE(contains(happening(s), "free motion")) << "quick, and not behind: " << happening(s);
   s.view.far.clamps = {};
   s.view.far.clamps.joint_position = true;
   EXPECT_TRUE(contains(happening(s), "a joint of the robot is at the end of its range"));
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
-  EXPECT_TRUE(contains(happening(s), "touching: ") && contains(happening(s), "at the end of its range"));
+  EXPECT_TRUE(contains(happening(s), "contact: ") && contains(happening(s), "at the end of its range"));
   s.view.far.engagement = s.view.engagement + 1;  // of another engagement: no news of this one
   EXPECT_FALSE(contains(happening(s), "at the end of its range"));
 }
@@ -237,7 +238,9 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   EXPECT_TRUE(
       contains(render(s, 80, false), "Holding, slave Engaged (no datagram arrives from the other side)"));
   s.view.resumes = false;
-  EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s; engage when the link is back");
+  EXPECT_EQ(happening(s),
+            "holding: nothing has come from the slave for 0.7 s; engage when the link has "
+            "recovered");
 }
 
 TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
@@ -250,7 +253,7 @@ TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
             "holding: nothing came from the slave for 12.3 s; the link is back: engage to resume");
   EXPECT_TRUE(contains(render(s, 80, false), "(the link was silent)"));
   s.view.resumes = true;
-  EXPECT_TRUE(contains(happening(s), "the link is back: it goes on by itself"));
+  EXPECT_TRUE(contains(happening(s), "the link is back: it resumes automatically"));
   s.view.state = SafetyState::kObserving;
   EXPECT_TRUE(contains(happening(s), "the link was silent; check the link, then engage")) << happening(s);
 }
@@ -266,7 +269,7 @@ TEST(Happening, SaysOfTheSlavesCauseWhereItIsAndWhetherItIsOver) {
                        "2.094; check robot_file"))
       << happening(s);
   s.view.far_state = SafetyState::kObserving;
-  EXPECT_TRUE(contains(happening(s), "at the slave, over now: joint 5")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "at the slave, now over: joint 5")) << happening(s);
 }
 
 TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
@@ -281,7 +284,7 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging, not granted yet: " + why);
+  EXPECT_EQ(happening(s), "engaging, not yet granted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
   EXPECT_TRUE(contains(happening(s), "the slave has not answered; check")) << happening(s);
@@ -301,8 +304,7 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
   EXPECT_EQ(
       happening(s),
       "observing: the slave has a fault, the force sensor reports values that no contact can cause; engage "
-      "when it is "
-      "mended");
+      "when it is repaired");
 }
 
 TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
@@ -319,10 +321,10 @@ TEST(View, MarksWhatIsOldAsOld) {
   ConsoleSnapshot s = touching();
   s.view.far.clamps.tool_speed = true;
   EXPECT_TRUE(contains(render(s, 80, false), "robot: at its tool speed limit"));
-  EXPECT_FALSE(contains(render(s, 80, false), "when last heard"));
+  EXPECT_FALSE(contains(render(s, 80, false), "when last received"));
   s.view.silent = true;
   EXPECT_FALSE(contains(render(s, 80, false), "robot: at its tool speed limit"));
-  EXPECT_TRUE(contains(render(s, 110, false), "when last heard"));
+  EXPECT_TRUE(contains(render(s, 110, false), "when last received"));
 }
 
 TEST(Words, NameEveryStateDifferently) {

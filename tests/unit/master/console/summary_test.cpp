@@ -160,7 +160,7 @@ TEST(Summary, AttributesAHoldThatABusyMachineCaused) {
   };
   const Summary stalled = hold(HoldCause::kPeerHolds, HoldCause::kStalled);
   EXPECT_TRUE(stalled.passed()) << stalled.text();
-  EXPECT_NE(stalled.text().find("the slave's control loop stalled: this machine is busy"), std::string::npos)
+  EXPECT_NE(stalled.text().find("the slave's control loop stalled: its machine is busy"), std::string::npos)
       << stalled.text();
   EXPECT_TRUE(hold(HoldCause::kOverrun, HoldCause::kNone).passed());
   EXPECT_TRUE(hold(HoldCause::kOperator, HoldCause::kOperator).passed());
@@ -198,8 +198,9 @@ TEST(Summary, NamesWhatTheHandLost) {
   };
   const RunSummary run = probing(script(), gone);
   const std::string text =
-      run.finish({}, {{2.0, "another time"}, {6.02, "the keyboard has ended; start"}}).text();
-  EXPECT_NE(text.find("FAIL  held at 6.0 s for 24.0 s: the keyboard has ended; start\n"), std::string::npos)
+      run.finish({}, {{2.0, "another time"}, {6.02, "the keyboard input has ended; start"}}).text();
+  EXPECT_NE(text.find("FAIL  held at 6.0 s for 24.0 s: the keyboard input has ended; start\n"),
+            std::string::npos)
       << text;
   EXPECT_NE(run.finish({}, {{2.0, "another time"}}).text().find(": the haptic device reports a fault\n"),
             std::string::npos)
@@ -211,8 +212,8 @@ TEST(Summary, NamesWhatTheHandLost) {
   for (int tick = 0; tick < 100; ++tick) never.add(0.1 * tick, view, 0.03);
   ConsoleSnapshot last;
   last.view.refusal = HoldCause::kDeviceFault;
-  const std::string why = never.finish(last, {{0.0, "no keyboard is there"}}).text();
-  EXPECT_NE(why.find("(0 %): no keyboard is there\n"), std::string::npos) << why;
+  const std::string why = never.finish(last, {{0.0, "no keyboard is available"}}).text();
+  EXPECT_NE(why.find("(0 %): no keyboard is available\n"), std::string::npos) << why;
 }
 
 // As the slave says of every hold that the master asks for.

@@ -133,7 +133,7 @@ TEST(Keyboard, ReportsTextWithoutEndWhichKeepsNoHandOut) {
   Keyboard keyboard({}, pty.inner);
   ASSERT_EQ(::write(pty.outer, "WW\x1b[200~hello", 13), 13);
   EXPECT_EQ(polled(keyboard, pty, MotionMode::kRate, 160, "we", 10).target_m, Vector3::Zero());
-  EXPECT_NE(keyboard.notice().find("only x (stop) acts; press Esc"), std::string_view::npos);
+  EXPECT_NE(keyboard.notice().find("only the key x (stop) acts; press Esc"), std::string_view::npos);
   EXPECT_TRUE(polled(keyboard, pty, MotionMode::kRate, 1, "x", 1).requests.stop);
 }
 
@@ -155,7 +155,7 @@ TEST(Keyboard, ReadsAPipeToItsEnd) {
   ::close(ends[1]);
   EXPECT_TRUE(keyboard.poll(MotionMode::kRate).requests.engage);
   EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.engage);
-  EXPECT_NE(keyboard.trouble().find("the keyboard has ended (end of input)"), std::string::npos);
+  EXPECT_NE(keyboard.trouble().find("the keyboard input has ended (end of input)"), std::string::npos);
   ::close(ends[0]);
 }
 
@@ -178,7 +178,8 @@ TEST(Keyboard, IsAHandThatLetsGoWhenItsInputEnds) {
   EXPECT_TRUE(state.requests.clutch);
   EXPECT_EQ(keyboard.trouble(), "");
   ::close(closed);  // a read error
-  EXPECT_NE(end_of(keyboard, state).find("the keyboard has ended (Bad file descriptor)"), std::string::npos);
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard input has ended (Bad file descriptor)"),
+            std::string::npos);
   EXPECT_EQ(state.target_m, Vector3::Zero());
   EXPECT_FALSE(state.requests.clutch);
 }
@@ -190,7 +191,7 @@ TEST(Keyboard, SaysThatItsTerminalWasClosed) {
   KeyboardState state = keyboard.poll(MotionMode::kRate);
   EXPECT_GT(state.target_m.x(), 0.0);
   ::close(std::exchange(pty.outer, -1));
-  EXPECT_NE(end_of(keyboard, state).find("the keyboard has ended (its terminal was closed)"),
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard input has ended (its terminal was closed)"),
             std::string::npos);
   EXPECT_EQ(state.target_m, Vector3::Zero());
 }
@@ -200,7 +201,7 @@ TEST(Keyboard, IsNotThereWithoutInputAtTheStart) {
     const int fd = ::open(path, O_RDONLY);
     Keyboard keyboard({}, fd);
     KeyboardState state;
-    EXPECT_EQ(end_of(keyboard, state).find("no keyboard is there ("), 0u) << path << keyboard.trouble();
+    EXPECT_EQ(end_of(keyboard, state).find("no keyboard is available ("), 0u) << path << keyboard.trouble();
     ::close(fd);
   }
 }

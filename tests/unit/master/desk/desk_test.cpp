@@ -176,9 +176,9 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
   EXPECT_EQ(frame.state(), "Engaged");
   EXPECT_EQ(frame.mode(), "rate");
   EXPECT_EQ(frame.happening(),
-            "the robot stands at the edge of its workspace: it does not follow any further this way");
+            "the robot is at the edge of its workspace: it follows no further in this direction");
   ASSERT_EQ(frame.clamped_size(), 1);
-  EXPECT_EQ(frame.clamped(0), "robot: the goal is outside of the workspace");
+  EXPECT_EQ(frame.clamped(0), "robot: the goal is outside the workspace");
   EXPECT_EQ(frame.goal_m(2), 0.3);
   ASSERT_EQ(frame.far().joint_rad_size(), 6);
   EXPECT_EQ(frame.far().joint_rad(5), 6.0);

@@ -133,7 +133,7 @@ TEST(Gamepad, RumblesByTheForceThatIsFelt) {
   // A receiver stays when its pad is gone: the sticks read the same for ever.
   for (int i = 0; i < 60; ++i) person.poll(MotionMode::kRate, 0.0, 0.02);
   EXPECT_EQ(person.poll(MotionMode::kRate, 0.0, 0.02).level.target_m, Vector3::Zero());
-  EXPECT_NE(person.trouble().find("reports nothing new"), std::string::npos);
+  EXPECT_NE(person.trouble().find("sends no new reports"), std::string::npos);
   pad.axis(1, -0.99);
   EXPECT_GT(person.poll(MotionMode::kRate, 0.0, 0.02).level.target_m.x(), 0.03);
   EXPECT_EQ(person.trouble(), "");

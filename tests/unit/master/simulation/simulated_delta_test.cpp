@@ -193,11 +193,11 @@ TEST(SimulatedDelta, RefusesByNameWhatCannotBe) {
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.rod_m = std::nan(""); }), "rod_m is not a finite number");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.azimuth_rad[1] = 0.0; }), "azimuth: legs 1 and 2 coincide");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.home_height_m = 0.5; }),
-            "home_height_m: the platform cannot be there");
+            "home_height_m: the platform cannot reach this position");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.workspace_m = 0.2; }),
-            "workspace_m: the device cannot move that far from home everywhere");
+            "workspace_m: the device cannot move this far from home in every direction");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.platform_kg = -1.0; }),
-            "platform must be a finite mass that is not negative");
+            "platform must be a finite, non-negative mass");
 }
 
 }  // namespace

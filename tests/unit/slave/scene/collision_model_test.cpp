@@ -35,7 +35,7 @@ TEST(CollisionModel, RefusesWhatIsNotToBeUsed) {
   starts(scene_of(star("a", "0 0 0")), at, "\"tool\"");
   starts(scene_of(kTool), at, "0 free bodies");
   starts(scene_of(kTool + "<body name='a'><joint type='hinge'/><geom size='1' material='hard'/></body>"), at,
-         "neither free nor at rest");
+         "neither free nor fixed");
   starts(scene_of(kTool + "<body name='a'><freejoint/><geom name='g' size='1'/></body>"), at,
          "the geom \"g\" has no material");
   std::string crowd = kTool + star("a", "0 0 0");
@@ -60,7 +60,7 @@ TEST(CollisionModel, MuJoCoIsLoadedByTheFirstOfThemOnly) {
       testing::ExitedWithCode(0), "");
 }
 
-// MuJoCo leaves out contacts beyond what a file gives room for.
+// MuJoCo omits contacts beyond what a file gives room for.
 TEST(CollisionModel, FindsEveryContactWhateverRoomTheFileGives) {
   SceneConfig scene = scene_of(kTool + star("a", "0 0 0") +
                                "<geom type='plane' size='1 1 1' pos='0 0 -0.03' material='hard'/>\n");

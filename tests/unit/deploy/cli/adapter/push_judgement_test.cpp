@@ -39,7 +39,7 @@ TEST(PushJudgement, KnowsSignBaseAndExchangedAxesInAnyPose) {
 TEST(PushJudgement, SaysWhatItCannotKnow) {
   const Finding found = judged(Matrix3::Identity(), [](const Vector3& f) { return f; });
   EXPECT_EQ(found.verdict, FindingVerdict::kWarning);
-  EXPECT_NE(found.advice.find("turn the tool by a quarter"), std::string::npos);
+  EXPECT_NE(found.advice.find("turn the tool by 90 degrees"), std::string::npos);
 }
 
 TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
@@ -49,7 +49,7 @@ TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
   const std::vector<Finding> found = judge_pushes(sensor);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].verdict, FindingVerdict::kFailure);
-  EXPECT_EQ(found[1].text, "tells nothing along z of the base");
+  EXPECT_EQ(found[1].text, "reports nothing along z of the base");
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(DeltaGeometry, RefusesTwoLegsAtOneAzimuth) {
 TEST(DeltaGeometry, RefusesALoopThatNoPositionCloses) {
   DeltaSimple s = kSimple;
   s.a = 0.32;  // over l1 + l2
-  EXPECT_TRUE(names(refusal(s), "impossible loop"));
+  EXPECT_TRUE(names(refusal(s), "impossible geometry"));
   s.a = 0.309;
   EXPECT_EQ(refusal(s), "");
   s.a = 1e300;

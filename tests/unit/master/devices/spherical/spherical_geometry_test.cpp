@@ -62,7 +62,7 @@ TEST(SphericalGeometry, RefusesPlatformAxesInOneLine) {
 }
 
 TEST(SphericalGeometry, RefusesALoopThatNoOrientationCloses) {
-  EXPECT_TRUE(names(refusal(SphericalAngles{0.1, 0.1, 1.5, 0.1}), "impossible loop"));
+  EXPECT_TRUE(names(refusal(SphericalAngles{0.1, 0.1, 1.5, 0.1}), "impossible geometry"));
 }
 
 TEST(SphericalGeometry, RefusesAxesThatDoNotFit) {
