@@ -45,7 +45,9 @@ void ContactConvention::step(const ContactRow& row, bool time_has_unit) {
     const double step = steps_s_[kSteps / 2];
     const char* unit = step < 50.0 ? "ms" : step < 5e4 ? "us" : "ns";
     if (step > kStepMaxS)
-      throw BadRequest("\"t\" grows by " + format_number(step) + " a line and is in s, so it looks like " +
+      throw BadRequest("\"t\" grows by " + format_number(step) +
+                       " per line and has the unit s, but seems "
+                       "to be in " +
                        unit + "; name it \"t [" + unit + "]\", or \"t [s]\" if it is in s");
   }
   if (last_ && row.v_m_per_s && last_->v_m_per_s) {
@@ -106,7 +108,7 @@ void ContactConvention::require_length(double free_n, double force_n) const {
   if (span <= kSpanMax_m && !fast) return;
   const std::string unit = span < 1e3 * kSpanMax_m ? "mm" : "um";
   throw BadRequest("\"x\" spans " + three_digits(span) + " m under force, at up to " + three_digits(speed) +
-                   " m/s, so it looks like " + unit + "; name it \"x [" + unit +
+                   " m/s, so it seems to be in " + unit + "; name it \"x [" + unit +
                    "]\", or \"x [m]\" if it is in m");
 }
 
@@ -165,14 +167,14 @@ void ContactConvention::require_signs() const {
   if (outside_.n >= kRows && outside_.ff > kShare * all && follows > kCorrelation) {
     throw BadRequest(
         outside_.f < 0.0
-            ? "the press is counted negative: x and f are below 0 where the force grows; change "
-              "the sign of both"
-            : "the press is counted negative: the force grows where x is below 0; change the sign "
+            ? "the press has negative signs: x and f are below 0 where the force grows; change the sign of "
+              "both"
+            : "the press has a negative sign: the force grows where x is below 0; change the sign "
               "of x, which is 0 at the surface and positive inside");
   }
   if (inside_.n >= kRows && inside_.ff > kShare * all && inside_.f < 0.0 &&
       inside_.correlation() < -kCorrelation)
-    throw BadRequest("the press is counted negative: f falls while x grows; change the sign of f");
+    throw BadRequest("the press has a negative sign: f falls while x grows; change the sign of f");
 }
 
 }  // namespace longreach

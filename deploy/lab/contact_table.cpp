@@ -90,7 +90,7 @@ std::optional<double> number(std::string text) {
 std::string advice(char key, const std::string& cell) {
   for (const char* missing : {"", "na", "nan", "null", "none"}) {
     if (lower_case(cell) != missing) continue;
-    return "; leave out the lines that lack a value (R: na.omit, MATLAB: rmmissing, pandas: dropna)";
+    return "; remove the lines that lack a value (R: na.omit, MATLAB: rmmissing, pandas: dropna)";
   }
   const auto digits_only = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   if (cell.find_first_of(",.'") != std::string::npos &&
@@ -108,10 +108,10 @@ std::string advice(char key, const std::string& cell) {
 void refuse_heads(const std::string& line) {
   if (line.starts_with("LabVIEW Measurement"))
     throw BadRequest(
-        "this is the head of a LabVIEW measurement file; delete all lines up to the last "
+        "this is the header of a LabVIEW measurement file; delete all lines up to the last "
         "***End_of_Header***, and name the columns t, x and f (X_Value is t)");
   if (line.starts_with("["))
-    throw BadRequest("a JSON array is not read; write one object a line, as `jq -c .[]` does");
+    throw BadRequest("a JSON array is not supported; write one object per line, as `jq -c .[]` does");
 }
 
 void refuse_other_encodings(const std::string& line) {
@@ -119,7 +119,7 @@ void refuse_other_encodings(const std::string& line) {
     throw BadRequest("the text is UTF-16; save it as UTF-8");
   const auto cr = line.find('\r');
   if (cr != std::string::npos && cr + 1 != line.size())
-    throw BadRequest("lines end with CR alone; save the file with LF or CR LF");
+    throw BadRequest("lines end with CR only; save the file with LF or CR LF");
   if (!is_utf8(line)) throw BadRequest("the text is not UTF-8: \"" + trimmed(line) + "\"; save it as UTF-8");
 }
 
@@ -204,11 +204,11 @@ void ContactTable::header(std::string line) {
     return;
   }
   if (std::ranges::all_of(names, [](const std::string& name) { return number(name).has_value(); }))
-    throw BadRequest("the first line must name the columns, as in t,x,f");
+    throw BadRequest("the first line must name the columns, for example t,x,f");
   require_known(columns);
   for (const Column& one : columns) {
     if (one.key != ' ' && has(one.key) > 1)
-      throw BadRequest("column \"" + std::string(1, one.key) + "\" is there twice");
+      throw BadRequest("column \"" + std::string(1, one.key) + "\" is given twice");
   }
   for (const char key : {'t', 'x', 'f'}) {
     if (has(key) == 0) throw BadRequest("column \"" + std::string(1, key) + "\" is missing");
@@ -227,8 +227,8 @@ void ContactTable::require_known(const std::vector<Column>& columns) {
   }
   if (count == 0) return;
   throw BadRequest((count == 1 ? "unknown column " : "unknown columns ") + unknown +
-                   "; remove what is none of t, x, v and f (time, penetration, speed, force), and name "
-                   "these so, with units as in \"x [mm]\"");
+                   "; remove columns other than t, x, v and f (time, penetration, speed, force), and use "
+                   "these names, with units as in \"x [mm]\"");
 }
 
 /// A line of units below the names.
@@ -250,7 +250,7 @@ ContactRow ContactTable::from_json(const std::string& line) {
   for (const auto& [name, value] : object.items()) {
     const Column found = column(name);
     if (found.key == ' ') throw BadRequest("unknown key \"" + name + "\"; known are t, x, v and f");
-    if (keys.find(found.key) != std::string::npos) throw BadRequest("key \"" + name + "\" is there twice");
+    if (keys.find(found.key) != std::string::npos) throw BadRequest("key \"" + name + "\" is given twice");
     keys += found.key;
     set(row, found.key, found.unit * solve_json::number(object, name));
   }
@@ -266,7 +266,7 @@ ContactRow ContactTable::from_csv(const std::vector<std::string>& values) const 
     throw BadRequest(std::to_string(values.size()) + " values for " + std::to_string(columns_.size()) +
                      " columns" +
                      (values.size() == 2 * columns_.size() && *separator_ == ','
-                          ? "; with decimal commas separate the columns by semicolons or tabs"
+                          ? "; with decimal commas, separate the columns by semicolons or tabs"
                       : values.size() == columns_.size() + 1 && rows_ == 0
                           ? "; name all columns (R: write.table with row.names = FALSE)"
                           : ""));
@@ -277,7 +277,8 @@ ContactRow ContactTable::from_csv(const std::vector<std::string>& values) const 
     const auto value = number(values[i]);
     if (!value)
       throw BadRequest("\"" + at.name + "\" must be a number, not \"" + values[i] + "\"" +
-                       (values[i] == at.name ? "; a second table begins here, give each a file of its own"
+                       (values[i] == at.name ? "; a second table begins here, put each table into its own "
+                                               "file"
                                              : advice(at.key, values[i])));
     if (!std::isfinite(*value))
       throw BadRequest("\"" + at.name + "\" is not a finite number" + advice(at.key, values[i]));
@@ -310,11 +311,10 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
   }
   if (rows_ > 0 && !(row.t_s > last_t_s_))
     throw BadRequest("\"t\" does not rise: " + format_number(row.t_s) + " s after " +
-                     format_number(last_t_s_) +
-                     " s; sort the lines by t, and leave out those of the same time");
+                     format_number(last_t_s_) + " s; sort the lines by t, and remove lines with equal times");
   if (rows_ > 0 && row.v_m_per_s.has_value() != has_v_)
-    throw BadRequest(has_v_ ? "key \"v\" is missing, which the lines before have"
-                            : "\"v\" is there, which the lines before do not have");
+    throw BadRequest(has_v_ ? "key \"v\" is missing, although the previous lines have it"
+                            : "key \"v\" is given, although the previous lines do not have it");
   has_v_ = row.v_m_per_s.has_value();
   last_t_s_ = row.t_s;
   ++rows_;

@@ -61,7 +61,7 @@ std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun ru
 int run(const LabRunOptions& o) {
   if (std::ranges::find(kPrograms, o.name) != std::end(kPrograms))
     throw ConfigError(o.name +
-                      " verifies longreach itself and is a program of its own: build it with `cmake "
+                      " verifies longreach itself and is a separate program: build it with `cmake "
                       "--build --preset release --target " +
                       o.name + "` and run `build/release/bin/" + o.name + "`");
   const Experiment* experiment = find_experiment(o.name);
@@ -76,7 +76,7 @@ int run(const LabRunOptions& o) {
   if (o.record) {
     if (o.name != "touch" || o.out.empty())
       throw ConfigError(
-          "--record needs --out DIR and the experiment touch, the only one that is a single run");
+          "--record needs --out DIR and the experiment touch, the only experiment with a single run");
     chosen.run = run_touch_recorded;
   }
   return outcome_of(run_and_print(chosen, r, o.quiet)).empty() ? kDone : kNoContact;

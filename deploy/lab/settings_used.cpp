@@ -71,8 +71,7 @@ bool uses_setting(const Experiment& experiment, const std::string& path) {
 std::string unused_sentence(const Experiment& experiment, const std::string& path) {
   const std::string name(experiment.name);
   if (experiment.uses.empty()) return name + " does not use " + path + ", nor any other setting";
-  return name + " does not use " + path +
-         ", so nothing would change; it uses: " + std::string(experiment.uses) + " (-: but not)";
+  return name + " does not use " + path + "; it uses: " + std::string(experiment.uses) + " (-: except)";
 }
 
 void refuse_unused(const Experiment& experiment, const std::vector<std::string>& settings) {

@@ -39,7 +39,7 @@ void Trace::row(const std::vector<double>& values) {
 void Trace::close() {
   if (file_.empty()) return;
   stream_.close();
-  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + ": is the disk full?");
+  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + ": check free disk space");
 }
 
 }  // namespace longreach

@@ -2,7 +2,7 @@
 // Quantities at their extremes, each through the stage that takes it: a row is a quantity, a cell one value
 // of it. A cell says which of two it shall be: stable and accurate to a number, or refused with a message
 // that has a certain key word. Anything else is bad: the other one, a number that is not one, divergence,
-// energy from nowhere, an error above the row's bound, silence about a value that cannot be meant. Each row
+// generated energy, an error above the row's bound, silence about a value that cannot be meant. Each row
 // has a control, the same measurement of something that is wrong: it has to come out bad.
 
 #include <cstdint>

@@ -47,7 +47,7 @@ std::string short_number(double value) {
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::trunc);
   stream << text;
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": is the disk full?");
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": check free disk space");
 }
 
 std::string text_at(int x, int y, const std::string& style, const std::string& text) {

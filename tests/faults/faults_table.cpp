@@ -166,7 +166,7 @@ std::string csv(const Tally& tally) {
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::trunc);
   stream << text;
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": is the disk full?");
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": check free disk space");
 }
 
 }  // namespace

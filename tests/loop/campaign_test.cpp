@@ -95,9 +95,9 @@ TEST(CampaignPlan, FindsFilesBesideTheGrid) {
 TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> mistakes = {
-      {"# nothing\n", ": there is no experiment to run"},
+      {"# nothing\n", ": no experiment is given"},
       {"experiment: 'toch'", ":1:1: there is no experiment \"toch\"; did you mean \"touch\"?"},
-      {"experiment: 'touch'\nexperiment: 'touch'", ":2:1: experiment \"touch\" is there twice"},
+      {"experiment: 'touch'\nexperiment: 'touch'", ":2:1: experiment \"touch\" is given twice"},
       {"experiment: 'touch'\nsetting { value: '1' }", ":2:1: setting has no path"},
       {"experiment: 'touch'\nsetting { path: 'profile' }", ":2:1: setting \"profile\" has no value"},
       {"experiment: 'touch'\nsetting {\n path: 'profile' value: 'moon'\n value: 'moon'\n}",
@@ -110,9 +110,9 @@ TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
        ":3:46: master.mapping.scale = 7 is outside"},
       {"experiment: 'touch'\nsetting { path: 'mapping.scale' value: '0.2' }\n"
        "setting { path: 'master.mapping.scale' value: '0.3' }",
-       ":3:11: setting \"master.mapping.scale\" is there twice"},
+       ":3:11: setting \"master.mapping.scale\" is given twice"},
       {"experiment: 'touch'\nsetting { path: 'mapping.scale' also: 'mapping.scale' value: '0.2' }",
-       ":2:33: setting \"mapping.scale\" is there twice, as master.mapping.scale"},
+       ":2:33: setting \"mapping.scale\" is given twice, as master.mapping.scale"},
       {"experiment: 'touch'\nsetting { path: 'duration_s' value: '2' }\n"
        "setting { path: 'mapping.scale' also: 'operator.press_n' value: '1' value: '0.25' }",
        ":3:69: master.operator.press_n = 0.25 is outside"},
@@ -156,7 +156,7 @@ TEST(ChildProcesses, AJobThatThrowsAbortsOrCrashesFailsAloneAndSaysWhy) {
                                                        {1, "no such wall"},
                                                        {2, "it was ended by Aborted: it is broken"},
                                                        {3, "it was ended by Killed"},
-                                                       {4, "it failed without a word"},
+                                                       {4, "it failed without an error message"},
                                                        {5, ""}};
   EXPECT_EQ(ended, expected);
 }
@@ -228,7 +228,7 @@ TEST(CampaignFolderTest, OfAnotherCampaignIsRefused) {
   changed.set_configs("77");
   EXPECT_NE(error_of([&] { CampaignFolder(a, changed); }).find("deploy/"), std::string::npos);
   fs::copy(a / "cells/0.txtpb", b / "cells/0.txtpb");
-  EXPECT_NE(error_of([&] { static_cast<void>(others.result(0)); }).find("of another campaign"),
+  EXPECT_NE(error_of([&] { static_cast<void>(others.result(0)); }).find("belongs to another campaign"),
             std::string::npos);
 }
 

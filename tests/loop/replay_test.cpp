@@ -248,7 +248,7 @@ TEST_F(Replay, FollowsARecordingThatWasCut) {
   std::ostringstream out, err;
   EXPECT_EQ(replay({file("cut").string()}, out, err), 0) << err.str();
   std::array<char, 80> expected{};
-  std::snprintf(expected.data(), expected.size(), "cut.mcap was cut: what came after %.1f s is lost",
+  std::snprintf(expected.data(), expected.size(), "cut.mcap was truncated: data after %.1f s is lost",
                 replayed.last_s);
   EXPECT_GT(replayed.last_s, 4.0);
   EXPECT_NE(out.str().find(expected.data()), std::string::npos) << out.str();

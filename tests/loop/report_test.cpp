@@ -59,7 +59,7 @@ TEST(ReportPage, HoldsEveryChapterAndSaysWhatFailed) {
   ReportChapter wrong{&bad, "longreach-lab run bad", "00ff", {}, {}, "the disk is full"};
   const std::string page = report_page({"abc", "small campaigns", 1}, {right, wrong});
   for (const char* part :
-       {"Is a &lt; b?", "by 0.25 m", "Repeats Fig. 9", "data:image/svg+xml;base64,PHN2Zy8+\"",
+       {"Is a &lt; b?", "by 0.25 m", "Reproduces Fig. 9", "data:image/svg+xml;base64,PHN2Zy8+\"",
         "longreach-lab run good", "Failed: the disk is full", "href=\"#bad\""})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(report_table({right, wrong}),

@@ -174,12 +174,14 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
   says(
       "robot-fk",
       R"({"dh": [{"a":0,"d":0,"alpha":90},{"a":1,"d":0,"alpha":0},{"a":1,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0}], "q": [0,0,0,0,0,0]})",
-      "\"alpha\" = 90 of a row of \"dh\" is outside -3.2 to 3.2; it is in rad, and this looks like degrees");
+      "\"alpha\" = 90 of a row of \"dh\" is outside -3.2 to 3.2; the unit is rad, and this value seems to "
+      "be in degrees");
   says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,1.01,0],[0,0,0,1]]})",
        "R R^T differs from 1 by 0.02, and 1e-06 is allowed");
   says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]})", "a reflection");
   says("robot-fk", R"({"robot": "ur10", "q": [0,90,0,0,0,0]})",
-       "\"q\" = 90 is more than two turns of a joint; it is in rad, and this looks like degrees");
+       "\"q\" = 90 is more than two turns of a joint; the unit is rad, and this value seems to be in "
+       "degrees");
   EXPECT_EQ(error("robot-fk", R"({"robot": "ur10", "q": [0,0,0]})"), "\"q\" must be a list of six numbers");
   EXPECT_EQ(error("robot-fk", R"({"dh": [], "q": [0,0,0,0,0,0]})"),
             "\"dh\" must be a list of six rows; this has 0");

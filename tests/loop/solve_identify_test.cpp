@@ -117,19 +117,19 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,nan\n", "line 2: \"f\" is not a finite number"},
       {"t,y,f\n", "line 1: unknown column \"y\"; remove what is none of t, x, v and f"},
       {"t,x [inch],f\n", "line 1: the unit \"inch\" of \"x [inch]\" is unknown; give m, mm or um"},
-      {"0,0.1,3\n", "line 1: the first line must name the columns, as in t,x,f"},
+      {"0,0.1,3\n", "line 1: the first line must name the columns, for example t,x,f"},
       {"t,x,f\n0,1,0,2,0,3\n", "line 2: 6 values for 3 columns; with decimal commas separate the columns by"},
       {"t,x,f\n0,\"1,2\n", "line 2: a quotation mark is not closed"},
       {"\xFF\xFEt,x,f\n", "line 1: the text is UTF-16; save it as UTF-8"},
       {"t,x,f\r0,1,2\r", "line 1: lines end with CR alone"},
       {"t,x\n", "line 1: column \"f\" is missing"},
-      {"t,x,x,f\n", "line 1: column \"x\" is there twice"},
+      {"t,x,x,f\n", "line 1: column \"x\" is given twice"},
       {"{\"t\": 0, \"x\": 1}\n", "line 1: key \"f\" is missing"},
       {"\n{\"t\": 0, \"x\": 1, \"f\": \"2\"}\n", "line 2: \"f\" must be a number"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2, \"z\": 3}\n", "line 1: unknown key \"z\""},
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 0, \"x\": 1, \"f\": 2}\n", "line 2: \"t\" does not rise"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 1, \"x\": 1, \"f\": 2, \"v\": 0}\n",
-       "line 2: \"v\" is there, which the lines before do not have"},
+       "line 2: key \"v\" is given, although the previous lines do not have it"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\nt,x,f\n", "line 2: not JSON"},
       {"LabVIEW Measurement\t\n", "delete all lines up to the last ***End_of_Header***"},
       {"X_Value\tx\tf\tComment\n",
@@ -138,9 +138,9 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f,temp,run\n", "line 1: unknown columns \"temp\", \"run\"; remove what is none of t, x, v and f"},
       {"\"t\" \"x\" \"f\"\n\"1\" 0 1 2\n",
        "line 2: 4 values for 3 columns; name all columns (R: write.table"},
-      {"t,x,f\n0,1,NA\n", "\"f\" must be a number, not \"NA\"; leave out the lines that lack a value"},
-      {"t,x,f\n0,1,\n", "\"f\" must be a number, not \"\"; leave out the lines that lack a value"},
-      {"t,x,f\n0,1,NaN\n", "\"f\" is not a finite number; leave out the lines that lack a value"},
+      {"t,x,f\n0,1,NA\n", "\"f\" must be a number, not \"NA\"; remove the lines that lack a value"},
+      {"t,x,f\n0,1,\n", "\"f\" must be a number, not \"\"; remove the lines that lack a value"},
+      {"t,x,f\n0,1,NaN\n", "\"f\" is not a finite number; remove the lines that lack a value"},
       {"t;x;f\n0;1;-2.000,5\n", "not \"-2.000,5\"; write numbers without thousands separators"},
       {"t,x,f\n0,1,\"2,000.5\"\n", "not \"2,000.5\"; write numbers without thousands separators"},
       {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times as seconds since any instant"},
@@ -262,12 +262,12 @@ TEST(SolveIdentify, DetectsWrongUnitsOfTimeAndWrongSigns) {
   };
   const std::pair<std::string, const char*> cases[] = {
       {scaled(1e3, 1, 1),
-       "line 6: \"t\" grows by 1 a line and is in s, so it looks like ms; name it \"t [ms]\""},
+       "line 6: \"t\" grows by 1 per line and has the unit s, but seems to be in ms; name it \"t [ms]\""},
       {scaled(1e6, 1, 1), "looks like us"},
       {scaled(1e9, 1, 1), "looks like ns"},
-      {scaled(1, -1, -1), "counted negative: x and f are below 0"},
-      {scaled(1, -1, 1), "counted negative: the force grows where x is below 0"},
-      {scaled(1, 1, -1), "counted negative: f falls while x grows"}};
+      {scaled(1, -1, -1), "negative signs: x and f are below 0"},
+      {scaled(1, -1, 1), "a negative sign: the force grows where x is below 0"},
+      {scaled(1, 1, -1), "a negative sign: f falls while x grows"}};
   for (const auto& [input, words] : cases) {
     const Result r = run(input);
     EXPECT_EQ(r.status, 2) << words;
@@ -320,7 +320,7 @@ TEST(SolveIdentify, DetectsLengthsSpeedsForcesAndSurfacesOfAnotherKind) {
 TEST(SolveIdentify, SaysThatNothingIsTouchedAndThatASecondTableBegins) {
   const Result free = run("t,x,f\n0,-0.003,0.01\n0.001,-0.002,-0.01\n");
   EXPECT_EQ(free.status, 0);
-  EXPECT_NE(free.errors.find("no sample has \"x\" above 0, so nothing is touched"), std::string::npos)
+  EXPECT_NE(free.errors.find("no sample has \"x\" above 0, so there is no contact"), std::string::npos)
       << free.errors;
   const Result twice = run("t,x,f\n0,0.001,1\n0.001,0.002,2\nt,x,f\n0,0.001,1\n");
   EXPECT_EQ(twice.status, 2);

@@ -130,7 +130,7 @@ TEST_F(Sweep, FoldersOfOtherGridsOrCommitsAreNotMixed) {
       << merged.output;
   const Ended nothing = lab({"merge", path("a"), path("c")});
   EXPECT_EQ(nothing.status, 2) << nothing.output;
-  EXPECT_NE(nothing.output.find("is no folder of `longreach-lab sweep`"), std::string::npos)
+  EXPECT_NE(nothing.output.find("is not a folder of `longreach-lab sweep`"), std::string::npos)
       << nothing.output;
 }
 

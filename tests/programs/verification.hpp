@@ -22,7 +22,8 @@ inline void add_options(CLI::App& app, VerificationOptions& o) {
   app.add_option("--seed", o.seed, "Seed of every random stream")
       ->check(whole_number())
       ->capture_default_str();
-  app.add_option("--out", o.out, "Folder for metrics.json and the table; made if missing")->type_name("DIR");
+  app.add_option("--out", o.out, "Folder for metrics.json and the table; created if missing")
+      ->type_name("DIR");
   app.add_flag("--quiet", o.quiet, "Print nothing");
 }
 

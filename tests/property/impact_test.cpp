@@ -140,7 +140,7 @@ TEST(Impact, EnergyUnderAServoComesFromTheServoOnly) {
     }
   }
   EXPECT_GT(euler_rise, 1.0);  // the audit can fail
-  std::printf("energy from nowhere under a servo: at most %.2g of what there is in a step\n", rise_max);
+  std::printf("generated energy under a servo: at most %.2g of what there is in a step\n", rise_max);
 }
 
 // Thrown onto the surface by a constant force again and again, it comes up no higher than it was.

@@ -85,7 +85,7 @@ TEST(SeveralContacts, EnergyComesFromTheForceOnly) {
   }
   EXPECT_GT(several, steps / 20);
   EXPECT_LE(open, steps / 100);
-  std::printf("%ld steps, %ld in several contacts: energy from nowhere at most %.2g; not converged: %ld\n",
+  std::printf("%ld steps, %ld in several contacts: generated energy at most %.2g; not converged: %ld\n",
               steps, several, rise_max, open);
 }
 

@@ -41,13 +41,15 @@ void write_whole(const fs::path& file, const std::string& text) {
   if (stream && !error) return;
   std::error_code ignored;
   fs::remove(part, ignored);
-  throw std::runtime_error("cannot write " + file.string() + ": is the disk full, or the folder another's?");
+  throw std::runtime_error("cannot write " + file.string() +
+                           ": check free disk space and permissions of "
+                           "the folder");
 }
 
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other) {
   if (one.commit() != other.commit()) return "of commit " + one.commit() + ", not " + other.commit();
   if (text_of(one.campaign()) != text_of(other.campaign())) return "of another grid";
-  if (one.configs() != other.configs()) return "of this grid, but the files in deploy/ were others";
+  if (one.configs() != other.configs()) return "of this grid, but with other files in deploy/";
   if (one.full() != other.full())
     return one.full() ? "of full size (LONGREACH_FULL), not of small size"
                       : "of small size, not of full size (LONGREACH_FULL)";
@@ -69,7 +71,7 @@ CampaignFolder::CampaignFolder(fs::path folder, const proto::CampaignRecord& rec
 
 CampaignFolder::CampaignFolder(fs::path folder) : folder_(std::move(folder)) {
   if (!fs::exists(folder_ / kRecord))
-    throw ConfigError(folder_.string() + " is no folder of `longreach-lab sweep`: " + kRecord +
+    throw ConfigError(folder_.string() + " is not a folder of `longreach-lab sweep`: " + kRecord +
                       " is not in it");
   load_text_file(folder_ / kRecord, record_);
   name_ = name_hash(text_of(record_));
@@ -91,7 +93,7 @@ std::optional<proto::CellRecord> CampaignFolder::result(std::size_t cell) const 
   if (!parser.ParseFromString(text, &record) || !record.complete()) return std::nullopt;
   if (record.campaign() != name_ || record.cell() != cell)
     throw ConfigError(file_of(cell).string() +
-                      " is of another campaign; remove it, or choose another folder");
+                      " belongs to another campaign; remove it, or choose another folder");
   return record;
 }
 

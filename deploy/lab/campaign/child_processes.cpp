@@ -83,7 +83,7 @@ std::string last_line(int file) {
 std::string failure_of(const Child& child, int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
   const std::string said = last_line(child.said);
-  if (WIFEXITED(status)) return said.empty() ? "it failed without a word" : said;
+  if (WIFEXITED(status)) return said.empty() ? "it failed without an error message" : said;
   const std::string ended = std::string("it was ended by ") + strsignal(WTERMSIG(status));
   return said.empty() ? ended : ended + ": " + said;
 }
@@ -144,7 +144,7 @@ int run_in_children(const std::vector<std::size_t>& jobs, std::size_t at_a_time,
   while (next < jobs.size() || children.running() > 0) {
     while (next < jobs.size() && children.running() < at_a_time && children.start(jobs[next], signals))
       ++next;
-    if (children.running() == 0) throw std::runtime_error("no process can be started; is there memory left?");
+    if (children.running() == 0) throw std::runtime_error("cannot start a process; check the free memory");
     const int signal = signals.next(1);
     if (signal > 0 && signal != SIGCHLD) return signal;
     children.reap();

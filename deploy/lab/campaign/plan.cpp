@@ -24,7 +24,7 @@ class Checker {
   Checker(const fs::path& file, const proto::Campaign& campaign) : file_(file), campaign_(campaign) {}
 
   void experiments() const {
-    if (campaign_.experiment().empty()) throw ConfigError(file_.string() + ": there is no experiment to run");
+    if (campaign_.experiment().empty()) throw ConfigError(file_.string() + ": no experiment is given");
     Names known;
     for (const Experiment& e : longreach::experiments()) known.emplace_back(e.name);
     std::set<std::string> names;
@@ -34,7 +34,7 @@ class Checker {
         refuse({step(campaign_, "experiment", i)},
                "there is no experiment \"" + name + "\"" + instead_of(name, known, "there are"));
       if (!names.insert(name).second)
-        refuse({step(campaign_, "experiment", i)}, "experiment \"" + name + "\" is there twice");
+        refuse({step(campaign_, "experiment", i)}, "experiment \"" + name + "\" is given twice");
     }
   }
 
@@ -48,7 +48,7 @@ class Checker {
       for (int k = 0; k < setting.also_size(); ++k)
         take(setting.also(k), {at, step(setting, "also", k)}, paths);
       if (setting.value().empty())
-        refuse({at}, "setting \"" + setting.path() + "\" has no value; without one the grid is empty");
+        refuse({at}, "setting \"" + setting.path() + "\" has no value, so the grid is empty");
       std::set<std::string> values;
       for (int v = 0; v < setting.value_size(); ++v) {
         if (!values.insert(setting.value(v)).second)
@@ -110,7 +110,7 @@ class Checker {
   void take(const std::string& path, const FieldPath& at, std::set<std::string>& known) const {
     for (const std::string& field : lab_fields(path)) {
       if (!known.insert(field).second)
-        refuse(at, "setting \"" + path + "\" is there twice" + (field == path ? "" : ", as " + field));
+        refuse(at, "setting \"" + path + "\" is given twice" + (field == path ? "" : ", as " + field));
     }
   }
   [[noreturn]] void refuse(const FieldPath& path, const std::string& why) const {
@@ -133,7 +133,7 @@ Plan load_plan(const fs::path& file, const fs::path& deploy_folder) {
   Plan plan{Grid(campaign), fs::absolute(file).lexically_normal().parent_path(), {}, {}};
   if (plan.grid.size() > Grid::kCellsMax)
     throw ConfigError(file.string() + ": the grid has more than " + std::to_string(Grid::kCellsMax) +
-                      " cells; make several campaigns of it");
+                      " cells; split it into several campaigns");
   std::string configs;
   for (std::size_t i = 0; i < plan.grid.combinations(); ++i) {
     const std::size_t seeds = campaign.seeds().to() - campaign.seeds().from() + std::size_t{1};

@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point began) {
 std::size_t jobs_of(const SweepOptions& options) {
   constexpr int kJobsMax = 1024;
   if (options.jobs < 0 || options.jobs > kJobsMax)
-    throw ConfigError("--jobs " + std::to_string(options.jobs) + " is outside 0 (one a processor) to " +
+    throw ConfigError("--jobs " + std::to_string(options.jobs) + " is outside 0 (one per processor) to " +
                       std::to_string(kJobsMax));
   if (options.jobs > 0) return static_cast<std::size_t>(options.jobs);
   return std::max(1U, std::thread::hardware_concurrency());  // those that this process may use
@@ -97,8 +97,10 @@ CellResults results_in(const CampaignFolder& folder, std::size_t cells) {
 void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder& folder, const Shard& shard) {
   if (shard.count > 1) {
     if (!options.quiet)
-      std::printf("when all shards are done: longreach-lab merge %s and their folders, if they have others\n",
-                  folder.path().c_str());
+      std::printf(
+          "when all shards are done: longreach-lab merge %s and the folders of the other shards, if "
+          "any\n",
+          folder.path().c_str());
     return;
   }
   const fs::path file = folder.path() / "results.csv";
@@ -136,7 +138,9 @@ Shard parse_shard(const std::string& text) {
     const auto count = parse_integer<std::size_t>(std::string_view(text).substr(slash + 1));
     if (index && count && *index >= 1 && *index <= *count) return {*index, *count};
   }
-  throw ConfigError("--shard " + text + " is none; write I/N, e.g. 1/4, 2/4, 3/4 and 4/4 on four hosts");
+  throw ConfigError("--shard " + text +
+                    " is not a shard; write I/N, e.g. 1/4, 2/4, 3/4 and 4/4 on four "
+                    "hosts");
 }
 
 int sweep(const SweepOptions& options) {
@@ -162,7 +166,7 @@ int sweep(const SweepOptions& options) {
     // Some may have ended just then.
     const auto now =
         std::ranges::count_if(cells, [&](std::size_t i) { return folder.result(i).has_value(); });
-    std::fprintf(stderr, "longreach-lab: stopped (%s) with %zu of %zu cells done; the same command goes on\n",
+    std::fprintf(stderr, "longreach-lab: stopped (%s) with %zu of %zu cells done; the same command resumes\n",
                  strsignal(signal), before + static_cast<std::size_t>(now), of_shard);
     return 128 + signal;
   }
@@ -173,7 +177,7 @@ int sweep(const SweepOptions& options) {
   if (no_contact > 0 && !options.quiet) std::printf("outcome: no contact in %zu cells\n", no_contact);
   finish(options, plan, folder, shard);
   if (progress.failed() > 0)
-    std::fprintf(stderr, "longreach-lab: %zu of %zu cells failed; the same command tries them again\n",
+    std::fprintf(stderr, "longreach-lab: %zu of %zu cells failed; the same command runs them again\n",
                  progress.failed(), of_shard);
   if (progress.failed() > 0) return 1;
   return no_contact > 0 ? 3 : 0;
@@ -196,7 +200,7 @@ int merge(const MergeOptions& options) {
       if (result && results[i] && !alike(*result, *results[i]))
         throw ConfigError("cell " + std::to_string(i) + " (" + grid.name(grid.cell(i)) + ") in " +
                           folder.path().string() +
-                          " is not what it is in another folder: another processor or C library?");
+                          " differs between the folders: check for another processor or C library");
       if (result) results[i] = result;
     }
   }

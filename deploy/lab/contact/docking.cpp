@@ -42,9 +42,9 @@ std::vector<Plot> docking_plots() {
         .panel_px = 150.0};
   };
   return {plot("docking", "Docking across the link: approach, grasp, drag, dock"),
-          plot("docking_tilted", "Mistake: the target is not turned straight"),
+          plot("docking_tilted", "Mistake: the target is not aligned"),
           plot("docking_misses_guide", "Mistake: beside the guide"),
-          plot("docking_pushes_on", "Mistake: on pushing after the catch has given way")};
+          plot("docking_pushes_on", "Mistake: pushing on after the latch has yielded")};
 }
 
 std::vector<Metric> run_docking(const ExperimentRun& run) {

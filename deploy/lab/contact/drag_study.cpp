@@ -106,13 +106,13 @@ std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
 std::vector<Plot> drag_plots() {
   return {{.name = "drag",
            .csv = "loads",
-           .title = "Loads that nobody described, dragged: their mass as it is identified",
+           .title = "Unknown loads, dragged: their identified mass",
            .x_column = "mass_kg",
            .x_label = "mass of the load (kg)",
            .panels = {{"error of the mass (%)",
                        {{.column = "mass_error_percent", .title = "a load", .points = true}},
                        "set logscale x\nset yrange [-20:20]"},
-                      {"rest beside that of an empty gripper (mm)",
+                      {"distance from the rest position with an empty gripper (mm)",
                        {{.column = "overrun_m", .title = "a load", .factor = 1e3, .points = true}},
                        "set logscale x"}}}};
 }

@@ -100,15 +100,15 @@ std::vector<Plot> impact_plots() {
   const std::string drawn = axes + "set yrange [1e-17:1e4]\nset ytics 1e-16,1e4,1e4\n";
   return {{.name = "impact",
            .csv = "impact",
-           .title = "A free impact, n = 1.5, a v = 0.5: four integrators against how stiff the contact is "
-                    "for the step",
+           .title = "A free impact, n = 1.5, a v = 0.5: four integrators over the relative stiffness of the "
+                    "contact",
            .x_column = "kappa",
            .x_label = "stiffness k (v dt)^{n-1} dt^2 / m",
            .panels = {{"restitution: error", curves("_restitution"), drawn},
-                      {"energy from nowhere", curves("_rise"), drawn},
+                      {"generated energy", curves("_rise"), drawn},
                       {"time of contact: error", curves("_time"),
                        axes + "set yrange [1e-8:1e4]\nset ytics 1e-8,1e4,1e4\n"},
-                      {"forces computed", curves("_evaluations"),
+                      {"evaluations of the force", curves("_evaluations"),
                        axes + "set yrange [1:1e5]\nset ytics auto\nset format x '10^{%L}'\n"}}}};
 }
 

@@ -141,8 +141,7 @@ std::vector<Plot> scenes_cost_plots() {
   return {
       {.name = "scenes_cost",
        .csv = "scenes_cost",
-       .title =
-           "Spheres in a cube of 2 m: those at rest are found through a tree, moving ones asked one by one",
+       .title = "Spheres in a cube of 2 m: spheres at rest are found through a tree, moving ones one by one",
        .x_column = "surfaces",
        .x_label = "surfaces",
        .panels = {{"time of a step (µs)",

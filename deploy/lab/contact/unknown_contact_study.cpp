@@ -172,9 +172,9 @@ std::vector<Metric> of_others(const Study& in, const Study& out, const Study& so
 std::vector<Plot> unknown_contact_plots() {
   return {{.name = "unknown_contact",
            .csv = "cells",
-           .title = "Materials that nobody described: what the hand feels against what is true",
+           .title = "Random materials: displayed against true contact",
            .x_column = "slope_n_per_m",
-           .x_label = "slope of the material where it is pressed (N/m)",
+           .x_label = "slope of the material at the working depth (N/m)",
            .panels = {{"error of the slope (%)",
                        {{.column = "slope_error", .title = "a cell", .factor = 100.0, .points = true}},
                        "set logscale x\nset yrange [-15:15]"},

@@ -28,7 +28,7 @@ Plot displayable_plot() {
   line("wall_n_per_m", "wall, 5 N/mm", 5);
   return {.name = "displayable",
           .csv = "displayable",
-          .title = "Stiffness that the hand can feel calmly across a delay (light hand, walls up to 5 N/mm)",
+          .title = "Stable displayed stiffness over the delay (light hand, walls up to 5 N/mm)",
           .x_column = "rtt_s",
           .x_label = "round-trip time (s)",
           .panels = {panel},
@@ -38,8 +38,11 @@ Plot displayable_plot() {
 Plot wall_plot(const std::string& wall, const std::string& title) {
   const std::string axis = "set logscale x\nset xrange [0.02:10]\n";
   Panel shown{"displayed/true", {}, axis + "set logscale y\nset yrange [0.003:2]\nset format y '%g'"};
-  Panel given{
-      "given to the hand (mJ)", {}, axis + "set logscale y\nset yrange [1e-4:*]\nset format y '10^{%L}'"};
+  Panel given{"returned to the operator (mJ)",
+              {},
+              axis +
+                  "set logscale y\nset yrange [1e-4:*]\nset format y "
+                  "'10^{%L}'"};
   for (std::size_t i = 0; i < kLawNames.size(); ++i) {
     Curve curve{.column = std::string(kLawNames[i].column),
                 .title = std::string(kLawNames[i].title),

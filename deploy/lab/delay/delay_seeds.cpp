@@ -134,7 +134,7 @@ std::vector<Plot> delay_seeds_plots() {
   sd.curves.push_back({.column = "sd_bound_percent", .title = "bound"});
   return {{.name = "delay_seeds",
            .csv = "delay_seeds",
-           .title = "Displayed stiffness: the worst of all seeds, light and firm hand",
+           .title = "Displayed stiffness: worst of all seeds, light and firm hand",
            .x_column = "rtt_s",
            .x_label = "round-trip time (s), delays and named links",
            .panels = {error, sd}}};

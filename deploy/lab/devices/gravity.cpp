@@ -87,7 +87,7 @@ DeviceConfig frictionless(DeviceConfig device) {
 std::vector<Plot> gravity_plots() {
   return {{.name = "gravity",
            .csv = "drift",
-           .title = "The handle let go at (20, 20, 20) mm",
+           .title = "The handle released at (20, 20, 20) mm",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"way (mm)",

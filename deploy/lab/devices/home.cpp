@@ -163,7 +163,7 @@ std::vector<Plot> home_rotation_plots() {
   return {
       {.name = "home-rotation",
        .csv = "damping",
-       .title = "Home function of the rotational handle, let go at 10 degrees",
+       .title = "Home function of the rotational handle, released at 10 degrees",
        .x_column = "t_s",
        .x_label = "time (s)",
        .panels = {{"no friction (deg)", curves("ideal_"), ""}, {"real device (deg)", curves("real_"), ""}}},
@@ -218,7 +218,7 @@ std::vector<Metric> run_home_rotation(const ExperimentRun& run) {
 std::vector<Plot> home_translation_plots() {
   return {{.name = "home-translation",
            .csv = "home",
-           .title = "Home function of the translational handle, let go at (20, -15, 10) mm",
+           .title = "Home function of the translational handle, released at (20, -15, 10) mm",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"spring at home (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}, {"z_m", "z", 1e3}}, ""},

@@ -104,7 +104,7 @@ std::vector<Plot> wall_translation_plots() {
   };
   return {{.name = "limits",
            .csv = "limits",
-           .title = "Largest stable wall against sample time (no Coulomb friction, ideal encoders)",
+           .title = "Maximum stable stiffness over the sample time (no Coulomb friction, ideal encoders)",
            .x_column = "period_s",
            .x_label = "sample time (ms)",
            .x_factor = 1e3,
@@ -112,7 +112,8 @@ std::vector<Plot> wall_translation_plots() {
                       panel("released (N/mm)", "released"), panel("released, 1 sample late", "delayed")}},
           {.name = "encoders",
            .csv = "encoders",
-           .title = "Largest calm wall, up to 200 N/mm, against encoder count (1 kHz, released, 0.5 N s/m)",
+           .title = "Maximum stable stiffness, up to 200 N/mm, over the encoder count (1 kHz, released, 0.5 "
+                    "N s/m)",
            .x_column = "count_m",
            .x_label = "one count at the handle (micrometre)",
            .x_factor = 1e6,

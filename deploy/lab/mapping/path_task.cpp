@@ -144,12 +144,12 @@ std::vector<Plot> path_task_plots() {
        .x_label = "round trip (s)",
        .panels = {over_delay("time (s)", "time", 1.0, false),
                   over_delay("ghost: time (s)", "time", 1.0, true),
-                  over_delay("off the way (mm)", "error", 1e3, false),
-                  over_delay("ghost: off the way (mm)", "error", 1e3, true)}},
+                  over_delay("off the path (mm)", "error", 1e3, false),
+                  over_delay("ghost: off the path (mm)", "error", 1e3, true)}},
       {.name = "path-task-traces",
        .csv = "way",
-       .title =
-           "One simulated operator, 2.6 s away, seen across the diagonal of x, y and z; heights stretched",
+       .title = "One simulated operator, round trip 2.6 s, viewed across the diagonal of x, y and z; heights "
+                "stretched",
        .x_column = "right_m",
        .x_label = "along x + y + z (mm)",
        .x_factor = 1e3,

@@ -207,7 +207,7 @@ std::vector<Plot> fk_network_plots() {
        .csv = "fk-network",
        .title = "Forward kinematics of the 3-RRR device: error against cost",
        .x_column = "cost_ns",
-       .x_label = "time a call (ns)",
+       .x_label = "time per call (ns)",
        .panels =
            {{"largest error (rad)",
              {mark("tracking", "tracking (b)", 7), mark("network", "network", 5),

@@ -75,7 +75,9 @@ void require_same(const SphericalGeometry& mine, const SphericalGeometry& traine
 void require_numbers(const SphericalNetworkConfig& c) {
   const int n = c.cells.per_axis;
   require(n >= 1 && n <= 9 && n % 2 == 1, "cells.per_axis of the network is not odd, 1 to 9");
-  require(c.fine.size() == static_cast<std::size_t>(n * n * n), "the network has not one part a cell");
+  require(c.fine.size() == static_cast<std::size_t>(n * n * n),
+          "the number of parts of the network differs "
+          "from its number of cells");
   require((c.cells.width.array() > 0.0).all() && c.cells.width.allFinite(),
           "cells.width of the network is not above 0");
   require(c.cells.overlap > 0.0 && c.cells.overlap <= 0.5,

@@ -11,7 +11,7 @@ namespace longreach {
 std::vector<std::string> train_kinds() { return {"spherical"}; }
 
 void train(const std::string& kind, std::uint64_t seed, const std::filesystem::path& out) {
-  if (kind != "spherical") throw std::runtime_error("there is nothing to train by the name " + kind);
+  if (kind != "spherical") throw std::runtime_error("unknown network " + kind);
   // Opened first: nobody wants to learn after minutes that it cannot be written. What ends the training
   // leaves what was there.
   std::error_code none;

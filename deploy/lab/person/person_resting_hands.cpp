@@ -111,7 +111,7 @@ PersonChecks judge_felt(const PersonScenario& s, const PersonSeen& seen) {
   const double low = 0.98 * rendered(s, s.slave.scene.material[0].stiffness_n_per_m);
   const double paid_n = store_pays_n(s, low, s.master.rendering.rate_stiffness_n_per_m);
   const double least_n = std::min(s.grip == Grip::kFirm ? 3.0 : 2.0, 0.96 * paid_n);
-  all.push_back({"shortfall of what is to be felt, N", least_n - seen.move[0].felt_n, 0.0});
+  all.push_back({"shortfall of the displayed force, N", least_n - seen.move[0].felt_n, 0.0});
   return all;
 }
 
@@ -133,7 +133,7 @@ void held_at_home(PersonScenario& s) {
   s.moves.push_back({.to_m = {0.0, 0, 0}, .wait_s = 4.0});
 }
 PersonChecks judge_held_at_home(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"way of the goal, m", (seen.move[2].goal_m - seen.move[1].goal_m).norm(), 1e-4},
+  return {{"motion of the goal, m", (seen.move[2].goal_m - seen.move[1].goal_m).norm(), 1e-4},
           {"force at the tool, N", seen.move[2].tool_max_n, 1.05 * s.slave.command.force_guard_n}};
 }
 
@@ -156,8 +156,8 @@ void add_resting_hands(std::vector<PersonRow>& rows) {
        [](PersonScenario& s) { held_out(s, 0.045, 7000.0); }, judge_felt},
       {"held-out-long", "rate mode, held out by 45 mm for a minute",
        [](PersonScenario& s) { held_out(s, 0.045, 3000.0, 60.0); }, judge_felt},
-      {"let-go-pressing", "lets go of the handle that is held out", let_go_pressing, judge_let_go_pressing},
-      {"held-at-home", "brings the handle home and holds it", held_at_home, judge_held_at_home},
+      {"let-go-pressing", "releases the deflected handle", let_go_pressing, judge_let_go_pressing},
+      {"held-at-home", "moves the handle home and holds it", held_at_home, judge_held_at_home},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }

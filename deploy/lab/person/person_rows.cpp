@@ -29,7 +29,7 @@ void off_the_edge(PersonScenario& s) {
 PersonChecks judge_off_the_edge(const PersonScenario& s, const PersonSeen& seen) {
   // On its way off, and after it, along the normal of the face that it left.
   const double leap_m = seen.move[1].tool_most_m.x() - seen.move[0].tool_m.x();
-  return {lead_before(s, seen, 0), lead_after(seen, 0), {"leap along the normal, m", leap_m, kMostLead_m}};
+  return {lead_before(s, seen, 0), lead_after(seen, 0), {"jump along the normal, m", leap_m, kMostLead_m}};
 }
 
 // K: pushes on at the edge of the workspace, then back.
@@ -88,7 +88,7 @@ void beside_a_box(PersonScenario& s) {
              {.to_m = {0.052, 0.035, 0}, .wait_s = 1.0, .wait_rtt = 0.0}};
 }
 PersonChecks judge_gone(const PersonScenario&, const PersonSeen& seen) {
-  return {{"contact force beside what is gone, N", seen.move.back().felt_max_n, kNothing_n}};
+  return {{"contact force beside a surface that is gone, N", seen.move.back().felt_max_n, kNothing_n}};
 }
 
 // J, two faces 3 mm apart: from the near one to where the far one is not reached yet.
@@ -109,7 +109,7 @@ void two_faces(PersonScenario& s) {
 
 // Less deep than twice the touch threshold nothing proves that the nearer face is not there.
 PersonChecks judge_two_faces(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"contact force of a face that may be there, N", seen.move.back().felt_max_n,
+  return {{"contact force of a possible face, N", seen.move.back().felt_max_n,
            1.1 * 2.0 * s.slave.sensing.touch_n / s.master.mapping.scale}};
 }
 
@@ -129,7 +129,7 @@ PersonChecks judge_clutch_in_contact(const PersonScenario&, const PersonSeen& se
     clutched_n = std::max(clutched_n, seen.move[i].felt_max_n);
   return {in_front(seen),
           {"contact force while clutched, N", clutched_n, kNothing_n},
-          {"speed of the freed hand, m/s", seen.move[1].hand_m_per_s, 0.1}};
+          {"speed of the released hand, m/s", seen.move[1].hand_m_per_s, 0.1}};
 }
 
 // A hand that presses is freed by a stop.
@@ -140,7 +140,7 @@ void freed_by_stop(PersonScenario& s) {
              {.to_m = {0.046, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0, .stop = true}};
 }
 PersonChecks judge_freed(const PersonScenario&, const PersonSeen& seen) {
-  return {in_front(seen), {"speed of the freed hand, m/s", seen.move[1].hand_m_per_s, 0.1}};
+  return {in_front(seen), {"speed of the released hand, m/s", seen.move[1].hand_m_per_s, 0.1}};
 }
 
 }  // namespace
@@ -152,15 +152,15 @@ const std::vector<PersonRow>& person_rows() {
          judge_held_out, true},
         {"off-the-edge", "rate mode, pressing on a block, then sideways off its edge", off_the_edge,
          judge_off_the_edge, true},
-        {"workspace", "rate mode, on and on at the edge of the workspace, then a retreat", workspace_rate,
+        {"workspace", "rate mode, a long time at the edge of the workspace, then a retreat", workspace_rate,
          judge_workspace_rate, true},
         {"strokes", "position mode, strokes with the clutch beyond the workspace, then back",
          workspace_strokes, judge_workspace_strokes, true},
         {"near-a-known-wall", "rate mode in front of a stiff wall that was touched once", near_a_known_wall,
          judge_near_a_known_wall},
         {"beside-a-box", "touches a narrow box, then passes beside it", beside_a_box, judge_gone, true},
-        {"two-faces", "touches the nearer of two faces, then goes on in front of the farther", two_faces,
-         judge_two_faces},
+        {"two-faces", "touches the nearer of two faces, then continues in front of the farther one",
+         two_faces, judge_two_faces},
         {"clutch", "the clutch in contact, the hand moves in and out", clutch_in_contact,
          judge_clutch_in_contact},
         {"stop", "a stop while the hand presses", freed_by_stop, judge_freed},

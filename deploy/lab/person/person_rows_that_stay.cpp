@@ -209,7 +209,7 @@ void hard_wall(PersonScenario& s) {
 }
 PersonChecks judge_hard_wall(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
-          {"the cut of the stiffness is not announced", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
+          {"the limit of the stiffness is not reported", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
 }
 
 // Through a thin sheet, then against its far side.
@@ -276,7 +276,7 @@ void spacecraft(PersonScenario& s) {
 PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
   return {{"never touched", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           {"force at the tool, N", seen.move[0].tool_max_n, 1.35 * s.slave.command.force_guard_n},
-          {"force of what has flown off, N", seen.move[1].felt_max_n, kNothing_n}};
+          {"force of a body that has moved away, N", seen.move[1].felt_max_n, kNothing_n}};
 }
 
 // A load in the gripper raises the resistance, once the slave tells of it and the hand moves.
@@ -317,9 +317,9 @@ PersonChecks judge_coming_wall(const PersonScenario& s, const PersonSeen& seen) 
 void add_rows_that_stay(std::vector<PersonRow>& rows) {
   constexpr double kEighth = std::numbers::pi / 4.0;
   const std::vector<PersonRow> more = {
-      {"light-press", "a light press for long, then a second touch", light_press, judge_light_press},
-      {"let-go", "lets go of the handle in contact", let_go_in_contact, judge_let_go},
-      {"let-go-rate", "lets go of the handle in contact, in rate mode", let_go_in_rate_mode, judge_let_go},
+      {"light-press", "a long light press, then a second touch", light_press, judge_light_press},
+      {"let-go", "releases the handle in contact", let_go_in_contact, judge_let_go},
+      {"let-go-rate", "releases the handle in contact, in rate mode", let_go_in_rate_mode, judge_let_go},
       {"mode", "switches the mode in contact and while deflected", mode_switched, judge_mode_switched},
       {"scale", "changes the scale in contact", scale_in_contact, judge_scale},
       {"clutch-moving", "the clutch while the hand moves",
@@ -341,12 +341,12 @@ void add_rows_that_stay(std::vector<PersonRow>& rows) {
       {"thin-sheet", "through a thin sheet, then against its far side", thin_sheet, judge_thin_sheet},
       {"behind", "a wall behind the start, a long press, a retreat", behind_and_back, judge_behind},
       {"blackout", "the link is silent for 0.7 s in contact", blackout_in_contact, judge_blackout_in_contact},
-      {"blackout-touch", "the link is silent for 3 s while a wall is met", blackout_at_a_touch,
+      {"blackout-touch", "the link is silent for 3 s while a wall is touched", blackout_at_a_touch,
        judge_blackout_at_a_touch},
       {"engage", "stops and engages again in contact", stop_and_engage, judge_stop_and_engage},
       {"spacecraft", "pushes a spacecraft that floats freely", spacecraft, judge_spacecraft},
       {"load", "closes the gripper on a load", load, judge_load},
-      {"coming-wall", "a wall comes, then a retreat", coming_wall, judge_coming_wall},
+      {"coming-wall", "a wall approaches, then a retreat", coming_wall, judge_coming_wall},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }

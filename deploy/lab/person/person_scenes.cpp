@@ -48,15 +48,15 @@ void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m,
 double one_way(const PersonScenario& s) { return 0.5 * s.rtt_s; }
 
 PersonCheck answers(const PersonScenario& s, const MoveSeen& retreat) {
-  return {"the retreat is answered, s", retreat.answer_s < 0.0 ? 1e3 : retreat.answer_s,
+  return {"response time to the retreat, s", retreat.answer_s < 0.0 ? 1e3 : retreat.answer_s,
           one_way(s) + kAnswer_s};
 }
 PersonCheck lead_before(const PersonScenario& s, const PersonSeen& seen, std::size_t move) {
-  return {"lead before the news, m", seen.move[move].lead_max_m,
+  return {"lead before the report, m", seen.move[move].lead_max_m,
           seen.goal_m_per_s * (s.rtt_s + kAnswer_s) + kMostLead_m};
 }
 PersonCheck lead_after(const PersonSeen& seen, std::size_t move) {
-  return {"lead after the news, m", seen.move[move].lead_m, kMostLead_m};
+  return {"lead after the report, m", seen.move[move].lead_m, kMostLead_m};
 }
 PersonCheck in_front(const PersonSeen& seen) {
   return {"contact force with the goal in front, N", seen.front_n, kNothing_n};

@@ -42,8 +42,7 @@ void add_run(CLI::App& app, LabRunOptions& o) {
       "run",
       "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. A setting that the "
       "experiment does not use is refused.\n\n"
-      "Exit status: 0 done, 1 it failed, 2 an option or a setting is wrong and nothing was "
-      "run, 3 there was no contact (touch).");
+      "Exit status: 0 done, 1 failed, 2 invalid option or setting (nothing was run), 3 no contact (touch).");
   run->add_option("name", o.name, "Experiment")->required();
   run->add_option("--seed", o.seed, "Seed of every random stream")
       ->check(whole_number())
@@ -53,45 +52,37 @@ void add_run(CLI::App& app, LabRunOptions& o) {
                   "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; made if missing")
+  run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; created if missing")
       ->type_name("DIR");
   run->add_flag("--record", o.record,
                 "Record both sides as the programs do, into DIR/touch.mcap (only touch, with --out); "
-                "`longreach-lab replay` can run it again");
+                "`longreach-lab replay` can replay it");
   run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 
 void add_replay(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* replay = app.add_subcommand(
       "replay",
-      "Run the nodes again on the inputs of recordings (`longreach-master --record FILE`, `longreach-slave "
-      "--record FILE`) and compare what they put out with what was recorded, bit for bit.\n\n"
-      "Exit status: 0 all the same, 1 there is a difference, and the first one is named, 2 not all of it "
-      "could be "
-      "replayed, and why.");
+      "Run the nodes again on the inputs of recordings (`longreach-master --record FILE`, `longreach-slave --record FILE`) and compare their outputs with the recorded outputs, bit for bit.\n\n"
+      "Exit status: 0 equal, 1 different (the first difference is printed), 2 not completely replayed (the reason is printed).");
   replay->add_option("files", files, "Recordings")->type_name("FILE...")->required();
 }
 
 void add_sweep(CLI::App& app, SweepOptions& o) {
   CLI::App* sweep = app.add_subcommand(
       "sweep",
-      "Run a campaign: every experiment with every combination of settings and every seed of a grid, on all "
-      "processors. Start it again, after whatever happened, and it goes on where it was.\n\n"
-      "FILE says what the grid is, e.g.\n"
+      "Run a campaign: every experiment with every combination of settings and every seed of a grid, on all processors. After an interruption, run the same command again to resume.\n\n"
+      "FILE defines the grid, e.g.\n"
       "  experiment: \"touch\"\n"
       "  setting { path: \"profile\" value: \"moon\" value: \"lab\" }\n"
       "  setting { path: \"scene.material.wall.stiffness_n_per_m\" value: \"500\" value: \"5000\" }\n"
       "  seeds { from: 1 to: 20 }\n"
-      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. DIR/results.csv "
-      "has "
-      "a row a cell, DIR/results.times.csv what depends on the machine.\n\n"
-      "Exit status: 0 all cells are done, 1 some failed (start it again to try them again), 2 the grid or an "
-      "option is wrong and nothing was run, 3 all are done, some without contact, 128 and more: stopped by a "
-      "signal.");
+      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. DIR/results.csv has a row per cell, DIR/results.times.csv the results that depend on the machine.\n\n"
+      "Exit status: 0 all cells are done, 1 some failed (the same command runs them again), 2 invalid grid or option (nothing was run), 3 all are done, some without contact, 128 and more: stopped by a signal.");
   sweep->add_option("file", o.file, "The grid")->type_name("FILE")->required();
   sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ and the name of FILE")
       ->type_name("DIR");
-  sweep->add_option("--jobs", o.jobs, "Cells at a time; 0: one a processor")->capture_default_str();
+  sweep->add_option("--jobs", o.jobs, "Parallel cells; 0: one per processor")->capture_default_str();
   sweep
       ->add_option("--shard", o.shard,
                    "Only every N-th cell, from the I-th on: N hosts that run 1/N to N/N share a campaign, "
@@ -104,8 +95,7 @@ void add_sweep(CLI::App& app, SweepOptions& o) {
 void add_merge(CLI::App& app, MergeOptions& o) {
   CLI::App* merge = app.add_subcommand(
       "merge",
-      "Write the results of a campaign whose shards are in one folder or in several; they are those of "
-      "one run, byte for byte. Exit status 1 names cells that are missing.");
+      "Write the results of a campaign whose shards are in one or several folders, byte for byte as from a single run. Exit status 1 if cells are missing; they are printed.");
   merge->add_option("folders", o.folders, "Folders of `longreach-lab sweep`")
       ->type_name("DIR...")
       ->required();
@@ -116,10 +106,9 @@ void add_merge(CLI::App& app, MergeOptions& o) {
 void add_report(CLI::App& app, ReportOptions& o) {
   CLI::App* report = app.add_subcommand(
       "report",
-      "Run all experiments, one after the other, into DIR/NAME, and write DIR/index.html, one page that "
-      "needs no other file");
-  report->add_option("--out", o.out, "Folder; made if missing")->type_name("DIR")->required();
-  report->add_flag("--quick", o.quick, "Small campaigns: minutes instead of hours");
+      "Run all experiments one by one into DIR/NAME, and write DIR/index.html, a self-contained page");
+  report->add_option("--out", o.out, "Folder; created if missing")->type_name("DIR")->required();
+  report->add_flag("--quick", o.quick, "Small campaigns that take minutes instead of hours");
   report->add_option("--seed", o.seed, "Seed of every random stream")
       ->check(whole_number())
       ->capture_default_str();
@@ -129,12 +118,12 @@ void add_report(CLI::App& app, ReportOptions& o) {
 void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
   CLI::App* solve = app.add_subcommand(
       "solve",
-      "Answer questions on standard input, one JSON object a line: kinematics of a haptic device or of a "
+      "Answer requests on standard input, one JSON object per line: kinematics of a haptic device or of a "
       "robot; "
       "identify: the stiffness of a contact from samples of t, x, f and, if known, v, also as CSV");
   std::vector<std::string> kinds = solve_kinds();
   kinds.emplace_back("identify");
-  solve->add_option("kind", kind, "Kind of question")->required()->check(CLI::IsMember(kinds));
+  solve->add_option("kind", kind, "Kind of request")->required()->check(CLI::IsMember(kinds));
   CLI::Option_group* of_identify = solve->add_option_group("identify");
   of_identify->add_option("--estimator", identify.estimator, "Estimator; all: a summary of each at the end")
       ->check(CLI::IsMember(identify_estimators()))
@@ -143,7 +132,8 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
       ->check(number_between(0.5, 3.5))
       ->capture_default_str();
   of_identify
-      ->add_option("--force-noise", identify.force_noise_n, "Standard deviation, N; 0: from the samples")
+      ->add_option("--force-noise", identify.force_noise_n,
+                   "Standard deviation of the force, N; 0: estimated from the samples")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   of_identify->add_option("--position-noise", identify.position_noise_m, "Likewise, m")
@@ -164,7 +154,7 @@ void add_train(CLI::App& app, Options& o) {
   train->add_option("--seed", o.train_seed, "Seed of samples and first weights")
       ->check(whole_number())
       ->capture_default_str();
-  train->add_option("--out", o.train_out, "File that is written")->type_name("FILE")->capture_default_str();
+  train->add_option("--out", o.train_out, "Output file")->type_name("FILE")->capture_default_str();
 }
 
 int run_subcommand(const CLI::App& app, const Options& o) {
@@ -190,7 +180,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string(longreach::commit()));
   longreach::add_manual_options(app, "longreach-lab " + std::string(longreach::commit()));
   app.require_subcommand(1);
-  app.add_subcommand("list", "Show the experiments");
+  app.add_subcommand("list", "List the experiments");
   longreach::Options options;
   longreach::add_run(app, options.run);
   longreach::add_sweep(app, options.sweep);

@@ -48,16 +48,16 @@ void NodeReplay::take(std::string_view name, std::string_view bytes) {
 bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete) {
   if (!began() && tick != 0) {
     stop("the recording begins at tick " + std::to_string(tick) +
-         ", and what the node knew then is not in it: a replay needs a recording from the start (--record)");
+         ", without the previous state of the node: a replay needs a recording from the start (--record)");
     return false;
   }
   if (tick != next_tick_) {
     stop("ticks " + std::to_string(next_tick_) + " to " + std::to_string(tick - 1) +
-         " are not in the recording: it could not be written as fast");
+         " are not in the recording: it could not be written fast enough");
     return false;
   }
   if (!complete) {
-    stop("messages that tick " + std::to_string(tick) + " took are not in the recording");
+    stop("messages that tick " + std::to_string(tick) + " used are not in the recording");
     return false;
   }
   if (!began() || config != config_) {

@@ -45,7 +45,7 @@ int judge(const SideReplay& side, double spent_s, std::ostream& out) {
   out << line("%llu ticks, %.1f s, %llu messages: outputs and views are bit for bit as recorded", ticks,
               side.seconds, static_cast<unsigned long long>(side.messages));
   if (side.seconds > 0.0) out << line(", %.0f times faster than real time", side.seconds / spent_s);
-  if (!side.stopped.empty()) out << "; no further: " << side.stopped;
+  if (!side.stopped.empty()) out << "; stopped: " << side.stopped;
   out << "\n";
   return side.stopped.empty() && side.ticks > 0 ? kSame : kNotReplayed;
 }
@@ -67,7 +67,7 @@ void refuse_other_wire(const McapReader& reader, const std::filesystem::path& fi
   throw RecordingError(file.string() + " was recorded with wire version " +
                        (wire.empty() ? "3 or older" : wire) + ", this program has " +
                        std::to_string(kWireVersion) + ": replay it with the program of commit " + commit +
-                       "; `longreach record export` reads it here, too");
+                       "; this version of `longreach record export` can read it");
 }
 
 FileReplay replay_file(const std::filesystem::path& file) {
@@ -121,7 +121,7 @@ int replay(const std::vector<std::string>& files, std::ostream& out, std::ostrea
     }
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (result.sides.empty()) {
-      err << "longreach-lab: " << file << " holds neither a master nor a slave\n";
+      err << "longreach-lab: " << file << " contains neither a master nor a slave\n";
       worst = kNotReplayed;
     }
     if (!result.commit.empty() && result.commit != build_commit())
@@ -131,7 +131,7 @@ int replay(const std::vector<std::string>& files, std::ostream& out, std::ostrea
       const int status = judge(side, spent_s, out);
       if (status == kDifferent || worst == kSame) worst = status;
     }
-    if (!result.whole) out << file << line(" was cut: what came after %.1f s is lost\n", result.last_s);
+    if (!result.whole) out << file << line(" was truncated: data after %.1f s is lost\n", result.last_s);
   }
   return worst;
 }

@@ -145,14 +145,12 @@ FirstTouch touch(const MasterConfig& master, const SlaveConfig& slave, std::uint
 std::vector<Plot> first_touch_plots() {
   return {{.name = "first-touch",
            .csv = "first-touch",
-           .title = "A wall of 5 N/mm met at 50 mm/s, round trip 3 s",
+           .title = "A wall of 5 N/mm touched at 50 mm/s, round trip 3 s",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
                       {"depth of the goal (mm)", {{"goal_depth_m", "commanded", 1e3}}, ""},
-                      {"force (N)",
-                       {{"felt_n", "contact at the hand"}, {"tool_n", "at the tool, far away"}},
-                       ""}}},
+                      {"force (N)", {{"felt_n", "contact at the hand"}, {"tool_n", "at the tool"}}, ""}}},
           first_touch_guard_plot()};
 }
 

@@ -269,13 +269,13 @@ class AttackRun {
 std::vector<Plot> hostile_updates_plots() {
   return {{.name = "hostile-updates",
            .csv = "attacks",
-           .title = "Least port energy under hostile reports (whole set: 11 attacks x 4 hands)",
+           .title = "Minimum port energy under hostile reports (whole set: 11 attacks x 4 hands)",
            .x_column = "case",
            .x_label = "case",
            .panels = {{"STIFFNESS (mJ)",
-                       {{"energy_min_j", "least energy", 1e3, true}, {"drawdown_j", "drawdown", 1e3, true}},
+                       {{"energy_min_j", "minimum energy", 1e3, true}, {"drawdown_j", "drawdown", 1e3, true}},
                        "set yrange [-1:1]"},
-                      {"NAIVE (J)", {{"naive_energy_min_j", "least energy", 1.0, true}}, ""}}}};
+                      {"NAIVE (J)", {{"naive_energy_min_j", "minimum energy", 1.0, true}}, ""}}}};
 }
 
 std::vector<Metric> run_hostile_updates(const ExperimentRun& run) {

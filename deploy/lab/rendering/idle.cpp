@@ -102,7 +102,7 @@ void write_draws(const ExperimentRun& run, const std::vector<Judged>& all) {
 std::vector<Plot> idle_plots() {
   return {{.name = "draws",
            .csv = "draws",
-           .title = "A hand that nobody moves: each draw",
+           .title = "A hand at rest: each draw",
            .x_column = "number",
            .x_label = "draw",
            .panels = {{"energy out (mJ)",

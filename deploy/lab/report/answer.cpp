@@ -22,7 +22,7 @@ double value_of(std::string_view place, const std::vector<Metric>& metrics) {
   const std::string_view text = place.substr(name.size() + 1);
   double factor = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
-  if (error != std::errc{} || end != text.data() + text.size()) refuse(place, "has no number behind the *");
+  if (error != std::errc{} || end != text.data() + text.size()) refuse(place, "has no number after the *");
   return factor * metric->value;
 }
 

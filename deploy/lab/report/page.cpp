@@ -106,7 +106,7 @@ std::string chapter(const ReportChapter& c) {
   std::string html = "<h2 id=\"" + name + "\">" + name + "</h2>\n<p>" + escaped(c.experiment->summary);
   if (!c.experiment->figure.empty())
     html +=
-        " <span class=\"soft\">Repeats " + escaped(c.experiment->figure) + " of Liu et al. (2019).</span>";
+        " <span class=\"soft\">Reproduces " + escaped(c.experiment->figure) + " of Liu et al. (2019).</span>";
   html += "</p>\n";
   if (!c.failure.empty()) return html + "<p class=\"failed\">Failed: " + escaped(c.failure) + "</p>\n";
   if (const std::string said = answer_of(c); !said.empty()) html += "<p><b>" + escaped(said) + "</b></p>\n";
@@ -124,12 +124,11 @@ std::string chapter(const ReportChapter& c) {
 std::string report_page(const ReportHead& head, const std::vector<ReportChapter>& chapters) {
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>longreach: what was measured</title>\n<style>";
+      "content=\"width=device-width\">\n<title>longreach: results</title>\n<style>";
   html += kStyle;
-  html += "</style></head><body>\n<h1>longreach: what was measured</h1>\n<p class=\"soft\">commit " +
+  html += "</style></head><body>\n<h1>longreach: results</h1>\n<p class=\"soft\">commit " +
           escaped(head.commit) + ", seed " + std::to_string(head.seed) + ", " + escaped(head.size) +
-          "; virtual time, so that the same commit, configuration and seed give the same figures, but for "
-          "those of "
+          "; virtual time: the same commit, configuration and seed give the same figures, except those of "
           "the machine.</p>\n";
   html += overview(chapters);
   for (const ReportChapter& c : chapters) html += chapter(c);

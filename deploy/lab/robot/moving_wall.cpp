@@ -276,7 +276,8 @@ std::vector<Plot> moving_wall_plots() {
   return {
       {.name = "moving_wall",
        .csv = "moving_wall",
-       .title = "A wall that comes: true force over what it may be, and the robot's way; a run each",
+       .title = "An approaching wall: true force relative to its bound, and motion of the robot; one point "
+                "per run",
        .x_column = "growth_n_per_s",
        .x_label = "stiffness times speed (N/s)",
        .panels = {{"force over bound", {{"over_bound", ""}}, ""}, {"way (mm)", {{"way_m", "", 1e3}}, ""}}}};

@@ -172,9 +172,9 @@ struct Cell {
 std::vector<Plot> sensor_faults_plots() {
   return {{.name = "sensor_faults",
            .csv = "sensor_faults",
-           .title = "A force sensor that lies: way that nobody commanded, true force; a run each",
+           .title = "A faulty force sensor: uncommanded motion and true force; one point per run",
            .x_column = "run",
-           .x_label = "run: arm, state, lie",
+           .x_label = "run: arm, state, fault",
            .panels = {{"way (mm)", {{"way_m", "", 1e3}}, ""}, {"true force (N)", {{"force_n", ""}}, ""}}}};
 }
 

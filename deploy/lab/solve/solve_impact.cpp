@@ -44,9 +44,9 @@ FreeImpact read(const Json& request) {
   impact.dt = request.contains("dt") ? positive(request, "dt") : duration_s / kStepsPerContact;
   impact.integrator = integrator(request);
   if (!std::isfinite(law.a) || !std::isfinite(duration_s) || !(duration_s > 0.0) || !(impact.dt > 0.0))
-    throw BadRequest("the numbers are so far apart that the impact cannot be computed");
+    throw BadRequest("the ratios of the values are too large to compute the impact");
   if (!(duration_s / impact.dt < static_cast<double>(kFreeImpactSteps)))
-    throw BadRequest("\"dt\" is so short that the impact, of about " + Json(duration_s).dump() +
+    throw BadRequest("\"dt\" is too short: the impact, of about " + Json(duration_s).dump() +
                      " s, would take more than " + std::to_string(kFreeImpactSteps) + " steps");
   return impact;
 }
@@ -57,7 +57,7 @@ Json solve_impact(const Json& request) {
   solve_json::require_known(request, "", {"m", "k", "lambda", "n", "v", "dt", "integrator"});
   const FreeImpactOutcome out = run_free_impact(read(request));
   if (!out.left)
-    throw BadRequest("the numbers overflow, or the mass does not leave within the bound of steps");
+    throw BadRequest("the values overflow, or the mass does not separate within the maximum number of steps");
   return {{"restitution", out.restitution},
           {"penetration_max", out.penetration_max_m},
           {"contact_time", out.contact_time_s},

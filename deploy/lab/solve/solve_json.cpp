@@ -45,7 +45,7 @@ Json parse(const std::string& line) {
   try {
     request = Json::parse(line, watch);
   } catch (const Json::out_of_range&) {
-    throw BadRequest("a number is not a finite number");
+    throw BadRequest("a number is not finite");
   } catch (const Json::parse_error& e) {
     const bool literal =
         e.byte > 0 && e.byte <= line.size() && line.find_first_of("NI", e.byte - 1) <= e.byte;
@@ -53,7 +53,7 @@ Json parse(const std::string& line) {
                      (literal ? ": NaN and Infinity are not finite numbers" : ""));
   }
   if (!request.is_object()) throw BadRequest("a line must be one JSON object");
-  if (!twice.empty()) throw BadRequest("key \"" + twice + "\" is there twice");
+  if (!twice.empty()) throw BadRequest("key \"" + twice + "\" is given twice");
   return request;
 }
 

@@ -29,8 +29,8 @@ JointVector joints(const Json& request, const std::string& key, const RobotConfi
     const double value = element(list, i, key);
     if (robot.joint[i].kind == JointKind::kRevolute && std::abs(value) > kUnlimited)
       throw BadRequest("\"" + key + "\" = " + format_number(value) +
-                       " is more than two turns of a joint; it is in rad, "
-                       "and this looks like degrees");
+                       " is more than two turns of a joint; the unit is rad, and this value seems to be in "
+                       "degrees");
     q[static_cast<int>(i)] = value;
   }
   return q;
@@ -44,7 +44,7 @@ double angle(const Json& row, const std::string& key, double most) {
   if (std::abs(value) <= most) return value;
   throw BadRequest("\"" + key + "\" = " + format_number(value) + " of a row of \"dh\" is outside " +
                    format_number(-most) + " to " + format_number(most) +
-                   "; it is in rad, and this looks like degrees");
+                   "; the unit is rad, and this value seems to be in degrees");
 }
 
 RobotConfig rows(const Json& request) {
@@ -77,7 +77,7 @@ RobotConfig robot(const Json& request) {
   const bool by_name = request.contains("robot");
   if (by_name && request.contains("dh")) throw BadRequest("either \"robot\" or \"dh\", not both");
   if (by_name && request.contains("convention"))
-    throw BadRequest("\"convention\" belongs to \"dh\"; a robot's file says its own");
+    throw BadRequest("\"convention\" is for \"dh\"; a robot file contains its own");
   RobotConfig robot = by_name ? named(solve_json::text(request, "robot")) : rows(request);
   if (request.contains("convention")) {
     const std::string word = solve_json::text(request, "convention");

@@ -153,7 +153,7 @@ std::vector<Plot> synthesis_plots() {
                       progress_panel("genetic_sequential", "genetic, SQP")}},
           {.name = "synthesis_front",
            .csv = "synthesis_front",
-           .title = "What a larger cube costs, in the same envelope",
+           .title = "Conditioning of a larger cube in the same envelope",
            .x_column = "side_mm",
            .x_label = "side of the cube (mm)",
            .panels = {{"worst conditioning",

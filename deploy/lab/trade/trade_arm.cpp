@@ -40,7 +40,7 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_arm_inverse() {
   return {.name = "arm_inverse",
-          .title = "Joints of a pose: closed form, damped least squares by iterations",
+          .title = "Inverse kinematics: closed form and damped least squares over iterations",
           .cost = "time of a call",
           .cost_unit = "ns",
           .error = "mean error",

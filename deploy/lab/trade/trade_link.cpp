@@ -60,10 +60,10 @@ std::vector<TradePoint> measure_deadband(const ExperimentRun& run) {
 
 TradeStage trade_send_rate() {
   return {.name = "send_rate",
-          .title = "Commands a second, 50 to 1000",
+          .title = "Commands per second, 50 to 1000",
           .cost = "commands on the wire",
           .cost_unit = "kbit/s",
-          .error = "error of the tool's way, rms",
+          .error = "tracking error of the tool, rms",
           .error_unit = "mm",
           .of_machine = false,
           .series = {"adaptive_playout", "fixed_20_ms"},
@@ -72,8 +72,8 @@ TradeStage trade_send_rate() {
 
 TradeStage trade_playout() {
   return {.name = "playout",
-          .title = "How long commands are kept, so that the goal is smooth in spite of jitter",
-          .cost = "later than the link",
+          .title = "Playout delay, which smooths the goal against jitter",
+          .cost = "additional delay",
           .cost_unit = "ms",
           .error = "acceleration of the tool, rms",
           .error_unit = "m/s^2",
@@ -84,7 +84,7 @@ TradeStage trade_playout() {
 
 TradeStage trade_deadband() {
   return {.name = "deadband",
-          .title = "Change of the stiffness that is reported, 0.5 to 30 %",
+          .title = "Reported change of the stiffness, 0.5 to 30 %",
           .cost = "haptic return",
           .cost_unit = "bit/s",
           .error = "error of the displayed stiffness",

@@ -48,10 +48,10 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_sample_rate() {
   return {.name = "sample_rate",
-          .title = "Ticks a second, 250 to 8000, against the stiffest wall that can be felt",
-          .cost = "time of a master's ticks in a second",
+          .title = "Ticks per second, 250 to 8000, over the maximum displayed stiffness",
+          .cost = "time of the master's ticks per second",
           .cost_unit = "µs",
-          .error = "give of that wall under 10 N",
+          .error = "deflection at that wall under 10 N",
           .error_unit = "mm",
           .series = {"light_hand", "firm_hand", "released"},
           .measure = measure};
