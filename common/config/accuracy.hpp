@@ -1,11 +1,11 @@
 #pragma once
-// The preset of speed against accuracy.
+// The `accuracy` preset, which trades accuracy for speed.
 
 #include "proto/config.pb.h"
 
 namespace longreach {
 
-/// Sets the fields that `accuracy` chooses where they are not set.
+/// Sets the fields that `accuracy` controls and that are not set.
 void apply_accuracy(proto::MasterConfig& config);
 void apply_accuracy(proto::SlaveConfig& config);
 

@@ -1,13 +1,13 @@
 #pragma once
-// Where an adapter listens: unix:/PATH, a socket of this machine, whose owner the system tells.
+// Address of an adapter: unix:/PATH, a socket on this machine, whose owner the system reports.
 
 #include <string>
 
 namespace longreach {
 
-/// Why that is none and what to write, or empty. By its form.
+/// Returns why the text is not such an address and what to write, or empty. It checks the form only.
 std::string adapter_address_trouble(const std::string& address);
-/// Of an address: its path.
+/// Returns the path in an address.
 std::string adapter_path(const std::string& address);
 
 }  // namespace longreach

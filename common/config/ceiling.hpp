@@ -1,7 +1,7 @@
 #pragma once
-// What a side was started with is the ceiling of its limits: clients only tighten them, and change nothing
-// that the schema does not leave to them (proto/options.proto, Remote). One check for every field of both
-// sides; that `set` is applied whole or not at all is plan_change's.
+// The limits at the start of a side are upper bounds: clients can only tighten them, and can change only what
+// the schema permits (proto/options.proto, Remote). One check covers every field of both sides; plan_change
+// makes `set` atomic.
 
 #include <google/protobuf/message.h>
 
@@ -12,12 +12,12 @@
 
 namespace longreach {
 
-/// Why clients may not bring the configuration from `start` to `after`, or none: one sentence with the first
-/// such field, its ceiling, and what to do.
+/// Returns why clients may not change the configuration from `start` to `after`, or none: one sentence with
+/// the first such field, its bound, and a remedy.
 std::optional<std::string> beyond_ceiling(const google::protobuf::Message& start,
                                           const google::protobuf::Message& after);
 
-/// What clients may set a field of `start` to, "20 or less"; empty: nothing else.
+/// Returns what clients may set a field of `start` to, "20 or less"; empty: no other value.
 std::string room_below_ceiling(const google::protobuf::Message& start, const PathStep& step);
 
 }  // namespace longreach

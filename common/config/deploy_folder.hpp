@@ -1,5 +1,5 @@
 #pragma once
-// Where the files that a user edits are.
+// Location of the files that a user edits.
 
 #include <filesystem>
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace longreach {
 
-/// What find_deploy_folder() looks at.
+/// Inputs of find_deploy_folder().
 struct DeploySearch {
-  std::optional<std::string> longreach_home;  // the environment's variable
+  std::optional<std::string> longreach_home;  // the environment variable
   std::filesystem::path program_folder;       // of the running program
   std::filesystem::path working_folder;
 };
@@ -17,7 +17,8 @@ struct DeploySearch {
 /// Throws ConfigError.
 std::filesystem::path find_deploy_folder(const DeploySearch& search);
 
-/// The nearest `deploy` or `share/longreach` beside or above the program, else above the working folder.
+/// Returns the nearest `deploy` or `share/longreach` beside or above the program, else above the working
+/// folder.
 std::optional<std::filesystem::path> installed_folder();
 
 }  // namespace longreach

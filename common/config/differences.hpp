@@ -1,5 +1,5 @@
 #pragma once
-// Where two messages of one type differ in effect: a field that is not set counts as its default.
+// Effective differences of two messages of one type: a field that is not set counts as its default.
 
 #include <google/protobuf/message.h>
 
@@ -10,8 +10,8 @@
 namespace longreach {
 
 struct Difference {
-  FieldPath path;  // a field that holds no messages, or a list of another length
-  proto::Change change = proto::NOT_WHILE_ENGAGED;  // strictest of the field and of what it is a part of
+  FieldPath path;  // a field that contains no messages, or a list with a different length
+  proto::Change change = proto::NOT_WHILE_ENGAGED;  // strictest option of the field and its parents
 };
 
 std::vector<Difference> differences(const google::protobuf::Message& before,

@@ -1,5 +1,5 @@
 #pragma once
-// The value of one field as text, and back. What is printed is accepted again and gives the same value.
+// Conversion of the value of one field to text and back. Printed text is accepted and gives the same value.
 
 #include <google/protobuf/message.h>
 
@@ -10,11 +10,11 @@
 
 namespace longreach {
 
-/// Value of a field that holds no messages; the default where it is not set. Strings as they are, a whole
-/// list separated by ", ".
+/// Returns the value of a field that contains no messages; the default if it is not set. Strings are
+/// unquoted, a list is separated by ", ".
 std::string value_text(const google::protobuf::Message& message, const PathStep& step);
 
-/// Sets such a field from text. Throws ConfigError that begins with `path`; ranges are not checked here.
+/// Sets such a field from text. Throws ConfigError that begins with `path`; does not check ranges.
 void set_value(google::protobuf::Message& message, const google::protobuf::FieldDescriptor& field,
                std::string_view text, const std::string& path);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which struct a list of fields belongs to, read (const) or written.
+// Struct of a list of fields, for reading (const) or writing.
 
 #include <concepts>
 #include <type_traits>

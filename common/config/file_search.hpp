@@ -1,7 +1,7 @@
 #pragma once
-// Where a file is looked for that a configuration, a scene or a command line names. One rule for all: an
-// absolute name as it is; else from the folder of the file that names it and the one above (on a command
-// line: from the working folder), then from LONGREACH_HOME, then from the installation.
+// Search for files that a configuration, a scene or a command line names. One rule applies to all: an
+// absolute name is used as it is; other names are searched in the folder of the file that names it and its
+// parent (on a command line: in the working folder), then in LONGREACH_HOME, then in the installation.
 
 #include <filesystem>
 #include <string>
@@ -16,16 +16,16 @@ class FileSearch {
  public:
   explicit FileSearch(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
-  /// The same, but before all in `folder`.
+  /// Returns a search that tries `folder` first.
   [[nodiscard]] FileSearch first_in(const std::filesystem::path& folder) const;
-  /// The same, but before all in the folder of `file` and the one above.
+  /// Returns a search that tries the folder of `file` and its parent first.
   [[nodiscard]] FileSearch beside(const std::filesystem::path& file) const;
 
-  /// The path of `name`; of an absolute one itself. Throws ConfigError that lists the folders. `what`: the
-  /// field or option, for the error.
+  /// Returns the path of `name`; an absolute name itself. Throws ConfigError that lists the folders. `what`
+  /// is the field or option, for the error.
   [[nodiscard]] std::filesystem::path find(std::string_view what, const std::string& name) const;
-  /// A path that ends with .txtpb, or NAME, which stands for FOLDER/NAME.txtpb. `what`: "link profile" in
-  /// "links", say.
+  /// Accepts a path that ends with .txtpb, or NAME, which stands for FOLDER/NAME.txtpb. `what` is "link
+  /// profile" in "links", for example.
   [[nodiscard]] std::filesystem::path find_named(const std::string& what, const std::string& folder,
                                                  const std::string& name) const;
 
@@ -33,29 +33,29 @@ class FileSearch {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// Relative names of a command line count from here.
+/// Base folder of relative names on a command line.
 std::filesystem::path working_folder();
 
-/// From LONGREACH_HOME, then from the installation. Throws ConfigError where there is neither.
+/// Searches LONGREACH_HOME, then the installation. Throws ConfigError if neither exists.
 FileSearch installed_files();
-/// From `folder`, then from the installation.
+/// Searches `folder`, then the installation.
 FileSearch files_of(const std::filesystem::path& folder);
 
-/// A setting PATH=VALUE of a command line (or of a file in `from`): where its field names a file that is in
-/// `from`, with the whole path. Throws ConfigError where it is in no folder.
+/// Resolves a setting PATH=VALUE of a command line (or of a file in `from`): if its field names a file in
+/// `from`, returns it with the full path. Throws ConfigError if the file is in no folder.
 std::string placed_setting(const std::string& setting, const FileSearch& search,
                            const std::filesystem::path& from = working_folder());
 
-/// A file that was read, and the field that named it.
+/// A file that was read, and the field that names it.
 struct FileRead {
   std::string field;
   std::filesystem::path path;
 };
 
-/// As those of config.hpp; `read` gets what was read.
+/// Like those of config.hpp; `read` receives the files that were read.
 void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read);
 void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read);
-/// Of a command line: a name, or a path from the working folder.
+/// For a command line: a name, or a path relative to the working folder.
 proto::LinkProfile load_link_profile(const FileSearch& search, const std::string& name,
                                      std::vector<FileRead>* read = nullptr);
 

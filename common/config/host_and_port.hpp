@@ -1,5 +1,5 @@
 #pragma once
-// Addresses as a user writes them: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001".
+// Addresses in user notation: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001".
 
 #include <cstdint>
 #include <optional>
@@ -12,10 +12,10 @@ struct HostAndPort {
   std::uint16_t port = 0;
 };
 
-/// None when it is no address by its form; whether there is such a host is not asked.
+/// Returns none if the form is invalid; does not resolve the host.
 std::optional<HostAndPort> host_and_port(const std::string& text);
 
-/// What is expected instead, as the end of a sentence.
+/// Describes the expected form, as the end of a sentence.
 inline constexpr const char* kNoAddress =
     " is not an address; write address:port, e.g. 127.0.0.1:47001 or [::1]:47001, with a port from 0 to "
     "65535";

@@ -1,13 +1,13 @@
 #pragma once
-// A link profile as one side of the link takes it.
+// Application of a link profile to one side of the link.
 
 #include "proto/config.pb.h"
 
 namespace longreach {
 
-/// What the side receives is impaired as the profile's way in says. What it sends keeps within the rate of
-/// the way out, 5 % to spare, unless a budget is set: a link that is sent too much is as late as its queue is
-/// long.
+/// Impairs the received datagrams as the incoming direction of the profile specifies. Limits the sent data to
+/// 95 % of the rate of the outgoing direction, unless a budget is set, because an overloaded link adds the
+/// delay of its queue.
 void take_profile(proto::MasterLink& link, const proto::LinkProfile& profile);
 void take_profile(proto::SlaveLink& link, const proto::LinkProfile& profile);
 

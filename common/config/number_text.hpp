@@ -1,7 +1,7 @@
 #pragma once
-// Numbers as people write and read them. Strict both ways: what is printed parses back to the same bits, and
-// nothing but a whole, finite decimal number parses (std::from_chars: no locale, no hexadecimal, no blanks,
-// no sign "+").
+// Conversion between numbers and text. It is strict in both directions: printed text parses back to the same
+// bits, and only a complete, finite decimal number is accepted (std::from_chars: no locale, no hexadecimal,
+// no blanks, no sign "+").
 
 #include <charconv>
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace longreach {
 
-/// Shortest text that parses back to `value`: 0.05, 20000, 1e-10, 1e12, nan, inf.
+/// Returns the shortest text that parses back to `value`: 0.05, 20000, 1e-10, 1e12, nan, inf.
 std::string format_number(double value);
 
-/// None for "nan", "inf", "1e999", "0x10", trailing text or nothing at all.
+/// Returns none for "nan", "inf", "1e999", "0x10", trailing text or empty text.
 std::optional<double> parse_number(std::string_view text);
 
-/// As parse_number, with a unit: seconds take s, ms, us; fractions take %. The scale is applied to the
+/// Like parse_number, with a unit: seconds accept s, ms, us; fractions accept %. The scale is applied to the
 /// decimal text, so that "0.1ms" is the double nearest to 0.0001.
 std::optional<double> parse_seconds(std::string_view text);
 std::optional<double> parse_fraction(std::string_view text);

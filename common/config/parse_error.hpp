@@ -1,6 +1,6 @@
 #pragma once
-// What the protobuf text parser says, in the words of this system: the position of the faulty word itself,
-// and for unknown names what was probably meant.
+// Rewords errors of the protobuf text parser: with the position of the faulty word itself, and a suggestion
+// for unknown names.
 
 #include <google/protobuf/descriptor.h>
 
@@ -16,7 +16,7 @@ struct ParseError {
   std::string text;
 };
 
-/// `said` as the parser reported it for `text`, which should hold a message of type `root`.
+/// `said` is the error that the parser reported for `text`, a message of type `root`.
 ParseError reword(const ParseError& said, std::string_view text, const google::protobuf::Descriptor& root);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The MJCF of a scene with bodies, and the meshes that it names, read into the configuration: so a run's name
-// covers them. A mesh has to be a closed surface: each edge in two triangles, once in either direction.
+// Reads the MJCF of a scene with bodies and its meshes into the configuration, so that they are part of the
+// identity of a run. A mesh must be a closed surface: each edge is in two triangles, once in each direction.
 
 #include <filesystem>
 #include <functional>
@@ -10,12 +10,13 @@
 
 namespace longreach {
 
-/// Reads what bodies.mjcf_file names, by `find`, beside it the files in its attributes file="...", if nothing
-/// is given in place. Throws ConfigError "FILE:LINE: reason" or "FILE: reason".
+/// Reads the file that bodies.mjcf_file names, using `find`, and the files in its attributes file="..." from
+/// the same folder, unless they are given inline. Throws ConfigError "FILE:LINE: reason" or "FILE: reason".
 void load_scene_files(proto::Bodies& bodies,
                       const std::function<std::filesystem::path(const std::string& name)>& find);
 
-/// Wavefront OBJ: `v` and `f` lines. Throws ConfigError "NAME:LINE: reason" unless it is a closed surface.
+/// Wavefront OBJ with `v` and `f` lines. Throws ConfigError "NAME:LINE: reason" unless it is a closed
+/// surface.
 void require_closed_mesh(const std::string& name, const std::string& obj);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// Several fields set together, by path and text as set_field (config.hpp) takes them.
+// Sets several fields together, by path and text as in set_field (config.hpp).
 
 #include <google/protobuf/message.h>
 
@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-/// Sets the fields in their order, all of them or none, and validates the whole once. Throws ConfigError, and
-/// then `message` is unchanged.
+/// Sets the fields in order, either all or none, and validates the result once. Throws ConfigError, and then
+/// `message` is unchanged.
 void set_fields(google::protobuf::Message& message,
                 const std::vector<std::pair<std::string, std::string>>& assignments);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Which struct member is which field of the schema: one list a struct, read in both directions. A visitor is
-// called with the field's name and the member; members are numbers, flags, texts, enums, vectors, structs or
-// lists of structs.
+// Maps struct members to fields of the schema: one list per struct, used in both directions. A visitor is
+// called with the name of the field and the member. Members are numbers, flags, texts, enums, vectors,
+// structs or lists of structs.
 
 #include "common/config/scene_fields.hpp"
 #include "master/config/master_config.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Where in a text file a field stands, for what is found wrong with it after it has been loaded.
+// Finds the position of a field in a text file, for errors that are detected after the file has been loaded.
 
 #include <filesystem>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// "FILE:LINE:COLUMN" of a field of the file's message, or of the nearest thing around it; "FILE" when the
-/// file cannot be read again.
+/// Returns "FILE:LINE:COLUMN" of a field of the file's message, or of the nearest enclosing field; "FILE" if
+/// the file can no longer be read.
 std::string place_in_file(const std::filesystem::path& file, const google::protobuf::Message& message,
                           const FieldPath& path);
 

@@ -15,8 +15,8 @@ struct TextPosition {
 std::size_t offset_of(std::string_view text, TextPosition position);
 TextPosition position_of(std::string_view text, std::size_t offset);
 
-/// Start of the last `word` before `position`: the parser reports some errors behind the word that they are
-/// about.
+/// Returns the start of the last `word` before `position`: the parser reports some errors after the word that
+/// causes them.
 TextPosition last_before(std::string_view text, std::string_view word, TextPosition position);
 
 }  // namespace longreach

@@ -10,7 +10,7 @@ namespace longreach {
 std::size_t utf8_length(std::string_view text);
 bool is_utf8(std::string_view text);
 
-/// `text` for a person to read: control characters, and what is not UTF-8, as \x1b.
+/// Returns `text` in printable form: control characters and invalid UTF-8 become \x1b and the like.
 std::string printable(std::string_view text);
 
 }  // namespace longreach

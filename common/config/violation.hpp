@@ -1,6 +1,6 @@
 #pragma once
-// What is wrong with a message, and where: found by two checks that do not know files, so that a text file
-// can add the line, and a setting the field's path.
+// Errors in a message and their positions. Two checks find them without access to files, so that a text file
+// can add the line, and a setting the path of the field.
 
 #include <google/protobuf/message.h>
 
@@ -12,23 +12,22 @@
 namespace longreach {
 
 struct Violation {
-  FieldPath path;    // from the root of the checked message; the field or element that is at fault
-  std::string text;  // continues the path's text: " = 7 is outside 0.05 to 1"
+  FieldPath path;    // from the root of the checked message to the invalid field or element
+  std::string text;  // continues the text of the path: " = 7 is outside 0.05 to 1"
 };
 
-/// First field that breaks its own options: range, finiteness, count, unknown enum value, unknown field
-/// number. One reflection walk over the fields that are set.
+/// Finds the first field that violates its own options: range, finiteness, count, unknown enum value, unknown
+/// field number. One reflection walk visits the fields that are set.
 std::optional<Violation> find_violation(const google::protobuf::Message& message);
 
-/// First fields that are fine each by itself but not together: limits in order, names that refer to
-/// something, directions that are not zero. Defaults count. Absent parts (a robot without joints) are not
-/// looked for.
+/// Finds the first fields that are valid by themselves but not together: order of limits, references by name,
+/// directions of zero length. Defaults are included. Absent parts (a robot without joints) are skipped.
 std::optional<Violation> find_inconsistency(const google::protobuf::Message& message);
 
-/// The two above, in this order.
+/// Applies the two checks above, in this order.
 std::optional<Violation> find_any_violation(const google::protobuf::Message& message);
 
-/// "PATH TEXT" as one sentence.
+/// Returns "PATH TEXT" as one sentence.
 std::string sentence(const google::protobuf::Message& root, const Violation& violation);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// CHECK states what a programmer promised. It is always on and ends the program: for mistakes in the code,
-// never for bad input.
+// CHECK asserts an invariant of the code. It is always enabled and terminates the program. Use it for
+// programming errors, never for invalid input.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #pragma once
-// A mechanism that cannot be built. Thrown at start-up only; the text names the parameter and says what is
-// wrong.
+// Error for a mechanism that cannot be built. It is thrown at start-up only; the text names the parameter and
+// the problem.
 
 #include <cmath>
 #include <stdexcept>
@@ -14,7 +14,7 @@ class GeometryError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// `value`, if it is finite.
+/// Returns `value` if it is finite; otherwise throws GeometryError.
 inline double require_finite(std::string_view name, double value) {
   if (!std::isfinite(value)) throw GeometryError(std::string(name) + " is not a finite number");
   return value;

@@ -1,12 +1,12 @@
 #pragma once
-// Parameters that both programs share. Meaning, unit and range: proto/config.proto; the same names.
+// Parameters of both programs. proto/config.proto defines meaning, unit and range under the same names.
 
 #include <cstdint>
 #include <string>
 
 namespace longreach {
 
-/// Speed against accuracy. It is resolved when a configuration is read (common/config/accuracy.cpp).
+/// Trade-off between speed and accuracy, resolved when a configuration is read (common/config/accuracy.cpp).
 enum class Accuracy : std::uint8_t { kFast, kBalanced, kExact };
 
 struct LoopConfig {

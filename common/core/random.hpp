@@ -1,8 +1,8 @@
 #pragma once
-// Seeded random streams. The only source of randomness in the system; a stream is named by (seed, path of
-// child names), so that adding a consumer never changes what another one draws. Generator: xoshiro256++
-// (Blackman, Vigna 2019), seeded through SplitMix64. Normal deviates: Marsaglia's polar method, own code
-// because std::normal_distribution is not the same on every library.
+// Seeded random streams, the only source of randomness in the system. A stream is identified by (seed, path
+// of child names), so that a new consumer never changes the numbers of another one. The generator is
+// xoshiro256++ (Blackman, Vigna 2019), seeded by SplitMix64. Normal deviates use Marsaglia's polar method,
+// implemented here because std::normal_distribution differs between libraries.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ class Random {
  public:
   explicit Random(std::uint64_t seed);
 
-  /// An independent stream named by `name`; does not advance this one.
+  /// Returns an independent stream named `name`; does not advance this one.
   [[nodiscard]] Random child(std::string_view name) const;
 
   std::uint64_t next();  // uniform over all 64-bit values

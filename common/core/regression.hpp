@@ -2,7 +2,8 @@
 // Running least squares of a straight line, y = intercept + slope x, one pass and no memory of the samples:
 //   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
 // with the centred moments updated as in Welford (1962), so that a large mean costs no digits.
-// A sample that is not finite is left out and counted. Does not forget, weigh or reject outliers.
+// Samples that are not finite are skipped and counted. There is no forgetting, weighting or outlier
+// rejection.
 // Samples may come in groups that share the slope but not the intercept (analysis of covariance).
 
 #include <cmath>
@@ -29,7 +30,8 @@ class LineFit {
     syy_ += dy * (y - mean_y_);
   }
   void clear() { *this = LineFit{}; }
-  /// What comes from now on may have another intercept; means and intercept are those of the last group.
+  /// Starts a new group: the following samples may have another intercept. Means and intercept are those of
+  /// the last group.
   void begin_group() {
     if (group_count_ == 0) return;
     ++groups_;
@@ -42,14 +44,15 @@ class LineFit {
   [[nodiscard]] double mean_x() const { return mean_x_; }
   [[nodiscard]] double mean_y() const { return mean_y_; }
 
-  /// False while the samples do not determine a line (fewer than two, all at one x, or out of the range of a
-  /// double); then slope, intercept and slope_sd are zero.
+  /// Returns false while the samples do not determine a line (fewer than two, all at one x, or out of the
+  /// range of a double); slope, intercept and slope_sd are then zero.
   [[nodiscard]] bool valid() const {
     return count_ >= 2 && sxx_ > 0.0 && std::isfinite(sxx_) && std::isfinite(sxy_ / sxx_);
   }
   [[nodiscard]] double slope() const { return valid() ? sxy_ / sxx_ : 0.0; }
   [[nodiscard]] double intercept() const { return valid() ? mean_y_ - slope() * mean_x_ : 0.0; }
-  /// Standard deviation of the slope under independent errors of y; zero while nothing is left over to tell.
+  /// Standard deviation of the slope for independent errors of y; zero while there are no residual degrees of
+  /// freedom.
   [[nodiscard]] double slope_sd() const {
     const std::uint64_t used = groups_ + (group_count_ > 0 ? 1 : 0) + 1;
     if (!valid() || count_ <= used) return 0.0;
@@ -60,7 +63,7 @@ class LineFit {
  private:
   std::uint64_t count_ = 0;
   std::uint64_t group_count_ = 0;
-  std::uint64_t groups_ = 0;  // that have ended
+  std::uint64_t groups_ = 0;  // number of completed groups
   std::uint64_t ignored_ = 0;
   double mean_x_ = 0.0;
   double mean_y_ = 0.0;

@@ -1,9 +1,9 @@
 #pragma once
-// A bounded queue over storage that is allocated once, at construction: the oldest element gives way when it
-// is full. Index 0 is the oldest element.
+// A bounded queue in storage that is allocated once, at construction. When it is full, a new element replaces
+// the oldest one. Index 0 is the oldest element.
 //
-// It goes round in no more of its storage than its greatest size so far needs, doubled when that is full, so
-// that a ring with much to spare stays in the cache.
+// The queue uses only as much of its storage as its maximum size so far needs, doubled when that is full, so
+// that a large but mostly empty ring stays in the cache.
 
 #include <algorithm>
 #include <cstddef>
@@ -25,9 +25,9 @@ class Ring {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] bool full() const { return size_ == slots_.size(); }
 
-  /// Appends; drops the oldest element when full.
+  /// Appends an element; drops the oldest one when full.
   void push(const T& value) { extend() = value; }
-  /// Appends an element that is still to be filled in: what an older one left is in it.
+  /// Appends an element for the caller to fill in; it still has the content of an older one.
   T& extend() {
     if (full()) pop();
     if (size_ == round_) widen();
@@ -45,12 +45,12 @@ class Ring {
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
 
-  bool operator==(const Ring&) const = default;  // also what lies there no longer
+  bool operator==(const Ring&) const = default;  // also compares unused slots
 
  private:
   static constexpr std::size_t kFirstRound = 64;
 
-  /// Of an index below twice the round; a division would take longer than all the rest.
+  /// Wraps an index below twice the size; a division would dominate the run time.
   [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i < round_ ? i : i - round_; }
   void widen() {
     const auto begin = slots_.begin();

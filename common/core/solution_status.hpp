@@ -1,5 +1,5 @@
 #pragma once
-// How a kinematic solver ended. Each solver's header says which output comes with which status.
+// Result of a kinematic solver. The header of each solver states which output belongs to which status.
 
 #include <cstdint>
 #include <string_view>
@@ -8,9 +8,9 @@ namespace longreach {
 
 enum class SolutionStatus : std::uint8_t {
   kFound,        // the output is the solution
-  kNoSolution,   // there is none, or the input is not finite
-  kSingular,     // the mechanism loses or gains a freedom here: no branch can be told from another
-  kNotConverged  // the bounded iteration ended before the solution
+  kNoSolution,   // no solution exists, or the input is not finite
+  kSingular,     // the mechanism loses or gains a degree of freedom: its branches coincide
+  kNotConverged  // the maximum number of iterations was reached
 };
 
 constexpr std::string_view to_string(SolutionStatus status) {

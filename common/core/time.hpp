@@ -1,7 +1,7 @@
 #pragma once
-// Instants and durations. One monotonic clock a side; instants of the two sides are different types, so that
-// they cannot be compared by accident. Nothing here reads a clock: time comes in from the program or the
-// laboratory. 64-bit nanoseconds last 292 years.
+// Instants and durations. Each side has one monotonic clock; instants of the two sides have different types,
+// so that they cannot be compared by accident. This header reads no clock: the program or the laboratory
+// supplies the time. 64-bit nanoseconds last 292 years.
 
 #include <chrono>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace longreach {
 
 using Duration = std::chrono::nanoseconds;
 
-// Tags only: they deliberately have no now().
+// Tags only; they deliberately have no now().
 struct LocalClock {
   using duration = Duration;
   using rep = Duration::rep;

@@ -1,7 +1,7 @@
 #pragma once
-// AES-256-GCM (NIST SP 800-38D) under one key, by Intel's Multi-Buffer Crypto library: a short datagram in a
-// third of the time that libsodium takes. x86 with AES instructions only, since AES by tables tells its key
-// to the cache.
+// AES-256-GCM (NIST SP 800-38D) with one key, by Intel's Multi-Buffer Crypto library, which needs a third of
+// the time of libsodium for a short datagram. Only x86 with AES instructions is supported, because
+// table-based AES leaks the key through the cache.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ class AesGcm {
     std::size_t size = 0;
   };
 
-  /// Whether it was built in and the processor has what it needs; nothing else may be called where not.
+  /// Returns whether it was built in and the processor supports it; if not, no other function may be called.
   static bool available();
 
   AesGcm() = default;
@@ -26,14 +26,14 @@ class AesGcm {
   AesGcm& operator=(const AesGcm&) = delete;
 
   void set_key(const std::uint8_t* key);
-  /// Writes the encrypted body to `out`, which may be the body, and the tag behind it.
+  /// Writes the encrypted body to `out`, which may be the body, followed by the tag.
   void close(const std::uint8_t* nonce, Bytes header, Bytes body, std::uint8_t* out) const;
-  /// Writes the body of `sealed` (body, then tag) to `out` if it was closed with this key, nonce and header;
-  /// if not, `out` is zero.
+  /// Writes the body of `sealed` (body, then tag) to `out` if it was sealed with this key, nonce and header;
+  /// otherwise `out` is zero.
   [[nodiscard]] bool open(const std::uint8_t* nonce, Bytes header, Bytes sealed, std::uint8_t* out) const;
 
  private:
-  alignas(64) std::array<std::uint8_t, 1024> key_{};  // expanded
+  alignas(64) std::array<std::uint8_t, 1024> key_{};  // expanded key
 };
 
 }  // namespace longreach

@@ -2,11 +2,11 @@
 // Authenticated encryption of the datagrams of one direction of one session (AEAD).
 //
 //   key   = KDF(secret; cipher, direction)    BLAKE2b, crypto_kdf_derive_from_key
-//   nonce = type (1) | 0 (3) | sequence (8)   big-endian, once under each key: who seals counts
-//   (body, header) -> encrypted body | tag (16); the header is authenticated and stays in clear
+//  nonce = type (1) | 0 (3) | sequence (8)   big-endian, used once per key: the sender counts
+//  (body, header) -> encrypted body | tag (16); the header is authenticated but not encrypted
 //
-// What one direction has sealed does not open in the other. Does not handle: nonces that come again, order,
-// replay (common/link). Allocates nothing.
+// A datagram sealed in one direction does not open in the other. Repeated nonces, order and replay are
+// handled in common/link. Allocates nothing.
 
 #include <array>
 #include <cstddef>
@@ -34,11 +34,11 @@ class Seal {
   Seal(const Seal&) = delete;
   Seal& operator=(const Seal&) = delete;
 
-  /// Encrypts in place: `body` holds the body, then room for the tag.
+  /// Encrypts in place: `body` holds the body, followed by space for the tag.
   void close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const;
 
-  /// Writes the body of `sealed` (body, then tag) to `body` and returns true if it was closed with this key,
-  /// nonce and header. If not, `body` holds nothing of it. `body` has room for all but the tag.
+  /// Writes the body of `sealed` (body, then tag) to `body` and returns true if it was sealed with this key,
+  /// nonce and header. Otherwise `body` contains nothing of it. `body` has space for all but the tag.
   [[nodiscard]] bool open(const Nonce& nonce, std::span<const std::byte> header,
                           std::span<const std::byte> sealed, std::span<std::byte> body) const;
 

@@ -1,8 +1,8 @@
 #pragma once
-// What two sides share for as long as they talk: a number that every datagram names in clear, and a secret
-// that the keys of both directions come from. The slave draws it from the system's randomness (libsodium) and
-// hands it to one master; a restart of either side needs a new one, so that no nonce is ever used twice under
-// one key.
+// State shared by both sides during a connection: a number that every datagram carries unencrypted, and a
+// secret from which the keys of both directions are derived. The slave draws it from the system's random
+// source (libsodium) and gives it to one master. A restart of either side requires a new session, so that no
+// nonce is ever used twice with the same key.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ enum class Cipher : std::uint8_t {
 
 constexpr std::size_t kSecretBytes = 32;
 
-/// Leaves nothing of itself in memory: neither where it ends nor where it was moved from.
+/// Erases itself from memory, both on destruction and when moved from.
 struct Secret : std::array<std::byte, kSecretBytes> {
   Secret() : array{} {}
   Secret(const Secret&) = default;
@@ -34,13 +34,13 @@ struct Session {
   Secret secret{};
 };
 
-/// Whether this processor has the instructions that libsodium's AES-256-GCM needs.
+/// Returns whether this processor has the instructions for AES-256-GCM in libsodium.
 bool has_aes256gcm();
 
-/// Overwrites a copy that has served.
+/// Overwrites a copy of a secret after use.
 void wipe(std::string& text);
 
-/// A number other than zero and a secret that nobody can guess.
+/// Draws a session with a non-zero number and an unpredictable secret.
 Session draw_session(Cipher cipher);
 
 }  // namespace longreach

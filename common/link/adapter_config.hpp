@@ -1,12 +1,12 @@
 #pragma once
-// A real device or robot behind an adapter. Meaning, unit and range: proto/config.proto; the same names.
+// Adapter of a real device or robot. proto/config.proto defines meaning, unit and range under the same names.
 
 #include <string>
 
 namespace longreach {
 
 struct AdapterConfig {
-  std::string address;  // empty: there is none
+  std::string address;  // empty: no adapter
   double silence_s = 0.02;
 };
 

@@ -1,14 +1,14 @@
 #pragma once
-// The adapter protocol, version 1: how a program of yours lets longreach use a haptic device or a robot. Copy
-// this file; it needs the standard library of C++14 alone. deploy/adapters has an example of each kind with
-// the line that compiles it, and `longreach adapter check` tries yours.
+// The adapter protocol, version 1, by which your program lets longreach use a haptic device or a robot. Copy
+// this file; it needs only C++14 and its standard library. deploy/adapters has an example of each kind with
+// the command that compiles it, and `longreach adapter check` tests your adapter.
 //
-// Datagrams on one machine, over a Unix socket (SOCK_SEQPACKET). Your adapter listens at a path that only its
-// user may use (mode 0600); longreach connects to unix:/PATH, as that user or as root, and each end asks the
-// system who the other is (SO_PEERCRED) and closes the socket on anybody else. longreach sends every tick of
-// its loop (1000 a second unless loop.rate_hz says else), and your adapter sends back 500 to 4000 times a
-// second, by its own clock or as an answer to each. When either end has gone, the adapter takes the next
-// program that connects; one at a time.
+// The datagrams are exchanged on one machine, over a Unix socket (SOCK_SEQPACKET). Your adapter listens at a
+// path that only its user may access (mode 0600). longreach connects to unix:/PATH, as that user or as root;
+// each end asks the system for the user of the other end (SO_PEERCRED) and closes the socket if it is another
+// user. longreach sends a datagram in every tick of its loop (1000 per second by default, loop.rate_hz), and
+// your adapter sends 500 to 4000 datagrams per second, by its own clock or in response. After a disconnect,
+// the adapter accepts the next program that connects; one at a time.
 //
 //   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
 //   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
@@ -16,17 +16,17 @@
 // All numbers are little-endian, doubles IEEE 754; no struct has padding. SI units and radians. Frames: M the
 // device's base, H its handle, W the robot's world, E its tool.
 //
-// Both ends keep to this:
-//   1  What is not of the right size, magic, version and kind, or has a number that is not finite, is
+// Both ends follow these rules:
+//   1  A datagram with a wrong size, magic, version or kind, or with a number that is not finite, is
 //      ignored; so are unknown flags, which are sent as 0.
 //   2  Each end draws a session number, not 0, when it starts, and counts its datagrams 1, 2, 3, ...
 //      `echo` is the number of the newest datagram accepted from the other end, 0 before the first.
-//   3  Of one session a datagram counts only if its number is greater than all before. Another session
-//      counts only after 20 ms of silence of the present one: one program at a time; restarts are accepted.
-//   4  Watchdog: after 20 ms without a datagram that counts a device renders no wrench, a robot stops where
-//      it is. Both go on sending for a second or more, and work again with the next datagram that counts.
-//   5  An adapter that has failed says so (its flag kOk is absent) and goes on sending. 20 ms without a
-//      datagram, or one without kOk, is a fault of the device or robot for longreach: it holds.
+//   3  Within a session a datagram is valid only if its number is greater than all before. Another session
+//      is valid only after 20 ms of silence of the present one: one program at a time; restarts are accepted.
+//   4  Watchdog: after 20 ms without a valid datagram a device renders no wrench, and a robot stops where
+//      it is. Both keep sending for at least a second, and resume with the next valid datagram.
+//   5  An adapter that has failed clears its flag kOk and keeps sending. For longreach, 20 ms without a
+//      datagram, or a datagram without kOk, is a fault of the device or robot: it holds.
 
 #include <cmath>
 #include <cstddef>
@@ -60,7 +60,7 @@ struct HandleDatagram {
   static constexpr std::uint8_t kKind = kHandle;
   enum Flag : std::uint32_t {
     kOk = 1,    // the device works
-    kHeld = 2,  // a hand is on the handle; a device that cannot tell says so always
+    kHeld = 2,  // a hand is on the handle; a device without a sensor always sets it
     // Buttons, while they are down.
     kMode = 4,        // rate or position
     kScaleUp = 8,     // coarser
@@ -74,15 +74,15 @@ struct HandleDatagram {
   double orientation[4] = {1.0, 0, 0, 0};  // of H in M, home: 1 0 0 0; unit quaternion w x y z
   double velocity_m_per_s[3] = {};         // of H in M
   double angular_rad_per_s[3] = {};        // of H in M
-  double force_n[3] = {};                  // that the motors are told to make on the hand now, in M
-  double moment_nm[3] = {};                // likewise
+  double force_n[3] = {};                  // commanded motor force on the hand, in M
+  double moment_nm[3] = {};                // commanded motor moment, likewise
 };
 
 /// longreach to device adapter.
 struct WrenchDatagram {
   static constexpr std::uint8_t kKind = kWrench;
   enum Flag : std::uint32_t {
-    kLive = 1  // the wrench is meant; without it: none
+    kLive = 1  // the wrench is valid; without this flag: no wrench
   };
   Header header{};
   std::uint32_t flags = 0;
@@ -97,15 +97,16 @@ constexpr int kJoints = 6;
 struct SetpointDatagram {
   static constexpr std::uint8_t kKind = kSetpoint;
   enum Flag : std::uint32_t {
-    kMove = 1,  // the joints follow joint_rad; without it they brake and rest: nobody is engaged
+    kMove = 1,  // the joints follow joint_rad; without this flag they brake and rest: not engaged
     kGrip = 2,  // the gripper is closed
-    // Somebody has asked for that; without it the gripper stays as it is, as after a restart of the slave.
+    // A client has requested the gripper state; without this flag the gripper stays as it is, for example
+    // after a restart of the slave.
     kGripAsked = 4
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double joint_rad[kJoints] = {};  // in the order of the robot's file; m of a prismatic joint
+  double joint_rad[kJoints] = {};  // in the order of the robot file; m for a prismatic joint
 };
 
 /// Robot adapter to longreach.
@@ -113,13 +114,13 @@ struct RobotDatagram {
   static constexpr std::uint8_t kKind = kRobot;
   enum Flag : std::uint32_t {
     kOk = 1,      // the robot works and may be moved
-    kLoad = 2,    // the gripper holds something
-    kStopped = 4  // it rests without a setpoint, until the next one
+    kLoad = 2,    // the gripper holds a load
+    kStopped = 4  // at rest without a setpoint, until the next one
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double joint_rad[kJoints] = {};  // measured; m of a prismatic joint
+  double joint_rad[kJoints] = {};  // measured; m for a prismatic joint
   double joint_rad_per_s[kJoints] = {};
   double force_n[3] = {};    // by the environment on the tool, along the axes of E; without a sensor 0
   double moment_nm[3] = {};  // about the origin of E, likewise
@@ -147,7 +148,7 @@ inline bool finite(const RobotDatagram& d) {
   return finite(d.joint_rad) && finite(d.joint_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
 }
 
-/// Rule 1. False: `out` is as it was.
+/// Rule 1. If it returns false, `out` is unchanged.
 template <class Datagram>
 bool decode(const void* bytes, std::size_t size, Datagram& out) {
   Datagram d;
@@ -162,13 +163,13 @@ bool decode(const void* bytes, std::size_t size, Datagram& out) {
   return true;
 }
 
-/// Rules 2 to 4, of one end.
+/// Rules 2 to 4 for one end.
 class Exchange {
  public:
   explicit Exchange(std::uint64_t session, std::int64_t watchdog_ns = kWatchdog_ns)
       : session_(session), watchdog_ns_(watchdog_ns) {}
 
-  /// True: this datagram counts. Times are of one monotonic clock, ns.
+  /// Returns whether this datagram is valid. Times are of one monotonic clock, ns.
   bool accept(const Header& header, std::int64_t now_ns) {
     if (header.session == peer_ ? header.sequence <= newest_ : !silent(now_ns)) return false;
     if (header.session != peer_) ++sessions_;
@@ -188,9 +189,9 @@ class Exchange {
     out.header.echo = newest_;
   }
 
-  /// Nothing that counts for as long as the watchdog waits, or never.
+  /// Returns whether no valid datagram has arrived within the watchdog time, or ever.
   bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
-  std::uint64_t sessions() const { return sessions_; }  // of the other end, so far
+  std::uint64_t sessions() const { return sessions_; }  // sessions of the other end so far
 
  private:
   std::uint64_t session_;

@@ -1,6 +1,7 @@
 #pragma once
-// Keeps what one side sends below a rate: nothing leaves before what has left is paid for. In any time T at
-// most rate (T + 2 ms) and one datagram leave. Bytes count with the headers of IPv4 and UDP.
+// Limits the rate at which a side sends: a datagram may leave when the previous ones are paid for. In any
+// time T at most rate (T + 2 ms) plus one datagram are sent. The byte count includes the IPv4 and UDP
+// headers.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +14,7 @@ constexpr std::size_t kIpUdpBytes = 28;
 
 class ByteBudget {
  public:
-  /// kbit/s; 0: no limit.
+  /// Rate in kbit/s; 0: no limit.
   void configure(double kbit_per_s) { kbit_per_s_ = kbit_per_s; }
 
   [[nodiscard]] bool allows(Time now) const { return kbit_per_s_ <= 0.0 || now >= paid_at_; }
@@ -25,7 +26,7 @@ class ByteBudget {
   }
 
  private:
-  // Whoever asks does so once a tick: what is paid for between two ticks is not lost.
+  // Called once per tick: credit that accrues between two ticks is kept.
   static constexpr Duration kLate = std::chrono::milliseconds(2);
 
   double kbit_per_s_ = 0.0;

@@ -1,8 +1,8 @@
 #pragma once
-// The only bridge between the two clocks: maps a peer's instant to this side's clock as "received at the
-// earliest seen transit": offset = min over a window of (received - sent), which contains the shortest
-// one-way delay. Follows drift up to 500 ppm by letting the minimum age (two half-windows). Nothing that
-// stops or starts motion uses it.
+// The only link between the two clocks: maps an instant of the peer to the clock of this side as the earliest
+// possible arrival: offset = min over a window of (received - sent), which includes the shortest one-way
+// delay. It follows drift up to 500 ppm by aging the minimum (two half-windows). Nothing that stops or starts
+// motion uses it.
 
 #include <optional>
 
@@ -12,12 +12,12 @@ namespace longreach {
 
 class ClockOffset {
  public:
-  /// `window`: how long a minimum is believed, > 0.
+  /// `window`: validity of a minimum, > 0.
   explicit ClockOffset(Duration window = std::chrono::seconds(10)) : window_(window) {}
 
   void on_datagram(Time received, PeerTime sent);
 
-  /// When a datagram sent at `sent` would have arrived at the earliest; none before the first datagram.
+  /// Returns the earliest arrival time of a datagram sent at `sent`; none before the first datagram.
   [[nodiscard]] std::optional<Time> earliest_arrival(PeerTime sent) const;
   void clear();
 

@@ -1,6 +1,6 @@
 #pragma once
-// Accepts each sequence number once. Numbers that lie `width` or more below the newest are refused, because
-// nobody can tell any more (RFC 6479's idea: a ring of words of bits, longer than the window).
+// Accepts each sequence number once. Numbers that are `width` or more below the newest are refused, because
+// their state is no longer stored (idea of RFC 6479: a ring of bit words, longer than the window).
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +12,9 @@ class ReplayWindow {
  public:
   explicit ReplayWindow(std::uint32_t width = 8192);
 
-  /// Whether a number (>= 1) lies within or above the window and was not accepted yet.
+  /// Returns whether a number (>= 1) is within or above the window and has not been accepted yet.
   [[nodiscard]] bool fresh(std::uint64_t sequence) const;
-  /// True if it is fresh, and never again. Zero is never accepted.
+  /// Returns true for a new number and marks it as used. Zero is never accepted.
   bool accept(std::uint64_t sequence);
 
   [[nodiscard]] std::uint64_t newest() const { return newest_; }  // 0: none yet

@@ -1,6 +1,6 @@
 #pragma once
-// Sums and differences of nanoseconds, of which one may come from the peer and be anything: pinned at the
-// ends of the range instead of overflowing.
+// Sums and differences of nanoseconds that saturate instead of overflowing, because one operand may come from
+// the peer and have any value.
 
 #include <cstdint>
 #include <limits>
@@ -24,7 +24,7 @@ constexpr std::int64_t saturating_sub(std::int64_t a, std::int64_t b) {
 constexpr std::int64_t to_ns(Time t) { return t.time_since_epoch().count(); }
 constexpr std::int64_t to_ns(PeerTime t) { return t.time_since_epoch().count(); }
 
-/// One-way time plus the unknown difference of the two clocks, ns: only differences of it mean something.
+/// One-way time plus the unknown difference of the two clocks, ns; only differences of it are meaningful.
 constexpr std::int64_t transit_ns(Time received, PeerTime sent) {
   return saturating_sub(to_ns(received), to_ns(sent));
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Slave to master: the only haptic quantity that crosses the link, the estimated stiffness of each surface,
-// and where in the operator's own motion it was met. The renderer sees this type and nothing else from afar.
+// Slave to master: the estimated stiffness of each surface, the only haptic quantity that crosses the link,
+// and the point of the operator's motion at which it was touched. The renderer receives this type and no
+// other data of the slave.
 
 #include <algorithm>
 #include <array>
@@ -11,35 +12,38 @@
 
 namespace longreach {
 
-/// States of the safety machine; both sides show them.
+/// States of the safety state machine of either side.
 enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
 
-/// A surface that the tool presses on, or has pressed on: the tangent of its law at the depth where the hand
-/// works. Lengths in m and forces in N, or in rad and N m.
+/// A surface that the tool presses on or has pressed on: the tangent of its force law at the working depth.
+/// Lengths in m and forces in N, or rad and N m.
 struct ReportedSurface {
-  Vector3 normal = Vector3::Zero();  // unit, in W: the way it pushes the tool
+  Vector3 normal = Vector3::Zero();  // unit, in W: direction in which it pushes the tool
   double stiffness = 0.0;            // of the tangent, N/m or N m/rad; 0: not identified yet
-  double foot = 0.0;                 // of the tangent: how deep behind the surface it begins, >= 0
-  // Which command's goal lies at the surface, between sequences; refined while it is pressed. 0: none that is
+  double foot = 0.0;                 // of the tangent: its depth behind the surface, >= 0
+  // Sequence number of the command whose goal is at the surface, may be fractional; refined while pressed. 0:
+  // no longer stored because it is too old; the surface is then at `offset` along the normal from the
+  // engagement's anchor.
   // remembered, as it is older; it lies at `offset` along the normal from the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
   std::uint32_t touch =
-      0;  // counts touches from 1: the one that it is, or was last, pressed in; 0: no surface
+      0;  // number of the touch, from 1, in which it is or was last pressed; 0: no surface
   bool pressed = false;
 };
 
 inline constexpr std::size_t kSurfaces = 3;
 
-/// What is touched, in translation or in rotation.
+/// Contact in translation or in rotation.
 struct ContactReport {
-  // All that the slave knows of, no two of them facing within 26 degrees of each other; those that are not
+  // All known surfaces; their normals differ by at least 26 degrees. Unused entries are last.
   // there come last.
   std::array<ReportedSurface, kSurfaces> surfaces{};
-  // The tool where a limit holds it back, from the engagement's anchor, in W: a displacement (m) or a
+  // Position of the tool where a limit holds it back, from the engagement's anchor, in W: a displacement (m)
+  // or a rotation vector (rad).
   // rotation vector (rad).
   Vector3 place = Vector3::Zero();
-  // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: nothing does.
+  // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: no limit is active.
   Vector3 held_back = Vector3::Zero();
 
   [[nodiscard]] bool in_contact() const {
@@ -53,9 +57,9 @@ struct StiffnessReport {
   Reason cause{};  // of the state
   ContactReport translation{};
   ContactReport rotation{};
-  // Newest command whose goal the tool has reached.
+  // Sequence number of the newest command whose goal the tool has reached.
   std::uint64_t reached_sequence = 0;
-  // The engagement that is asked for and not granted, and why; 0: none.
+  // The engagement that is requested but not granted, and the reason; 0: none.
   std::uint32_t refused = 0;
   Reason refusal{};
 };

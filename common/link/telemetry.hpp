@@ -1,5 +1,5 @@
 #pragma once
-// Slave to master, 30 to 60 Hz: for the eyes and the log only. Nothing that moves a motor may read it.
+// Slave to master, 30 to 60 Hz, for display and log only. No code that moves a motor may read it.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace longreach {
 
 constexpr int kMaxJoints = 6;
 
-/// What the slave had to clamp since the last datagram.
+/// Limits that the slave has applied since the last datagram.
 struct Clamps {
   bool tool_speed = false;
   bool joint_speed = false;
@@ -21,24 +21,26 @@ struct Clamps {
   bool singularity = false;
   bool unreachable = false;
   bool acceleration =
-      false;  // of tool or joints: for figures; every change of motion meets it, so it is no warning
+      /// limit of tool or joints, for statistics; every change of motion reaches it, so it is not a warning
+      false;
   bool moment_guard = false;
 };
 
-/// What may be thought of an estimate.
-/// kNoPowerLaw: the contact is none; the stiffness is then that of the force over the depth that was probed.
+/// Validity of an estimate.
+/// kNoPowerLaw: the contact does not follow a power law; the stiffness is then the slope of the force over
+/// the probed depth.
 enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable, kNoPowerLaw };
 
-/// The estimator's present answer.
+/// Present result of the estimator.
 struct ContactEstimate {
-  double stiffness_n_per_m = 0.0;     // tangent dF/dp of the elastic force, here
+  double stiffness_n_per_m = 0.0;     // tangent dF/dp of the elastic force at the present depth
   double stiffness_sd_n_per_m = 0.0;  // one standard deviation
   double k = 0.0;                     // N/m^n
   double lambda = 0.0;                // N s/m^(n+1)
   double n = 1.0;                     // exponent
-  double depth_m = 0.0;               // here: below the estimated surface
-  bool valid = false;                 // false: not yet, or no contact
-  double secant_n_per_m = 0.0;        // F/p of the elastic force, here: stiffness over n
+  double depth_m = 0.0;               // present depth below the estimated surface
+  bool valid = false;                 // false: not yet identified, or no contact
+  double secant_n_per_m = 0.0;        // F/p of the elastic force at the present depth: stiffness over n
   double k_sd = 0.0, lambda_sd = 0.0, n_sd = 0.0;
   double correlation = 0.0;  // of k and λ
   Verdict stiffness_verdict = Verdict::kNotYet;
@@ -49,8 +51,8 @@ struct ContactEstimate {
 
 struct GripperState {
   bool closed = false;
-  bool holds = false;       // something is in it
-  double load_kg = 0.0;     // identified mass of that
+  bool holds = false;       // the gripper holds a load
+  double load_kg = 0.0;     // identified mass of the load
   double load_sd_kg = 0.0;  // 0: not known
 };
 
@@ -59,13 +61,13 @@ struct Telemetry {
   HoldCause cause = HoldCause::kNone;
   std::uint32_t engagement = 0;
   Pose X_WE{};                                 // measured tool pose
-  Pose X_WE_goal{};                            // goal that is being followed
+  Pose X_WE_goal{};                            // goal that the robot follows
   std::array<double, kMaxJoints> joint_rad{};  // measured
   Wrench F_E_W{};                              // measured, by the environment on the tool
   ContactEstimate estimate{};
   double penetration_m = 0.0;  // measured depth below the estimated surface; 0 without contact
   Clamps clamps{};
-  // The slave's view of the way from the master.
+  // Statistics of the direction from the master.
   double up_loss = 0.0;      // fraction
   double up_jitter_s = 0.0;  // standard deviation of the one-way time
   double playout_delay_s = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
-// Hands the newest value from one writing thread to one reading thread without ever making either wait: three
-// slots, of which the writer owns one, the reader one, and the third changes hands atomically. What the
-// reader did not fetch in time is overwritten.
+// Passes the newest value from one writing thread to one reading thread without blocking either of them. Of
+// three slots the writer owns one, the reader one, and the third is exchanged atomically. A value that the
+// reader does not fetch in time is overwritten.
 
 #include <array>
 #include <atomic>
@@ -17,7 +17,7 @@ class LatestValue {
     back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// The newest value, or a default one before the first write. Valid until the next read.
+  /// Returns the newest value, or a default value before the first write. Valid until the next read.
   const T& read() {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) != 0) {
       front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;

@@ -1,6 +1,7 @@
 #pragma once
-// One command at a time from any thread to the loop, with its answer. The loop side (take, answer) is a few
-// atomic operations: it never waits, locks or wakes anybody. The other side polls for its answer.
+// Passes one command at a time from any thread to the loop, and its answer back. The loop side (take, answer)
+// needs a few atomic operations: it never waits, locks or wakes a thread. The other side polls for the
+// answer.
 
 #include <atomic>
 #include <chrono>
@@ -14,8 +15,8 @@ namespace longreach {
 template <class Command, class Reply>
 class Mailbox {
  public:
-  /// Hands the command over and waits for the answer. None: it was not taken within `timeout`, and will not
-  /// be.
+  /// Passes the command and waits for the answer. Returns none if the loop did not take it within `timeout`;
+  /// the loop will then not take it later either.
   std::optional<Reply> post(Command command, std::chrono::milliseconds timeout) {
     const std::lock_guard lock(posting_);
     const Emptied emptied{command_};
@@ -25,7 +26,7 @@ class Mailbox {
     while (state_.load(std::memory_order_acquire) != State::kAnswered) {
       State posted = State::kPosted;
       const bool late = std::chrono::steady_clock::now() >= deadline;
-      // Once taken, the answer is certain and near.
+      // Once a command is taken, the answer follows within a tick.
       if (late && state_.compare_exchange_strong(posted, State::kEmpty)) return std::nullopt;
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
@@ -34,7 +35,7 @@ class Mailbox {
     return reply;
   }
 
-  /// Loop side: the command that waits, or nothing. It must be answered before the next take().
+  /// Loop side: returns the pending command, or nothing. It must be answered before the next take().
   const Command* take() {
     State posted = State::kPosted;
     return state_.compare_exchange_strong(posted, State::kTaken, std::memory_order_acq_rel) ? &command_
@@ -46,14 +47,14 @@ class Mailbox {
   }
 
  private:
-  /// What a command held, a session's secret among it, ends with its post.
+  /// Erases the content of a command, which may include the secret of a session, after its post.
   struct Emptied {
     Command& command;
     ~Emptied() { command = Command{}; }
   };
   enum class State { kEmpty, kPosted, kTaken, kAnswered };
 
-  std::mutex posting_;  // among those who post
+  std::mutex posting_;  // serialises the posting threads
   std::atomic<State> state_{State::kEmpty};
   Command command_{};
   Reply reply_{};

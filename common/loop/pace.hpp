@@ -1,5 +1,5 @@
 #pragma once
-// Absolute deadlines of a row of ticks (relative ones drift); ticks that a slow reader missed are left out.
+// Absolute deadlines of periodic updates, which do not drift; a slow reader skips missed updates.
 
 #include <chrono>
 

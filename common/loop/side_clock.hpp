@@ -1,5 +1,5 @@
 #pragma once
-// The one clock of a side: CLOCK_BOOTTIME, which never goes back and goes on while the host is suspended.
+// The clock of a side: CLOCK_BOOTTIME, which never goes back and continues while the host is suspended.
 
 #include <time.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Stop on a way of its own from any thread to the loop: a level that the next tick reads, beside the mailbox
-// and behind no lock. The loop's side is two atomic operations.
+// Passes a stop from any thread to the loop by its own path: a flag that the next tick reads, independent of
+// the mailbox and of any lock. The loop side needs two atomic operations.
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +11,7 @@ namespace longreach {
 
 class StopLevel {
  public:
-  /// Whether a tick took it within `timeout`. It stands besides: a loop that comes later takes it then.
+  /// Requests a stop and returns whether a tick took it within `timeout`. A later tick takes it in any case.
   bool ask(std::chrono::milliseconds timeout) {
     const std::uint64_t own = asked_.fetch_add(1, std::memory_order_acq_rel) + 1;
     const auto deadline = std::chrono::steady_clock::now() + timeout;
@@ -22,7 +22,7 @@ class StopLevel {
     return true;
   }
 
-  /// Loop side: whether to stop in this tick.
+  /// Loop side: returns whether to stop in this tick.
   bool take() {
     const std::uint64_t asked = asked_.load(std::memory_order_acquire);
     if (asked == taken_.load(std::memory_order_relaxed)) return false;
@@ -32,7 +32,7 @@ class StopLevel {
 
  private:
   std::atomic<std::uint64_t> asked_{0};
-  std::atomic<std::uint64_t> taken_{0};  // of those asked; written by the loop alone
+  std::atomic<std::uint64_t> taken_{0};  // number of requests taken; written by the loop only
 };
 
 }  // namespace longreach

@@ -1,12 +1,12 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP, unless it is ignored, ask a program to end; the third SIGINT or SIGTERM ends it
-// at once. SIGPIPE is ignored.
+// SIGINT, SIGTERM and SIGHUP (unless ignored) request the end of the program; the third SIGINT or SIGTERM
+// ends it immediately. SIGPIPE is ignored.
 
 #include <atomic>
 
 namespace longreach {
 
-/// Becomes true when the program has been asked to end. The first call installs the answers to the signals.
+/// Becomes true when the end of the program is requested. The first call installs the signal handlers.
 std::atomic<bool>& stop_requested();
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Before the first tick: an adapter that runs answers within a millisecond or two. One that does not is a
-// fault, which the loop then shows.
+// Waits for the adapter before the first tick. A running adapter answers within a millisecond or two;
+// otherwise the loop reports a fault.
 
 #include <chrono>
 #include <thread>
@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-/// Greets until the adapter answers, at most 2 s.
+/// Sends to the adapter until it answers, for at most 2 s.
 template <class Adapter>
 void wait_for_adapter(Adapter& adapter) {
   const Time end = boottime_now() + std::chrono::seconds(2);

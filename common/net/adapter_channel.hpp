@@ -1,5 +1,5 @@
 #pragma once
-// The socket to an adapter of a real device or robot.
+// Socket to the adapter of a real device or robot.
 
 #include <memory>
 #include <string>
@@ -9,17 +9,19 @@
 
 namespace longreach {
 
-/// Null: there is no adapter. Throws AddressError.
+/// Returns null if no adapter is configured. Throws AddressError.
 std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config);
 
-/// RPC that everybody may use moves nothing real. Throws ConfigError. `device`: "haptic device" or "robot".
+/// Refuses unencrypted RPC for a real device or robot. Throws ConfigError. `device`: "haptic device" or
+/// "robot".
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device);
 
-/// Of a loop of so many ticks a second: the last tick within silence_s tells that silence, not the first
-/// after it.
+/// Shortens silence_s by one tick of a loop at `rate_hz`, so that the last tick within silence_s reports the
+/// silence, not the first tick after it.
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz);
 
-/// What is wrong with an adapter and what to do, or empty. `device`: "haptic device" or "robot".
+/// Describes the problem of an adapter and its remedy; empty if there is none. `device`: "haptic device" or
+/// "robot".
 struct AdapterFigures;
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address);

@@ -1,6 +1,6 @@
 #pragma once
-// Addresses as a user writes them: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001". Names are resolved,
-// which may wait: at start only.
+// Addresses in user notation: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001". Resolving a name may
+// block, so it is done at start only.
 
 #include <asio/ip/udp.hpp>
 #include <stdexcept>
@@ -8,13 +8,13 @@
 
 namespace longreach {
 
-/// One sentence that says which address is wrong and what is expected.
+/// One sentence that names the invalid address and the expected form.
 class AddressError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws AddressError. Port 0 stands for any free one.
+/// Throws AddressError. Port 0 means any free port.
 asio::ip::udp::endpoint parse_udp_address(const std::string& text);
 
 /// The notation that parse_udp_address reads.

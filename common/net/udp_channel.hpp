@@ -1,9 +1,9 @@
 #pragma once
-// A channel over one UDP socket, IPv4 or IPv6. Never waits; allocates nothing after construction.
+// Channel over one UDP socket, IPv4 or IPv6. It never blocks, and allocates nothing after construction.
 //
-// The calling side (master) names its peer: it sends there, and what others send is dropped and counted. The
-// answering side (slave) names none: it takes what anybody sends, and answers to where the newest authentic
-// datagram came from (`answer_to`). Until then it sends nothing.
+// The calling side (master) gives its peer: it sends to that address, and drops and counts datagrams from
+// other addresses. The answering side (slave) gives none: it receives from any address, and sends to the
+// origin of the newest authentic datagram (`answer_to`). Until then it sends nothing.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -17,7 +17,7 @@ namespace longreach {
 
 class UdpChannel : public Channel {
  public:
-  /// Throws AddressError for an address that is none, std::runtime_error when the socket cannot be bound.
+  /// Throws AddressError for an invalid address, std::runtime_error if the socket cannot be bound.
   explicit UdpChannel(const std::string& listen, const std::optional<std::string>& peer = std::nullopt);
 
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override;
@@ -29,8 +29,8 @@ class UdpChannel : public Channel {
   [[nodiscard]] std::optional<std::string> peer_address() const;
   [[nodiscard]] std::uint64_t unknown_peers() const {
     return unknown_peers_;
-  }                                                               // datagrams of others, dropped
-  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }  // the system refused to send them
+  }                                                               // datagrams from other addresses, dropped
+  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }  // datagrams that the system refused to send
 
  private:
   asio::io_context context_{1};

@@ -1,7 +1,8 @@
 #pragma once
-// A channel to a program of this machine: this end of a Unix socket (SOCK_SEQPACKET), whose other end listens
-// at a path and belongs to the same user or to root; the system says to whom. Anybody else's is left again.
-// The other end may come later, end and come again. Never waits; allocates nothing after construction.
+// Channel to a program on this machine: one end of a Unix socket (SOCK_SEQPACKET). The other end listens at a
+// path and must belong to the same user or to root, according to the system; otherwise it is disconnected.
+// The other end may start later, end and restart. The channel never blocks, and allocates nothing after
+// construction.
 
 #include <sys/types.h>
 
@@ -12,20 +13,22 @@
 
 namespace longreach {
 
-/// The path of an adapter's address. Throws AddressError.
+/// Returns the path in an adapter address. Throws AddressError.
 std::string unix_path(const std::string& address);
 
-/// To what listens there; -1: nothing does, with errno. Never waits.
+/// Connects to the program that listens there; returns -1 with errno if there is none. Never blocks.
 int connect_unix(const std::string& path);
-/// Likewise, for the other end a program of `user`, whatever the path's mode; root alone can do that.
+/// The same, with the identity of `user` towards the other end, regardless of the mode of the path; needs
+/// root.
 int connect_unix_as(uid_t user, const std::string& path);
-/// Why no socket can be there: "there is no such file", "it is a folder, not a socket"; empty: one is.
+/// Returns why there is no socket: "there is no such file", "it is a folder, not a socket"; empty: there is
+/// one.
 std::string no_socket_there(const std::string& path);
-/// Why connect_unix(path) failed with `error`.
+/// Returns why connect_unix(path) failed with `error`.
 std::string why_not_connected(const std::string& path, int error);
-/// Who has the other end; none: the system does not say.
+/// Returns the user of the other end; none if the system does not report it.
 std::optional<uid_t> peer_user(int socket);
-/// This user, or root.
+/// Returns whether it is this user or root.
 bool may_be_trusted(uid_t user);
 
 class UnixChannel : public Channel {
@@ -37,11 +40,11 @@ class UnixChannel : public Channel {
   UnixChannel& operator=(const UnixChannel&) = delete;
 
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override;
-  /// Looks for the other end now and then while there is none.
+  /// Tries to connect from time to time while there is no other end.
   void send(std::span<const std::byte> datagram) override;
 
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
-  /// What listens there belongs to somebody else, when it was looked for last.
+  /// The user of the listening program, if it was another user at the last attempt.
   [[nodiscard]] std::optional<uid_t> unknown_peer() const { return unknown_peer_; }
 
  private:
@@ -50,7 +53,7 @@ class UnixChannel : public Channel {
 
   std::string path_;
   int socket_ = -1;
-  int wait_ = 0;  // sends until it is looked for again
+  int wait_ = 0;  // sends until the next attempt to connect
   std::optional<uid_t> unknown_peer_{};
 };
 
