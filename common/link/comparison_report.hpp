@@ -1,6 +1,6 @@
 #pragma once
-// What the textbook laws of bilateral teleoperation send across the link, once a tick each way. They exist in
-// the laboratory, for comparison: the law of this system sees StiffnessReports only.
+// Data that the textbook laws of bilateral teleoperation exchange in every tick. They exist in the laboratory
+// only, for comparison: the law of this system uses StiffnessReports only.
 
 #include "common/spatial/spatial.hpp"
 
@@ -10,7 +10,8 @@ namespace longreach {
 struct ComparisonCommand {
   Vector3 position_m = Vector3::Zero();  // of the handle, W, from the anchor
   Vector3 wave = Vector3::Zero();        // u, √W (WAVE)
-  double energy_j = 0.0;                 // TDPA: entered at the master's port; TANK: sent so far. Only grows
+  /// TDPA: energy that entered the master's port; TANK: total sent energy. Non-decreasing
+  double energy_j = 0.0;
 };
 
 /// Slave to master.
@@ -18,7 +19,8 @@ struct ComparisonReport {
   Vector3 position_m = Vector3::Zero();  // of the tool, W, from the anchor
   Vector3 force_n = Vector3::Zero();     // by the environment on the tool, W
   Vector3 wave = Vector3::Zero();        // w, √W (WAVE)
-  double energy_j = 0.0;                 // TDPA: entered at the slave's port; TANK: sent so far. Only grows
+  /// TDPA: energy that entered the slave's port; TANK: total sent energy. Non-decreasing
+  double energy_j = 0.0;
 };
 
 }  // namespace longreach

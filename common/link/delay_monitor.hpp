@@ -1,17 +1,17 @@
 #pragma once
-// What the link is like, seen from one side: round-trip time, variation of the one-way time, loss,
-// reordering, age. RTT of a sample = now - echo.sent - echo.held, all but `held` on this side's clock; `held`
-// is a duration of the peer's. One-way variation is taken about the running minimum of (received - sent),
-// whose unknown clock offset cancels. Windows are short (2 s) so that a changed link shows at once. Pure:
-// time comes in.
+// Measures the link as seen from one side: round-trip time, variation of the one-way time, loss, reordering,
+// age. RTT of a sample = now - echo.sent - echo.held, all on the clock of this side except the duration
+// `held`. The one-way variation is relative to the running minimum of (received - sent), so that the unknown
+// clock offset cancels. The windows are short (2 s), so that a change of the link shows quickly. Pure: the
+// caller supplies the time.
 //
-// Loss is 1 - came / sent over the datagrams that the peer sent in a window of 2 s, by the gaps of each
-// type's numbers. A datagram that was overtaken is not lost: where that happens, the window ends as much
-// earlier (up to 1 s) as the overtaken were late. Does not count what was sent before the first datagram of a
-// session.
+// Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, from the gaps in the
+// numbers of each type. An overtaken datagram is not lost: where this happens, the window ends earlier by the
+// lateness of the overtaken datagrams (up to 1 s). Datagrams sent before the first one of a session are not
+// counted.
 //
-// A datagram that the peer sent more than 0.5 s before another that came already counts in all figures, but
-// is not heard: it tells nothing of the peer's life.
+// A datagram that the peer sent more than 0.5 s before another one that has already arrived counts in all
+// figures except the time of the last datagram, because it does not show that the peer is alive.
 
 #include <algorithm>
 #include <array>
@@ -27,26 +27,27 @@
 namespace longreach {
 
 struct LinkFigures {
-  std::optional<double> rtt_s{};  // median of the window; none until an echo came
-  double rtt_min_s = 0.0;         // least of the window
+  std::optional<double> rtt_s{};  // median of the window; none until an echo has arrived
+  double rtt_min_s = 0.0;         // minimum of the window
   double jitter_s = 0.0;          // standard deviation of the one-way time over the window
-  double loss = 0.0;              // fraction of the datagrams of the window that never came
-  double reorder = 0.0;           // fraction that came after a newer one of its type
+  double loss = 0.0;              // fraction of the datagrams of the window that did not arrive
+  double reorder = 0.0;           // fraction that arrived after a newer one of its type
   std::optional<double>
-      age_s{};               // since this side sent what the peer had last heard; none until an echo came
+      /// since this side sent the newest datagram that the peer had received; none until an echo has arrived
+      age_s{};
   double silence_s = 0.0;    // since the last accepted datagram (infinite before the first)
-  double rate_hz = 0.0;      // accepted datagrams a second
-  double bytes_per_s = 0.0;  // accepted bytes a second, without UDP and IP headers
+  double rate_hz = 0.0;      // accepted datagrams per second
+  double bytes_per_s = 0.0;  // accepted bytes per second, without UDP and IP headers
 };
 
 class DelayMonitor {
  public:
   DelayMonitor();
 
-  /// Books an accepted datagram. `rtt`: below zero where its echo did not allow to compute one.
+  /// Records an accepted datagram. `rtt`: below zero if its echo did not determine one.
   void on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt, std::size_t bytes);
 
-  /// Books when this side had sent what the peer had last heard.
+  /// Records when this side sent the newest datagram that the peer had received.
   void on_echo(Time sent) { echoed_ = std::max(echoed_.value_or(sent), sent); }
 
   [[nodiscard]] LinkFigures figures(Time now) const;
@@ -63,10 +64,10 @@ class DelayMonitor {
     std::uint64_t sequence = 0;
     std::uint32_t bytes = 0;
     std::uint8_t type = 0;  // index, 0 to kDatagramTypes - 1
-    bool late = false;      // came after a newer one of its type
+    bool late = false;      // arrived after a newer one of its type
     bool operator==(const Sample&) const = default;
   };
-  /// Place of a datagram in its type's numbers; sequence 0: none.
+  /// Position of a datagram in the numbers of its type; sequence 0: none.
   struct Mark {
     std::uint64_t sequence = 0;
     PeerTime sent{};
@@ -82,10 +83,10 @@ class DelayMonitor {
   std::array<std::uint64_t, kDatagramTypes> newest_{};  // highest sequence of each type
   std::optional<PeerTime> newest_sent_{};               // of all types
   std::array<Mark, kDatagramTypes>
-      forgotten_{};  // of the samples that left the ring, the one with the highest sequence
+      forgotten_{};  // the sample with the highest sequence that has left the ring
   std::optional<Time> first_received_{};
   std::optional<Time> last_heard_{};
-  std::optional<Time> echoed_{};  // when this side had sent the newest that came back
+  std::optional<Time> echoed_{};  // send time of the newest datagram of this side that was echoed
 };
 
 }  // namespace longreach

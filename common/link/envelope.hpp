@@ -1,5 +1,5 @@
 #pragma once
-// What every datagram carries besides its message, and what a receiver learns with a message.
+// Common content of every datagram, and the metadata that a receiver gets with a message.
 
 #include <array>
 #include <cstddef>
@@ -21,43 +21,46 @@ struct Header {
   std::uint64_t sequence = 0;
 };
 
-/// What the sender had last heard in this session, so that the receiver can date it with its own clock.
+/// Echo of the newest datagram that the sender had received in this session, so that the receiver can date it
+/// by its own clock.
 struct Echo {
-  std::int64_t sent_ns = 0;  // its send time, on the clock of the one who sent it
-  Duration held{0};          // how long it lay at the echoing side before this datagram left
+  std::int64_t sent_ns = 0;  // its send time, on the clock of its sender
+  Duration held{0};  // time between its arrival at the echoing side and the departure of this datagram
 };
 
 /// The part of a datagram's body that is common to all messages.
 struct Stamp {
   PeerTime sent{};             // sender's clock
-  std::optional<Echo> echo{};  // none: no datagram yet
+  std::optional<Echo> echo{};  // none: no datagram received yet
 };
 
-constexpr Duration kNoRtt{-1};  // a round trip that is not known; so is any below zero
+constexpr Duration kNoRtt{-1};  // an unknown round trip, like any value below zero
 
-/// A message with what its receiver knows about the way it came.
+/// A message with the metadata of its transmission.
 template <class Message>
 struct Received {
   std::uint64_t sequence = 0;
   PeerTime sent{};                  // on the sender's clock
   Time received{};                  // on this clock
-  std::optional<Time> echo_sent{};  // when this side had sent what the peer had last heard; none: not yet
-  Duration rtt = kNoRtt;            // from then until now, without the time that it lay at the peer
-  bool newest = true;               // no newer one of its type came before it
+  /// when this side sent the newest datagram that the peer had received; none: not yet
+  std::optional<Time> echo_sent{};
+  Duration rtt = kNoRtt;            // from then until now, without the time held at the peer
+  bool newest = true;               // no newer one of its type has arrived before
   Message message{};
 };
 
-/// Why a datagram was dropped. Order of the checks. Before authentication nothing changes but a counter.
+/// Why a datagram was dropped, in the order of the checks. Before authentication nothing changes except a
+/// counter.
 enum class Rejection : std::uint8_t {
   kLength,          // shorter than header and tag, or longer than 508 bytes
   kVersion,         // other wire version
-  kType,            // not a type that this side receives
+  kType,            // this side does not receive this type
   kSession,         // not of the present session
-  kReplay,          // seen already, or too old to tell
-  kAuthentication,  // damaged, or not sealed by the other side
-  kDecode,          // body is not the message that the header promises
+  kReplay,          // already received, or too old to check
+  kAuthentication,  // corrupted, or not sealed by the other side
+  kDecode,          // the body is not the message that the header states
   kValue,           // a field is missing, not finite or out of range
-  kStalled,         // lay there while this side stood still: too old to follow
+  kStalled,         // received while this side was stalled: too old to follow
   kCount
 };
 

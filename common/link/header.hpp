@@ -1,8 +1,8 @@
 #pragma once
 // The 18 bytes in front of every datagram, big-endian:
 //   version (1) | type (1) | session (8) | sequence (8)
-// Behind them come the sealed body and its tag of 16 bytes (common/crypto). The header stays in clear; the
-// tag covers it.
+// The sealed body and its tag of 16 bytes follow (common/crypto). The header is not encrypted; the tag covers
+// it.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,15 +1,15 @@
 #pragma once
-// The network as a seeded, pure queue: bytes go in with the time, and come out, or not, when their time has
-// come. Effects, in the order in which they act on a datagram: blackout, loss (independent or Gilbert-Elliott
-// bursts), corruption (one bit flipped), duplication, rate limit (a queue that drops when full), delay with
-// steps, drift and normal jitter (never below zero), reordering (a chosen datagram is let past its
-// predecessors). The same object serves the laboratory and, on the receiving side, the real UDP channel of
+// The network as a seeded, pure queue: datagrams are pushed with the time, and popped, or dropped, when they
+// are due. Effects, in the order in which they act on a datagram: blackout, loss (independent or
+// Gilbert-Elliott bursts), corruption (one bit flipped), duplication, rate limit (a queue that drops when
+// full), delay with steps, drift and normal jitter (never below zero), reordering (a chosen datagram passes
+// its predecessors). The same class serves the laboratory and, on the receiving side, the real UDP channel of
 // both programs.
 //
-// Jitter is drawn for each datagram by itself, so that it changes the order, as tc netem does. Equal due
-// times keep the order of arrival. Each effect has its own random stream: switching one on does not change
-// what another draws. Bounded: 16384 datagrams under way (more count as queue_dropped), each kept up to 600
-// bytes: longer ones come out cut to 600, which every receiver refuses by its length. A datagram keeps its
+// Jitter is drawn for each datagram independently, so that it changes the order, as in tc netem. Equal due
+// times keep the order of arrival. Each effect has its own random stream: enabling one does not change the
+// numbers of another. Bounded: 16384 queued datagrams (more count as queue_dropped), each with up to 600
+// bytes: longer ones are truncated to 600, which every receiver rejects by their length. A datagram keeps its
 // origin.
 
 #include <array>
@@ -29,10 +29,10 @@ namespace longreach {
 struct ImpairmentConfig {
   double delay_s = 0.0;              // 0 to 100
   double jitter_s = 0.0;             // standard deviation, 0 to 10
-  double loss = 0.0;                 // mean fraction lost, 0 to 1
+  double loss = 0.0;                 // mean fraction of lost datagrams, 0 to 1
   double loss_burst = 1.0;           // mean length of a loss burst in datagrams; 1: independent losses
-  double duplicate = 0.0;            // fraction sent twice
-  double reorder = 0.0;              // fraction let past: delivered with half of the delay
+  double duplicate = 0.0;            // fraction of duplicated datagrams
+  double reorder = 0.0;  // fraction that passes its predecessors: delivered with half of the delay
   double corrupt = 0.0;              // fraction with one bit flipped
   double rate_bit_per_s = 0.0;       // 0: unlimited
   double queue_s = 0.2;              // longest queue before the rate limit drops
@@ -57,19 +57,19 @@ class Impairment {
  public:
   Impairment(const ImpairmentConfig& config, Random random);
 
-  /// Takes effect for the datagrams pushed from `now` on; the clock of steps and blackouts starts anew.
+  /// Takes effect for datagrams pushed from `now` on; the time of steps and blackouts restarts.
   void configure(const ImpairmentConfig& config, Time now);
 
   void push(Time now, std::span<const std::byte> datagram, const Origin& origin = {});
 
-  /// Whether a datagram that is pushed now would come out at once and as it is; then pass() may count it
-  /// instead.
+  /// Returns whether a datagram pushed now would be delivered immediately and unchanged; pass() can then
+  /// count it instead.
   [[nodiscard]] bool clear() const { return clear_ && heap_.empty(); }
   void pass() { ++counts_.in, ++counts_.out; }
 
-  /// The next datagram that is due, or none. Valid until the next call. Call until none.
+  /// Returns the next due datagram, or none. Valid until the next call. Call until it returns none.
   std::optional<std::span<const std::byte>> pop(Time now);
-  /// Where the datagram came from that pop() returned last.
+  /// Origin of the datagram that pop() returned last.
   [[nodiscard]] const Origin& origin() const { return origin_; }
 
   [[nodiscard]] const ImpairmentConfig& config() const { return config_; }
@@ -80,24 +80,24 @@ class Impairment {
   static constexpr std::size_t kSlotBytes = 600;
   static constexpr std::size_t kCopies = 2;
 
-  /// A datagram under way: its bytes lie in a slot.
+  /// A queued datagram; its bytes are in a slot.
   struct QueuedDatagram {
     Time due{};
-    std::uint64_t arrival = 0;  // counts parcels: keeps the order of equal due times
+    std::uint64_t arrival = 0;  // counts queued datagrams: keeps the order of equal due times
     std::uint32_t slot = 0;
     std::uint32_t size = 0;  // bytes, at most kSlotBytes
-    // Orders a heap whose front is the first that is due.
+    // Orders a heap whose front is due first.
     bool operator<(const QueuedDatagram& other) const {
       return due != other.due ? due > other.due : arrival > other.arrival;
     }
   };
 
-  /// What the random streams decide about one datagram, whether or not another effect took it away before.
+  /// Random decisions about one datagram, also if another effect has dropped it before.
   struct Decision {
     bool lost = false;
     bool corrupted = false;
     bool duplicated = false;
-    double flipped = 0.0;                  // place of the flipped bit, fraction of the datagram
+    double flipped = 0.0;                  // position of the flipped bit, fraction of the datagram
     std::array<double, kCopies> jitter{};  // normal deviates of the original and of its copy
     std::array<bool, kCopies> let_past{};
   };
@@ -115,17 +115,17 @@ class Impairment {
   bool store(Time due, std::span<const std::byte> datagram, const Origin& origin, const Decision& decision);
 
   ImpairmentConfig config_;
-  bool clear_ = false;  // it does nothing
+  bool clear_ = false;  // no effect is active
   ImpairmentCounts counts_{};
   Streams streams_;
   std::optional<bool> in_burst_{};  // Gilbert-Elliott state; none before the first draw
   std::optional<Time> set_at_{};    // when the profile took effect; none before the first push or pop
-  Time queue_free_at_{};            // when the rate limit has sent all that it holds
+  Time queue_free_at_{};            // when the rate limit has sent its queue
   std::uint64_t arrivals_ = 0;
   Origin origin_{};
   std::vector<std::byte> bytes_;     // kSlots times kSlotBytes
-  std::vector<Origin> origins_;      // one a slot
-  std::vector<std::uint32_t> free_;  // slots without a parcel
+  std::vector<Origin> origins_;      // one per slot
+  std::vector<std::uint32_t> free_;  // slots without a datagram
   std::vector<QueuedDatagram> heap_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Where a datagram came from, in the form of the channel that took it; nobody else reads it. All zero:
-// nowhere.
+// Origin of a datagram, in the format of the channel that received it; no other code reads it. All zero:
+// none.
 
 #include <array>
 #include <cstdint>

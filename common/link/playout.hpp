@@ -1,13 +1,13 @@
 #pragma once
 // Turns jittery arrivals into a smooth goal. Goals are played at earliest arrival + playout delay, linearly
-// interpolated between sequences; on silence the last goal is held. More delay: smoother motion, later.
-// The delay is fixed, or the `quantile` of the lateness seen in the last 5 s (adaptive; lateness that
-// `delay_max_s` could not make up for is left out). It changes by at most 0.05 s/s while goals are being
-// played, so that the goal does not jump. What is later than that is played when it comes. A link whose
-// transit falls by more than 0.25 s at once is followed at once. Also keeps the recent goals, to answer which
-// command led to a given place.
+// interpolated between sequences; on silence the last goal is held. A larger delay gives smoother but later
+// motion. The delay is fixed, or the `quantile` of the lateness in the last 5 s (adaptive; lateness beyond
+// `delay_max_s` is ignored). It changes by at most 0.05 s/s while goals are played, so that the goal does not
+// jump. A goal that is later than the delay is played on arrival. If the transit time of the link falls by
+// more than 0.25 s at once, the delay follows immediately. The class also stores recent goals, to find the
+// command that led to a given position.
 //
-// Does not handle orientation separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
+// Orientation is not handled separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
 
 #include <cstdint>
 #include <limits>
@@ -22,13 +22,13 @@
 namespace longreach {
 
 struct PlayoutConfig {
-  bool adaptive = true;         // choose the delay from the lateness seen
+  bool adaptive = true;         // choose the delay from the measured lateness
   double fixed_delay_s = 0.02;  // used when not adaptive, 0 to 2
   double quantile = 0.9;        // of lateness, when adaptive
   double delay_max_s = 0.5;     // adaptive delay never exceeds this
 };
 
-/// A goal with the command that it came from.
+/// A goal with the command that it belongs to.
 struct PlayoutGoal {
   double sequence = 0.0;           // fractional between two commands
   Vector6 goal = Vector6::Zero();  // [position_m; rotation_rad]
@@ -40,15 +40,15 @@ class Playout {
 
   void configure(const PlayoutConfig& config) { config_ = config; }
 
-  /// Books a goal. Old, reordered ones fill gaps of the past; duplicates change nothing.
+  /// Adds a goal. Old, reordered goals fill gaps of the past; duplicates change nothing.
   void push(Time received, PeerTime sent, std::uint64_t sequence, const Vector6& goal);
 
-  /// The goal to follow now; none before the first push. Never moves back to an older sequence.
+  /// Returns the goal to follow now; none before the first push. Never returns to an older sequence.
   std::optional<PlayoutGoal> play(Time now);
 
-  /// Fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane through
-  /// `point_m` with normal `n` (unit): where n . (position - point) changes its sign from negative, or is
-  /// nearest to zero; none that is further than `most_m` from it.
+  /// Returns the fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane
+  /// through `point_m` with normal `n` (unit): where n . (position - point) changes its sign from negative,
+  /// or is nearest to zero; none if that is further than `most_m` from it.
   [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
                                                double most_m = std::numeric_limits<double>::infinity()) const;
 
@@ -64,7 +64,7 @@ class Playout {
   struct Lateness {
     Time received{};
     std::int64_t transit_ns = 0;  // received - sent, across two clocks
-    std::int64_t late_ns = 0;     // beyond the earliest arrival that was known then
+    std::int64_t late_ns = 0;     // beyond the earliest arrival known at that time
   };
 
   bool insert(const Entry& entry);
@@ -81,9 +81,9 @@ class Playout {
   Ring<Entry> entries_;      // ascending in sequence
   Ring<Lateness> lateness_;  // of the last 5 s
   std::vector<std::int64_t> scratch_;
-  Duration lag_{0};       // now - lag_ is the send time that is played now: offset + playout delay
+  Duration lag_{0};       // now - lag_ is the send time of the goal played now: offset + playout delay
   Duration quantile_{0};  // adaptive delay as last computed
-  std::optional<Time> quantile_at_{};  // when
+  std::optional<Time> quantile_at_{};  // time of that computation
   std::optional<Time> stepped_at_{};   // last play()
   std::optional<PlayoutGoal> played_{};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The words of a command line, as completion and manual page need them: a tree of commands, flattened.
+// The commands and options of a program, for completion and manual page: a tree of commands, flattened.
 
 #include <CLI/App.hpp>
 #include <string>
@@ -8,21 +8,21 @@
 namespace longreach {
 
 struct OptionWords {
-  std::vector<std::string> names;    // with their dashes; of a positional: none
-  std::string what;                  // its value: FILE, HOST:PORT, ...; empty: it has none
+  std::vector<std::string> names;    // with their dashes; empty for a positional
+  std::string what;                  // its value: FILE, HOST:PORT, ...; empty: none
   std::vector<std::string> choices;  // values; empty: anything
   std::string help;
 };
 
 struct CommandWords {
-  std::vector<std::string> path;  // below the program; empty: itself
+  std::vector<std::string> path;  // path of commands; empty: the program itself
   std::string help, footer;
   std::vector<OptionWords> options, positionals;
   std::vector<std::string> commands;
-  bool inherits = false;  // options of the commands above may stand behind it, too
+  bool inherits = false;  // the options of parent commands are accepted as well
 };
 
-/// The program first, each command before its own.
+/// The program first, each command before its subcommands.
 std::vector<CommandWords> command_words(const CLI::App& app);
 
 std::string joined(const std::vector<std::string>& words, const char* between = " ");

@@ -1,5 +1,5 @@
 #pragma once
-// How the command lines of all programs refuse a value before it is used. For files with CLI11 alone.
+// Checks of command-line values before they are used, for all programs. Include it only in files with CLI11.
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -11,7 +11,8 @@
 
 namespace longreach {
 
-/// A decimal number from `low` to `high`: not NaN, which passes any comparison of CLI11's own checks.
+/// Accepts a decimal number from `low` to `high`, but not NaN, which passes the comparisons of CLI11's own
+/// checks.
 inline CLI::Validator number_between(double low, double high) {
   return {[low, high](const std::string& text) {
             const auto number = parse_number(text);
@@ -29,7 +30,7 @@ inline CLI::Validator number_above_zero() {
           ""};
 }
 
-/// CLI11 itself would take -1 and what is too long for the largest number.
+/// CLI11 would accept -1 and numbers that are too long.
 inline CLI::Validator whole_number() {
   return {[](const std::string& text) {
             return parse_integer<std::uint64_t>(text)
@@ -46,12 +47,12 @@ inline CLI::Validator address_by_its_form() {
           ""};
 }
 
-/// No option takes an empty text: a script whose variable is not set means a value, not the default. Called
-/// after all options are there; words without a name may be empty.
+/// Refuses empty option values: a script with an unset variable means a value, not the default. Call it after
+/// all options are defined; positionals may be empty.
 inline void refuse_empty_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options(
            [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_items_expected_max() > 0; }))
-    option->transform(CLI::Validator(  // which is asked before the option's own checks
+    option->transform(CLI::Validator(  // runs before the option's own checks
         [](const std::string& text) {
           return text.empty() ? "is empty; give a value, or omit the option" : std::string();
         },

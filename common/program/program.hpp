@@ -1,6 +1,6 @@
 #pragma once
-// What both programs do in the same way around their loop: options, configuration, exit status. For main.cpp
-// alone: CLI11 takes seconds to compile.
+// Common parts of both programs around their loop: options, configuration, exit status. Include it only in
+// main.cpp: CLI11 takes seconds to compile.
 
 #include <unistd.h>
 
@@ -87,7 +87,8 @@ inline std::filesystem::path site_of(const ProgramOptions& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Before the first secret is had: forbids core dumps as the options say. Throws SiteError.
+/// Call it before the program has a secret: forbids core dumps unless the options permit them. Throws
+/// SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
@@ -108,13 +109,13 @@ inline void apply_setting(google::protobuf::Message& message, const std::string&
   set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
 }
 
-/// Whether a setting is about what a file of its own describes.
+/// Returns whether a setting affects the content of a separate file.
 inline bool concerns_named_file(const std::string& setting) {
   return setting.starts_with("scene.") || setting.starts_with("robot.");
 }
 
-/// The file, over it the profile, over it the settings; what these name is read before the settings that
-/// change what it says. `read` gets the files. Throws ConfigError.
+/// Applies the file, then the profile, then the settings; files that these name are read before the settings
+/// that override their content. `read` receives the files. Throws ConfigError.
 template <class Message>
 Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
   Message message;
@@ -134,12 +135,12 @@ Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) 
     if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
   }
   if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
-    resolve_files(message, search, nullptr);  // once more for what the settings changed
+    resolve_files(message, search, nullptr);  // again, for files that the settings changed
   validate(message);
   return message;
 }
 
-/// "robot_file=/a scene_file=/b", each on a line of its own behind "# " for --check.
+/// "robot_file=/a scene_file=/b", each on its own line after "# " for --check.
 inline std::string files_text(const std::vector<FileRead>& read, const std::string& before,
                               const std::string& behind) {
   std::string text;
@@ -147,7 +148,7 @@ inline std::string files_text(const std::vector<FileRead>& read, const std::stri
   return text;
 }
 
-/// Parses the options, runs, and turns exceptions into one sentence on standard error and an exit status.
+/// Parses the options, runs, and converts exceptions to one sentence on standard error and an exit status.
 template <class Run>
 int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
   const auto complain = [&app](const std::exception& e, int status) {

@@ -1,5 +1,5 @@
 #pragma once
-// What was built: version and commit, for whoever reads a recording later.
+// Version and commit of the build, for readers of a recording.
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes of MCAP records: little-endian numbers, texts behind their length. Grows and keeps its memory.
+// Bytes of MCAP records: little-endian numbers, length-prefixed texts. The buffer grows and keeps its memory.
 
 #include <algorithm>
 #include <cstddef>
@@ -40,13 +40,13 @@ class ByteBuffer {
   void add_bytes(std::span<const std::byte> bytes) {
     std::copy(bytes.begin(), bytes.end(), extend(bytes.size()));
   }
-  /// Room for `size` bytes, to be written at once.
+  /// Space for `size` bytes, to be written by the caller.
   std::byte* extend(std::size_t size) {
     bytes_.resize(bytes_.size() + size);
     return bytes_.data() + bytes_.size() - size;
   }
 
-  /// The length of what follows, 4 or 8 bytes, is known at its end only.
+  /// Reserves a length of 4 or 8 bytes that is filled in when the content is complete.
   template <class Length = std::uint32_t>
   std::size_t begin_length() {
     add(Length{0});

@@ -1,5 +1,5 @@
 #pragma once
-// CRC-32 with the polynomial 0xEDB88320 (reflected), as MCAP, zlib and Ethernet have it.
+// CRC-32 with the polynomial 0xEDB88320 (reflected), as in MCAP, zlib and Ethernet.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace longreach {
 
-/// Of `bytes` behind what has the CRC `before`; 0: nothing was before.
+/// CRC of `bytes`, continued from the CRC `before` of preceding data; 0: none.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace longreach

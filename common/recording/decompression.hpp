@@ -1,6 +1,6 @@
 #pragma once
-// Unpacks the chunks of MCAP files that other programs compressed, by the system's libraries libzstd.so.1 and
-// liblz4.so.1, which are loaded when the first such chunk is read. longreach's own recordings need neither.
+// Decompresses chunks of MCAP files written by other programs, with the system libraries libzstd.so.1 and
+// liblz4.so.1, which are loaded on first use. longreach's own recordings are not compressed.
 
 #include <cstdint>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// `how`: "zstd" or "lz4" (the frame format). `size`: of the result, bytes. Throws RecordingError for another
-/// one, for a library that is missing and for bytes that are damaged.
+/// `how`: "zstd" or "lz4" (the frame format). `size`: bytes of the result. Throws RecordingError for another
+/// format, a missing library or corrupted data.
 std::string decompress(std::string_view how, std::string_view bytes, std::uint64_t size);
 
 }  // namespace longreach

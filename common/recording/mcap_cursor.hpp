@@ -1,5 +1,5 @@
 #pragma once
-// Takes numbers and texts from the content of an MCAP record, and never more than there is.
+// Reads numbers and texts from the content of an MCAP record, with bounds checks.
 
 #include <cstdint>
 #include <string>
