@@ -1,10 +1,9 @@
 #pragma once
-// Reads the messages of an MCAP file from its start to its end, in the order in which they were written, and
-// needs no summary: a file that was cut ends with the last record that is whole. Lengths are checked before
-// anything is allocated, chunks against their CRC. Chunks that other programs compressed (zstd, lz4) are
-// read, too.
+// Reads the messages of an MCAP file from start to end, in the order in which they were written. It needs no
+// summary: a truncated file ends with its last complete record. Lengths are checked before allocation, chunks
+// against their CRC. Compressed chunks of other programs (zstd, lz4) are supported.
 //
-// Does not handle: attachments (passed over).
+// Attachments are skipped.
 
 #include <cstdint>
 #include <filesystem>
@@ -41,11 +40,11 @@ struct McapMessage {
 
 class McapReader {
  public:
-  /// Throws RecordingError when the file cannot be read or is none.
+  /// Throws RecordingError if the file cannot be read or is not an MCAP file.
   explicit McapReader(const std::filesystem::path& path);
 
-  /// The next message; none: the end, and then whole() tells whether the file was ended properly. Throws
-  /// RecordingError where the file is damaged.
+  /// Returns the next message; none at the end, and whole() then tells whether the file was completed. Throws
+  /// RecordingError if the file is damaged.
   std::optional<McapMessage> next();
   [[nodiscard]] bool whole() const { return whole_; }
 
@@ -59,7 +58,7 @@ class McapReader {
     std::string_view content{};
   };
 
-  /// The next record of the file or of the present chunk; none: there is no whole one any more.
+  /// Returns the next record of the file or of the present chunk; none if there is no further complete one.
   std::optional<Record> next_record();
   std::optional<Record> next_in_chunk();
   void open_chunk(std::string_view content);
@@ -69,17 +68,17 @@ class McapReader {
 
   std::filesystem::path path_;
   std::ifstream file_;
-  std::uint64_t left_ = 0;  // bytes of the file behind what was read
+  std::uint64_t left_ = 0;  // remaining bytes of the file
   std::string buffer_;      // the present record of the file
-  std::string unpacked_;    // the present chunk, when it was compressed
-  std::string_view chunk_;  // what is left of the present chunk, in buffer_ or unpacked_
+  std::string unpacked_;    // the present chunk, if it was compressed
+  std::string_view chunk_;  // remainder of the present chunk, in buffer_ or unpacked_
   bool whole_ = false;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::map<std::string, TextMap> metadata_;
 };
 
-/// What a file holds, from its summary where it has one.
+/// Content of a file, from its summary if it has one.
 struct McapFigures {
   std::uint64_t messages = 0;
   std::uint64_t first_ns = 0, last_ns = 0;  // log times; 0 without messages

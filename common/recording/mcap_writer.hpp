@@ -1,13 +1,13 @@
 #pragma once
-// Writes an MCAP file of protobuf messages that brings its own schemas: header, metadata, chunks with their
-// message indexes, summary with schemas, channels, statistics, chunk and metadata indexes, offsets, footer;
-// all with CRCs, uncompressed.
+// Writes an MCAP file of protobuf messages with their schemas: header, metadata, chunks with their message
+// indexes, summary with schemas, channels, statistics, chunk and metadata indexes, offsets, footer; all with
+// CRCs, uncompressed.
 //
-// Messages gather in a chunk until it is large enough, or flush(): then it goes to the system as one piece,
-// and a file that ends there is whole up to there, only without its summary. finish() writes the summary.
-// Once the file has failed, everything is ignored.
+// Messages are collected in a chunk until it is large enough, or until flush(); the chunk is then written at
+// once. A file that ends there is complete except for its summary, which finish() writes. After a write error
+// all calls have no effect.
 //
-// Does not handle: attachments, compression, other encodings.
+// Attachments, compression and other encodings are not supported.
 
 #include <google/protobuf/message.h>
 
@@ -24,20 +24,20 @@ namespace longreach {
 
 class McapWriter {
  public:
-  /// `file` is empty and outlives the writer. `library` names who writes.
+  /// `file` is empty and outlives the writer. `library` is the name of the writing program.
   McapWriter(RecordingFile& file, const std::string& library);
 
-  /// Before the first message, so that a file that is cut has it.
+  /// Call it before the first message, so that a truncated file contains the metadata.
   void add_metadata(const std::string& name, const TextMap& entries);
   std::uint16_t add_channel(const std::string& topic, const google::protobuf::Descriptor& type);
   void write(std::uint16_t channel, std::uint64_t log_time_ns, const google::protobuf::Message& message);
 
-  /// Ends the chunk, if it holds something.
+  /// Ends the present chunk, unless it is empty.
   void flush();
   /// Ends the file.
   void finish();
 
-  /// With what waits in the chunk, without the summary.
+  /// Includes the present chunk, but not the summary.
   [[nodiscard]] std::uint64_t size() const { return file_.size() + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages() const { return messages_; }
 
@@ -67,7 +67,7 @@ class McapWriter {
     std::uint64_t offset = 0, length = 0;
   };
 
-  /// Puts what was gathered in `out_` into the file.
+  /// Writes the content of `out_` to the file.
   void put();
   std::uint16_t schema_of(const google::protobuf::Descriptor& type);
   void add_schema(ByteBuffer& to, std::uint16_t id) const;
@@ -82,7 +82,7 @@ class McapWriter {
   ByteBuffer out_;
   ByteBuffer chunk_;
   Span chunk_span_{}, span_{};
-  std::vector<Schema> schemas_;    // id: place + 1
+  std::vector<Schema> schemas_;    // id: index + 1
   std::vector<Channel> channels_;  // likewise
   std::vector<ChunkPlace> chunks_;
   std::vector<MetadataPlace> metadata_;

@@ -1,6 +1,6 @@
 #pragma once
-// While one exists, protobuf prints nothing to standard error: what it finds in a damaged file is said in the
-// error of the caller. For programs that read files, in one thread.
+// While an instance exists, protobuf prints nothing to standard error; the caller reports errors of a damaged
+// file. For programs that read files in one thread.
 
 #include <google/protobuf/stubs/logging.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Between a side's loop and the recorder: what the loop writes down in its ticks, and what other threads add
-// beside it (configurations, events). The loop's half is in the tape of each side (master_tape, slave_tape);
-// here is what both have in common, for the threads around the loop.
+// Buffer between the loop of a side and the recorder: records that the loop adds in its ticks, and records
+// that other threads add (configurations, events). The loop's part is specific to each side
+// (master_record_buffer, slave_record_buffer); this class has the common part for the other threads.
 
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace longreach {
 
-/// Now and then: the link and the loop, as status shows them.
+/// Periodic sample of the link and the loop, as in status.
 struct LinkSample {
   Time now{};
   LinkFigures link{};
@@ -28,24 +28,24 @@ struct LinkSample {
 
 class RecordBuffer {
  public:
-  /// `side`: master or slave, the first part of all topics. `to_log_time`: from the loop's clock to the
-  /// file's.
+  /// `side`: master or slave, the first part of all topics. `to_log_time`: offset from the clock of the loop
+  /// to that of the file.
   RecordBuffer(std::string side, Duration to_log_time);
   virtual ~RecordBuffer() = default;
   RecordBuffer(const RecordBuffer&) = delete;
   RecordBuffer& operator=(const RecordBuffer&) = delete;
 
-  /// Any thread but the loop's. A configuration is added before the loop gets it.
+  /// For all threads except the loop. A configuration is added before the loop receives it.
   void add_config(Time now, std::uint32_t number, std::string text);
   void add_event(Time now, std::string text);
 
-  /// Recorder: once, before the first drain.
+  /// Recorder: call once, before the first drain.
   void declare(McapWriter& writer);
-  /// Recorder: writes all that has been gathered.
+  /// Recorder: writes all collected records.
   void drain(McapWriter& writer);
-  /// Recorder: nothing is taken or kept any more.
+  /// Recorder: stops collecting records.
   void close();
-  /// Configurations and events that wait for the recorder.
+  /// Number of configurations and events that wait for the recorder.
   [[nodiscard]] std::size_t notes() const {
     const std::lock_guard lock(noting_);
     return notes_.size();
@@ -78,17 +78,17 @@ class RecordBuffer {
   std::string side_;
   Duration to_log_time_;
   std::atomic<bool> open_{true};
-  std::atomic<std::uint64_t> dropped_{0};  // written by the loop alone
-  mutable std::mutex noting_;              // never the loop
+  std::atomic<std::uint64_t> dropped_{0};  // written by the loop only
+  mutable std::mutex noting_;              // never locked by the loop
   std::vector<Note> notes_;
   std::uint16_t config_channel_ = 0, event_channel_ = 0, link_channel_ = 0;
   recording::Link link_;
 };
 
-/// A configuration as a recording keeps it: what is set, every digit.
+/// Text of a configuration for a recording: the fields that are set, with all digits.
 std::string recorded_text(const google::protobuf::Message& config);
 
-/// From CLOCK_MONOTONIC to Unix time, now.
+/// Present offset from CLOCK_MONOTONIC to Unix time.
 Duration monotonic_to_unix();
 
 }  // namespace longreach

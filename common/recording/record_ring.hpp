@@ -1,7 +1,7 @@
 #pragma once
-// A bounded queue from one writing thread to one reading thread, over memory that is allocated once: neither
-// waits for the other, locks or calls the system. The writer asks for room, fills slots and publishes them;
-// what there is no room for it has to drop.
+// A bounded queue from one writing thread to one reading thread, in memory that is allocated once. Neither
+// thread waits for the other, locks or makes system calls. The writer checks for space, fills slots and
+// publishes them; it must drop records without space.
 
 #include <atomic>
 #include <cstddef>
@@ -17,20 +17,20 @@ class RecordRing {
  public:
   explicit RecordRing(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
 
-  /// Writer: slots that are free. At least so many stay free until the next publish().
+  /// Writer: number of free slots. At least this number stays free until the next publish().
   [[nodiscard]] std::size_t room() const {
     return slots_.size() - static_cast<std::size_t>(written_.load(std::memory_order_relaxed) + pending_ -
                                                     read_.load(std::memory_order_acquire));
   }
-  /// Writer: the next free slot; there must be room.
+  /// Writer: returns the next free slot; there must be space.
   T& next() { return slots_[(written_.load(std::memory_order_relaxed) + pending_++) % slots_.size()]; }
-  /// Writer: hands over what was filled since the last call.
+  /// Writer: publishes the slots filled since the last call.
   void publish() {
     written_.store(written_.load(std::memory_order_relaxed) + pending_, std::memory_order_release);
     pending_ = 0;
   }
 
-  /// Reader: the oldest record, or none.
+  /// Reader: returns the oldest record, or none.
   [[nodiscard]] const T* front() const {
     const std::uint64_t at = read_.load(std::memory_order_relaxed);
     return at == written_.load(std::memory_order_acquire) ? nullptr : &slots_[at % slots_.size()];
@@ -42,7 +42,7 @@ class RecordRing {
  private:
   std::vector<T> slots_;
   alignas(64) std::atomic<std::uint64_t> written_{0};
-  std::uint64_t pending_ = 0;  // the writer's: filled, not yet published
+  std::uint64_t pending_ = 0;  // of the writer: filled, not yet published
   alignas(64) std::atomic<std::uint64_t> read_{0};
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-// The values of a recording (proto/recording.proto): structs of the lower layers to messages and back,
-// exactly: every double bit for bit, every instant to the nanosecond. Reading throws RecordingError for what
-// no struct can hold.
+// Values of a recording (proto/recording.proto): converts structs of the lower layers to messages and back
+// exactly: every double bit for bit, every instant to the nanosecond. Reading throws RecordingError for
+// values that the struct cannot represent.
 //
-// Whoever gives a recorded struct a field has to record it, too: that is what the sizes are asserted for.
+// A new field of a recorded struct must be recorded too; the assertions of the sizes check that.
 
 #include <string>
 #include <type_traits>
@@ -19,14 +19,14 @@
 
 namespace longreach {
 
-/// An enumeration from zero to `last`.
+/// Enumeration with values from zero to `last`.
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))
     throw RecordingError("a recorded value is not in its enumeration: " + std::to_string(value));
   return static_cast<Enum>(value);
 }
-/// The schema's enumerations have the numbers of the structs'.
+/// The enumerations of the schema have the same numbers as those of the structs.
 template <class RecordedEnum, class Enum>
 RecordedEnum to_recorded(Enum value) {
   return static_cast<RecordedEnum>(static_cast<int>(value));
@@ -45,7 +45,7 @@ void write(const MotionCommand& command, recording::MotionCommand& out);
 void write(const StiffnessReport& report, recording::StiffnessReport& out);
 void write(const Telemetry& telemetry, recording::Telemetry& out);
 
-/// Six numbers: an array or a vector of Eigen.
+/// Six numbers: an array or an Eigen vector.
 template <class Six>
 void write_joints(const Six& joints, recording::Joints& out) {
   out.set_joint1(joints[0]);

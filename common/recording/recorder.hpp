@@ -1,8 +1,7 @@
 #pragma once
-// Writes a tape into a file, in a thread of its own, until it is told to stop, the file has its largest size
-// or the disk is full. It polls the tape: the loop neither waits for it nor wakes it. What is older than a
-// second is with the system, so a program that is killed leaves a recording that lacks its last second at
-// most.
+// Writes a record buffer to a file in its own thread, until it is stopped, the file reaches its maximum size
+// or the disk is full. It polls the buffer: the loop neither waits for it nor wakes it. Data older than a
+// second has been passed to the system, so the recording of a killed program lacks at most its last second.
 
 #include <condition_variable>
 #include <cstdint>
@@ -20,29 +19,29 @@ namespace longreach {
 struct RecordingStatus {
   std::string file;
   bool running = false;
-  bool failed = false;      // it ended because it had to
-  std::string ended;        // why it ended, in words; empty: it runs
-  std::uint64_t bytes = 0;  // of the file so far
-  double seconds = 0.0;     // since its start; once ended, until then
+  bool failed = false;      // it ended because of an error
+  std::string ended;        // why it ended; empty: it is running
+  std::uint64_t bytes = 0;  // size of the file so far
+  double seconds = 0.0;     // since its start; after the end, the total
   std::uint64_t ticks_not_recorded = 0;
 };
 
 struct RecorderOptions {
   std::filesystem::path file;
   std::uint64_t max_bytes = 0;
-  TextMap facts{};                                      // what the file says about itself
+  TextMap facts{};                                      // metadata of the file
   std::function<void(const RecordingStatus&)> ended{};  // called once, in the recorder's thread
 };
 
 class Recorder {
  public:
-  /// Makes the file, with what it says about itself. Throws RecordingError. `tape` outlives the recorder.
+  /// Creates the file with its metadata. Throws RecordingError. `record_buffer` outlives the recorder.
   Recorder(const RecorderOptions& options, RecordBuffer& record_buffer);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Writes what the tape still holds and ends the file.
+  /// Writes the remaining records and ends the file.
   void stop();
   [[nodiscard]] RecordingStatus status() const;
 
@@ -50,7 +49,7 @@ class Recorder {
   using Clock = std::chrono::steady_clock;
 
   void run();
-  /// Why it has to end now; empty: it goes on.
+  /// Returns why it must end now; empty: it continues.
   [[nodiscard]] std::string trouble() const;
   void publish();
   void end(const std::string& why, bool failed);
@@ -60,7 +59,7 @@ class Recorder {
   RecordingFile file_;
   McapWriter writer_;
   Clock::time_point began_ = Clock::now();
-  mutable std::mutex mutex_;  // never the loop
+  mutable std::mutex mutex_;  // never locked by the loop
   std::condition_variable wake_;
   bool stopping_ = false;
   RecordingStatus status_{};

@@ -1,5 +1,5 @@
 #pragma once
-// A recording that cannot be written or read: one sentence that names the file and says why.
+// Error of writing or reading a recording: one sentence that names the file and the reason.
 
 #include <stdexcept>
 

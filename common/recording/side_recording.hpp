@@ -1,6 +1,6 @@
 #pragma once
-// The recordings of a side, one at a time: keeps tape and recorder, and hands the tape to the loop. Called by
-// one thread at a time, which is not the loop's; status() by any but the loop's.
+// The recordings of a side, one at a time: owns record buffer and recorder, and passes the buffer to the
+// loop. Called by one thread at a time other than the loop; status() by any thread except the loop.
 
 #include <chrono>
 #include <functional>
@@ -19,12 +19,12 @@
 
 namespace longreach {
 
-/// The present instant of the loop's clock.
+/// The present time of the loop's clock.
 inline Time recording_now() { return boottime_now(); }
 
-/// Where a side records, and what its seed was.
+/// Folder of the recordings of a side, and its seed.
 struct RecordingPlace {
-  std::string folder{};  // empty: the usual one
+  std::string folder{};  // empty: the default folder
   std::uint64_t seed = 0;
 };
 
@@ -43,7 +43,7 @@ class SideRecording {
   SideRecording(std::string side, std::function<void(const RecordingStatus&)> ended)
       : side_(std::move(side)), ended_(std::move(ended)) {}
 
-  /// attach(tape) hands it to the loop, false: the loop did not answer. Throws RecordingError.
+  /// attach(buffer) passes the buffer to the loop; false: the loop did not respond. Throws RecordingError.
   template <class Attach>
   void start(const Request& request, const Attach& attach) {
     if (status().running)
@@ -63,7 +63,7 @@ class SideRecording {
     }
   }
 
-  /// Throws RecordingError when nothing is being recorded.
+  /// Throws RecordingError if nothing is being recorded.
   template <class Attach>
   RecordingStatus stop(const Attach& attach) {
     const RecordingStatus before = status();
@@ -82,7 +82,7 @@ class SideRecording {
     if (record_buffer_) record_buffer_->add_event(recording_now(), text);
   }
 
-  /// Of the present recording or the last one; none: no file.
+  /// Status of the present or last recording; without a recording, the file is empty.
   [[nodiscard]] RecordingStatus status() const {
     const std::lock_guard lock(mutex_);
     return recorder_ ? recorder_->status() : RecordingStatus{};
@@ -108,22 +108,22 @@ class SideRecording {
             {"began", recording_name_now()}};
   }
 
-  /// The ones before end outside of the lock: that may take as long as the disk does.
+  /// Previous recordings are ended outside of the lock, since this may take as long as the disk needs.
   void keep(std::unique_ptr<RecordType> record_buffer, std::unique_ptr<Recorder> recorder) {
     {
       const std::lock_guard lock(mutex_);
       recorder_.swap(recorder);
       record_buffer_.swap(record_buffer);
     }
-    recorder.reset();  // before its tape
+    recorder.reset();  // before its buffer
   }
   void drop() { keep(nullptr, nullptr); }
 
   std::string side_;
   std::function<void(const RecordingStatus&)> ended_;
-  mutable std::mutex mutex_;  // of the pointers; never the loop
+  mutable std::mutex mutex_;  // for the pointers; never locked by the loop
   std::unique_ptr<RecordType> record_buffer_;
-  std::unique_ptr<Recorder> recorder_;  // ends before its tape
+  std::unique_ptr<Recorder> recorder_;  // ends before its buffer
 };
 
 }  // namespace longreach

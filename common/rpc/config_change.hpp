@@ -1,6 +1,7 @@
 #pragma once
-// From assignments by path to a complete, valid configuration, or why not. What may change when is decided by
-// the schema; whether the robot is engaged is known only to the loop, at the tick that takes the change.
+// Turns assignments by path into a complete, valid configuration, or a reason for refusal. The schema defines
+// what may change when; only the loop knows whether the robot is engaged, in the tick that applies the
+// change.
 
 #include <chrono>
 #include <memory>
@@ -16,31 +17,32 @@ namespace longreach {
 
 struct ConfigChange {
   std::unique_ptr<google::protobuf::Message> after;
-  std::string not_while_engaged;  // fields that forbid the change while engaged, in words; empty: none
+  std::string not_while_engaged;  // fields that forbid the change while engaged; empty: none
 };
 
 struct Configured {
-  const google::protobuf::Message& start;  // what the side was started with: the ceiling of its limits
+  /// the configuration at the start of the side: the bounds of its limits
+  const google::protobuf::Message& start;
   const google::protobuf::Message& present;
 };
 
-/// Most that one call may bring, so that it is worked out in a moment.
+/// Maximum number of assignments in one call, so that it is processed quickly.
 inline constexpr std::size_t kAssignmentsMax = 256;
 inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
 
-/// Nothing has changed yet: `after` is a copy of the present configuration with the assignments.
+/// Does not apply the change: `after` is a copy of the present configuration with the assignments.
 std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const Assignments& assignments);
 
-enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master is there
+enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master has control
 
-/// Asks the loop to stop.
+/// Requests the loop to stop.
 inline std::optional<Refusal> ask(StopLevel& stops) {
   if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
   return Refusal{Refusal::Kind::kUnavailable,
                  "the control loop did not respond within 1 s; it stops as soon as it resumes"};
 }
 
-/// Hands a command to the loop. `not_while_engaged`: of the change, for the refusal.
+/// Passes a command to the loop. `not_while_engaged`: that of the change, for the refusal.
 template <class Command>
 std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command command,
                             const std::string& not_while_engaged = {}) {

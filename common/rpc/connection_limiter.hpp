@@ -1,10 +1,10 @@
 #pragma once
-// Accepts the connections of a server and lets in those that say something. One that says nothing costs a
-// descriptor and no more: it is closed after kSilent, or when there are kSilentMax younger ones or no
-// descriptor is left. At most kInsideMax are inside at once, never more than half of the program's
-// descriptors, and half of them of one host, so that no other host can shut this one out. Where there is no
-// room, the oldest that has not even shown a certificate gives way. Who is closed is noted as refused
-// (rpc_refusals). A thread of its own.
+// Accepts the connections of a server and admits those that send data. A silent connection only costs a
+// descriptor: it is closed after kSilent, or if there are kSilentMax newer ones or no descriptor is left. At
+// most kInsideMax are admitted at once, never more than half of the descriptors of the program, and at most
+// half of them from one host, so that no host can exclude another one. If there is no room, the oldest
+// connection without a verified certificate is closed. Closed connections are counted as refused
+// (rpc_refusals). Uses its own thread.
 
 #include <sys/types.h>
 
@@ -19,10 +19,10 @@
 
 namespace longreach {
 
-/// A socket that listens, closed with the object.
+/// A listening socket, closed with the object.
 class ListeningSocket {
  public:
-  /// `listen`: address:port; port 0: any free one. Invalid where it cannot be had.
+  /// `listen`: address:port; port 0: any free one. Invalid if the socket cannot be opened.
   explicit ListeningSocket(const std::string& listen);
   ~ListeningSocket();
   ListeningSocket(const ListeningSocket&) = delete;
@@ -43,7 +43,7 @@ class ConnectionLimiter {
   static constexpr std::size_t kInsideMax = 256;
   static constexpr std::chrono::seconds kSilent{10};
 
-  /// `let_in` takes a connection over and closes it when it ends. `socket` must outlive this.
+  /// `let_in` takes ownership of a connection and closes it at its end. `socket` must outlive this object.
   ConnectionLimiter(const ListeningSocket& socket, std::function<void(int)> let_in);
   ~ConnectionLimiter();
   ConnectionLimiter(const ConnectionLimiter&) = delete;
@@ -54,11 +54,11 @@ class ConnectionLimiter {
     int fd = -1;
     Clock::time_point since{};
   };
-  /// The descriptor is somebody else's by now; its socket's number tells whether it is open still.
+  /// The descriptor now belongs to other code; the number of its socket tells whether it is still open.
   struct Inside {
     int fd = -1;
     ino_t socket = 0;
-    std::array<unsigned char, 16> host{};  // IPv6, or IPv4 in front
+    std::array<unsigned char, 16> host{};  // IPv6, or IPv4 at the front
   };
 
   void run();
@@ -77,7 +77,7 @@ class ConnectionLimiter {
   const std::function<void(int)> let_in_;
   std::deque<Silent> silent_;  // oldest first
   std::vector<Inside> inside_;
-  std::size_t most_inside_ = 0;  // since memory was given back
+  std::size_t most_inside_ = 0;  // since memory was last released
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

@@ -1,8 +1,8 @@
 #pragma once
-// What a side lets the RPC service do. One implementation a side; called from RPC threads: stop() and what
-// only looks (status, config, start_config, link) at any time and soon, whatever else is under way; the rest
-// one call at a time. A call that changes something returns nothing when it was carried out as a whole, or
-// why it was refused; then nothing has changed.
+// Operations of a side for the RPC service, with one implementation per side, called from RPC threads. stop()
+// and the queries (status, config, start_config, link) may be called at any time and return quickly; the
+// other operations are called one at a time. An operation that changes something returns nothing if it was
+// carried out completely, or the reason for its refusal; then nothing has changed.
 
 #include <memory>
 #include <optional>
@@ -21,10 +21,10 @@ struct Refusal {
     kInvalid,
     kPrecondition,
     kUnavailable
-  };  // bad value; not now or not here; no answer in time
+  };  // invalid value; not possible in this state or at this side; no response in time
   Kind kind = Kind::kInvalid;
-  std::string message;   // one sentence: which field, why, what to do
-  std::string holder{};  // address of the master that has the robot, where that is why
+  std::string message;   // one sentence: field, reason, remedy
+  std::string holder{};  // address of the master that has control of the robot, if this is the reason
 };
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;  // field path, value as text
@@ -36,21 +36,21 @@ class ControlBackend {
   virtual proto::Status status() = 0;
   /// The effective configuration (MasterConfig or SlaveConfig).
   virtual std::shared_ptr<const google::protobuf::Message> config() = 0;
-  /// What the side was started with: the ceiling of its limits.
+  /// The configuration at the start of the side: the bounds of its limits.
   virtual std::shared_ptr<const google::protobuf::Message> start_config() = 0;
   virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
   virtual proto::Impairment link() = 0;
-  /// The complete, validated impairment of what this side receives.
+  /// Sets the complete, validated impairment of the data that this side receives.
   virtual std::optional<Refusal> set_link(const proto::Impairment& impairment) = 0;
   virtual std::optional<Refusal> set_mode(proto::Mapping::Mode mode) = 0;
   virtual std::optional<Refusal> set_scale(double scale) = 0;
   virtual std::optional<Refusal> engage() = 0;
   virtual std::optional<Refusal> stop() = 0;
-  /// `caller`: address of the master that asks.
+  /// `caller`: address of the requesting master.
   virtual std::variant<proto::OpenSessionResponse, Refusal> open_session(
       const proto::OpenSessionRequest& request, const std::string& caller) = 0;
   virtual std::optional<Refusal> close_session(std::uint64_t session) = 0;
-  /// Return the file, with how much is in it at the end.
+  /// Return the file and the amount of recorded data at the end.
   virtual std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) = 0;
   virtual std::variant<std::string, Refusal> stop_recording() = 0;
 };

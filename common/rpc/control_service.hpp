@@ -1,10 +1,10 @@
 #pragma once
-// The calls of proto/control.proto without their transport: checks what was asked, merges, and passes whole,
-// valid requests to the side's backend. Changes go one at a time, so that one of the link reads, merges and
-// writes in one go; stop and status wait for none of them. A refused call has changed nothing. Callable from
-// any thread.
+// The calls of proto/control.proto without their transport: validates a request, merges it, and passes
+// complete, valid requests to the backend of the side. Changes are processed one at a time, so that a change
+// of the link is read, merged and written atomically; stop and status do not wait for them. A refused call
+// changes nothing. Callable from any thread.
 //
-// Does not handle: field paths of the configuration (the backend's), pacing of Watch (RpcServer's).
+// Field paths of the configuration are handled by the backend, the rate of Watch by RpcServer.
 
 #include <atomic>
 #include <chrono>
@@ -16,9 +16,9 @@
 
 namespace longreach {
 
-/// The impairment that acts like `link` as seen `elapsed_s` after it was set: the drift has gone into the
-/// delay, the windows of step and blackout have come nearer or are over. So that changing one field does not
-/// repeat a blackout. A periodic blackout that is under way ends; the next one comes when it was due.
+/// Returns the impairment that is equivalent to `link` after `elapsed_s`: the drift is included in the delay,
+/// and the windows of step and blackout are shifted or have ended. Changing one field therefore does not
+/// repeat a blackout. A periodic blackout in progress ends; the next one comes when it is due.
 proto::Impairment continued(proto::Impairment link, double elapsed_s);
 
 class ControlService {
@@ -32,7 +32,7 @@ class ControlService {
   proto::Status status();
   Result<proto::GetConfigResponse> get_config(const proto::GetConfigRequest& request);
   Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
-  /// As it acts from now on: see continued().
+  /// The impairment from now on: see continued().
   proto::Impairment get_link();
   Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
   Result<proto::Outcome> set_mode(const proto::SetModeRequest& request);
@@ -53,7 +53,7 @@ class ControlService {
   ControlBackend& backend_;
   std::mutex changing_;
   std::mutex printing_;               // one configuration at a time
-  std::atomic<Instant> link_set_at_;  // when the windows of the present impairment began to count
+  std::atomic<Instant> link_set_at_;  // when the windows of the present impairment started
 };
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// longreach-slave --pair: prints a token and waits for the host that joins the site with it. A program run of
-// its own, beside the slave that drives the robot or without it; the site folder is all that they share.
+// longreach-slave --pair: prints a token and waits for the host that joins the site with it. It is a separate
+// run of the program, with or without a running slave; they share only the site folder.
 
 #include <atomic>
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// Until somebody is paired, the token is void, or `stop`. Each try is logged, the token is not. Returns
-/// whether somebody was paired. Throws SiteError, or std::runtime_error when it cannot listen.
+/// Runs until a host is paired, the token is invalid, or `stop`. Logs each attempt, but not the token.
+/// Returns whether a host was paired. Throws SiteError, or std::runtime_error if it cannot listen.
 bool run_pairing_desk(const std::filesystem::path& site, const std::string& listen,
                       const std::atomic<bool>& stop);
 

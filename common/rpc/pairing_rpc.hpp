@@ -1,6 +1,6 @@
 #pragma once
-// The transport of pairing: a server of its own, open for as long as a token is, and the call of the host
-// that joins. In clear: common/site/pairing says why that is enough.
+// Transport of pairing: a separate server that is open while the token is valid, and the call of the joining
+// host. Not encrypted; common/site/pairing explains why that is sufficient.
 
 #include <functional>
 #include <memory>
@@ -14,19 +14,19 @@ inline constexpr std::string_view kPairingAddress = "0.0.0.0:47021";
 
 class PairingServer {
  public:
-  /// Somebody tried: his address, and why he was refused; empty: he is paired. Called in the server's
-  /// threads, one call at a time.
+  /// Called for each attempt with the address and the reason for refusal; empty: the host is paired. Called
+  /// in the server's threads, one call at a time.
   using Tried = std::function<void(const std::string& from, const std::string& refusal)>;
 
   /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence.
   PairingServer(const std::string& listen, PairingOffer& offer, Tried tried);
-  /// The answer that is under way still leaves.
+  /// Completes an answer in progress.
   ~PairingServer();
   PairingServer(const PairingServer&) = delete;
   PairingServer& operator=(const PairingServer&) = delete;
 
   [[nodiscard]] const std::string& address() const { return address_; }
-  /// Of the offer, while it is served.
+  /// State of the offer while it is served.
   [[nodiscard]] PairingOffer::State state() const;
 
  private:
@@ -35,8 +35,8 @@ class PairingServer {
   std::string address_;
 };
 
-/// Asks the pairing server at `address` to let `request` in. Throws PairingError: refused, no answer within
-/// `timeout_s`, or what answers is no slave that pairs.
+/// Sends `request` to the pairing server at `address`. Throws PairingError: refused, no answer within
+/// `timeout_s`, or the program there is not a pairing slave.
 proto::PairingMessage ask_to_join(const std::string& address, const PairingRequest& request,
                                   double timeout_s);
 

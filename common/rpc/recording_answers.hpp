@@ -1,5 +1,6 @@
 #pragma once
-// What RPC and log say of a side's recording, and its start and stop as the backend of a side answers them.
+// Status of the recording of a side for RPC and log, and start and stop of a recording for the backend of a
+// side.
 
 #include <string>
 #include <variant>
@@ -9,11 +10,11 @@
 
 namespace longreach {
 
-/// Nothing is filled in while there has been no recording.
+/// Leaves the status empty if there has been no recording.
 void fill(proto::Status& status, const RecordingStatus& recording);
-/// "FILE: 12.3 s, 4.5 MB", and how many ticks it lacks.
+/// "FILE: 12.3 s, 4.5 MB", and the number of missing ticks.
 std::string in_words(const RecordingStatus& recording);
-/// Called by the recorder: why it ended, also when that was asked for.
+/// Called by the recorder with the reason for the end, also after a requested stop.
 void log_end(const RecordingStatus& recording);
 void log_start(const RecordingStatus& recording);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A gRPC connection to a side, as every client of ours makes it: straight, no proxy; patient enough for a
-// link of seconds, where connecting takes several round trips; quick to find a side that has come back.
+// gRPC connection of a client to a side: direct, without a proxy; with timeouts for a link of seconds, where
+// connecting takes several round trips; with fast reconnection to a restarted side.
 
 #include <grpcpp/channel.h>
 #include <grpcpp/support/status.h>
@@ -14,17 +14,17 @@
 namespace longreach {
 
 /// `address`: address:port of the RPC server of `side`. Does not wait: the first call connects. Throws
-/// std::runtime_error for a connection in clear that would leave this machine.
+/// std::runtime_error for an unencrypted connection to another machine.
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security);
 
-/// To wherever, in clear: for pairing alone, which protects itself.
+/// Unencrypted connection to any address: for pairing only, which has its own protection.
 std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
 
-/// Whether a call failed because what answers has another role of the same site.
+/// Returns whether a call failed because the program there has another role of the same site.
 bool other_role(const grpc::Status& status);
-/// Whether a call failed because one of the two does not trust the other's certificate; kMistrust says what
-/// to do.
+/// Returns whether a call failed because one side does not trust the certificate of the other; kMistrust has
+/// the remedy.
 bool distrusted(const grpc::Status& status);
 inline constexpr std::string_view kMistrust =
     "does not trust this program's certificate, or has a certificate of another site; use the same site "

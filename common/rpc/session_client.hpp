@@ -1,8 +1,8 @@
 #pragma once
-// Keeps the master in a session with its slave: asks for one at the start, and again when the slave has been
-// silent, since it may have been restarted. A thread of its own: the loop never waits for it. A session that
-// the slave still knows is kept. After a failure it asks again, after 0.1 s at first and 2 s at last, until
-// it is ended. A robot that was taken from it is never taken back: it waits until that one returns it.
+// Keeps the master in a session with its slave: requests one at the start, and again if the slave was silent,
+// since it may have been restarted. Uses its own thread: the loop never waits for it. A session that the
+// slave still knows is kept. After a failure it retries after 0.1 s, later up to 2 s, until it is ended. If
+// another master has taken control of the robot, it waits until that master returns it.
 
 #include <chrono>
 #include <condition_variable>
@@ -23,30 +23,30 @@ namespace longreach {
 
 class SessionClient {
  public:
-  /// What the loop knows.
+  /// State of the loop.
   struct Present {
     std::uint64_t session = 0;  // 0: none
-    double silence_s = 0.0;     // since the slave was heard in it; infinite: never
-    std::string slave{};        // where datagrams are sent to
-    double delay_s = 0.0;       // that is artificial, there and back: RPC knows nothing of it
+    double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite: none
+    std::string slave{};        // destination of datagrams
+    double delay_s = 0.0;       // artificial round-trip delay, which RPC does not have
   };
   using Presence = std::function<Present()>;
-  /// Hands a session to the loop; false: it did not take it.
+  /// Passes a session to the loop; false: the loop did not accept it.
   using Adopt = std::function<bool(const Session&)>;
 
-  /// `address`: of the slave's RPC server. Both functions are called in the seeker's thread.
-  /// `take`: once, the robot is taken from a master that has it. `send_hz`: of this master.
+  /// `address`: address of the slave's RPC server. Both functions are called in the thread of this object.
+  /// `take`: once, take control from another master. `send_hz`: rate of this master.
   SessionClient(std::string address, const RpcSecurity& security, bool take, double send_hz,
                 Presence presence, Adopt adopt);
-  /// Returns the robot, which takes 2 s at most. Ends a call that is under way.
+  /// Returns the robot, within 2 s. Cancels a call in progress.
   ~SessionClient();
   SessionClient(const SessionClient&) = delete;
   SessionClient& operator=(const SessionClient&) = delete;
 
-  /// Why there is no session, or no datagram of it comes back: one sentence that names the slave's address
-  /// and what to do. Empty: there is one, or the first answer is awaited.
+  /// Returns why there is no session, or why none of its datagrams arrives: one sentence with the address of
+  /// the slave and a remedy. Empty: there is a session, or the first answer is pending.
   [[nodiscard]] std::string trouble() const;
-  /// Address of the master that has taken the robot from this one. Empty: it has it, or never had.
+  /// Address of the master that has taken control of the robot. Empty: this master has control, or never had.
   [[nodiscard]] std::string taken_by() const;
 
  private:
@@ -66,8 +66,8 @@ class SessionClient {
   bool ended_ = false;
   bool take_;
   const double send_hz_;
-  grpc::ClientContext* call_ = nullptr;  // under way
-  // Of this thread: when the session was adopted, and how long a call takes.
+  grpc::ClientContext* call_ = nullptr;  // in progress
+  // Used by this thread only: when the session was adopted, and the duration of a call.
   std::chrono::steady_clock::time_point adopted_at_{};
   std::chrono::steady_clock::duration call_took_{};
   std::string trouble_;
@@ -75,7 +75,7 @@ class SessionClient {
   std::thread thread_;
 };
 
-/// Where the slave's RPC server listens: `slave_rpc`, or where that is empty its usual port at the address of
+/// Address of the slave's RPC server: `slave_rpc`, or if that is empty the default port at the address of
 /// `slave`.
 std::string slave_rpc_address(const std::string& slave, const std::string& slave_rpc);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The configuration of a side, as its RPC threads share it: what it was started with, and the present one,
-// which is replaced as a whole. Whoever reads waits for no change that is being worked out.
+// The configuration of a side for its RPC threads: the one at the start, and the present one, which is
+// replaced as a whole. Readers do not wait for a change in progress.
 
 #include <memory>
 #include <mutex>
@@ -27,7 +27,7 @@ class SideConfig {
 
  private:
   const std::shared_ptr<const Config> start_;
-  mutable std::mutex mutex_;  // of the pointer
+  mutable std::mutex mutex_;  // for the pointer
   std::shared_ptr<const Config> present_;
 };
 

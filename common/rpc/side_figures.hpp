@@ -1,5 +1,6 @@
 #pragma once
-// What both sides' loops publish besides their view: the link, the loop and what was dropped. Plain values.
+// Statistics that the loops of both sides publish besides their view: link, loop and dropped datagrams. Plain
+// values.
 
 #include "common/loop/loop_figures.hpp"
 #include "common/net/udp_channel.hpp"
@@ -16,15 +17,15 @@ struct SideFigures {
   LoopFigures loop{};
   std::uint64_t session = 0;        // 0: none yet
   std::uint32_t peer_restarts = 0;  // sessions after the first
-  std::uint64_t unknown_peers = 0;  // datagrams from other addresses than the peer's
+  std::uint64_t unknown_peers = 0;  // datagrams from addresses other than the peer's
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 
-/// What a recording keeps of them.
+/// Values for a recording.
 LinkSample link_sample(Time now, const SideFigures& figures);
 
-/// Keeps the figures of a side. One tick costs a few copies; the figures of the link, which sort a window,
-/// are taken anew twenty times a second.
+/// Maintains the statistics of a side. A tick costs a few copies; the statistics of the link, which sort a
+/// window, are computed twenty times a second.
 class SideObserver {
  public:
   const SideFigures& observe(Time now, Port& port, const UdpChannel& channel, const LoopFigures& loop);

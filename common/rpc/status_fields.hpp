@@ -18,21 +18,21 @@ namespace longreach {
 
 std::string_view to_string(SafetyState state);  // as in proto/control: Idle, Observing, ...
 std::string_view to_string(HoldCause cause);    // its name
-std::string because(const Reason& reason);      // of a joint: for a log line; else empty
+std::string because(const Reason& reason);      // position of a joint for a log line; otherwise empty
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
-/// rejected, and rejected_REASON each.
+/// rejected, and rejected_REASON for each reason.
 void add_counts(proto::Status& status, const RejectionCounts& counts);
 /// ticks, missed_ticks, ticks_late_100ms, lateness_p99_us, lateness_max_us, busy_max_us.
 void add_counts(proto::Status& status, const LoopFigures& loop);
-/// impaired_REASON each: what the artificial impairment did.
+/// impaired_REASON for each effect of the artificial impairment.
 void add_counts(proto::Status& status, const ImpairmentCounts& counts);
-/// adapter_accepted, adapter_malformed, adapter_late, adapter_restarts, adapter_silent_after_us, where there
-/// is an adapter.
+/// adapter_accepted, adapter_malformed, adapter_late, adapter_restarts, adapter_silent_after_us, if there is
+/// an adapter.
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
-/// Names of what is being clamped.
+/// Names of the active limits.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
-/// link, and the counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
+/// Link and counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
 void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);
 
