@@ -1,9 +1,10 @@
 #pragma once
-// Has the delay of a link risen? Compares the median round trip of the last half second with its least since
-// the engagement, which may rise by 1 ms a second at most: whoever holds authentic datagrams back, either
-// way, in a step or a ramp, shows in it. Medians, so that no single datagram, a late tick or a side that
-// stood still sets the least; none is known before datagrams of a quarter of a second have told one. Pure:
-// time comes in. Does not see a delay that was there when the engagement began.
+// Detects an increase of the delay of a link: compares the median round trip of the last half second with its
+// minimum since the engagement, where the minimum may rise by at most 1 ms per second. An attacker that holds
+// back authentic datagrams in either direction, in a step or a ramp, is detected by it. Medians are used, so that
+// a single datagram, a late tick or a stalled side does not set the minimum; it is unknown until a quarter of a
+// second of datagrams has arrived. Pure: the caller supplies the time. A delay that existed when the engagement
+// began is not detected.
 
 #include <cstdint>
 #include <optional>
@@ -18,17 +19,17 @@ class DelayWatch {
  public:
   DelayWatch();
 
-  /// An engagement begins: it accepts the delay that is, and none that comes in the next moment.
+  /// Starts an engagement, which accepts the present delay but no increase from now on.
   void rebase();
-  /// A datagram has told a round trip; below zero: it has not.
+  /// Adds the round trip of a datagram; below zero: unknown.
   void add(Time now, Duration rtt);
-  /// Each tick, after the datagrams. Looks 50 times a second.
+  /// Call it in each tick, after add(). It evaluates 50 times a second.
   void step(Time now);
 
   [[nodiscard]] std::optional<double> median_s() const { return median_s_; }  // of the last half second
   [[nodiscard]] std::optional<double> least_s() const { return least_s_; }    // since the engagement
   [[nodiscard]] bool rose(double bound_s) const {
-    return median_s_ && *median_s_ - *least_s_ > bound_s;  // none without the other
+    return median_s_ && *median_s_ - *least_s_ > bound_s;  // set together
   }
 
  private:

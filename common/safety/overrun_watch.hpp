@@ -1,7 +1,7 @@
 #pragma once
-// Does a loop keep its rate? Not when more than half of the ticks of a second came late by over one period,
-// or not at all. Pure: fed each tick with how many did so far. One stall counts as half a second at most:
-// whether that is too long is the gap timer's to say.
+// Detects a loop that does not keep its rate: more than half of the ticks of a second were late by more than
+// one period, or missed. Pure: updated in each tick with the number of such ticks. One stall counts as half a
+// second at most; the gap timer decides whether a stall is too long.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ class OverrunWatch {
       : half_(static_cast<std::uint64_t>(0.5 * rate_hz)),
         late_(static_cast<std::size_t>(2.0 * rate_hz) + 1) {}
 
-  /// `overdue`: ticks so far that came late by over one period, or not at all.
+  /// `overdue`: number of ticks so far that were late by more than one period, or missed.
   void step(Time now, std::uint64_t overdue) {
     const std::uint64_t more = std::min(overdue - std::min(overdue, overdue_), half_);
     overdue_ = overdue;
@@ -30,7 +30,7 @@ class OverrunWatch {
     late_.push({now, more});
     count_ += more;
   }
-  /// What was late before counts no more.
+  /// Ignores lateness before this call.
   void clear() {
     late_.clear();
     count_ = 0;

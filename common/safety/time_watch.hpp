@@ -1,8 +1,8 @@
 #pragma once
-// What a side knows of time: since its tick before, and on the way of what it hears. Says when it stood still
-// for longer than its gap timer, does not keep its rate, or the delay has risen. A datagram, or an echo, that
-// newer ones have overtaken by more than 0.25 s is of a delay that was: it does not count. Pure: time comes
-// in.
+// Time monitoring of a side: the time since its previous tick, and the delay of received datagrams. Reports a
+// stall longer than the gap timer, a loop that does not keep its rate, and an increased delay. A datagram, or
+// an echo, that newer ones have overtaken by more than 0.25 s reflects a past delay and is ignored. Pure: the
+// caller supplies the time.
 
 #include <algorithm>
 #include <optional>
@@ -18,12 +18,12 @@ class TimeWatch {
  public:
   explicit TimeWatch(double rate_hz) : overrun_(rate_hz) {}
 
-  /// Whether a tick now comes later than the gap timer after the one before.
+  /// Returns whether a tick at `now` is later than the gap timer after the previous one.
   [[nodiscard]] bool stalls(Time now, double gap_s) const {
     return stepped_at_ && to_seconds(now - *stepped_at_) > gap_s;
   }
 
-  /// What has come with this tick; before step().
+  /// Processes the datagrams received with this tick; call it before step().
   template <class Message>
   void receive(Time now, std::span<const Received<Message>> messages) {
     for (const auto& received : messages) {
@@ -33,7 +33,7 @@ class TimeWatch {
       if (!overtaken) delay_.add(now, received.rtt);
     }
   }
-  /// A tick. `overdue`: ticks so far that came late by over one period, or not at all.
+  /// Processes a tick. `overdue`: number of ticks so far that were late by more than one period, or missed.
   void step(Time now, double gap_s, std::uint64_t overdue) {
     stalled_since_ = stalls(now, gap_s) ? stepped_at_ : std::nullopt;
     if (stepped_at_) passed_s_ = to_seconds(now - *stepped_at_);
@@ -42,12 +42,12 @@ class TimeWatch {
     if (stalled_since_) overrun_.clear();
     delay_.step(now);
   }
-  /// An engagement begins: it accepts the delay that is.
+  /// Starts an engagement, which accepts the present delay.
   void rebase() { delay_.rebase(); }
 
-  /// Since the tick before; none at the first.
+  /// Time since the previous tick; none at the first.
   [[nodiscard]] std::optional<double> passed_s() const { return passed_s_; }
-  /// The tick before, where this one came later than the gap timer.
+  /// Time of the previous tick, if this one is later than the gap timer.
   [[nodiscard]] std::optional<Time> stalled_since() const { return stalled_since_; }
   [[nodiscard]] bool overrun() const { return overrun_.overrun(); }
   [[nodiscard]] const DelayWatch& delay() const { return delay_; }
@@ -60,7 +60,7 @@ class TimeWatch {
   std::optional<Time> stepped_at_{};
   std::optional<Time> stalled_since_{};
   std::optional<double> passed_s_{};
-  std::optional<Time> newest_echo_{};  // of what this side has sent
+  std::optional<Time> newest_echo_{};  // echo of the newest datagram that this side has sent
 };
 
 }  // namespace longreach

@@ -1,23 +1,23 @@
 #pragma once
-// Pairing: another host joins the site by a token that the slave prints and a person carries over.
+// Pairing: another host joins the site by a token that the slave prints and a person transfers.
 //
 //   request = its name, certificate requests (PKCS #10) for master and client
 //   answer  = the authority's certificate and those two certificates
 //   tag_q   = HMAC(token; "request" | request)
 //   tag_a   = HMAC(token; "answer" | tag_q | answer)
 //
-// Only the token is secret, and it never crosses the link: private keys are made where they stay, and
-// requests and certificates may be read by anybody. So the connection needs no encryption. Without the token
-// nobody, in the middle or not, can make a request that is signed or an answer that is believed, and nobody
-// can find it from what he overhears: 2^99 guesses. A tag covers every byte that is read; that of the answer
-// covers the request, so no other answer fits. Guessing here: five tries, ten minutes, then the token is
-// void, as after its one use. Names and uses in the certificates are the site's choice: master and client,
-// never slave; the authority's key never leaves. Clocks do not matter: certificates are valid from 1970 to
-// 9999.
+// Only the token is secret, and it never crosses the link: private keys never leave their host, and requests
+// and certificates are not secret. The connection therefore needs no encryption. Without the token, nobody,
+// including a man in the middle, can create a signed request or a valid answer, or derive the token from the
+// messages: this takes 2^99 guesses. A tag covers every byte of its message; that of the answer covers the
+// request, so no other answer is valid for it. Online guessing is limited to five attempts in ten minutes;
+// then the token is invalid, as after its first use. The slave's site determines names and roles in the
+// certificates: master and client, never slave; the key of the authority is not transferred. Clocks do not
+// matter: certificates are valid from 1970 to 9999.
 //
-// Who was paired is written down before the answer leaves (common/site/revocations), so that it can be revoked.
+// The pairing is recorded before the answer is sent (common/site/revocations), so that it can be revoked.
 //
-// Does not handle: somebody who spends the five tries to be a nuisance (ask for another token).
+// Denial of service by using up the five attempts is not prevented (print another token).
 
 #include <functional>
 #include <stdexcept>
@@ -31,32 +31,32 @@
 
 namespace longreach {
 
-/// One sentence for the person who pairs.
+/// One sentence for the user who pairs.
 class PairingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// At the slave: one token, and what it is still good for.
+/// At the slave: a token and its remaining validity.
 class PairingOffer {
  public:
   static constexpr int kTries = 5;
   static constexpr Duration kLife = std::chrono::minutes(10);
   enum class State { kOpen, kUsed, kExpired, kSpent };
 
-  /// Writes down whom it was given to: host, certificates of its master and its client. May throw; nobody is
-  /// paired then.
+  /// Records the issued certificates: host, certificates of its master and its client. It may throw; the
+  /// pairing then fails.
   using Record = std::function<void(const std::string& host, const std::string& master_pem,
                                     const std::string& client_pem)>;
 
   PairingOffer(const PairingToken& token, Certificate authority, Time now, Record record = {});
 
-  /// The answer, or one sentence why not.
+  /// Returns the answer, or one sentence with the reason for refusal.
   std::variant<proto::PairingMessage, std::string> answer(const proto::PairingMessage& request, Time now);
 
   [[nodiscard]] State state(Time now) const;
   [[nodiscard]] int tries_left() const { return tries_left_; }
-  /// Who was paired, for the log: name, and fingerprints of its certificates. Empty: nobody.
+  /// The paired host, for the log: name, and fingerprints of its certificates. Empty: none.
   [[nodiscard]] const std::string& paired() const { return paired_; }
 
  private:
@@ -69,13 +69,13 @@ class PairingOffer {
   std::string paired_;
 };
 
-/// At the host that joins: its new keys, and the site when the answer is good.
+/// At the joining host: its new keys, and the site if the answer is valid.
 class PairingRequest {
  public:
-  /// `host`: its name, for the slave's log.
+  /// `host`: name of this host, for the slave's log.
   PairingRequest(const PairingToken& token, const std::string& host);
   [[nodiscard]] const proto::PairingMessage& message() const { return message_; }
-  /// Throws PairingError when the answer is not from the slave that printed the token.
+  /// Throws PairingError if the answer is not from the slave that printed the token.
   [[nodiscard]] SiteFiles accept(const proto::PairingMessage& answer) const;
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
-// How an RPC connection is secured: by mutual TLS between roles of one site, or, on loopback alone, not at
-// all.
+// Protection of RPC connections: mutual TLS between roles of one site, or, on loopback only, none.
 
 #include <optional>
 #include <string>
@@ -10,7 +9,7 @@ namespace longreach {
 
 enum class RpcRole { kSlave, kMaster, kClient };
 
-/// In certificates the role is a DNS name, so that it does not matter at which address a side is.
+/// The role is a DNS name in the certificate, so that the address of a side does not matter.
 constexpr std::string_view name_of(RpcRole role) {
   switch (role) {
     case RpcRole::kSlave:
@@ -25,16 +24,16 @@ constexpr std::string_view name_of(RpcRole role) {
 
 /// PEM texts.
 struct RpcCredentials {
-  std::string authority;  // whom to trust
+  std::string authority;  // authority to trust
   std::string certificate;
   std::string key;
 };
 
 struct RpcSecurity {
-  std::optional<RpcCredentials> credentials{};  // none: in clear, to and from loopback only
+  std::optional<RpcCredentials> credentials{};  // none: unencrypted, on loopback only
 };
 
-/// Whether address:port means this machine itself, and only that.
+/// Returns whether address:port is reachable from this machine only.
 bool is_loopback(const std::string& address);
 
 }  // namespace longreach

@@ -1,8 +1,9 @@
 #pragma once
-// The site folder: who belongs together. It holds an authority and a certificate for each role, made at the
-// first start of any program, so that on one host everything works with no extra step. Only its owner may
-// open it (folder 0700, files 0600): whoever has it has the robot. A host that was paired (common/site/pairing)
-// has the roles master and client of another host's site, and not its authority's key.
+// The site: a folder of certificates that defines which programs trust each other. It contains an authority
+// and a certificate for each role, created at the first start of any program, so that a single host needs no
+// setup. Only its owner may access it (folder 0700, files 0600): access to the folder permits control of the
+// robot. A paired host (common/site/pairing) has the roles master and client of another host's site, but not
+// the key of its authority.
 
 #include <filesystem>
 #include <map>
@@ -15,42 +16,41 @@
 
 namespace longreach {
 
-/// One sentence that names the file and says what to do.
+/// One sentence that names the file and a remedy.
 class SiteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What was given as the folder is none of a site: a file, or a folder of something else.
+/// The given folder is not a site: it is a file, or a folder with other content.
 class NoSiteError : public SiteError {
  public:
   using SiteError::SiteError;
 };
 
-/// $XDG_CONFIG_HOME/longreach, or ~/.config/longreach. Throws SiteError when neither is known.
+/// Returns $XDG_CONFIG_HOME/longreach, or ~/.config/longreach. Throws SiteError if neither is known.
 std::filesystem::path default_site();
 
-/// What the role shows to others and trusts, from the site folder; makes the folder first where there is
-/// none. Two programs may do so at once: both end up with the same. Throws SiteError when others may open the
-/// folder or a file, or when something in it is missing or damaged; NoSiteError when the folder is of
-/// something else.
+/// Returns the certificates of a role and its trusted authority; creates the folder if it does not exist. Two
+/// programs may do so at once and get the same result. Throws SiteError if other users can access the folder
+/// or a file, or if a file is missing or damaged; NoSiteError if the folder is not a site.
 RpcCredentials site_credentials(const std::filesystem::path& site, RpcRole role);
 
-/// The authority of the site with its key; makes the folder first where there is none. Throws SiteError,
-/// also on a host that was paired: it has no such key.
+/// Returns the authority of the site with its key; creates the folder if it does not exist. Throws SiteError,
+/// also on a paired host, which does not have the key.
 Certificate site_authority(const std::filesystem::path& site);
 
 using SiteFiles = std::map<std::string, std::string>;  // text by name
 
-/// Whether something is there that write_site would have to put aside.
+/// Returns whether there is a folder that write_site would have to move away.
 bool site_exists(const std::filesystem::path& site);
-/// Makes the folder with these files, as a whole or not at all. What was there before is kept under another
-/// name, which is returned; empty: nothing was. Throws SiteError.
+/// Creates the folder with these files atomically. A previous folder is renamed; returns its new name; empty:
+/// there was none. Throws SiteError.
 std::filesystem::path write_site(const std::filesystem::path& site, const SiteFiles& files);
 
-/// The file's text. Throws SiteError when others may open it or it cannot be read.
+/// Returns the text of a file. Throws SiteError if other users can access it or it cannot be read.
 std::string read_site_file(const std::filesystem::path& file);
-/// "slave" of "slave.longreach": its files are slave.crt and slave.key.
+/// "slave" for "slave.longreach": its files are slave.crt and slave.key.
 std::string file_stem(RpcRole role);
 
 }  // namespace longreach

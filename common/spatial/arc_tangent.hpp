@@ -1,15 +1,15 @@
 #pragma once
-// Angle of the direction (x, y) in (-π, π], for step paths that need many: a third of the instructions of the
-// C library's atan2. One division, reduction to |t| <= tan(π/8) by atan t = π/4 + atan((t - 1)/(t + 1)), the
-// polynomial of fdlibm's atan (Sun Microsystems 1993): within 2.5 units in the last place. Not for
-// infinities and subnormal numbers; a NaN gives NaN; (0, 0) gives 0.
+// Angle of the direction (x, y) in (-π, π], for code that computes many per step: it needs a third of the
+// instructions of the C library's atan2. One division, reduction to |t| <= tan(π/8) by atan t = π/4 + atan((t
+// - 1)/(t + 1)), the polynomial of fdlibm's atan (Sun Microsystems 1993): within 2.5 units in the last place.
+// Not for infinities and subnormal numbers; a NaN gives NaN; (0, 0) gives 0.
 
 #include <cmath>
 #include <cstddef>
 
 namespace longreach {
 
-/// Of |t| <= tan(π/8).
+/// For |t| <= tan(π/8).
 inline double arc_tangent_of_small(double t) {
   const double z = t * t, w = z * z;
   const double even =
@@ -41,7 +41,7 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-/// Of the sine s, |s| <= kSmallSine, of an angle in (-π/2, π/2): Taylor's series, to a rounding of s.
+/// Angle in (-π/2, π/2) from its sine s, |s| <= kSmallSine: Taylor series, accurate to rounding.
 constexpr double kSmallSine = 0.1;
 inline double arc_of_small_sine(double s) {
   const double z = s * s;
@@ -51,7 +51,7 @@ inline double arc_of_small_sine(double s) {
                                          z * (35.0 / 1152.0 + z * (63.0 / 2816.0 + z * (231.0 / 13312.0))))));
 }
 
-/// The angles of several directions at once, without branches: two for the price of one.
+/// Angles of several directions at once, without branches: two take the time of one.
 template <std::size_t n>
 inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&angle)[n]) {
   constexpr double kEighth = 0.41421356237309503, kTiny = 1e-300;

@@ -1,9 +1,9 @@
 #pragma once
-// Sine and cosine of one angle together, for step paths that need many: a third of the instructions of the C
-// library's, without its saving of the rounding mode. Reduction to [-π/4, π/4] with π/2 in two parts (33 + 53
-// bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems 1993): within 1 unit
-// in the last place of 1 of the true value. Beyond kReducible radians, and for what is not finite, the C
-// library answers.
+// Sine and cosine of one angle together, for code that computes many per step: a third of the instructions of
+// the C library, which also saves the rounding mode. Reduction to [-π/4, π/4] with π/2 in two parts (33 + 53
+// bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems 1993): the error is
+// within 1 unit in the last place of 1. Beyond kReducible radians, and for arguments that are not finite, the
+// C library is used.
 
 #include <array>
 #include <bit>
@@ -17,8 +17,8 @@ struct SinCos {
   double c = 1.0;
 };
 
-/// Before the quadrant is put in: sine and cosine of x less the nearest multiple of π/2, which are to change
-/// places and signs as the last bits of `quadrant` say. |x| < kReducible.
+/// Before the quadrant is applied: sine and cosine of x minus the nearest multiple of π/2, to be swapped and
+/// negated according to the last bits of `quadrant`. |x| < kReducible.
 struct ReducedSinCos {
   static constexpr double kReducible = 1e5;
   double s, c, quadrant;
@@ -27,7 +27,7 @@ struct ReducedSinCos {
 inline ReducedSinCos reduced_sin_cos(double x) {
   constexpr double kTwoOverPi = 6.36619772367581382433e-01;
   constexpr double kHalfPiHigh = 1.57079632673412561417e+00, kHalfPiLow = 6.07710050650619224932e-11;
-  constexpr double kRound = 0x1.8p52;  // adding it rounds to an integer, whose bits end the sum
+  constexpr double kRound = 0x1.8p52;  // adding it rounds to an integer, which is in the last bits of the sum
   const double shifted = x * kTwoOverPi + kRound;
   const double turns = shifted - kRound;
   const double y = (x - turns * kHalfPiHigh) - turns * kHalfPiLow;
@@ -50,7 +50,7 @@ inline ReducedSinCos reduced_sin_cos(double x) {
 }
 
 inline SinCos in_quadrant(const ReducedSinCos& r) {
-  // In bits instead of by branch: the quadrant changes without warning.
+  // Selects by bits instead of branches, because the quadrant is unpredictable.
   const auto quadrant = std::bit_cast<std::uint64_t>(r.quadrant);
   const auto s = std::bit_cast<std::uint64_t>(r.s), c = std::bit_cast<std::uint64_t>(r.c);
   const std::uint64_t swapped = (s ^ c) & (0 - (quadrant & 1));
@@ -63,7 +63,7 @@ inline SinCos sin_cos(double x) {
   return in_quadrant(reduced_sin_cos(x));
 }
 
-/// The same of several angles at once: two for the price of one.
+/// The same for several angles at once: two take the time of one.
 template <std::size_t n>
 inline std::array<SinCos, n> sin_cos(const std::array<double, n>& x) {
   double s[n], c[n];

@@ -32,7 +32,7 @@ struct Wrench {
   Vector3 force = Vector3::Zero();   // N
 };
 
-/// Euclidean norm; the careful way only where the square leaves the range.
+/// Euclidean norm; the slower scaled computation is used only where the square is out of range.
 inline double norm(const Vector3& v) {
   const double square = v.squaredNorm();
   if (square > 1e-200 && square < 1e200) return std::sqrt(square);
@@ -62,7 +62,7 @@ inline Pose inverse(const Pose& X_AB) {
   return {-(q * X_AB.p), q};
 }
 
-/// `v` shortened to at most `limit` (>= 0); direction kept; a zero vector stays zero.
+/// Returns `v` shortened to at most `limit` (>= 0); the direction is kept; a zero vector stays zero.
 inline Vector3 clamp_norm(const Vector3& v, double limit) {
   const double n = norm(v);
   return n > limit ? Vector3(v * (limit / n)) : v;

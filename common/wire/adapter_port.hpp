@@ -1,6 +1,6 @@
 #pragma once
-// This side's end of the exchange with an adapter (common/link/adapter_datagram.hpp) over a channel. Never
-// waits, allocates nothing, throws nothing. What does not count changes nothing but a counter.
+// This side's end of the exchange with an adapter (common/link/adapter_datagram.hpp) over a channel. It never
+// waits, allocates nothing, throws nothing. An invalid datagram changes nothing except a counter.
 
 #include <array>
 #include <cstdint>
@@ -13,29 +13,30 @@
 
 namespace longreach {
 
-/// What came from an adapter so far, and what it is now.
+/// Statistics and present state of an adapter.
 struct AdapterFigures {
-  bool present = false;  // there is one, by configuration
-  bool silent = true;    // nothing has come for silence_s
-  bool failed = false;   // it says so
+  bool present = false;  // an adapter is configured
+  bool silent = true;    // no datagram for silence_s
+  bool failed = false;   // the adapter reports a failure
   std::uint64_t accepted = 0;
   std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
-  std::uint64_t late = 0;       // overtaken, repeated, or of another session while one lasts
+  std::uint64_t late = 0;       // overtaken, repeated, or of another session during one
   std::uint64_t restarts = 0;
-  double silent_after_s = 0.0;                  // the last silence, when it became a fault
-  std::optional<std::uint32_t> unknown_peer{};  // the user, when it belongs to one whom nothing is said
+  double silent_after_s = 0.0;                  // duration of the last silence when it became a fault
+  /// the other user to which the listening program belongs, if it is refused
+  std::optional<std::uint32_t> unknown_peer{};
 };
 
 template <class Out, class In>
 class AdapterPort {
  public:
-  /// `channel` must outlive the port. `session`: drawn anew at each start, not 0.
+  /// `channel` must outlive the port. `session`: random at each start, not 0.
   AdapterPort(Channel& channel, std::uint64_t session, double silence_s)
       : channel_(channel), exchange_(session, from_seconds(silence_s).count()) {
     figures_.present = true;
   }
 
-  /// Takes what has come, at most kMost datagrams. True: newest() is new.
+  /// Receives at most kMost datagrams. Returns true if newest() has changed.
   bool receive(Time now) {
     const std::int64_t now_ns = now.time_since_epoch().count();
     bool fresh = false;
@@ -68,10 +69,10 @@ class AdapterPort {
     channel_.send(std::as_bytes(std::span(&out, 1)));
   }
 
-  /// Of the last receive(): it is heard and says that it works.
+  /// At the last receive(): datagrams arrive and the adapter reports no failure.
   [[nodiscard]] bool ok() const { return !figures_.silent && !figures_.failed; }
   [[nodiscard]] const In& newest() const { return newest_; }
-  /// Since that has come.
+  /// Time since it was received.
   [[nodiscard]] double age_s(Time now) const { return to_seconds(now - received_); }
   [[nodiscard]] const AdapterFigures& figures() const { return figures_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where datagrams go and come from: a UDP socket in the programs, a queue in memory in the laboratory.
+// Transport of datagrams: a UDP socket in the programs, a queue in memory in the laboratory.
 
 #include <cstddef>
 #include <optional>
@@ -13,16 +13,16 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  /// Takes the next datagram into `buffer` and returns its true size, which may exceed the buffer's (then it
-  /// was cut); none when nothing is there. Never waits.
+  /// Receives the next datagram into `buffer` and returns its true size, which may exceed the buffer (the
+  /// datagram is then truncated); none if there is none. Never waits.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
-  /// Where the datagram came from that receive() took last.
+  /// Origin of the datagram that receive() returned last.
   [[nodiscard]] virtual const Origin& origin() const { return kNowhere; }
-  /// An authentic datagram came from there: a channel without a fixed peer sends there from now on. All zero:
-  /// it sends nowhere.
+  /// Sets the origin of an authentic datagram: a channel without a fixed peer sends to it from now on. All
+  /// zero: it does not send.
   virtual void answer_to(const Origin&) {}
 
-  /// Sends, or drops when that is not possible now. Never waits.
+  /// Sends the datagram, or drops it if that is not possible now. Never waits.
   virtual void send(std::span<const std::byte> datagram) = 0;
 };
 

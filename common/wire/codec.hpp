@@ -1,8 +1,8 @@
 #pragma once
-// Bodies of datagrams: protobuf (proto/motion, stiffness, telemetry) to the structs of common/link and back.
-// Decoding checks every value, so that what comes out is finite, of the right shape and within the bounds
-// below: a body that is not the message is kDecode, a value that cannot be meant is kValue. Nothing allocates
-// for a message that this codec can have encoded; unknown fields are ignored (they cost an allocation each).
+// Converts bodies of datagrams between protobuf (proto/motion, stiffness, telemetry) and the structs of
+// common/link. Decoding checks every value, so that the result is finite, of the right shape and within the
+// bounds below: a body that is not the message gives kDecode, an invalid value kValue. Messages of this codec
+// need no allocation; unknown fields are ignored (they cost an allocation each).
 
 #include <cstddef>
 #include <memory>
@@ -26,19 +26,19 @@ constexpr double kScaleMax = 1.0;
 constexpr std::int64_t kInstantMaxNs = 4'000'000'000'000'000'000;  // 126 years: differences cannot overflow
 constexpr std::int64_t kHeldMaxNs = 1'000'000'000'000'000'000;     // 31 years
 
-/// One a side and thread: it keeps the protobuf objects, so that they are allocated once. For MotionCommand,
-/// StiffnessReport and Telemetry.
+/// One per side and thread: it keeps the protobuf objects, so that they are allocated once. For
+/// MotionCommand, StiffnessReport and Telemetry.
 class Codec {
  public:
   Codec();
   ~Codec();
 
-  /// Writes the body and returns its size; `body` holds kBodyMaxBytes. Every message fits.
-  /// An estimate that is not finite is sent as not valid.
+  /// Writes the body and returns its size; `body` has kBodyMaxBytes. Every message fits. An estimate that is
+  /// not finite is sent as not valid.
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
-  /// What `stamp` and `message` hold after a rejection means nothing.
+  /// After a rejection the content of `stamp` and `message` is undefined.
   template <class Message>
   [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Stamp& stamp,
                                                 Message& message);

@@ -1,6 +1,6 @@
 #pragma once
-// What was accepted in one receive(), in order of arrival, in memory that is allocated once. When it is full
-// the newest items stay.
+// Messages accepted in one receive(), in order of arrival, in memory that is allocated once. When it is full
+// the newest messages are kept.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,19 +16,19 @@ class Inbox {
  public:
   explicit Inbox(std::size_t capacity) : slots_(capacity + 1) { CHECK(capacity > 0); }
 
-  /// Forgets everything.
+  /// Removes all items.
   void open() { size_ = next_ = 0; }
 
-  /// Where the next item is to be written, all of it; keep() makes it one.
+  /// Returns the next slot, to be written completely; keep() adds it.
   T& next() { return slots_[next_]; }
   void keep() {
     next_ = next_ + 1 < slots_.size() ? next_ + 1 : 0;
     size_ = std::min(size_ + 1, slots_.size() - 1);
   }
 
-  /// Puts the items in order; call once, after the last keep() and before items().
+  /// Orders the items; call it once, after the last keep() and before items().
   void close() {
-    if (next_ == size_) return;  // it never went round
+    if (next_ == size_) return;  // it never wrapped around
     std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>((next_ + 1) % slots_.size()),
                 slots_.end());
   }

@@ -1,7 +1,7 @@
 #pragma once
-// Two channels joined in memory, for the laboratory and for tests: what one end sends, the other receives, at
-// once and in order. Bounded: what is sent into a full direction is dropped and counted, as a socket would.
-// One thread.
+// Two channels connected in memory, for the laboratory and for tests: datagrams sent at one end are received
+// at the other, immediately and in order. Bounded: a datagram to a full direction is dropped and counted, as
+// by a socket. For one thread.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ class MemoryChannelPair {
   [[nodiscard]] std::uint64_t dropped() const { return a_.dropped + b_.dropped; }
 
  private:
-  /// Longer datagrams keep their true size and lose their end, as in a short receive buffer.
+  /// Longer datagrams keep their true size but are truncated, as in a short receive buffer.
   struct Datagram {
     std::array<std::byte, kDatagramMaxBytes> bytes;
     std::size_t size = 0;

@@ -1,15 +1,15 @@
 #pragma once
-// The shell between a node and a channel: impairment, header, session, replay, authentication, decoding,
-// values; and the way back. Both programs and the laboratory use it, so the laboratory's bytes are real
-// bytes.
+// Connects a node to a channel: impairment, header, session, replay, authentication, decoding and value
+// checks; and the opposite direction. The programs and the laboratory use the same code, so they exchange the
+// same bytes.
 //
-// Without a session (`follow`) nothing leaves and nothing is accepted. receive() drains the channel through
-// the impairment; what was accepted stays available until the next receive(). A datagram that is not
-// authentic changes nothing but a counter; an authentic one uses up its number, whatever its values. Nothing
-// allocates after construction. What lay in the socket while this side stood still (`stalled`) is too old to
-// follow: it uses up its number, is counted as stalled and neither heard nor learnt from, but for a stop,
-// which is obeyed however old it is. Bounded: at most kDatagramsPerReceive datagrams a call; of what was
-// accepted the newest kInboxCapacity of a type.
+// Without a session (`follow`) nothing is sent or accepted. receive() reads the channel through the
+// impairment; accepted messages stay available until the next receive(). A datagram that is not authentic
+// changes nothing except a counter; an authentic one uses up its number, whatever its values. Nothing
+// allocates after construction. Datagrams that arrived while this side was stalled (`stalled`) are too old to
+// follow: they use up their number and are counted as stalled, but are otherwise ignored, except a stop,
+// which is always obeyed. Bounded: at most kDatagramsPerReceive datagrams per call; of the accepted ones the
+// newest kInboxCapacity of a type.
 
 #include <array>
 #include <cstdint>
@@ -34,26 +34,26 @@ namespace longreach {
 constexpr int kDatagramsPerReceive = 1024;
 constexpr std::size_t kInboxCapacity = 256;
 
-/// Which way datagrams of this type go; a side takes those that come its way.
+/// Direction of datagrams of this type; a side accepts only those of its incoming direction.
 constexpr Way way_of(DatagramType type) {
   return type == DatagramType::kMotionCommand ? Way::kToSlave : Way::kToMaster;
 }
 
-/// What both sides' ports share.
+/// Common part of the ports of both sides.
 class Port {
  public:
-  /// `channel` must outlive the port. `out`: the way that what it sends goes.
+  /// `channel` must outlive the port. `out`: direction of the sent datagrams.
   Port(Channel& channel, const ImpairmentConfig& impairment, Random random, Way out);
   virtual ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Takes part in a session, not number zero, and in no other any more.
+  /// Joins a session with a non-zero number, and leaves the previous one.
   void follow(const Session& session);
-  /// Takes part in none.
+  /// Leaves the session.
   void leave();
 
-  /// Most that leaves, kbit/s; 0: no limit. Whoever sends asks before whether it may.
+  /// Maximum send rate, kbit/s; 0: no limit. The sender must check whether it may send.
   void limit(double kbit_per_s) { budget_.configure(kbit_per_s); }
   [[nodiscard]] bool may_send(Time now) const { return budget_.allows(now); }
 
@@ -65,15 +65,15 @@ class Port {
   Impairment& impairment() { return impairment_; }
 
  protected:
-  /// Takes all that has come.
+  /// Receives all pending datagrams.
   void drain(Time now, bool stalled);
-  /// An authentic datagram: header, body in clear, whether no newer one of its type came before.
+  /// An authentic datagram: header, decrypted body, and whether no newer one of its type has arrived.
   struct Opened {
     Header header{};
     std::span<const std::byte> body{};
     bool newest = false;
   };
-  /// Decodes, books and keeps its message.
+  /// Decodes, records and stores its message.
   virtual std::optional<Rejection> accept(Time now, const Opened& datagram) = 0;
 
   template <class Message>
@@ -103,15 +103,15 @@ class Port {
   std::uint64_t accepted_ = 0;
   std::array<std::byte, kDatagramMaxBytes> buffer_{};
   std::array<std::byte, kBodyMaxBytes> body_{};
-  bool stalled_ = false;  // what this receive() takes lay there
-  bool more_ = false;     // and it did not take all of that
+  bool stalled_ = false;  // the datagrams of this receive() arrived during a stall
+  bool more_ = false;     // and it did not receive all of them
 };
 
 class MasterPort : public Port {
  public:
   MasterPort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToSlave) {}
-  /// `stalled`: this side stood still since the last call.
+  /// `stalled`: this side was stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
@@ -128,10 +128,10 @@ class SlavePort : public Port {
  public:
   SlavePort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToMaster) {}
-  /// `stalled`: this side stood still since the last call.
+  /// `stalled`: this side was stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
-  /// Returns the size of the datagram, bytes; 0: none was sent.
+  /// Returns the size of the datagram in bytes; 0: none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
 

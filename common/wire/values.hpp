@@ -1,7 +1,7 @@
 #pragma once
-// The values of a body but for its stamp: structs of common/link to protobuf messages, and back with every
-// value checked. Private to the codec. `read` is false when a value is missing, not finite or out of range;
-// `out` then means nothing.
+// Values of a body except for its stamp: converts structs of common/link to protobuf messages and back, and
+// checks every value. Private to the codec. `read` returns false if a value is missing, not finite or out of
+// range; the content of `out` is then undefined.
 
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
@@ -29,14 +29,14 @@ struct WireMessageOf<Telemetry> {
 template <class Message>
 using WireMessage = typename WireMessageOf<Message>::Type;
 
-inline constexpr int kLineNumbers = 5;  // that the line of a surface has in a report
+inline constexpr int kLineNumbers = 5;  // numbers in a report for the line of a surface
 
-// Every field of `out` is overwritten but its stamp; its memory is used again.
+// Overwrites every field of `out` except its stamp; reuses its memory.
 void write(const MotionCommand& command, proto::MotionCommand& out);
 void write(const StiffnessReport& report, proto::StiffnessReport& out);
 void write(const Telemetry& telemetry, proto::Telemetry& out);
 
-// Every field of `out` is overwritten.
+// Overwrites every field of `out`.
 [[nodiscard]] bool read(const proto::MotionCommand& in, MotionCommand& out);
 [[nodiscard]] bool read(const proto::StiffnessReport& in, StiffnessReport& out);
 [[nodiscard]] bool read(const proto::Telemetry& in, Telemetry& out);
