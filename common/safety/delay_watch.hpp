@@ -1,10 +1,10 @@
 #pragma once
 // Detects an increase of the delay of a link: compares the median round trip of the last half second with its
 // minimum since the engagement, where the minimum may rise by at most 1 ms per second. An attacker that holds
-// back authentic datagrams in either direction, in a step or a ramp, is detected by it. Medians are used, so that
-// a single datagram, a late tick or a stalled side does not set the minimum; it is unknown until a quarter of a
-// second of datagrams has arrived. Pure: the caller supplies the time. A delay that existed when the engagement
-// began is not detected.
+// back authentic datagrams in either direction, in a step or a ramp, is detected by it. Medians are used, so
+// that a single datagram, a late tick or a stalled side does not set the minimum; it is unknown until a
+// quarter of a second of datagrams has arrived. Pure: the caller supplies the time. A delay that existed when
+// the engagement began is not detected.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-// The simulated devices, the simulated hand and who moves it. Meaning, unit and range: proto/config.proto;
-// the same names. The values here are those of deploy/devices/desktop.txtpb.
+// The simulated devices, the simulated hand and its operator. proto/config.proto defines meaning, unit and
+// range under the same names. The defaults here are those of deploy/devices/desktop.txtpb.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-/// One motor axis; the three of a device are alike.
+/// One motor axis; the three axes of a device are equal.
 struct DriveConfig {
   double inertia_kg_m2 = 3e-4;
   double viscous_nm_s_per_rad = 0.075;

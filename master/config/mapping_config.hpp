@@ -1,6 +1,6 @@
 #pragma once
-// From the motion of the handle to the goal of the robot. Meaning, unit and range: proto/config.proto; the
-// same names.
+// Mapping from the motion of the handle to the goal of the robot. proto/config.proto defines meaning, unit
+// and range under the same names.
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Every parameter of the master as plain values. Meaning, unit, default and range: proto/config.proto; the
-// same names.
+// All parameters of the master as plain values. proto/config.proto defines meaning, unit, default and range
+// under the same names.
 
 #include <algorithm>
 #include <cstdint>
@@ -24,7 +24,7 @@ struct MasterLinkConfig {
   double budget_kbit_per_s = 0.0;
 };
 
-/// Commands a second that leave: as many as are wanted and the budget pays for, at 128 bytes with all
+/// Rate of sent commands: the requested rate, limited by the budget at 128 bytes per datagram including all
 /// headers.
 inline double sent_hz(const MasterLinkConfig& link) {
   constexpr double kbit = 1e-3 * 8.0 * 128.0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the hand feels. Meaning, unit and range: proto/config.proto; the same names.
+// Parameters of the rendering. proto/config.proto defines meaning, unit and range under the same names.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace longreach {
 enum class RenderingLaw : std::uint8_t {
   kStiffness = 0,
   kNaive = 1,
-  kDirect = 2,  // from here on in the laboratory only
+  kDirect = 2,  // from here on: in the laboratory only
   kPositionPosition = 3,
   kWave = 4,
   kTdpa = 5,
@@ -47,8 +47,8 @@ struct RenderingConfig {
   bool ke_by_scale = false;
 };
 
-/// What the port may give back beyond what it was given, since an engagement began: its store, and what
-/// encoder steps let it read without a leak, J.
+/// Energy that the port may return beyond what it received since the start of an engagement: its store, and
+/// the energy that encoder steps can simulate without a leak, J.
 inline double returned_most_j(const RenderingConfig& c = {}) {
   constexpr double kSteps_j = 1e-3;
   return c.store_j + kSteps_j;

@@ -1,7 +1,7 @@
 #pragma once
-// The holds, stops and faults of a run: when, for how long, and what caused them. The present one counts. A
-// hold that a busy machine caused (a control loop that stalled or ran late) is not a fault of the system;
-// neither is one by the operator, nor one by an outage that the link's profile has. add() allocates nothing.
+// The holds, stops and faults of a run: time, duration and cause, including the present one. A hold caused by
+// a busy machine (a control loop that stalled or was late) is not a fault of the system; neither is one by
+// the operator, nor an outage that the profile of the link specifies. add() allocates nothing.
 
 #include <array>
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace longreach {
 struct HoldRecord {
   double began_s = 0.0, lasted_s = 0.0;
   Reason cause{};      // at the master
-  Reason far_cause{};  // at the slave, as far as it was reported meanwhile
+  Reason far_cause{};  // at the slave, as far as it was reported during the hold
   HoldAttribution attribution = HoldAttribution::kSystem;
 };
 
-/// Why there was nothing in the hand from then on, and what to do, in words.
+/// Why the handle was released from then on, and a remedy.
 struct HandTrouble {
   double began_s = 0.0;
   std::string text;
@@ -28,7 +28,7 @@ struct HandTrouble {
 
 class HoldLog {
  public:
-  /// `outages`: the link's profile has some.
+  /// `outages`: the profile of the link specifies outages.
   explicit HoldLog(bool outages = false) : outages_(outages) {}
 
   /// `seconds` since the start must not fall.
@@ -38,18 +38,19 @@ class HoldLog {
     return counts_[static_cast<std::size_t>(attribution)] + (now() == attribution ? 1 : 0);
   }
   [[nodiscard]] std::uint64_t count() const;
-  /// Of the present hold; none: there is none.
+  /// Attribution of the present hold; none: there is no hold.
   [[nodiscard]] std::optional<HoldAttribution> now() const {
     return holds_ ? std::optional(attribution(hold_)) : std::nullopt;
   }
-  /// Time of the holds that the machine caused, the present one included.
+  /// Duration of the holds caused by the machine, including the present one.
   [[nodiscard]] double machine_s() const;
-  /// A sentence for each of the first holds; the present one is among them.
+  /// A sentence for each of the first holds, including the present one.
   struct Sentence {
     std::string text;
     bool fault = false;  // of the system
   };
-  /// `hand`: of the run, by time. A fault of the device that begins with one of them is told in its words.
+  /// `hand`: troubles of the run, by time. A device fault that begins with one of them is described by its
+  /// text.
   [[nodiscard]] std::vector<Sentence> words(const std::vector<HandTrouble>& hand = {}) const;
 
  private:

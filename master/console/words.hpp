@@ -1,5 +1,5 @@
 #pragma once
-// The states, causes and clamps of the system as an operator would say them. Pure; no trailing stops.
+// States, causes and limits of the system as text for the operator. Pure; no trailing full stops.
 
 #include <optional>
 #include <string>
@@ -11,20 +11,21 @@
 namespace longreach {
 
 std::string_view state_in_words(SafetyState state);
-/// The cause of the state, where it is the slave's, and whether that is over; empty for none.
+/// Returns the cause of the state, whether it is of the slave, and whether it is over; empty if there is
+/// none.
 std::string cause_in_words(const MasterView& view);
-/// Why the engagement that was asked for is not granted, and what to do.
+/// Returns why the requested engagement is not granted, and a remedy.
 std::string refusal_in_words(const MasterView& view);
 std::string_view mode_in_words(MotionMode mode);
 
-/// What is being clamped on either side now, and why; empty when nothing is.
+/// Returns the active limits of either side and their reasons; empty if there are none.
 std::vector<std::string> clamps_in_words(const MasterView& view);
 
-/// How long ago that was which is known of the robot; none where the way is not known.
+/// Returns the age of the data about the robot; none if the delay is unknown.
 std::optional<double> age_of_news_s(const ConsoleSnapshot& snapshot);
 
-/// One sentence: what is happening, and what the operator can do about it. What it says of the robot was true
-/// one delay ago, and it says so where that is more than a tenth of a second.
+/// Returns one sentence: the present state, and what the operator can do. Statements about the robot are one
+/// delay old; the sentence says so if that is more than a tenth of a second.
 std::string happening(const ConsoleSnapshot& snapshot);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// Serves pictures of the master to eyes elsewhere, and takes a hand from there (service Desk in
-// proto/control.proto). Lives in RPC threads: it reads what the loop publishes and writes what the loop may
-// fetch, so that nobody here, however slow or silent, makes the loop wait.
+// Serves pictures of the master to remote clients, and accepts a hand from them (service Desk in
+// proto/control.proto). It runs in RPC threads: it reads data that the loop publishes and writes data that
+// the loop may fetch, so that a slow or silent client never delays the loop.
 
 #include <chrono>
 #include <functional>
@@ -13,18 +13,18 @@
 
 namespace longreach {
 
-// Each takes a thread of the server; more are refused with RESOURCE_EXHAUSTED.
+// Each uses a thread of the server; more are refused with RESOURCE_EXHAUSTED.
 inline constexpr int kFollowersMax = 16;
 inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
-  /// Radii of the workspace about the handles' home: aims are kept within.
+  /// Radii of the workspace about the home of the handles; aims are limited to it.
   struct Reach {
     double translation_m = 0.075;
     double rotation_rad = 0.8;
   };
-  /// Both functions are called from RPC threads; `aim` by one at a time.
+  /// Both functions are called from RPC threads; `aim` from one at a time.
   DeskService(const Reach& reach, std::function<ConsoleSnapshot()> snapshot,
               std::function<void(const RemoteAim&)> aim);
 
@@ -36,16 +36,16 @@ class DeskService final : public proto::Desk::Service {
  private:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// One of so many places; false: all are taken.
+  /// Takes one of a number of places; false: all are taken.
   bool take(int& taken, int places);
   void leave(int& taken);
   grpc::Status follow_hand(grpc::ServerContext& context, grpc::ServerReader<proto::HandAim>& reader,
                            proto::Outcome& answer);
-  /// The number of a new hand; 0: another one is there. A silent one is sent away where there are several: it
-  /// would keep its thread for ever.
+  /// Returns the number of a new hand; 0: another hand has the handle. If several wait, a silent one is
+  /// closed, since it would keep its thread forever.
   std::uint64_t take_handle(grpc::ServerContext& context);
   void leave_handle(const grpc::ServerContext& context);
-  /// False when `hand` is not the one on the handle any more.
+  /// Returns false if `hand` no longer has the handle.
   bool pass(std::uint64_t hand, const RemoteAim& aim);
 
   Reach reach_;
@@ -53,11 +53,11 @@ class DeskService final : public proto::Desk::Service {
   std::function<void(const RemoteAim&)> aim_;
   std::mutex mutex_;
   int followers_ = 0;
-  int hands_there_ = 0;                    // streams, also of those who are refused or sent away
-  grpc::ServerContext* holder_ = nullptr;  // stream of the hand that is or was last on the handle
-  std::uint64_t hands_ = 0;                // so far
+  int hands_there_ = 0;                    // streams, including refused and closed ones
+  grpc::ServerContext* holder_ = nullptr;  // stream of the hand that has or last had the handle
+  std::uint64_t hands_ = 0;                // number of hands so far
   bool held_ = false;                      // by the last of them
-  Instant said_{};                         // its last message
+  Instant said_{};                         // time of its last message
 };
 
 }  // namespace longreach

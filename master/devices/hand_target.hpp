@@ -1,5 +1,5 @@
 #pragma once
-// What the person who holds the simulated handles does.
+// Target of the person who holds the simulated handles.
 
 #include "common/spatial/spatial.hpp"
 #include "master/config/device_config.hpp"
@@ -7,7 +7,7 @@
 
 namespace longreach {
 
-/// Where the person wants the handle to be, and what the fingers do.
+/// Desired position of the handle, and grip of the fingers.
 struct HandTarget {
   Vector3 position_m = Vector3::Zero();  // in M, from home
   Vector3 velocity_m_per_s = Vector3::Zero();

@@ -1,20 +1,20 @@
 #pragma once
-// What the handles do by themselves, whatever the robot does: go home or stay where they are left when nobody
-// holds them, keep to one axis at a time if asked to, stop softly before the edge of the workspace.
+// Behaviours of the handles that are independent of the robot: return home or stay in place when released,
+// keep to one axis at a time on request, stop softly before the edge of the workspace.
 //
 //   idle     F = -k (x - a) - b v     anchor a: where the handle was left; HOME lets it glide home
 //   guide    F = -k (x - (x . e) e - o)    decoupled: e the axis that was moved first, o what was off it then
 //   stop     F = -k (|x| - r) x/|x|   beyond r, a share of the workspace
 //
-// All springs begin without force, so that nothing steps; only the gliding anchor supplies energy, and tells
-// how much. Rotations alike, x the rotation vector from home.
+// All springs start without force, so that nothing steps; only the gliding anchor supplies energy, which it
+// reports. The same applies to rotations, with x the rotation vector from home.
 
 #include "master/config/device_config.hpp"
 #include "master/devices/handle_state.hpp"
 
 namespace longreach {
 
-/// One handle: three coordinates and what acts on them.
+/// One handle: three coordinates and the forces on them.
 class HandleSprings {
  public:
   struct Gains {
@@ -33,7 +33,7 @@ class HandleSprings {
   [[nodiscard]] double energy_j() const { return energy_j_; }
   [[nodiscard]] double supplied_j() const { return supplied_j_; }  // by the anchor, in the last step
   [[nodiscard]] int guided_axis() const { return axis_; }          // -1: none
-  [[nodiscard]] bool at_stop() const { return at_stop_; }          // the soft one of the workspace
+  [[nodiscard]] bool at_stop() const { return at_stop_; }          // the soft stop of the workspace
 
  private:
   Vector3 idle(const Coordinates& at, bool held, const Gains& gains, IdleRule rule, double dt_s);
@@ -53,7 +53,7 @@ class HandleBehaviour {
   explicit HandleBehaviour(const DeviceConfig& config);
   void configure(const DeviceConfig& config);
 
-  /// Wrench on the hand, in M. Not finite values of the handle give none.
+  /// Wrench on the hand, in M. Values of the handle that are not finite give zero.
   Wrench step(const HandleState& handle, double dt_s);
 
   [[nodiscard]] const HandleSprings& translation() const { return translation_; }

@@ -1,11 +1,11 @@
 #pragma once
-// What a pair of haptic devices tells, once a tick.
+// State of a pair of haptic devices in a tick.
 
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
 
-/// Levels: true while pressed.
+/// True while pressed.
 struct Buttons {
   bool mode = false;        // rate or position
   bool scale_up = false;    // coarser
@@ -19,7 +19,7 @@ struct HandleState {
   Quaternion q_MH = Quaternion::Identity();  // orientation of the handle
   Vector3 angular_rad_per_s = Vector3::Zero();
   Buttons buttons{};
-  bool held = true;  // a hand is on the handles; devices that cannot tell say true
+  bool held = true;  // a hand is on the handles; devices without a sensor report true
   bool ok = true;    // false: device fault; the other fields hold the last good values
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The one interface between the loop and a pair of haptic devices in the hands: read the handle, write the
-// wrench. Implementations neither block nor allocate in read and write.
+// The interface between the loop and a pair of haptic devices: read the handle, write the wrench.
+// Implementations neither block nor allocate in read and write.
 
 #include "common/core/time.hpp"
 #include "master/devices/handle_state.hpp"

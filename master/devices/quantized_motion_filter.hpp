@@ -1,20 +1,20 @@
 #pragma once
-// How fast a handle certainly moves, and where it is while it does not. Encoders tell a place within a cell;
-// what they show of a handle that keeps still is a jump of a cell in a sample, and back. The place is
-// followed with a play r of half a cell:
+// Velocity of a handle from quantized positions, and detection of a handle at rest. Encoders report a
+// position only within a cell; a handle at rest may show jumps of one cell in a sample, and back. The
+// position is followed with a play r of half a cell:
 //
 //   z' = z + Δx,   c = z' max(0, 1 - r/|z'|),   z = z' - c,   v += dt/(dt + filter) (a c/dt - v)
 //
-// c is what must have happened, whatever lies in the cells. It never points against the motion and is zero
-// while the handle stays within a cell, so that damping -B v, too, takes energy or does nothing. Where the
-// handle turns round, the encoder reports nothing for the width of a cell; in motion it is that of the encoders. A count
-// that comes alone, t after the last, is a speed of c/t at most and no blow: a = min(1, 20 ms/t).
+// c is the motion that is certain, for any position within the cells. It never points against the motion and
+// is zero while the handle stays within a cell, so that damping -B v also only takes energy. When the handle
+// reverses, the velocity is zero for the width of a cell; in motion it is that of the encoders. A single
+// count, t after the last one, is taken as a speed of at most c/t instead of an impulse: a = min(1, 20 ms/t).
 //
-// A spring on the cells of the encoders is a relay, which with the delay of a sample feeds a cycle within a
-// cell, and nothing within a cell can damp it. A handle that was measured to go ten cells to and fro without
-// having moved for certain gets nowhere: its place is x - z, which rests, until it has moved for certain.
-// What rests gives no energy. Alike for both handles, Δx the displacement, m, or the rotation vector of the
-// turn, rad.
+// A spring on the cells of the encoders acts as a relay, which with the delay of a sample sustains a limit
+// cycle within a cell, and nothing within a cell can damp it. A handle that was measured to move ten cells
+// back and forth without certain motion is considered at rest: its position is x - z, which is constant,
+// until there is certain motion. A handle at rest supplies no energy. Both handles are processed in the same
+// way, with Δx the displacement, m, or the rotation vector, rad.
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@
 
 namespace longreach {
 
-/// Half the longest way between two corners of a cell, at the handle: everywhere in the workspace.
+/// Half of the maximum distance between two corners of a cell, at the handle, over the whole workspace.
 struct EncoderCell {
   double m = 0.0;
   double rad = 0.0;
@@ -48,9 +48,9 @@ class QuantizedVelocityFilter {
     return rate_;
   }
 
-  /// What is measured goes to and fro and gets nowhere.
+  /// The measurement moves back and forth without certain motion.
   [[nodiscard]] bool rests() const { return wandered_ > kNowhere * cell_; }
-  /// Measured place, from the one that is followed.
+  /// Measured position relative to the followed one.
   [[nodiscard]] const Vector3& play() const { return play_; }
 
  private:
@@ -58,8 +58,8 @@ class QuantizedVelocityFilter {
   static constexpr double kAlone_s = 0.02;
   static constexpr double kNowhere = 20.0;  // half cells
   double cell_;
-  double wandered_ = 0.0;  // way that was measured since the last certain motion
-  double alone_s_ = 0.0;   // since then
+  double wandered_ = 0.0;  // measured distance since the last certain motion
+  double alone_s_ = 0.0;   // time since then
   Vector3 play_ = Vector3::Zero();
   Vector3 rate_ = Vector3::Zero();
 };
@@ -70,8 +70,8 @@ class QuantizedMotionFilter {
   QuantizedMotionFilter(const EncoderCell& cell, double filter_s)
       : linear_(cell.m), angular_(cell.rad), filter_s_(filter_s) {}
 
-  /// The handle as measured, finite, at rest where it gets nowhere, with the velocities that are certain.
-  /// Once a tick of `dt_s` > 0.
+  /// Returns the measured, finite handle, held at rest if it has no certain motion, with the certain
+  /// velocities. Call it once per tick of `dt_s` > 0.
   HandleState step(HandleState handle, double dt_s) {
     if (!started_) {
       x_ = handle.p_MH;

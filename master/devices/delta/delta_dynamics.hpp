@@ -10,7 +10,8 @@
 //
 //   β_i = ((q'² - o v_t²/ρ)/rod + n . A θ'²) / l_i
 //
-// Exact but for the lumping (Codourey, The International Journal of Robotics Research 17(12), 1998).
+// The equations are exact except for the lumping (Codourey, The International Journal of Robotics Research
+// 17(12), 1998).
 
 #include "master/config/device_config.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
@@ -18,7 +19,8 @@
 
 namespace longreach {
 
-/// A pose with what the motion needs of it. `closed` false: out of reach or singular; nothing else is valid.
+/// A pose with the quantities needed for the motion. If `closed` is false (out of reach or singular), the
+/// other values are invalid.
 struct DeltaPose {
   bool closed = false;
   Vector3 p_m = Vector3::Zero();
@@ -29,7 +31,7 @@ struct DeltaPose {
 
 class DeltaDynamics {
  public:
-  /// Throws GeometryError for dimensions or masses that cannot be.
+  /// Throws GeometryError for impossible dimensions or masses.
   explicit DeltaDynamics(const DeltaConfig& config);
 
   [[nodiscard]] const DeltaKinematics& kinematics() const { return kinematics_; }

@@ -8,8 +8,8 @@
 // The simple geometry has its joints in the middle of the links, and θ turns the arms towards -z:
 //   K = ((a + l1 cos θ) cos φ, (a + l1 cos θ) sin φ, -l1 sin θ),  |P - K| = l2.
 //
-// The constructors throw GeometryError, naming the parameter, for what cannot be a DELTA: a value that is not
-// finite, a length that is not positive, two legs at one azimuth, a loop that no pose closes.
+// The constructors throw GeometryError, which names the parameter, for an impossible DELTA: a value that is
+// not finite, a length that is not positive, two legs at one azimuth, a loop that no pose closes.
 
 #include <array>
 
@@ -38,7 +38,7 @@ struct DeltaGeneral {
   std::array<double, 3> azimuth_rad{};
 };
 
-/// The same in what the closure depends on: how a device file gives it.
+/// The parameters on which the closure depends: the form used in a device file.
 struct DeltaDimensions {
   double arm_m = 0.0;     // > 0
   double rod_m = 0.0;     // > 0
@@ -53,7 +53,7 @@ struct DeltaDimensions {
 /// rods.
 enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
 
-/// A number for each leg, the first leg's once more at the end: two legs at a time.
+/// One number per leg, with the first leg repeated at the end, so that two legs are processed at a time.
 using DeltaLegs = Eigen::Array4d;
 struct DeltaLegVectors {
   DeltaLegs x, y, z;
@@ -89,25 +89,25 @@ class DeltaGeometry {
     const double c = cos_[i], s = sin_[i];
     return {c * leg.x() - s * leg.y(), s * leg.x() + c * leg.y(), up_ * leg.z()};
   }
-  /// Coordinates of a world vector in the frame of leg i (outwards, sideways, the way positive θ turns).
+  /// Coordinates of a world vector in the frame of leg i (outwards, sideways, direction of positive θ).
   [[nodiscard]] Vector3 to_leg(int i, const Vector3& world) const {
     const double c = cos_[i], s = sin_[i];
     return {c * world.x() + s * world.y(), c * world.y() - s * world.x(), up_ * world.z()};
   }
-  /// Arm's end minus platform joint's offset, for θ with the given cosine and sine: where the platform's
-  /// centre would be with forearms of no length.
+  /// End of the arm minus the offset of the platform joint, for θ with the given cosine and sine: the
+  /// position of the platform's centre for forearms of length zero.
   [[nodiscard]] Vector3 elbow(int i, double cos_theta, double sin_theta) const {
     return to_world(i, {radius_ + arm_ * cos_theta, side_, arm_ * sin_theta});
   }
 
-  /// The same of all legs, in world coordinates.
+  /// The same for all legs, in world coordinates.
   [[nodiscard]] DeltaLegVectors elbows(const DeltaTurns& turn) const {
     const DeltaLegs out = radius_ + arm_ * turn.cosine;
     return {cos_ * out - side_ * sin_, sin_ * out + side_ * cos_, (up_ * arm_) * turn.sine};
   }
 
-  /// The assembly with the platform on the side to which positive angles turn the arms: how such devices are
-  /// used.
+  /// The assembly in which the platform is on the side to which positive angles turn the arms, as such
+  /// devices are used.
   [[nodiscard]] DeltaAssembly working_assembly() const { return working_; }
 
  private:

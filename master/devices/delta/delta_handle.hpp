@@ -1,6 +1,6 @@
 #pragma once
-// The controller's side of a DELTA device: encoder angles to position and velocity of the handle, force to
-// motor torques. Knows nothing of how the device moves.
+// Controller of a DELTA device: encoder angles to position and velocity of the handle, force to motor
+// torques. It does not model the dynamics of the device.
 //
 //   x from the forward kinematics in the working assembly, v its filtered backward difference,
 //   τ = Jᵀ F + τ_gravity
@@ -13,10 +13,11 @@ class DeltaHandle {
  public:
   explicit DeltaHandle(const DeviceConfig& config);
 
-  /// Once a sample of `dt_s`; 0 for the first. False: no position closes the loops; the last one is kept.
+  /// Call it once per sample of `dt_s`; 0 for the first. Returns false if no position closes the loops; the
+  /// last position is then kept.
   bool read(const Vector3& theta_rad, double dt_s);
 
-  /// Motor torques that push the hand with `force_n`, N, and carry the device's weight.
+  /// Returns the motor torques that push the hand with `force_n`, N, and compensate the weight of the device.
   [[nodiscard]] Vector3 torques(const Vector3& force_n) const;
 
   [[nodiscard]] Vector3 position_m() const { return p_ - home_; }  // from home
@@ -26,10 +27,11 @@ class DeltaHandle {
   DeltaKinematics kinematics_;
   DeltaMasses masses_;
   Vector3 home_;
-  Vector3 gravity_;  // to compensate, m/s²
+  Vector3 gravity_;  // compensated gravity, m/s²
   double filter_s_;
   Vector3 p_;
-  Vector3 stride_ = Vector3::Zero();  // of the last sample: the next one is sought where it leads on
+  /// step of the last sample, used to extrapolate the start of the next search
+  Vector3 stride_ = Vector3::Zero();
   Vector3 v_ = Vector3::Zero();
   Vector3 theta_ = Vector3::Zero();
   bool started_ = false;

@@ -5,8 +5,8 @@
 //   n_i . v = l_i θ'_i,   v = J θ',   τ = Jᵀ F         (F on the hand by the device, τ by the motors)
 //   τ_gravity = dU/dθ,  U = -g . (m_p P + Σ m_a (S_i + ρ A_i) + ½ m_f (S_i + A_i) + ½ m_f P)
 //
-// A the arm's vector, S its motor, half of each forearm at either end. τ_gravity is what the motors must add
-// to hold the device still. Angles and position must belong together: nothing here checks that.
+// A is the vector of the arm and S its motor; half of each forearm is lumped at either end. τ_gravity is the
+// torque that holds the device still. Angles and position must belong together, which is not checked here.
 
 #include "common/core/solution_status.hpp"
 #include "master/devices/delta/delta_geometry.hpp"
@@ -26,7 +26,7 @@ struct DeltaVelocity {
   Vector3 lever_m = Vector3::Zero();  // l_i, m
 };
 
-/// kFound: the matrix. kSingular: the rods are dependent, the matrix is zero.
+/// kFound: the matrix. kSingular: the rods are dependent, and the matrix is zero.
 struct DeltaJacobian {
   SolutionStatus status = SolutionStatus::kSingular;
   Matrix3 m_per_rad = Matrix3::Zero();
@@ -38,7 +38,7 @@ struct DeltaMasses {
   double arm_com_fraction = 0.5;  // its centre of mass along the arm from the motor, -1 to 1
   double forearm_kg = 0.0;        // each pair of rods, >= 0
 };
-/// Throws GeometryError, naming the field, where a mass is negative or anything is not finite or out of
+/// Throws GeometryError, which names the field, for a negative mass or a value that is not finite or out of
 /// range.
 void require_valid(const DeltaMasses& masses);
 
@@ -52,20 +52,20 @@ DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const V
 DeltaSingularity singularity(const DeltaGeometry& g, const DeltaVelocity& at);
 DeltaJacobian jacobian(const DeltaVelocity& at);
 
-/// Motor torques that make the device push with `force_n`.
+/// Returns the motor torques with which the device pushes with `force_n`.
 DeltaTorques statics(const DeltaVelocity& at, const Vector3& force_n);
 
-/// Motor torques that carry the device's own weight.
+/// Returns the motor torques that compensate the weight of the device.
 DeltaTorques gravity_torques(const DeltaGeometry& g, const DeltaMasses& masses,
                              const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
                              const DeltaVelocity& at);
 
-/// Both at once: push with `force_n` and carry the weight.
+/// Returns the sum of both: pushes with `force_n` and compensates the weight.
 DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
                              const Vector3& gravity_m_per_s2, const Vector3& theta_rad,
                              const DeltaVelocity& at, const Vector3& force_n);
 
-/// Potential energy of the device, J, zero with all masses in the base frame's origin.
+/// Potential energy of the device, J; zero with all masses at the origin of the base frame.
 double potential_energy(const DeltaGeometry& g, const DeltaMasses& masses, const Vector3& gravity_m_per_s2,
                         const Vector3& theta_rad, const Vector3& p_m);
 

@@ -6,7 +6,7 @@
 //   τ_C/σ.
 //             It holds without creep, dissipates exactly, and stores at most τ_C²/(2σ).
 //   encoder   rounds to the resolution
-// Viscous friction is left to the mechanism, which takes it implicitly.
+// Viscous friction is part of the mechanism, which integrates it implicitly.
 
 #include <array>
 #include <cstdint>
@@ -23,16 +23,17 @@ class Drives {
 
   Drives(const DriveConfig& config, std::uint32_t delay_samples);
 
-  /// Once a sample: torques that the controller asks for, N m. What is not finite asks for nothing.
+  /// Call it once per sample: torques commanded by the controller, N m. Values that are not finite count as
+  /// zero.
   void command(const Vector3& tau_nm);
 
   /// Mean torque of the motors over the next `dt_s`, N m.
   Vector3 run(double dt_s);
 
-  /// Puts the axes there with no friction torque.
+  /// Moves the axes to these angles without friction torque.
   void place(const Vector3& theta_rad);
 
-  /// Friction torque at these axis angles, N m, after following them there.
+  /// Friction torque at these axis angles, N m, after the axes have moved there.
   Vector3 friction(const Vector3& theta_rad);
 
   [[nodiscard]] Vector3 encoder(const Vector3& theta_rad) const;

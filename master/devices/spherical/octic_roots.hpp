@@ -17,11 +17,11 @@ struct OcticRoots {
   std::array<double, 8> phi_rad{};           // first approximations
 };
 
-/// Beside the real axis, rad, a root may lie and still be listed: a double root splits by the root of
-/// rounding.
+/// Maximum distance from the real axis, rad, at which a root is listed: a double root splits by the root of
+/// the rounding error.
 constexpr double kBeside = 0.02;
 
-/// `scale`: size of the terms of which F was made, against which it vanishes.
+/// `scale`: size of the terms of F, relative to which F vanishes.
 OcticRoots octic_roots(const std::array<double, OcticRoots::kSamples>& F, double scale);
 
 }  // namespace longreach

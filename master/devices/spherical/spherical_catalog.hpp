@@ -5,8 +5,9 @@
 
 namespace longreach {
 
-/// The device of Liu, Geng, Liu, Wang (2019), **reconstructed**: its table of angles is lost. All link angles
-/// 90 degrees, base and platform axes orthogonal, in its usual attitude with z as the axis of symmetry.
+/// The device of Liu, Geng, Liu, Wang (2019), **reconstructed**, because its table of angles is lost. All
+/// link angles are 90 degrees, base and platform axes are orthogonal, in its usual attitude with z as the
+/// axis of symmetry.
 SphericalGeometry reconstructed_spherical();
 
 /// The Agile Eye (Gosselin, Hamel 1994): all angles 90 degrees, base axes x, y, z, platform axes the
