@@ -1,7 +1,7 @@
 #pragma once
-// The master without I/O: strings mapping and rendering together, decides about engagement, numbers the
-// commands. step() is pure but for the node's own state: time, handle and messages come in; wrench and
-// command go out. It allocates nothing and throws nothing.
+// The master without I/O: connects mapping and rendering, decides about engagement, numbers the commands.
+// step() is pure except for the state of the node: inputs are time, handle and messages; outputs are wrench
+// and command. It allocates nothing and throws nothing.
 
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,7 @@
 
 namespace longreach {
 
-/// What keys or RPC ask for in this tick, besides the buttons of the device.
+/// Requests of keys or RPC in this tick, besides the buttons of the device.
 struct OperatorRequests {
   bool engage = false;  // begin a new engagement
   bool hold = false;    // stop following, resume with engage
@@ -26,9 +26,9 @@ struct OperatorRequests {
   std::optional<MotionMode> mode{};
   std::optional<double> scale{};  // 0.05 to 1; others are ignored and counted
   int scale_steps = 0;            // of 0.05
-  bool clutch = false;            // level: while true the handle moves without the robot
-  std::optional<bool> grip{};     // the gripper shall be closed, or open
-  bool turns_gripper = false;     // closed it shall be open, open closed
+  bool clutch = false;            // state: while true the handle moves without the robot
+  std::optional<bool> grip{};     // request to close or open the gripper
+  bool turns_gripper = false;     // toggle the gripper
 };
 
 struct MasterInput {
@@ -39,36 +39,37 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // of any valid datagram
   std::uint32_t peer_restarts = 0;
-  bool taken = false;               // another master has control of the robot: a level
-  bool hand_stale = false;          // what is known of the hand is too old
+  bool taken = false;               // another master has control of the robot: a state
+  bool hand_stale = false;          // the data of the hand is too old
   std::optional<double> rtt_s{};    // of the link, once known
   bool may_send = true;             // within the budget of the link
-  std::uint64_t overdue_ticks = 0;  // that came late by over one period so far, or not at all
+  std::uint64_t overdue_ticks = 0;  // ticks so far that were late by more than one period, or missed
 };
 
-/// Everything that eyes, status and log need to know, once a tick.
+/// Data for display, status and log, once per tick.
 struct MasterView {
   SafetyState state = SafetyState::kIdle;
   Reason cause{};
   SafetyState far_state = SafetyState::kIdle;
   std::uint32_t engagement = 0;
-  bool hand_missing = false;  // safety.presence = HOLD, and no hand is on the handle: no engagement
+  /// safety.presence = HOLD, and no hand is on the handle: engagement is impossible
+  bool hand_missing = false;
   bool engaging = false;      // an engagement waits for its answer
-  // Then: the seconds until that can be here; none: not, or not known.
+  // Seconds until the answer can arrive; none: no engagement is pending, or unknown.
   std::optional<double> answer_in_s{};
   std::optional<double> rtt_s{};        // median of the last half second
-  std::optional<double> rtt_least_s{};  // least of that since the engagement: the delay that was accepted
+  std::optional<double> rtt_least_s{};  // minimum of that since the engagement: the accepted delay
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;
   bool clutched = false;
-  std::optional<bool> grip{};  // asked for, and not yet told by the slave as done
-  bool at_boundary = false;  // position mode: a handle meets its soft stop, time to relocate with the clutch
+  std::optional<bool> grip{};  // requested, and not yet reported by the slave as done
+  bool at_boundary = false;  // position mode: a handle is at its soft stop, time to relocate with the clutch
   Vector3 p_MH = Vector3::Zero();    // handle, m
   Vector3 goal_m = Vector3::Zero();  // goal minus anchor, W
   Vector3 goal_rad = Vector3::Zero();
-  Pose forecast{};  // goal one way ahead, from the anchor, W: for a ghost in the picture
+  Pose forecast{};  // goal one one-way delay ahead, from the anchor, W: for a ghost in the display
   Wrench F_H_M{};   // rendered, on the hand
-  Vector3 spring_force_n = Vector3::Zero();  // the contact spring's part of it
+  Vector3 spring_force_n = Vector3::Zero();  // contribution of the contact spring
   bool in_contact = false;                   // as reported
   bool surface_known = false;
   double surface_m = 0.0;              // registered surface along the inward normal, from handle home, m

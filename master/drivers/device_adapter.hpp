@@ -1,7 +1,7 @@
 #pragma once
-// A real pair of haptic devices behind its adapter: the program that speaks to the hardware
-// (common/link/adapter_datagram.hpp). Its own watchdog lets the handle go when this side is silent; silence
-// of the adapter, or its word that the device has failed, is a fault here.
+// A real pair of haptic devices, connected by its adapter, the program that drives the hardware
+// (common/link/adapter_datagram.hpp). The watchdog of the adapter releases the handle when this side is
+// silent; silence of the adapter, or a reported failure of the device, is a fault of this side.
 
 #include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
@@ -11,15 +11,16 @@ namespace longreach {
 
 class DeviceAdapter : public HapticDevice {
  public:
-  /// `channel` must outlive it. `session`: drawn anew at each start, not 0.
+  /// `channel` must outlive it. `session`: random at each start, not 0.
   DeviceAdapter(Channel& channel, const AdapterConfig& config, std::uint64_t session)
       : port_(channel, session, config.silence_s) {}
 
-  /// What the newest datagram says, at the time when it has come. Before the first: a device that has failed.
+  /// Returns the content of the newest datagram, with its time of arrival. Before the first datagram: a
+  /// failed device.
   HandleState read(Time now) override;
-  /// A wrench that is not finite is none.
+  /// A wrench that is not finite counts as no wrench.
   void write(const Wrench& F_H_M) override;
-  /// Tells the adapter that somebody is there, before the first wrench.
+  /// Contacts the adapter before the first wrench.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }

@@ -1,7 +1,7 @@
 #pragma once
-// A gamepad or joystick by SDL's joystick part alone: no window, no sound. SDL is loaded by the first object,
-// and by nobody else. Poll it in one thread, outside the loop. Plugged in while the program runs, one is
-// taken as soon as there is none.
+// A gamepad or joystick, using only the joystick part of SDL: no window, no sound. SDL is loaded by the first
+// object. Poll it in one thread, outside the loop. A device that is plugged in while the program runs is used
+// if there is no other.
 //
 //   gamepad    left stick: along x and y; right stick: along z, turn about z; triggers: turn about y
 //   joystick   first two axes: along y and x; third axis or twist: along z; fourth: turn about z
@@ -15,18 +15,19 @@ namespace longreach {
 
 class Gamepad {
  public:
-  /// `name`: part of the name of the one to take; empty: the first. Throws std::runtime_error, one sentence,
-  /// where SDL cannot be loaded.
+  /// `name`: part of the name of the device to use; empty: the first. Throws std::runtime_error, one
+  /// sentence, if SDL cannot be loaded.
   explicit Gamepad(const std::string& name);
   ~Gamepad();
   Gamepad(const Gamepad&) = delete;
   Gamepad& operator=(const Gamepad&) = delete;
 
-  /// What it tells now; never waits.
+  /// Returns the present state; never waits.
   AxisSample poll();
-  /// `strength` 0 to 1, until the next call or for a fifth of a second. False: it has no motor.
+  /// `strength` 0 to 1, until the next call or for a fifth of a second. Returns false if the device has no
+  /// motor.
   bool rumble(double strength);
-  /// As it calls itself; empty: there is none.
+  /// Name reported by the device; empty: there is none.
   [[nodiscard]] const std::string& name() const;
 
   /// One line that lists sticks and buttons.

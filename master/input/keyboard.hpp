@@ -1,11 +1,12 @@
 #pragma once
-// The keyboard of a terminal without waiting: raw mode while it lives, given back on destruction, at exit and
-// by every signal that ends the program. Also reads a pipe, without raw mode. Poll it outside the loop.
+// Keyboard of a terminal, without blocking: raw mode during the lifetime of the object, restored on
+// destruction, at exit and by every signal that ends the program. It also reads a pipe, without raw mode.
+// Poll it outside the loop.
 //
-// A keyboard that has ended (end of file, closed terminal, read error) or whose terminal belongs to another
-// program (the master is in the background) is a hand that has let go: the target is home, nothing is
-// requested any more, and trouble() says why. One in the background is read again when it is brought back.
-// In rate mode a hand of which no key came for 2 s goes home.
+// If the keyboard has ended (end of file, closed terminal, read error) or its terminal belongs to another
+// program (the master is in the background), the handle counts as released: the target is home, there are no
+// requests, and trouble() gives the reason. A program in the background reads again when it returns to the
+// foreground. In rate mode the hand goes home after 2 s without a key.
 
 #include <string>
 #include <string_view>
@@ -22,13 +23,12 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads what has been typed, never waits. The requests are those since the last poll. To be called at 50
-  /// Hz.
+  /// Reads pending input, never waits. The requests are those since the last poll. Call it at 50 Hz.
   KeyboardState poll(MotionMode mode);
 
-  /// Why there is no keyboard now, and what to do; empty: it is read.
+  /// Returns why there is no keyboard now, and a remedy; empty: it is available.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
-  /// What the person at the keyboard should know now, and what to do; empty: nothing.
+  /// Returns a notice for the user at the keyboard, and a remedy; empty: none.
   [[nodiscard]] std::string_view notice() const;
 
  private:
@@ -44,7 +44,7 @@ class Keyboard {
   std::string trouble_;
   KeyParser parser_;
   int idle_polls_ = 0;   // since a key was read
-  bool let_go_ = false;  // for want of keys
+  bool let_go_ = false;  // because no key was pressed
   KeyboardState state_{};
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-// Keys, and what they ask for. Pure.
+// Keys and their functions. Pure.
 //
 // Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
 // the large step; space: home; m: mode; + - scale; c clutch; g gripper closed or open; e engage;
-// x stop; q quit; ? keys. Other keys, as Enter, only keep the hand where it is in rate mode.
+// x stop; q quit; ? keys. Other keys, such as Enter, only keep the hand in place in rate mode.
 
 #include <string_view>
 
@@ -38,17 +38,17 @@ struct Key {
 struct KeyboardConfig {
   double step_m = 0.001;
   double large_step_m = 0.005;
-  double workspace_m = 0.075;  // radius that the target stays within
+  double workspace_m = 0.075;  // maximum distance of the target from home
 };
 
 struct KeyboardState {
-  Vector3 target_m = Vector3::Zero();  // where the hand wants to be, from handle home, M
-  OperatorRequests requests{};         // since the last poll; clutch is a level
+  Vector3 target_m = Vector3::Zero();  // target of the hand, from handle home, M
+  OperatorRequests requests{};         // since the last poll; the clutch is a state
   bool show_keys = false;
   bool quit = false;  // latched
 };
 
-/// `state` after `key`; `mode` is the present one, which the mode key changes.
+/// Applies `key` to `state`; `mode` is the present one, which the mode key changes.
 void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, KeyboardState& state);
 
 /// One line that lists the keys.

@@ -1,5 +1,5 @@
 #pragma once
-// The person at a gamepad, joystick or SpaceMouse. Poll it in one thread, outside the loop.
+// Operator at a gamepad, joystick or SpaceMouse. Poll it in one thread, outside the loop.
 
 #include <optional>
 #include <string>
@@ -18,14 +18,14 @@ class PadOperator {
     return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpaceMouse;
   }
 
-  /// Throws std::runtime_error where the library of the device cannot be loaded.
+  /// Throws std::runtime_error if the library of the device cannot be loaded.
   explicit PadOperator(const MasterConfig& config);
 
-  /// `felt`: force at the hand over the largest that is rendered, which a motor makes felt. `dt_s`: since the
-  /// last call.
+  /// `felt`: force at the hand relative to the maximum rendered force, shown by the rumble motor. `dt_s`:
+  /// since the last call.
   const AxisHandState& poll(MotionMode mode, double felt, double dt_s);
 
-  /// Why the hand holds nothing, and what to do; empty: it does.
+  /// Returns why the hand does not hold the handle, and a remedy; empty: it does.
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] std::string_view key_line() const;
 

@@ -1,11 +1,11 @@
 #pragma once
-// A hand that comes from outside by messages: it holds the handle while they come. A hand that falls silent
-// for kHandAgeMax_s lets go, and the robot holds; one that lets go in order just lets go. Either way nobody
-// holds the handle then until the next engagement, so that no script or keyboard goes on where a person
-// stopped.
+// A hand controlled by messages of a remote client: it holds the handle while they arrive. If the messages
+// stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an orderly release
+// only releases the handle. In both cases the handle stays released until the next engagement, so that no
+// script or keyboard continues from there.
 //
-// The handle is led at no more than the speed of a hand. Aims count from where it is when it is taken: taking
-// it, like giving it back, moves nothing.
+// The handle moves at most at the speed of a hand. Aims are relative to its position when it is taken, so
+// that taking and returning it cause no motion.
 
 #include <cstdint>
 #include <optional>
@@ -16,8 +16,7 @@
 
 namespace longreach {
 
-/// How old what is known of a hand may be: hands here are asked at 50 Hz, those from outside tell by
-/// themselves.
+/// Maximum age of the data of a hand: local hands are polled at 50 Hz, remote ones send at their own rate.
 inline constexpr double kHandAgeMax_s = 0.3;
 
 /// The newest message of the hand.
@@ -26,7 +25,7 @@ struct RemoteAim {
   Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home
   bool clutch = false;
   bool grip = false;
-  bool holds = false;  // false: nobody is there, or has let go
+  bool holds = false;  // false: there is no hand, or it has released the handle
   Time said{};
 };
 
@@ -35,7 +34,7 @@ struct RemoteHandInput {
   RemoteAim aim{};
   HandleState handle{};
   std::uint32_t engagement = 0;
-  Grip grip = Grip::kLight;  // of a hand that holds
+  Grip grip = Grip::kLight;  // grip of a hand that holds
 };
 
 class RemoteHand {
@@ -45,11 +44,11 @@ class RemoteHand {
 
   explicit RemoteHand(double period_s) : period_s_(period_s) {}
 
-  /// None: the handle is the configured operator's. Adds to `requests` what the hand asks for.
+  /// Returns none if the configured operator has the handle. Adds the requests of the hand to `requests`.
   std::optional<HandTarget> step(const RemoteHandInput& in, OperatorRequests& requests);
 
   [[nodiscard]] bool holds() const { return holds_; }
-  /// In this tick, without having let go.
+  /// In this tick, without an orderly release.
   [[nodiscard]] bool fell_silent() const { return fell_silent_; }
 
  private:
@@ -59,12 +58,12 @@ class RemoteHand {
   double period_s_;
   bool holds_ = false;
   bool fell_silent_ = false;
-  bool gone_ = false;             // it held the handle, and nobody has since
-  std::uint32_t engagement_ = 0;  // when it went
+  bool gone_ = false;             // it held the handle, and no hand has held it since
+  std::uint32_t engagement_ = 0;  // engagement at that time
   bool gripped_ = false;
-  Vector3 led_m_ = Vector3::Zero();  // where it is
+  Vector3 led_m_ = Vector3::Zero();  // its position
   Vector3 led_rad_ = Vector3::Zero();
-  Vector3 from_m_ = Vector3::Zero();  // what is added to aims
+  Vector3 from_m_ = Vector3::Zero();  // offset added to aims
   Vector3 from_rad_ = Vector3::Zero();
 };
 

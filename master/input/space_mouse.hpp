@@ -1,7 +1,7 @@
 #pragma once
-// A SpaceMouse by spacenavd: the puck's six deflections and its buttons. libspnav is loaded by the first
-// object, and by nobody else; one object at a time. Poll it in one thread, outside the loop. A daemon that
-// ends, or reports that the device is unplugged, is a device that is not there; both are looked for again.
+// A SpaceMouse by spacenavd: the six deflections of the puck and its buttons. libspnav is loaded by the first
+// object; one object at a time. Poll it in one thread, outside the loop. If the daemon ends, or reports that
+// the device is unplugged, there is no device; both are searched again.
 //
 //   push the puck away: x, to the left: y, up: z; turns likewise
 
@@ -15,14 +15,14 @@ namespace longreach {
 
 class SpaceMouse {
  public:
-  /// Throws std::runtime_error, one sentence, where libspnav cannot be loaded.
+  /// Throws std::runtime_error, one sentence, if libspnav cannot be loaded.
   SpaceMouse();
   ~SpaceMouse();
   SpaceMouse(const SpaceMouse&) = delete;
   SpaceMouse& operator=(const SpaceMouse&) = delete;
 
-  /// What it tells now, `dt_s` after the last call. Waits only for a daemon that has just been found, 0.7 s
-  /// at most.
+  /// Returns the present state, `dt_s` after the last call. Waits only for a newly found daemon, at most 0.7
+  /// s.
   AxisSample poll(double dt_s);
 
   /// One line that lists the buttons.

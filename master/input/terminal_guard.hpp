@@ -1,27 +1,26 @@
 #pragma once
-// Gives the terminal back as it was, however the program ends: line mode, echo, cursor and screen. What is
-// kept here is given back by the calls below, at exit, and by signals that end the program; those then take
-// their course. A signal for which the program has its own answer is left to it. A terminal that nobody reads
-// delays the end by 0.2 s at most; what lies there unread goes. One terminal a program. Not for several
-// threads.
+// Restores the terminal at the end of the program: line mode, echo, cursor and screen. The saved state is
+// restored by the calls below, at exit, and by signals that end the program; these then take their course.
+// Signals with a handler of the program are not affected. A stalled terminal delays the end by at most 0.2 s;
+// its unread output is discarded. One terminal per program. Not thread-safe.
 
 struct termios;
 
 namespace longreach {
 
-/// `fd` anew, as one that never waits: `fd` itself may not be made so, for the shell has it, too. The
-/// caller's to close.
+/// Opens the terminal of `fd` again in non-blocking mode: `fd` itself may not be changed, because the shell
+/// shares it. The caller closes it.
 int open_anew(int fd);
 
-/// The terminal `fd` belongs to another program now: to read or to change it would stop this one (SIGTTIN,
-/// SIGTTOU).
+/// Returns whether the terminal `fd` now belongs to another program: reading or changing it would stop this
+/// program (SIGTTIN, SIGTTOU).
 bool in_background(int fd);
 
-/// Remembers `mode`, the present one of `fd`, before it is changed.
+/// Saves `mode`, the present mode of `fd`, before it is changed.
 void keep_terminal_mode(int fd, const termios& mode);
 void give_back_terminal_mode();
 
-/// Remembers that `fd` is about to show the other screen without a cursor.
+/// Notes that `fd` is about to show the alternate screen without a cursor.
 void keep_screen(int fd);
 void give_back_screen();
 

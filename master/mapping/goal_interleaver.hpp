@@ -1,8 +1,8 @@
 #pragma once
-// Whose turn it is: each datagram carries the goal of one device (Liu et al. 2019). Both move: translation
-// is sent. A device has moved when its goal has left, by more than two encoder counts of a desktop device
-// scaled like the motion, what was sent of it last; so noise does not take the other's turns. The device that
-// has to wait takes every eighth turn, so that the loss of its last goal loses nothing.
+// Selects the goal of a datagram: each datagram carries the goal of one device (Liu et al. 2019). If both
+// move, translation is sent. A device has moved if its goal differs from its last sent one by more than two
+// encoder counts of a desktop device, scaled like the motion; noise therefore does not use datagrams. The
+// waiting device gets every eighth datagram, so that its last goal is repeated and may be lost.
 
 #include <cstdint>
 
@@ -13,12 +13,12 @@ namespace longreach {
 
 class GoalInterleaver {
  public:
-  /// The kind that the datagram of this period carries; it counts as sent.
+  /// Returns the kind of the goal in the datagram of this period, which counts as sent.
   GoalKind next(const Goal& goal, double scale);
 
  private:
-  Goal sent_{};                // of each device, when it was sent last
-  std::uint32_t waiting_ = 0;  // turns since the other device had one
+  Goal sent_{};                // last sent goal of each device
+  std::uint32_t waiting_ = 0;  // datagrams since the other device was sent
 };
 
 }  // namespace longreach

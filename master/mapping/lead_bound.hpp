@@ -1,7 +1,7 @@
 #pragma once
-// When the goal is bounded, and until when: from the report that a limit holds the robot back until the robot
-// has reached a goal that was commanded within the bound. The flag's end alone would not do: with a delay the
-// goal would run ahead and be drawn back again and again.
+// Period in which the goal is bounded: from the report that a limit holds the robot back until the robot has
+// reached a goal that was commanded within the bound. Ending it with the flag would not suffice: with a delay
+// the goal would repeatedly run ahead and be drawn back.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ class LeadBound {
 
   void reset() { *this = LeadBound(lead_); }
 
-  /// Of the present engagement; `reached`: newest command whose goal the robot has reached.
+  /// For the present engagement; `reached`: newest command whose goal the robot has reached.
   void on_report(const ContactReport& report, std::uint64_t reached) {
     if (!report.held_back.isZero(0.0)) {
       bound_ = {report.place, report.held_back};
@@ -27,7 +27,7 @@ class LeadBound {
     }
   }
 
-  /// The command with this number is sent, its goal `ahead` of the bound's place along its direction.
+  /// The command with this number is sent, its goal `ahead` of the position of the bound along its direction.
   void on_command(std::uint64_t sequence, double ahead) {
     constexpr double kRounding = 1e-9;
     if (bound_.direction.isZero(0.0) || ahead > lead_ + kRounding) {
@@ -43,7 +43,7 @@ class LeadBound {
   double lead_;
   GoalBound bound_{};
   std::optional<std::uint64_t>
-      within_{};  // first of the commands since then whose goals were within the bound
+      within_{};  // first of the later commands whose goals were within the bound
 };
 
 }  // namespace longreach

@@ -2,7 +2,7 @@
 // The closure of one leg about a present orientation q0, as a function of g in q = (1, g) q0 (g = axis
 // tan(angle/2)):
 //   F(g) = (k - c)/2 + g . n + ...,   n = v x w,  k = w . v,  c = cos(alpha2)
-// to first order (spherical_kinematics.hpp has the rest). And the linear algebra of three of them.
+// to first order (spherical_kinematics.hpp has the remaining terms), and the linear algebra for three legs.
 
 #include "common/spatial/spatial.hpp"
 
@@ -28,7 +28,7 @@ struct Adjugate {
       : x(b.cross(c)), y(c.cross(a)), z(a.cross(b)), volume(a.dot(x)) {}
 
   [[nodiscard]] Vector3 times(double r1, double r2, double r3) const { return r1 * x + r2 * y + r3 * z; }
-  /// Square of the inverse's Frobenius norm, times volume².
+  /// Square of the Frobenius norm of the inverse, times volume².
   [[nodiscard]] double square() const { return x.squaredNorm() + y.squaredNorm() + z.squaredNorm(); }
 };
 

@@ -14,8 +14,8 @@
 
 namespace longreach {
 
-/// An orientation with what the motion needs of it. `closed` false: no such pose, or singular; nothing else
-/// is valid.
+/// An orientation with the quantities needed for the motion. If `closed` is false (impossible or singular),
+/// the other values are invalid.
 struct SphericalAttitude {
   bool closed = false;
   Quaternion q = Quaternion::Identity();
@@ -26,7 +26,7 @@ struct SphericalAttitude {
 
 class SphericalDynamics {
  public:
-  /// Throws GeometryError for angles that cannot be.
+  /// Throws GeometryError for impossible angles.
   explicit SphericalDynamics(const SphericalConfig& config);
 
   [[nodiscard]] const SphericalKinematics& kinematics() const { return kinematics_; }

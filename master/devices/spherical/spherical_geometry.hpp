@@ -10,10 +10,10 @@
 // v* = (-sin η sin β2, cos η sin β2, cos β2), w_cos = sin(alpha1) (-sin η cos β1, cos η cos β1, sin β1). Or
 // from the axes themselves: w_cos is the part of w0 = w(0) across u.
 //
-// The constructors throw GeometryError, naming the parameter, for what cannot be such a mechanism: a value
-// that is not finite, a link angle outside (0, π), axes that are not unit vectors, an alpha1 that w0 does not
-// have, two legs with the same axes, platform axes in one line, a loop that no orientation closes. Base axes
-// may be one (coaxial motors).
+// The constructors throw GeometryError, which names the parameter, for an impossible mechanism: a value that
+// is not finite, a link angle outside (0, π), axes that are not unit vectors, an alpha1 that differs from the
+// angle of w0, two legs with the same axes, collinear platform axes, a loop that no orientation closes. Base
+// axes may coincide (coaxial motors).
 
 #include <array>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Orientations of a 3-RRR spherical mechanism: motor angles of an orientation, orientations of motor angles.
+// Kinematics of a 3-RRR spherical mechanism: motor angles from an orientation, and orientations from motor
+// angles.
 //
 // Inverse: E cos θ + F sin θ + G = 0 a leg, E = w_cos . v, F = w_sin . v, G = w_axial . v - cos(alpha2): two
 // roots. Forward, tracking: with q = (1, g) q_previous the closures are exactly quadratic in g,
@@ -11,7 +12,7 @@
 // two cones are φ (v1 about w1) and ψ (about v1); ψ is eliminated, which leaves a trigonometric polynomial of
 // degree 4 in φ: at most 8 roots, each polished on the closures.
 //
-// Every function takes anything, finite or not, and returns finite numbers. Nothing allocates or throws.
+// Every function accepts any input, finite or not, and returns finite numbers. Nothing allocates or throws.
 
 #include <array>
 
@@ -21,13 +22,13 @@
 namespace longreach {
 
 /// Motor angles of an orientation. kFound: all three. kSingular: a leg is stretched or folded, or turns
-/// freely; the angles close the loop. Else: zero.
+/// freely; the angles close the loop. Otherwise zero.
 struct SphericalMotors {
   SolutionStatus status = SolutionStatus::kNoSolution;
   Vector3 theta_rad = Vector3::Zero();  // (-pi, pi]
 };
 
-/// Both roots of each leg: `first` has u . (w x v) >= 0, `second` <= 0. Status and output as in
+/// Both roots of each leg: `first` has u . (w x v) >= 0, `second` <= 0. Status and output are as in
 /// SphericalMotors.
 struct SphericalRoots {
   SolutionStatus status = SolutionStatus::kNoSolution;
@@ -35,18 +36,19 @@ struct SphericalRoots {
   Vector3 second_rad = Vector3::Zero();
 };
 
-/// Orientation from the previous one. kFound: closes all loops, same assembly mode. Else `q`, `side`: the
-/// previous ones. kNoSolution: an input is not finite. kSingular: the previous pose is singular, or a
-/// singularity lies on the way.
+/// Orientation that follows from the previous one. kFound: closes all loops in the same assembly mode.
+/// Otherwise `q` and `side` are the previous ones. kNoSolution: an input is not finite. kSingular: the
+/// previous pose is singular, or there is a singularity in between.
 struct SphericalPose {
   SolutionStatus status = SolutionStatus::kNoSolution;
   Quaternion q = Quaternion::Identity();
-  int side = 0;  // sign of det[v_i x w_i], which an assembly mode keeps; 0: not known
+  int side = 0;  // sign of det[v_i x w_i], which an assembly mode keeps; 0: unknown
   int iterations = 0;
 };
 
-/// All orientations of given motor angles. kFound: `count` of them. kSingular: some of the `count` are
-/// singular (two meet), or there is a continuum of which only singular members are listed. kNoSolution: none.
+/// All orientations for given motor angles. kFound: `count` orientations. kSingular: some of them are
+/// singular (two coincide), or there is a continuum of which only singular members are listed. kNoSolution:
+/// none.
 struct SphericalPoses {
   SolutionStatus status = SolutionStatus::kNoSolution;
   int count = 0;
@@ -62,19 +64,20 @@ class SphericalKinematics {
 
   [[nodiscard]] const SphericalGeometry& geometry() const { return g_; }
 
-  /// The angles of the working mode: bit i of `mode` set takes the second root for leg i (8 working modes).
+  /// Returns the angles of the working mode: bit i of `mode` selects the second root of leg i (8 working
+  /// modes).
   [[nodiscard]] SphericalMotors inverse(const Quaternion& q, unsigned mode = 0) const;
   [[nodiscard]] SphericalRoots inverse_all(const Quaternion& q) const;
 
-  /// `previous.q` is a unit quaternion, or the identity is taken for it. With `previous.side` 0 the side is
-  /// taken from the previous orientation and the new angles, which a step across a singularity may deceive:
-  /// hand over the last result.
+  /// `previous.q` must be a unit quaternion; otherwise the identity is used. If `previous.side` is 0, the
+  /// side is computed from the previous orientation and the new angles, which may be wrong for a step across
+  /// a singularity: pass the last result.
   [[nodiscard]] SphericalPose forward(const Vector3& theta_rad, const SphericalPose& previous) const;
   [[nodiscard]] SphericalPoses forward_all(const Vector3& theta_rad) const;
 
  private:
-  /// Three vectors, one a leg, side by side: the legs are computed together. The fourth lane repeats the
-  /// third leg.
+  /// Three vectors, one per leg, side by side, so that the legs are computed together. The fourth lane
+  /// repeats the third leg.
   struct Vectors {
     Eigen::Array4d x, y, z;
   };
@@ -83,7 +86,7 @@ class SphericalKinematics {
 
   SphericalGeometry g_;
   Vectors w_axial_, w_cos_, w_sin_, v_;
-  double curvature_;  // bound of the change of the closures' Jacobian per unit of g
+  double curvature_;  // bound on the change of the closures' Jacobian per unit of g
 };
 
 }  // namespace longreach

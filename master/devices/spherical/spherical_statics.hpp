@@ -4,7 +4,7 @@
 //   (w_i x v_i) . ω = (u_i . (w_i x v_i)) θ'_i,   θ' = J ω,   M = Jᵀ τ      (M on the hand by the device, τ
 //   by the motors)
 //
-// ω and M in the base frame. Angles and orientation must belong together: nothing here checks that.
+// ω and M are in the base frame. Angles and orientation must belong together, which is not checked here.
 
 #include "common/core/solution_status.hpp"
 #include "master/devices/spherical/spherical_geometry.hpp"
@@ -23,7 +23,7 @@ struct SphericalVelocity {
   Vector3 lever = Vector3::Zero();    // u_i . (w_i x v_i) / sin(alpha2)
 };
 
-/// kFound: the matrix. kSingular: it has no finite value, zero.
+/// kFound: the matrix. kSingular: zero, because it has no finite value.
 struct SphericalJacobian {
   SolutionStatus status = SolutionStatus::kSingular;
   Matrix3 matrix = Matrix3::Zero();
@@ -38,12 +38,12 @@ struct SphericalTorque {
 SphericalVelocity velocity(const SphericalGeometry& g, const Vector3& theta_rad, const Quaternion& q);
 SphericalSingularity singularity(const SphericalGeometry& g, const SphericalVelocity& at);
 
-/// J: motor rates of a handle's angular velocity. Singular in type 1.
+/// J: motor rates from the angular velocity of the handle. Singular in type 1.
 SphericalJacobian jacobian(const SphericalVelocity& at);
-/// J^-1: angular velocity of motor rates. Singular in type 2.
+/// J^-1: angular velocity from motor rates. Singular in type 2.
 SphericalJacobian inverse_jacobian(const SphericalVelocity& at);
 
-/// Motor torques that make the device turn the hand with `moment_nm`: τ = J^-T M.
+/// Returns the motor torques with which the device acts on the hand with `moment_nm`: τ = J^-T M.
 SphericalTorque statics(const SphericalVelocity& at, const Vector3& moment_nm);
 
 }  // namespace longreach
