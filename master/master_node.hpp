@@ -72,15 +72,15 @@ struct MasterView {
   Vector3 spring_force_n = Vector3::Zero();  // contribution of the contact spring
   bool in_contact = false;                   // as reported
   bool surface_known = false;
-  double surface_m = 0.0;              // registered surface along the inward normal, from handle home, m
-  Vector3 inward = Vector3::Zero();    // unit, into the surface, M
-  double stiffness_n_per_m = 0.0;      // rendered now, along the inward normal
-  double stiffness_max_n_per_m = 0.0;  // the most that is: of the device, or as configured
-  Vector3 spring_moment_nm = Vector3::Zero();        // of a contact in rotation
-  double rotational_stiffness_nm_per_rad = 0.0;      // rendered now, about the foremost axis
-  double rotational_stiffness_max_nm_per_rad = 0.0;  // the most that is
+  double surface_m = 0.0;              // unit, into the surface, M
+  Vector3 inward = Vector3::Zero();    // rendered stiffness, along the inward normal
+  double stiffness_n_per_m = 0.0;      // maximum rendered stiffness: of the device, or as configured
+  double stiffness_max_n_per_m = 0.0;  // of a contact by rotation
+  Vector3 spring_moment_nm = Vector3::Zero();        // rendered stiffness, about the foremost axis
+  double rotational_stiffness_nm_per_rad = 0.0;      // maximum rendered stiffness
+  double rotational_stiffness_max_nm_per_rad = 0.0;  // change of the spring force by the last applied report
   double force_step_n = 0.0;       // of the spring force, by the last report that was applied
-  double port_energy_j = 0.0;      // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
+  double port_energy_j = 0.0;      // its minimum since the start of an engagement, over all engagements
   double port_energy_min_j = 0.0;  // least of it since an engagement began, of all of them
   double stored_energy_j = 0.0;
   double energy_drawdown_j = 0.0;  // largest fall of E_port - E_stored so far, J
@@ -90,19 +90,19 @@ struct MasterView {
   bool rotational_stiffness_clamped = false;
   bool damping_injected = false;
   std::uint64_t reports = 0;          // applied
-  std::uint64_t rejected_values = 0;  // ignored: not finite, out of range
+  std::uint64_t rejected_values = 0;  // holds that ended automatically within resume_s
   std::uint64_t false_holds = 0;      // holds that ended by themselves within resume_s
   Telemetry far{};                    // newest telemetry
   bool far_known = false;
-  // Of the shown alone; a recording has them in its messages.
-  bool silent = false;          // nothing has been heard for silence_s
-  bool resumes = false;         // a hold ends by itself when its cause is over
-  bool cause_is_far = false;    // `cause` is the slave's
+  // no datagram for silence_s
+  bool silent = false;          // the hold ends automatically when its cause is over
+  bool resumes = false;         // `cause` is that of the slave
+  bool cause_is_far = false;    // why the last requested engagement is not granted
   Reason refusal{};             // why the engagement that was asked for last is not granted
-  bool refusal_is_far = false;  // likewise
-  std::uint64_t holds = 0;      // so far: Engaged was left
-  Reason last_hold{};           // cause of the last of them
-  double far_age_s = 0.0;       // since the newest telemetry came
+  bool refusal_is_far = false;  // number of holds so far: Engaged was left
+  std::uint64_t holds = 0;      // cause of the last hold
+  Reason last_hold{};           // since the newest telemetry arrived
+  double far_age_s = 0.0;       // longest silence during the present or last hold
   double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
 
   /// Closed, or asked to close.

@@ -1,6 +1,6 @@
 #pragma once
-// The thread that asks keyboard and pad what the hand does, and hands it to the loop with its time. It writes
-// to no terminal, pipe or file, so that nobody who does not read can hold it up.
+// The thread that polls keyboard and pad for the state of the hand, and passes it with its time to the loop.
+// It writes to no terminal, pipe or file, so that a stalled reader cannot block it.
 
 #include <atomic>
 #include <mutex>
@@ -21,19 +21,19 @@ class HandPoll {
     bool show_keys = false;
     bool quit = false;  // latched
     std::string pad_keys;
-    std::string notice;   // what the person at the keyboard should know
-    std::string trouble;  // why there is nothing in the hand, and what to do
+    std::string notice;   // notice for the user at the keyboard
+    std::string trouble;  // why the hand does not hold the handle, and a remedy
   };
 
-  /// All must outlive it. Nobody to ask for other kinds of operator. Throws std::runtime_error where the
-  /// library of a pad cannot be loaded.
+  /// All must outlive it. Other kinds of operator are not polled. Throws std::runtime_error if the library of
+  /// a pad cannot be loaded.
   HandPoll(const MasterConfig& config, MasterShell& shell, MasterService& service);
-  /// Gives the terminal back.
+  /// Restores the terminal.
   ~HandPoll();
   HandPoll(const HandPoll&) = delete;
   HandPoll& operator=(const HandPoll&) = delete;
 
-  /// Keyboard or pad is the hand.
+  /// The operator is a keyboard or pad.
   [[nodiscard]] bool is_hand() const { return keyboard_.has_value(); }
   [[nodiscard]] Seen seen() const;
 

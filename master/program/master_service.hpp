@@ -1,5 +1,6 @@
 #pragma once
-// What RPC clients and keys may do at the master: look, set, impair, change mode and scale, engage, stop.
+// Operations of the master for RPC clients and keys: queries, settings, impairment, mode and scale, engage,
+// stop.
 
 #include <chrono>
 #include <mutex>
@@ -13,7 +14,7 @@ namespace longreach {
 
 class MasterService : public ControlBackend {
  public:
-  /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
+  /// `config`: as loaded, files resolved; its limits are upper bounds for later changes.
   MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
@@ -32,32 +33,33 @@ class MasterService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Before the loop begins: from its first tick on, as a replay needs it. Throws RecordingError.
+  /// Call it before the loop starts, so that its first tick is recorded, as a replay requires. Throws
+  /// RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// The newest picture of the loop; callable from any thread but the loop's.
+  /// Newest snapshot of the loop; callable from any thread except the loop's.
   MasterSnapshot snapshot();
-  /// Hands what keys asked for to the loop; callable from any thread but the loop's.
+  /// Passes requests of keys to the loop; callable from any thread except the loop's.
   std::optional<Refusal> request(const OperatorRequests& requests);
-  /// Hands a session to the loop; false: it did not answer. Callable from any thread but the loop's.
+  /// Passes a session to the loop; false: it did not respond. Callable from any thread except the loop's.
   bool adopt(const Session& session);
-  /// Why there is no session; empty: there is one.
+  /// Returns why there is no session; empty: there is one.
   std::string trouble();
-  /// Why there is no session, and who has taken the robot (its address); empty: there is one, nobody has.
+  /// Sets why there is no session, and the address of the master that has control of the robot; empty: none.
   void put_trouble(const std::string& trouble, const std::string& taken_by);
 
  private:
   SideRecording<MasterRecordBuffer>::Request recording_request(double max_mb) const;
-  /// Hands a tape to the loop; false: it did not answer.
+  /// Passes a record buffer to the loop; false: it did not respond.
   bool attach(MasterRecordBuffer* record_buffer);
 
   MasterShell& shell_;
   SideConfig<proto::MasterConfig> config_;
-  std::uint32_t config_number_ = 0;  // of those that the loop was handed
+  std::uint32_t config_number_ = 0;  // of the configurations passed to the loop
   RecordingPlace recordings_;
   SideRecording<MasterRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::mutex reading_;  // among those who read snapshots
+  std::mutex reading_;  // for readers of snapshots
   std::mutex troubling_;
   std::string trouble_, taken_by_;
 };

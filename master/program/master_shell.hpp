@@ -1,7 +1,7 @@
 #pragma once
-// The master's loop with real sockets, a device and an operator: one tick receives, reads the handle, steps
-// the node, renders the wrench, sends. Runs in the loop's thread alone; other threads reach it through the
-// mailbox, the hand and the snapshots, which make it wait for nothing.
+// The loop of the master with real sockets, a device and an operator: one tick receives, reads the handle,
+// steps the node, renders the wrench, sends. It runs only in the thread of the loop; other threads
+// communicate with it by the mailbox, the hand and the snapshots, which never block it.
 
 #include <variant>
 
@@ -25,43 +25,43 @@ namespace longreach {
 struct MasterSnapshot {
   SideFigures side{};
   MasterView view{};
-  ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, when it is the operator
-  bool hand_outside = false;                  // a hand from outside holds the handle
+  ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, if it is the operator
+  bool hand_outside = false;                  // a remote hand holds the handle
   AdapterFigures adapter{};
-  bool hand_lost = false;  // keyboard or pad is not there, or the handle is not yet where it wants it
+  bool hand_lost = false;  // keyboard or pad is not available, or the handle has not yet reached its target
 };
 
 struct MasterChange {
   MasterConfig config{};
-  bool only_disengaged = false;  // a field changes that must not while engaged
+  bool only_disengaged = false;  // a field changes that cannot change while engaged
   bool impairment = false;       // config.link.impairment has changed
-  bool script = false;           // what the script acts on has changed: it begins anew
+  bool script = false;           // the configuration of the script has changed: it restarts
   std::uint32_t number = 0;      // of the configuration, for a recording
 };
-/// What is written down from now on; none: nothing. The loop no longer uses the one before.
+/// Record buffer from now on; none: no recording. The loop no longer uses the previous one.
 struct MasterRecordingChange {
   MasterRecordBuffer* record_buffer = nullptr;
 };
-/// Another master has the robot now: that is why the slave is silent.
+/// Another master has control of the robot, which is why the slave is silent.
 struct MasterPreempted {};
 using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
                                    MasterRecordingChange>;
 
 class MasterShell {
  public:
-  /// Throws AddressError or std::runtime_error when the socket cannot be had. `seed`: of the artificial
+  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: of the artificial
   /// impairment.
   MasterShell(const MasterConfig& config, std::uint64_t seed);
 
-  /// Waits until the device's adapter answers, at most 2 s, and not when there is none. Before the first
-  /// tick.
+  /// Waits until the adapter of the device answers, at most 2 s; returns at once if there is none. Call it
+  /// before the first tick.
   void wait_for_device();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Before the first tick; later by MasterRecordingChange.
+  /// Call it before the first tick; later use MasterRecordingChange.
   void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
-  /// Loop thread only: the picture of the last tick.
+  /// Loop thread only: snapshot of the last tick.
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
 
   Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
@@ -69,7 +69,7 @@ class MasterShell {
   LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
   /// Written by the thread that polls keyboard, gamepad or SpaceMouse.
   LatestValue<HandLevel>& hand() { return hand_; }
-  /// Written by one thread at a time, for a hand from outside.
+  /// Written by one thread at a time, for a remote hand.
   LatestValue<RemoteAim>& remote_aim() { return remote_aim_; }
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
@@ -83,23 +83,23 @@ class MasterShell {
   MasterConfig config_;
   UdpChannel channel_;
   MasterPort port_;
-  SimulatedDevices devices_;  // are moved while there is no adapter
+  SimulatedDevices devices_;  // simulated while there is no adapter
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<DeviceAdapter> adapter_;
   HapticDevice& device_;
   ScriptedOperator script_;
   Grip script_grip_;
   MasterNode node_;
-  Vector3 held_m_ = Vector3::Zero();  // where the hand at keyboard, gamepad or SpaceMouse is
+  Vector3 held_m_ = Vector3::Zero();  // position of the hand at keyboard, gamepad or SpaceMouse
   Vector3 held_rad_ = Vector3::Zero();
   bool lost_ = false;        // as MasterSnapshot::hand_lost
   bool hand_stale_ = false;  // in this tick
   RemoteHand remote_;
   SideObserver observer_;
   bool preempted_ = false;                       // until the next session
-  MasterRecordBuffer* record_buffer_ = nullptr;  // none: nothing is recorded
+  MasterRecordBuffer* record_buffer_ = nullptr;  // none: no recording
   std::uint64_t ticks_ = 0;                      // steps of the node
-  std::uint32_t config_number_ = 0;              // of what it was configured with
+  std::uint32_t config_number_ = 0;              // number of its configuration
   MasterSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<MasterCommand, LoopAnswer> mailbox_;

@@ -1,5 +1,6 @@
 #pragma once
-// The thread beside the loop: view and log out, until the run is over; beside it the one that asks the hand.
+// The thread besides the loop that writes view and log until the end of the run, with the thread that polls
+// the hand.
 
 #include <atomic>
 #include <optional>
@@ -16,10 +17,10 @@
 
 namespace longreach {
 
-/// A simulated person at the simulated device; a real device has a real one.
+/// A simulated operator at the simulated device; a real device has a real operator.
 bool scripted(const MasterConfig& config);
 
-/// What the console shows of it.
+/// Data for the console.
 ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config);
 
 /// Logs what has changed since the last call.
@@ -33,11 +34,11 @@ class StateLog {
   std::string trouble_, hand_trouble_, notice_;
 };
 
-/// The simulated operator engages again after a hold that the machine or an outage of the link's profile
-/// caused, as a person would: after a second, and every few seconds while that is not answered.
+/// Lets the simulated operator engage again after a hold caused by the machine or by an outage of the link
+/// profile, as a person would: after a second, and every few seconds until it is granted.
 class Resumption {
  public:
-  /// True: ask for an engagement now.
+  /// Returns true to request an engagement now.
   bool step(double seconds, const MasterView& view, const HoldLog& holds);
 
  private:
@@ -51,20 +52,20 @@ struct RunOptions {
 
 class StatusLoop {
  public:
-  /// All must outlive it. Throws std::runtime_error where the library of a pad cannot be loaded.
+  /// All must outlive it. Throws std::runtime_error if the library of a pad cannot be loaded.
   StatusLoop(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
              MasterService& service);
 
-  /// The view owns the terminal.
+  /// The view controls the terminal.
   [[nodiscard]] bool live() const { return view_.live(); }
-  /// Returns when `stop`, the person at the keys or the length of the run says so.
+  /// Returns on `stop`, on request of the user at the keys, or at the end of the run.
   void run(const std::atomic<bool>& stop, const SessionClient& session_client);
-  /// Why there was nothing in the hand, the first of the run; for its summary.
+  /// Reasons for a released handle, from the first of the run; for its summary.
   [[nodiscard]] const std::vector<HandTrouble>& hand_troubles() const { return troubles_; }
 
  private:
   [[nodiscard]] double seconds() const { return to_seconds(boottime_now() - began_); }
-  /// Holds that this machine caused extend it, to twice its length at most.
+  /// Holds caused by this machine extend the run, to at most twice its length.
   [[nodiscard]] double length_s() const;
   [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const;
   void note(const std::string& hand);
@@ -78,7 +79,7 @@ class StatusLoop {
   ServiceWatch watch_;
   HoldLog holds_;
   std::vector<HandTrouble> troubles_;
-  std::string hand_said_;  // the last one, empty when it was over
+  std::string hand_said_;  // the last one; empty when it was over
   Resumption resumption_{};
   Time began_ = boottime_now();
   bool quit_ = false;

@@ -1,8 +1,7 @@
 #pragma once
-// What the master's loop writes down for a recording: each tick's inputs and outputs, exactly, so that a node
-// can be run again on them; and, less often, what the operator sees. The loop's calls cost copies into memory
-// that is there already: they do not wait, allocate or call the system. A tick that the recorder has left no
-// room for is not recorded, and counted.
+// Records of the master's loop for a recording: exact inputs and outputs of each tick, so that a node can be
+// replayed, and, less often, the operator's view. The calls of the loop copy into preallocated memory: they
+// do not wait, allocate or make system calls. A tick for which there is no space is dropped and counted.
 
 #include <cstdint>
 #include <variant>
@@ -13,10 +12,10 @@
 
 namespace longreach {
 
-/// A step of the node. `input` without the messages, which are recorded before it.
+/// A step of the node. `input` is without the messages, which are recorded before it.
 struct MasterTickRecord {
   std::uint64_t tick = 0;    // from 0 at the node's first step
-  std::uint32_t config = 0;  // number of the configuration that the node has
+  std::uint32_t config = 0;  // number of the node's configuration
   std::uint32_t reports = 0, telemetry = 0;
   MasterInput input{};
   MasterOutput output{};
@@ -26,10 +25,10 @@ class MasterRecordBuffer : public RecordBuffer {
  public:
   MasterRecordBuffer(double rate_hz, Duration to_log_time);
 
-  /// Loop: a step that was taken, and what the node shows after it.
+  /// Loop: adds a step and the resulting view of the node.
   void add_tick(std::uint64_t tick, std::uint32_t config, const MasterInput& input,
                 const MasterOutput& output, const MasterView& view);
-  /// Loop: whether the link is due, after this tick.
+  /// Loop: returns whether a record of the link is due after this tick.
   [[nodiscard]] bool link_due(std::uint64_t tick) const { return tick % link_every_ == 0; }
   void add_link(const LinkSample& sample);
 
@@ -59,7 +58,7 @@ class MasterRecordBuffer : public RecordBuffer {
   recording::MasterView view_;
 };
 
-/// Without the messages, whose numbers are in `out` already.
+/// Without the messages, whose numbers are already in `out`.
 void write(const MasterInput& input, recording::MasterInput& out);
 void write(const MasterOutput& output, recording::MasterOutput& out);
 void write(const MasterView& view, recording::MasterView& out);

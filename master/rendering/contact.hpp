@@ -1,8 +1,8 @@
 #pragma once
-// What the slave has met, felt by the hand: a unilateral spring for each surface that it reports, in
-// translation or in rotation. The spring is the tangent of the contact's law where the hand works, and begins
-// at the tangent's foot, behind the surface; the surface is the goal at the touch sequence, or lies at an
-// offset from the engagement's anchor where it is older than that.
+// Displays the contacts of the slave: a unilateral spring for each reported surface, in translation or in
+// rotation. The spring is the tangent of the contact law at the working depth, and begins at the foot of the
+// tangent, behind the surface. The surface is at the goal of the touch sequence, or, if that is too old, at
+// an offset from the engagement's anchor.
 //
 //   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
 //
@@ -29,7 +29,7 @@ struct ContactConfig {
   double ke = 1.0;
   bool ke_by_scale = false;  // rendered is ke k_scale of what is estimated, else ke of it
   double damping = 0.0;      // B, N s/m
-  bool by_arrival = false;   // surfaces lie at the newest goal, for contrast
+  bool by_arrival = false;   // surfaces are placed at the newest goal, for comparison
 };
 
 enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
@@ -39,15 +39,15 @@ struct ContactHandle {
   Vector3 x = Vector3::Zero();           // in M
   Vector3 rate = Vector3::Zero();        // x'
   Vector3 goal = Vector3::Zero();        // commanded, in W
-  bool rate_mode = false;                // no position to press against: the goal's own depth is felt
-  bool held = true;                      // nobody feels what presses on a handle that was let go
+  bool rate_mode = false;  // there is no position to press against: the depth of the goal itself is displayed
+  bool held = true;                      // on a released handle the springs fade
   bool clutched = false;                 // the hand moves without the robot
   Vector3 deflection = Vector3::Zero();  // from the centre of rate mode, in M
 };
 
-/// What a report meant.
+/// Result of a report.
 enum class ContactChange : std::uint8_t {
-  kNone,      // nothing new, or not enough is known yet
+  kNone,      // nothing new, or too little is known yet
   kRejected,  // impossible, or a touch that this side never commanded
   kUpdated,   // surfaces or stiffness
 };
@@ -59,10 +59,10 @@ struct ContactAxis {
   Vector3 goal = Vector3::Zero();  // at the foot of the tangent
   double reported = 0.0;           // stiffness times ke, N/m
   double surface = 0.0;            // handle's coordinate of the foot along n_M, m
-  double foot = 0.0;               // how far that is behind the surface, in the goal's space, m
+  double foot = 0.0;               // its depth behind the surface, in goal space, m
   double force = 0.0;              // rendered, against n_M, N
   std::uint32_t touch = 0;
-  bool let_go = false;  // the spring has faded, since nobody holds the handle
+  bool let_go = false;  // the spring has faded, because no hand is on the handle
   ContactSpring spring{ContactSpringConfig{}};
 
   [[nodiscard]] double s(const Vector3& x) const { return n_M.dot(x); }
@@ -76,21 +76,22 @@ class Contact {
   void configure(const ContactConfig& config);
   void reset();
 
-  /// Takes a report of the present engagement.
+  /// Processes a report of the present engagement.
   ContactChange on_report(const ContactReport& report, const GoalHistory& history,
                           const ContactHandle& handle, const Mapping& mapping);
 
-  /// One tick; `stale`: nothing has been heard, everything fades and is forgotten. Force on the hand.
+  /// One tick; `stale`: no datagram arrives, so everything fades and is removed. Returns the force on the
+  /// hand.
   Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                double dt_s);
-  /// The same without any rule, for contrast.
+  /// The same without the passivity rules, for comparison.
   Vector3 step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale);
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // stored in the springs
-  [[nodiscard]] double paid_j() const;                    // from purse to springs, in the last step
-  /// What the goal is commanded into, for Mapping: its force shall grow by `rise_per_s` at the most.
+  [[nodiscard]] double paid_j() const;                    // energy from source to springs, in the last step
+  /// Surfaces into which the goal is commanded, for Mapping: their force may grow by at most `rise_per_s`.
   [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
-  /// The axis that is felt most, else the stiffest that is known, else the first.
+  /// The axis with the largest force, else with the largest known stiffness, else the first.
   [[nodiscard]] const ContactAxis& foremost() const;
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool clamped() const;
@@ -98,7 +99,7 @@ class Contact {
 
  private:
   using Surfaces = std::array<ReportedSurface, kSurfaces>;
-  /// Where a surface lies among the goals; none: its touch is too long ago.
+  /// Returns the goal at a surface; none: its touch is too old.
   [[nodiscard]] std::optional<Vector3> goal_of(const ReportedSurface& s, const GoalHistory& history) const;
   ContactAxis* axis_of(const ReportedSurface& s);
   void forget(ContactAxis& a, const Vector3& x);
@@ -107,7 +108,7 @@ class Contact {
   void add_axis(const ReportedSurface& s, const Vector3& goal, const ContactHandle& handle,
                 const Mapping& mapping);
   [[nodiscard]] double ke(const Mapping& mapping) const;
-  /// Handle's coordinate along the axis where it commands the goal at the touch.
+  /// Coordinate of the handle along the axis at which it commands the goal of the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;
 

@@ -1,7 +1,7 @@
 #pragma once
-// Energy that dissipation at the port has earned and that a spring's anchor may spend to come home, J. Never
-// below zero, never above its size (Franken et al., T-RO 2011, reduced to what is needed here). The store of
-// an engagement is one that begins full: passivity allows the port what it began with.
+// Energy from dissipation at the port, which the anchor of a spring may spend to return, J. Never below zero,
+// never above its size (Franken et al., T-RO 2011, simplified). The store of an engagement is a tank that
+// starts full: passivity permits the port its initial energy.
 
 #include <algorithm>
 
@@ -15,13 +15,13 @@ class EnergyTank {
     level_j_ = std::min(level_j_, size_j);
   }
 
-  /// Takes in `energy_j`, or pays a negative one. Returns what it could not take (>= 0) or pay (<= 0).
+  /// Adds `energy_j`, or takes a negative one. Returns the part that it could not add (>= 0) or take (<= 0).
   double fill(double energy_j) {
     const double before = level_j_;
     level_j_ = std::clamp(before + energy_j, 0.0, size_j_);
     return before + energy_j - level_j_;
   }
-  /// Spends at most what is there.
+  /// Spends at most the available energy.
   double spend(double energy_j) {
     const double spent = std::clamp(energy_j, 0.0, level_j_);
     level_j_ -= spent;
@@ -35,12 +35,12 @@ class EnergyTank {
   double level_j_ = 0.0;
 };
 
-/// What a spring may be loaded from: the tank of its port, then the store of the engagement.
+/// Energy source of a spring: the tank of its port, then the store of the engagement.
 class EnergySource {
  public:
   EnergySource(EnergyTank& tank, EnergyTank* store = nullptr) : tank_(tank), store_(store) {}
   [[nodiscard]] double level_j() const { return tank_.level_j() + (store_ ? store_->level_j() : 0.0); }
-  /// Spends at most what is there.
+  /// Spends at most the available energy.
   double spend(double energy_j) {
     const double from_tank = tank_.spend(energy_j);
     return from_tank + (store_ ? store_->spend(energy_j - from_tank) : 0.0);

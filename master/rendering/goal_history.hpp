@@ -1,6 +1,6 @@
 #pragma once
-// Which goal was sent with which command: the master's own motion, in which the slave's touch sequence finds
-// the place of the surface. Sequences are pushed one after the other; storage is allocated once.
+// Goals by command: the motion of the master, in which the slave's touch sequence locates the surface.
+// Sequences are pushed in order; storage is allocated once.
 
 #include <cstdint>
 #include <optional>
@@ -19,14 +19,15 @@ class GoalHistory {
     whole_ = true;
   }
 
-  /// `sequence` must be one above the last one; otherwise the history starts anew.
+  /// `sequence` must be one above the last one; otherwise the history restarts.
   void push(std::uint64_t sequence, const Vector3& goal_m);
 
-  /// Goal at a fractional sequence, linear between two commands; none outside of what is remembered. What was
-  /// commanded before the history began is its first goal: an engagement begins where the robot is.
+  /// Returns the goal at a fractional sequence, linear between two commands; none outside the stored range.
+  /// For commands before the start of the history it is the first goal, because an engagement starts at the
+  /// position of the robot.
   [[nodiscard]] std::optional<Vector3> at(double sequence) const;
 
-  /// It was commanded, but too long ago to be remembered.
+  /// Returns whether the command was sent too long ago to be stored.
   [[nodiscard]] bool forgotten(double sequence) const {
     return !whole_ && sequence >= 1.0 && sequence < static_cast<double>(first_);
   }
@@ -35,7 +36,7 @@ class GoalHistory {
 
  private:
   std::uint64_t first_ = 0;  // sequence of goals_[0]
-  bool whole_ = true;        // nothing has been dropped since it began
+  bool whole_ = true;        // nothing has been dropped since the start
   Ring<Vector3> goals_;
 };
 

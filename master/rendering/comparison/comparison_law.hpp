@@ -1,5 +1,5 @@
 #pragma once
-// The closed set of comparison laws, master's end.
+// The closed set of comparison laws at the master.
 
 #include <variant>
 
@@ -14,12 +14,12 @@ namespace longreach {
 
 using ComparisonLaw = std::variant<DirectLaw, PositionPositionLaw, WaveLaw, PassivityLaw, TankLaw>;
 
-/// Whether a law needs the ComparisonReport, which only the laboratory has.
+/// Returns whether a law needs the ComparisonReport, which only the laboratory has.
 constexpr bool is_comparison(RenderingLaw law) {
   return law != RenderingLaw::kStiffness && law != RenderingLaw::kNaive;
 }
 
-/// The law at its start; DIRECT for a law that is none of them.
+/// Returns the law in its initial state; DIRECT if `law` is not a comparison law.
 inline ComparisonLaw make_comparison_law(RenderingLaw law, const ComparisonConfig& config) {
   switch (law) {
     case RenderingLaw::kPositionPosition:

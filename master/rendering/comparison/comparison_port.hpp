@@ -1,5 +1,5 @@
 #pragma once
-// What every comparison law is given once a tick, and what it returns.
+// Input and output of a comparison law in a tick.
 
 #include <optional>
 
@@ -10,7 +10,7 @@ namespace longreach {
 struct ComparisonInput {
   Vector3 position_m = Vector3::Zero();        // of the handle, in the slave's frame and scale
   Vector3 velocity_m_per_s = Vector3::Zero();  // mean since the last tick
-  std::optional<ComparisonReport> report{};    // newest that arrived in this tick
+  std::optional<ComparisonReport> report{};    // newest report that arrived in this tick
 };
 
 struct ComparisonOutput {

@@ -1,9 +1,9 @@
 #pragma once
-// Direct force reflection: record and play.
+// Direct force reflection: the received force is applied.
 //
 //   F_m = F_e[k-d]
 //
-// Silence holds the last force. Not stable beyond a wall stiffness that the delay decides.
+// Without reports the last force is held. It is unstable above a wall stiffness that depends on the delay.
 
 #include "master/rendering/comparison/comparison_port.hpp"
 

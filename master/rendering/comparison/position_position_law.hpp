@@ -1,10 +1,10 @@
 #pragma once
-// Position-position: either side is drawn to where the other one was.
+// Position-position: each side is attracted to the delayed position of the other.
 //
 //   F_m = -Kc (x_m - x_s[k-d]) - B v_m
 //
-// Stable only if 4 Bm Bs > (T1² + T2²) Kc², Bm and Bs all damping of either side. Nothing before the first
-// report.
+// Stable only if 4 Bm Bs > (T1² + T2²) Kc², with Bm and Bs the total damping of each side. No force before
+// the first report.
 
 #include "common/link/comparison_config.hpp"
 #include "master/rendering/comparison/comparison_port.hpp"

@@ -1,12 +1,12 @@
 #pragma once
-// Two layers with an energy tank (Franken, Stramigioli, Misra, Secchi, Macchelli 2011), master's end: the
-// transparent layer's force F_e[k-d] is given only while the tank pays for it.
+// Two layers with an energy tank (Franken, Stramigioli, Misra, Secchi, Macchelli 2011) at the master: the
+// force F_e[k-d] of the transparency layer is applied only while the tank has energy.
 //
 //   H += -F[k-1] (x[k] - x[k-1]) + received - sent,   sent = share · H · T
 //   F = s F_e[k-d] - d v,   s = 0 where H <= 0, 1 from a tenth of the level on,  d = α max(0, H_level - H) <=
 //   m/T
 //
-// H falls below zero by what one held sample can give, at most.
+// H falls below zero by at most the energy of one held sample.
 
 #include "common/link/comparison_config.hpp"
 #include "master/rendering/comparison/comparison_port.hpp"
