@@ -72,40 +72,40 @@ struct MasterView {
   Vector3 spring_force_n = Vector3::Zero();  // contribution of the contact spring
   bool in_contact = false;                   // as reported
   bool surface_known = false;
-  double surface_m = 0.0;              // unit, into the surface, M
-  Vector3 inward = Vector3::Zero();    // rendered stiffness, along the inward normal
-  double stiffness_n_per_m = 0.0;      // maximum rendered stiffness: of the device, or as configured
-  double stiffness_max_n_per_m = 0.0;  // of a contact by rotation
-  Vector3 spring_moment_nm = Vector3::Zero();        // rendered stiffness, about the foremost axis
-  double rotational_stiffness_nm_per_rad = 0.0;      // maximum rendered stiffness
-  double rotational_stiffness_max_nm_per_rad = 0.0;  // change of the spring force by the last applied report
-  double force_step_n = 0.0;       // of the spring force, by the last report that was applied
-  double port_energy_j = 0.0;      // its minimum since the start of an engagement, over all engagements
-  double port_energy_min_j = 0.0;  // least of it since an engagement began, of all of them
+  double surface_m = 0.0;              // registered surface along the inward normal, from handle home, m
+  Vector3 inward = Vector3::Zero();    // unit, into the surface, M
+  double stiffness_n_per_m = 0.0;      // rendered stiffness, along the inward normal
+  double stiffness_max_n_per_m = 0.0;  // maximum rendered stiffness: of the device, or as configured
+  Vector3 spring_moment_nm = Vector3::Zero();        // of a contact by rotation
+  double rotational_stiffness_nm_per_rad = 0.0;      // rendered stiffness, about the foremost axis
+  double rotational_stiffness_max_nm_per_rad = 0.0;  // maximum rendered stiffness
+  double force_step_n = 0.0;       // change of the spring force by the last applied report
+  double port_energy_j = 0.0;      // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
+  double port_energy_min_j = 0.0;  // its minimum since the start of an engagement, over all engagements
   double stored_energy_j = 0.0;
-  double energy_drawdown_j = 0.0;  // largest fall of E_port - E_stored so far, J
+  double energy_drawdown_j = 0.0;  // maximum decrease of E_port - E_stored so far, J
   double tank_j = 0.0;
   bool force_clamped = false;
   bool stiffness_clamped = false;
   bool rotational_stiffness_clamped = false;
   bool damping_injected = false;
   std::uint64_t reports = 0;          // applied
-  std::uint64_t rejected_values = 0;  // holds that ended automatically within resume_s
-  std::uint64_t false_holds = 0;      // holds that ended by themselves within resume_s
+  std::uint64_t rejected_values = 0;  // ignored: not finite, out of range
+  std::uint64_t false_holds = 0;      // holds that ended automatically within resume_s
   Telemetry far{};                    // newest telemetry
   bool far_known = false;
-  // no datagram for silence_s
-  bool silent = false;          // the hold ends automatically when its cause is over
-  bool resumes = false;         // `cause` is that of the slave
-  bool cause_is_far = false;    // why the last requested engagement is not granted
-  Reason refusal{};             // why the engagement that was asked for last is not granted
-  bool refusal_is_far = false;  // number of holds so far: Engaged was left
-  std::uint64_t holds = 0;      // cause of the last hold
-  Reason last_hold{};           // since the newest telemetry arrived
-  double far_age_s = 0.0;       // longest silence during the present or last hold
-  double hold_silence_s = 0.0;  // longest silence of the hold that is, or of the last one
+  // For display only; a recording has them in its messages.
+  bool silent = false;          // no datagram for silence_s
+  bool resumes = false;         // the hold ends automatically when its cause is over
+  bool cause_is_far = false;    // `cause` is that of the slave
+  Reason refusal{};             // why the last requested engagement is not granted
+  bool refusal_is_far = false;  // likewise
+  std::uint64_t holds = 0;      // number of holds so far: Engaged was left
+  Reason last_hold{};           // cause of the last hold
+  double far_age_s = 0.0;       // since the newest telemetry arrived
+  double hold_silence_s = 0.0;  // longest silence during the present or last hold
 
-  /// Closed, or asked to close.
+  /// Closed, or requested to close.
   [[nodiscard]] bool gripper_closed() const { return grip.value_or(far.gripper.closed); }
 };
 
@@ -122,13 +122,14 @@ class MasterNode {
 
   MasterOutput step(const MasterInput& input);
 
-  /// Takes effect at the next step. Fields that may only change at start are ignored.
+  /// Takes effect at the next step. Fields that can only change at start are ignored.
   void configure(const MasterConfig& config);
 
   [[nodiscard]] const MasterView& view() const;
-  /// True while fields that may not change while engaged must not change.
+  /// True while fields that cannot change while engaged must not change.
   [[nodiscard]] bool engaged() const;
-  /// Whether a tick now comes later than safety.gap_s after the one before: what came meanwhile is too old.
+  /// Returns whether a tick at `now` is later than safety.gap_s after the previous one: data that arrived
+  /// meanwhile is too old.
   [[nodiscard]] bool stalled(Time now) const;
 
  private:

@@ -6,11 +6,11 @@
 //
 //   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
 //
-// x is the handle's position (m) or rotation vector (rad) in M; goals are displacements or rotation vectors
-// from the engagement's anchor, in W; n_i points inwards. On a handle that is let go the springs fade, until
-// a hand holds it again. While the goal lies in front of a surface, or the clutch is pressed, its spring has
-// no force. What the slave remembers is felt as what it presses on; what it does not report any more fades. A
-// spring changes its direction only without force.
+// x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
+// vectors from the engagement's anchor, in W; n_i points inwards. On a released handle the springs fade,
+// until a hand holds it again. While the goal is in front of a surface, or the clutch is pressed, its spring
+// has no force. A surface that the slave remembers is displayed like one that it presses on; a surface that
+// is no longer reported fades. A spring changes its direction only without force.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace longreach {
 struct ContactConfig {
   ContactSpringConfig spring{};
   double ke = 1.0;
-  bool ke_by_scale = false;  // rendered is ke k_scale of what is estimated, else ke of it
+  bool ke_by_scale = false;  // the rendered stiffness is ke k_scale times the estimate, otherwise ke times
   double damping = 0.0;      // B, N s/m
   bool by_arrival = false;   // surfaces are placed at the newest goal, for comparison
 };

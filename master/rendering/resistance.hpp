@@ -1,18 +1,17 @@
 #pragma once
-// What the hand feels of the mapping itself, alike for both handles (x a position or a rotation vector):
+// Resistance of the mapping at the handles, the same for both (x is a position or a rotation vector):
 //
 //   rate mode      F = -k_f (x - centre) - b v    k_f times load_factor with a load in the gripper
-//   position mode  F = -σ z                       z goes with the handle and slips at |z| = f/(k_scale σ)
-//   home spring    F = -k_f x - b v               besides, in position mode, as an option
+//   position mode  F = -σ z                       z follows the handle and slips at |z| = f/(k_scale σ)
+//   home spring    F = -k_f x - b v               optional addition in position mode
 //
 // Friction is elastic and perfectly plastic (Prandtl 1928; one element of Iwan 1966; Dahl's with exponent 0),
-// so it is quiet at rest: noise of the encoders is felt as σ times itself.
+// so it is quiet at rest: encoder noise is only multiplied by σ.
 //
-// Whatever changes, the force does not step and the stored energy does not rise by itself: where less is
-// asked for (coarser scale, load put down, rate mode left, clutch), it fades with fade_s; a stiffer spring
-// begins with the force that is there; a spring that must be stretched further is so as far as its own
-// damping pays. Springs that are held for a sample give back up to k|dx|²/2 each: the caller's account.
-// Not handled: handles that are not finite.
+// In any change the force does not step and the stored energy does not rise by itself: a reduced force (coarser
+// scale, load released, end of rate mode, clutch) fades with fade_s; a stiffer spring starts with the present
+// force; a spring is stretched further only as far as its own dissipation permits. Springs that are held for a
+// sample return up to k|dx|²/2 each, which the caller must account for. Non-finite handles are not handled.
 
 #include <cstdint>
 
@@ -23,13 +22,13 @@
 
 namespace longreach {
 
-/// What one handle resists with.
+/// Resistance of one handle.
 class ElasticResistance {
  public:
   struct Gains {
     double spring = 0.0;              // N/m or N m/rad
     double damping = 0.0;             // N s/m or N m s/rad
-    double friction = 0.0;            // N or N m: where it slips
+    double friction = 0.0;            // N or N m: slip force
     double friction_stiffness = 1.0;  // > 0
     double fade_s = 0.2;
   };
@@ -52,7 +51,7 @@ class ElasticResistance {
 
   Centre centre_ = Centre::kNone;
   double spring_ = 0.0, damping_ = 0.0, friction_ = 0.0, friction_stiffness_ = 1.0;  // in effect
-  bool attached_ = false;              // stretch is deflection; else it follows
+  bool attached_ = false;              // the stretch equals the deflection; otherwise it follows
   Vector3 stretch_ = Vector3::Zero();  // of the spring
   Vector3 bristle_ = Vector3::Zero();  // stretch of the friction
   Vector3 drag_ = Vector3::Zero();     // damping force of the last step
@@ -72,7 +71,7 @@ class Resistance {
  public:
   explicit Resistance(const RenderingConfig& config) : config_(config) {}
   void configure(const RenderingConfig& config) { config_ = config; }
-  /// Begins without force.
+  /// Starts without force.
   void reset(const HandleState& handle);
 
   /// Wrench on the hand, in M. `dt_s` > 0.

@@ -1,7 +1,7 @@
 #pragma once
-// A passive hand at the handle: a mass that moves with it, coupled by spring and damper to where the person
-// wants it. Figures of the translation: of a light and a firm grip as measured on people; of the rotation:
-// assumed, a wrist of the handle's own order of magnitude.
+// A passive hand at the handle: a mass that moves with it, coupled by a spring and damper to the target of
+// the person. Parameters of the translation: a light and a firm grip as measured on people; of the rotation:
+// assumed, a wrist of the order of magnitude of the handle.
 
 #include "master/config/device_config.hpp"
 

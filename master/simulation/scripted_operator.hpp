@@ -1,10 +1,10 @@
 #pragma once
-// A simulated person who touches a surface: drives up in rate mode, until there or until a wall is felt,
-// approaches in scaled position mode, touches, backs off, touches again, presses, probes about the pressing
-// force, releases, rests, and begins again from the second touch; at the end of a small workspace brings the
-// handle home with the clutch. Deterministic; knows only what a person
-// would: the own hand, the felt contact force, the picture of the own commands (goal) and of the surface once
-// it is registered. Never evidence about people.
+// A simulated operator who touches a surface: moves in rate mode to the start distance or until a wall is
+// displayed, approaches in scaled position mode, touches, retreats, touches again, presses, probes about the
+// pressing force, releases, rests, and repeats from the second touch; at the end of a small workspace the
+// operator moves the handle home with the clutch. Deterministic; it uses only the information of a person:
+// the own hand, the contact force, the display of the own commands (goal) and of the registered surface. It
+// is not evidence about people.
 
 #include <cstdint>
 #include <optional>
@@ -40,14 +40,14 @@ struct ScriptInput {
   Vector3 goal_m = Vector3::Zero();  // own commands, from the anchor, W
   double scale = 1.0;
   bool engaged = false;
-  std::uint32_t engagement = 0;  // goals begin anew with each
+  std::uint32_t engagement = 0;  // goals restart with each engagement
   bool surface_known = false;
   double depth_m = 0.0;  // of the handle behind the registered surface
 };
 
 struct ScriptOutput {
   HandTarget target{};
-  std::optional<MotionMode> mode{};  // asked for in this tick
+  std::optional<MotionMode> mode{};  // requested in this tick
 };
 
 class ScriptedOperator {
@@ -77,16 +77,16 @@ class ScriptedOperator {
   Time entered_{};
   Time now_{};
   bool started_ = false;
-  double reach_m_ = 0.0;        // hand's target along the direction
+  double reach_m_ = 0.0;        // target of the hand along the direction
   double speed_m_per_s_ = 0.0;  // its speed
   double centre_m_ = 0.0;       // of rate mode
   double probe_centre_m_ = 0.0;
-  // Covered in the engagements before, and so far in this one.
+  // Distance covered in previous engagements, and so far in this one.
   std::uint32_t engagement_ = 0;
   double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
   bool relocating_ = false;  // with the clutch
-  Time blocked_{};           // since when the handle does not follow; relocating: since when
+  Time blocked_{};           // time since which the handle does not follow; while relocating: start of it
 };
 
 }  // namespace longreach

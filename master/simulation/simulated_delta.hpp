@@ -1,10 +1,10 @@
 #pragma once
-// A DELTA device that moves: mechanism, drives, the mechanical edge of its workspace, and the hand on it.
+// Simulation of a DELTA device: mechanism, drives, the mechanical limit of its workspace, and the hand on it.
 //
 //   (M + m_hand) a = F_hand + F_weight + F_edge + Wᵀ (τ_motor + τ_friction - b W v - I β)
 //
-// Integrated by velocity Verlet with the damping taken implicitly in the second half: second order, energy
-// does not drift without friction. Steps of 1 ms at most; torques of the motors are held between commands.
+// Integrated by velocity Verlet with implicit damping in the second half: second order, without energy drift
+// in the absence of friction. Steps of 1 ms at most; motor torques are held between commands.
 
 #include "master/devices/delta/delta_dynamics.hpp"
 #include "master/devices/drive/drives.hpp"
@@ -14,13 +14,13 @@ namespace longreach {
 
 class SimulatedDelta {
  public:
-  /// Throws GeometryError, also where the workspace is not wholly reachable.
+  /// Throws GeometryError, also if the workspace is not completely reachable.
   explicit SimulatedDelta(const DeviceConfig& config);
 
-  /// Puts the handle at rest `x_m` from home. False, and nothing is changed, where it cannot be.
+  /// Puts the handle at rest `x_m` from home. Returns false and changes nothing if that is impossible.
   bool place(const Vector3& x_m);
 
-  /// Moves on by `dt_s` > 0 with the hand at `hand_m` (from home) and its velocity at the beginning.
+  /// Advances by `dt_s` > 0 with the hand at `hand_m` (from home) and its velocity at the beginning.
   void step(double dt_s, const HandModel& hand, const Vector3& hand_m, const Vector3& hand_m_per_s);
 
   void command(const Vector3& tau_nm) { drives_.command(tau_nm); }
@@ -29,7 +29,7 @@ class SimulatedDelta {
   [[nodiscard]] const DeltaDynamics& dynamics() const { return dynamics_; }
   [[nodiscard]] Vector3 position_m() const { return pose_.p_m - dynamics_.home_m(); }  // true, from home
   [[nodiscard]] const Vector3& velocity_m_per_s() const { return v_; }
-  [[nodiscard]] double energy_j() const;  // kinetic and potential of the mechanism, without hand
+  [[nodiscard]] double energy_j() const;  // kinetic and potential energy of the mechanism, without the hand
 
  private:
   struct Hand {

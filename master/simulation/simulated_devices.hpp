@@ -1,6 +1,6 @@
 #pragma once
 // The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, a 3-RRR
-// spherical for the orientation. The controller's half sees encoder angles only, as with real devices.
+// spherical device for the orientation. The controller uses only the encoder angles, as with real devices.
 
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/hand_target.hpp"
@@ -14,7 +14,7 @@ namespace longreach {
 
 class SimulatedDevices : public HapticDevice {
  public:
-  /// Throws GeometryError, naming the parameter, for a device that cannot be.
+  /// Throws GeometryError, which names the parameter, for an impossible device.
   explicit SimulatedDevices(const DeviceConfig& config);
 
   void set_target(const HandTarget& target) { target_ = target; }
@@ -22,7 +22,7 @@ class SimulatedDevices : public HapticDevice {
   HandleState read(Time now) override;
   void write(const Wrench& F_H_M) override;
 
-  /// Puts both handles somewhere at rest, before the first read. False where a device cannot be there.
+  /// Puts both handles at rest at a pose, before the first read. Returns false if a device cannot reach it.
   bool place(const Pose& X_MH);
 
   [[nodiscard]] const SimulatedDelta& delta() const { return delta_; }
@@ -39,16 +39,16 @@ class SimulatedDevices : public HapticDevice {
   bool started_ = false;
 };
 
-/// What a device can be relied on for anywhere in its workspace: the worst over its ball (27 places).
+/// Worst-case properties of a device in its workspace (27 points of the ball).
 struct DeviceFigures {
-  double mass_kg = 0.0;            // of the handle with what moves along
+  double mass_kg = 0.0;            // of the handle with the moving parts
   double damping_n_s_per_m = 0.0;  // physical
   double inertia_kg_m2 = 0.0;
   double damping_nm_s_per_rad = 0.0;
   double delay_s = 0.0;  // from read to motor torque: waiting samples and the motors' lag
   EncoderCell cell{};
 };
-/// Half the longest way of the handle when every axis moves by `step_rad` or keeps still; `rates`: of the
+/// Half of the maximum motion of the handle when each axis moves by `step_rad` or not at all; `rates`: of the
 /// axes by the handle.
 double cell_radius(double step_rad, const Matrix3& rates);
 /// Throws GeometryError like SimulatedDevices.

@@ -1,6 +1,6 @@
 #pragma once
-// A 3-RRR spherical device that moves: mechanism, drives, the mechanical edge of its workspace, and the wrist
-// of the hand on it.
+// Simulation of a 3-RRR spherical device: mechanism, drives, the mechanical limit of its workspace, and the
+// wrist of the hand on it.
 //
 //   M α = m_hand + m_edge + Jᵀ (τ_motor + τ_friction - b J ω - I β)
 //
@@ -14,13 +14,13 @@ namespace longreach {
 
 class SimulatedSpherical {
  public:
-  /// Throws GeometryError, also where the workspace is not wholly reachable.
+  /// Throws GeometryError, also if the workspace is not completely reachable.
   explicit SimulatedSpherical(const DeviceConfig& config);
 
-  /// Puts the handle at rest. False, and nothing is changed, where it cannot be.
+  /// Puts the handle at rest. Returns false and changes nothing if that is impossible.
   bool place(const Quaternion& q_MH);
 
-  /// Moves on by `dt_s` > 0 with the wrist wanting `hand_rad` (rotation vector from home).
+  /// Advances by `dt_s` > 0 with the target `hand_rad` of the wrist (rotation vector from home).
   void step(double dt_s, const WristModel& wrist, const Vector3& hand_rad);
 
   void command(const Vector3& tau_nm) { drives_.command(tau_nm); }
