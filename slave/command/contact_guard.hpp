@@ -1,16 +1,17 @@
 #pragma once
-// The guard of a contact, of its force or of its moment:
-//   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, l what the setpoint is
-//   ahead of the tool by the servo's lag; where r < 0 the setpoint turns back, at up to √(2 a min(-r, l)),
-//   the tool only the less far; outwards it is free; from F = G on the setpoint backs out, at (F - G)/(k τ),
-//   k the contact's stiffness as far as known, else k_max, or after a second far above G what the force
-//   shows: it falls to G with the time constant τ, and the contact is not lost. Without a goal, so in a hold,
-//   it does so down to the hold limit, within 1 s as far as speed and acceleration allow; k is then what is
-//   seen. Giving way ends where the force does not answer to it (retreat_budget.hpp). Where the force was seen to
-//   grow in another direction than into the contact, the speed in that direction is bounded likewise, and the
-//   tool does not give way along it; else the speed against a force that is far off the contact's direction.
-// For a moment places are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max, τ_d
-// from the moment to the setpoint, what comes above the guard is at most k w τ_d; where k > k_max,
+// The guard of the force or moment of a contact:
+//   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, where l is the lead of
+//   the setpoint over the tool by the lag of the servo; for r < 0 the setpoint turns back, at up to
+//   √(2 a min(-r, l)), while the tool only advances less; outward motion is free. From F = G on the setpoint
+//   retreats at (F - G)/(k τ), where k is the known stiffness of the contact, else k_max, or after a second
+//   far above G the stiffness that the force shows: the force falls to G with the time constant τ, and the
+//   contact is kept. Without a goal, as in a hold, it retreats down to the hold limit, within 1 s as far as
+//   speed and acceleration permit; k is then the observed stiffness. The retreat ends where the force does not
+//   respond to it (retreat_budget.hpp). If the force was observed to grow in a direction other than into the
+//   contact, the speed in that direction is bounded in the same way, and the tool does not retreat along it;
+//   otherwise the speed against a force far from the direction of the contact is bounded.
+// For a moment, positions are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max,
+// and the time τ_d from the moment to the setpoint, the guard is exceeded by at most k w τ_d; for k > k_max,
 //   k (w τ_d + w²/(2 a)).
 
 #include <optional>
@@ -20,24 +21,25 @@
 
 namespace longreach {
 
-/// What the guard knows about the contact.
+/// Information of the guard about the contact.
 struct ContactForce {
   bool in_contact = false;
   Vector3 reaction = Vector3::Zero();   // unit, direction of the force on the tool
   double force_n = 0.0;                 // measured along it
   double stiffness_n_per_m = 0.0;       // as identified; 0: unknown
-  double lead_m = 0.0;                  // of the setpoint into the contact, still to come by the servo's lag
-  Vector3 grows = Vector3::Zero();      // unit, in which the force grows though it should not; zero: none
-  double grows_lead_m = 0.0;            // of the setpoint in that direction
-  Vector3 elsewhere = Vector3::Zero();  // unit, of the whole force where that is far off `reaction`, and
+  double lead_m = 0.0;  // lead of the setpoint into the contact, which the lag of the servo has yet to add
+  Vector3 grows = Vector3::Zero();      // unit, direction in which the force grows unexpectedly; zero: none
+  double grows_lead_m = 0.0;            // lead of the setpoint in that direction
+  /// unit, direction of the whole force if it is far from `reaction`, and
+  Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;
-  double elsewhere_lead_m = 0.0;  // the setpoint's lead against it
-  bool trusted = true;            // false: the tool gives way to nothing
-  double ease_m_per_s = 0.0;      // but without a goal so fast, to see whether the force answers
-  bool gives_way = false;         // to what grows at rest (force_answer.hpp), at this speed:
+  double elsewhere_lead_m = 0.0;  // lead of the setpoint against it
+  bool trusted = true;            // false: the tool does not retreat
+  double ease_m_per_s = 0.0;      // speed of a retreat without a goal, to test the response of the force
+  bool gives_way = false;  // retreat from a force that grows at rest (force_answer.hpp), at this speed:
   double retreat_m_per_s = 0.0;
-  bool gave_way = false;       // ever in this contact: the way that is given counts till it ends
-  double trend_n_per_s = 0.0;  // that it grows by at rest
+  bool gave_way = false;  // at any time in this contact: the retreat distance counts until the contact ends
+  double trend_n_per_s = 0.0;  // rate of growth at rest
 };
 
 struct GuardLimits {
@@ -46,13 +48,13 @@ struct GuardLimits {
   double stiffness_n_per_m = 2e4;  // k_max
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a
-  double give_way_m = 1e9;              // longest way that is given
+  double give_way_m = 1e9;              // maximum retreat distance
 };
 
-/// What differs between force and moment.
+/// Parameters that differ between force and moment.
 struct GuardScale {
-  double seen_n = 0.5;          // that sensor noise does not make
-  double soft_n_per_m = 100.0;  // that a contact of unknown stiffness may have
+  double seen_n = 0.5;          // above the sensor noise
+  double soft_n_per_m = 100.0;  // minimum assumed for a contact of unknown stiffness
   RetreatBounds retreat_budget{};
 };
 inline constexpr GuardScale kForceScale{};
@@ -62,35 +64,35 @@ class ContactGuard {
  public:
   explicit ContactGuard(const GuardScale& scale) : scale_(scale), retreat_budget_(scale.retreat_budget) {}
 
-  /// Holds in the calls that follow.
+  /// Limits for the following calls.
   void limit(const GuardLimits& limits) {
     limits_ = limits;
     retreat_budget_.limit(limits.give_way_m);
   }
-  /// An engagement begins: the way that may be given, too.
+  /// Starts an engagement, which restores the retreat distance.
   void renew() {
     retreat_budget_.reset();
     bleed_.reset();
   }
 
-  /// Towards a goal, first of all in a step, with the setpoint at `p`.
+  /// Towards a goal; first call of a step, with the setpoint at `p`.
   void approach(const ContactForce& contact, const Vector3& p, double dt);
   [[nodiscard]] VelocityCap cap(const ContactForce& contact) const;
   [[nodiscard]] VelocityCap growth(const ContactForce& contact) const;
-  /// Then, with the setpoint's velocity, `capped` by cap(). True: the tool would give way, but the force has
-  /// not answered.
+  /// Second call, with the velocity of the setpoint, `capped` by cap(). Returns true if the tool would
+  /// retreat, but the force has not responded.
   bool advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt);
 
-  /// Without a goal: the velocity that the setpoint, now at `p`, shall have.
+  /// Without a goal: returns the target velocity of the setpoint, now at `p`.
   Vector3 back_off(const ContactForce& contact, const Vector3& p);
-  /// Then, with the one it has. True: likewise.
+  /// Second call, with the actual velocity. Returns the same.
   bool backed_off(const ContactForce& contact, const Vector3& v, double dt);
 
  private:
-  /// A force is brought down: from, to.
+  /// A reduction of the force: from, to.
   struct Down {
     double from_n, to_n;
-    double least_n_per_m;  // that the contact may seem to have
+    double least_n_per_m;  // minimum stiffness that the contact may seem to have
   };
   struct Bleed {
     double from_n, to_n;
@@ -108,9 +110,9 @@ class ContactGuard {
   RetreatBudget retreat_budget_;
   std::optional<Bleed> bleed_{};
   double pushed_in_s_ = 0.0;
-  double seen_n_per_m_ = 0.0;       // while the tool goes back
+  double seen_n_per_m_ = 0.0;       // while the tool retreats
   bool backs_off_ = false;          // in a hold, in this step
-  Vector3 back_ = Vector3::Zero();  // unit: the way on which it backs off, or brakes after that
+  Vector3 back_ = Vector3::Zero();  // unit: direction of the retreat, or of braking after it
   double stable_s_ = 0.0;           // below the guard
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-// Whether the force is believed where the tool presses. One that grows while the setpoint stands still is
-// given way to, and its answer decides (force_answer.hpp). One near its bound that grows where it should not
-// (growth_watch.hpp) begins a trial (force_sign_test.hpp): the robot rests till it is clear why. A growth across
-// the force that a surface stiffer than command.guard_stiffness_n_per_m could make begins none; the guard
-// bounds the speed along it all the same (goal_limiter.hpp).
+// Checks whether the force is plausible while the tool presses. If it grows while the setpoint is at rest,
+// the robot retreats, and the response of the force decides (force_answer.hpp). If it is near its bound and
+// grows unexpectedly (growth_watch.hpp), a test starts (force_sign_test.hpp), during which the robot rests. A
+// growth across the force that a surface stiffer than command.guard_stiffness_n_per_m could cause starts no
+// test; the guard still bounds the speed along it (goal_limiter.hpp).
 
 #include "common/link/stiffness_report.hpp"
 #include "slave/command/goal_limiter.hpp"
@@ -19,8 +19,8 @@ class ForcePlausibility {
  public:
   struct Robot {
     SafetyState state;
-    bool let_go = false;  // nobody holds the handle
-    bool still = false;   // the setpoint stands, and the tool is there
+    bool let_go = false;  // no hand is on the handle
+    bool still = false;   // the setpoint is at rest, and the tool has reached it
   };
 
   ForcePlausibility(const SensingConfig& sensing, const CommandConfig& command)
@@ -30,14 +30,14 @@ class ForcePlausibility {
     growth_.configure(bounds(sensing, command));
     answer_.configure(limits(sensing, command));
   }
-  /// An engagement begins.
+  /// Starts an engagement.
   void reset() {
     growth_.reset();
     trial_.reset();
     answer_.reset();
   }
 
-  /// A tick: what is felt, and the force that the reflexes reckon with.
+  /// One tick with the measured force and the force used by the guard.
   void step(GrowthSample felt, const ContactForce& force, const Robot& robot) {
     felt.trend_n_per_s = answer_.trend_n_per_s();
     growth_.step(felt);
@@ -65,7 +65,7 @@ class ForcePlausibility {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
            trial_.verdict() == ForceSignTest::Verdict::kSign;
   }
-  /// The force has answered to giving way: a wall comes, and this is the way out.
+  /// The force has responded to the retreat: a surface is approaching, and this is the direction of retreat.
   [[nodiscard]] Reason comes(const Vector3& reaction) const {
     if (!answer_.answered()) return {};
     Eigen::Index axis = 0;
@@ -76,7 +76,7 @@ class ForcePlausibility {
   [[nodiscard]] bool force_persists() const {
     return trial_.verdict() == ForceSignTest::Verdict::kForcePersists;
   }
-  /// What the reflexes must know of it.
+  /// Adds the result for the guard.
   void tell(ContactForce& force, const Vector3& lead_m) const {
     force.grows = growth_.direction();
     force.grows_lead_m = force.grows.dot(lead_m);
@@ -89,9 +89,10 @@ class ForcePlausibility {
   }
 
  private:
-  static constexpr double kGiveWay = 0.8;    // of the guard or hold limit: to what grows at rest
-  static constexpr double kNear = 0.9;       // of the guard, or of what a hold comes down to
-  static constexpr double kLately_s = 0.05;  // a growth that is still going on
+  /// of the guard or hold limit: retreat from a force that grows at rest
+  static constexpr double kGiveWay = 0.8;
+  static constexpr double kNear = 0.9;       // of the guard, or of the target of a hold
+  static constexpr double kLately_s = 0.05;  // a growth that still continues
   static constexpr double kHeld_s = 1.0;     // likewise, before the hold in which the robot rests
 
   static GrowthBounds bounds(const SensingConfig& sensing, const CommandConfig& command) {

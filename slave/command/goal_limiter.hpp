@@ -1,10 +1,10 @@
 #pragma once
-// From the goal that the operator asks for to a setpoint pose that the robot may be asked for: speed and
-// acceleration of the tool in translation and rotation, a workspace sphere about the tool's start, and the
-// guards of force and moment in contact (contact_guard.hpp). While nobody holds the handle these are the hold
-// limits.
-// A still goal is reached without overshoot; a goal that keeps the limits is followed exactly, without lag.
-// Every clamp is reported. A goal that is not finite counts as none: the tool brakes.
+// Converts the goal of the operator to a setpoint pose that the robot can follow: limits speed and
+// acceleration of the tool in translation and rotation, a workspace sphere about the start of the tool, and
+// applies the guards of force and moment in contact (contact_guard.hpp). While the handle is released these
+// are the hold limits.
+// A still goal is reached without overshoot; a goal within the limits is followed exactly, without lag. Every
+// active limit is reported. A goal that is not finite counts as no goal: the tool brakes.
 
 #include <optional>
 
@@ -15,10 +15,11 @@
 namespace longreach {
 
 struct LimiterInput {
-  std::optional<Pose> X_WE_goal{};  // none: brake within the limits and stay, but for the bleed-off
+  /// none: brake within the limits and stay, except for the retreat of a guard
+  std::optional<Pose> X_WE_goal{};
   ContactForce contact{};
   double dt = 0.0;        // s, > 0
-  bool let_go = false;    // nobody holds the handle: the guard is the hold limit
+  bool let_go = false;    // no hand is on the handle: the guard is the hold limit
   ContactForce moment{};  // of a contact by rotation: N are N m, m are rad
 };
 
@@ -28,7 +29,7 @@ struct LimiterOutput {
   bool acceleration = false;  // likewise
   bool workspace = false;
   bool force_guard = false;
-  bool force_persists = false;  // the tool would give way, but the force or the moment has not answered
+  bool force_persists = false;  // the tool would retreat, but the force or the moment has not responded
   bool moment_guard = false;
 };
 
@@ -39,12 +40,12 @@ class GoalLimiter {
 
   void configure(const CommandConfig& config) { config_ = config; }
 
-  /// Begins at rest.
+  /// Starts at rest.
   void reset(const Pose& X_WE);
-  /// The robot could only be asked for `X_WE` instead of the last setpoint, `dt` after the one before.
+  /// The robot could only be commanded to `X_WE` instead of the last setpoint, `dt` after the previous one.
   void correct(const Pose& X_WE, double dt);
 
-  /// An engagement begins: the tool may give way anew.
+  /// Starts an engagement, which restores the retreat distance.
   void renew() {
     force_.renew();
     moment_.renew();
@@ -74,12 +75,12 @@ class GoalLimiter {
   CommandConfig config_;
   Vector3 centre_m_;
   Pose X_WE_{};
-  Pose X_WE_before_{};               // one step ago
+  Pose X_WE_before_{};               // previous step
   Twist V_WE_{};                     // of the setpoint
-  std::optional<Pose> X_WE_goal_{};  // of the step before
+  std::optional<Pose> X_WE_goal_{};  // of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
-  Vector3 turned_rad_ = Vector3::Zero();  // sum of the setpoint's turns
-  Twist V_WE_goal_{};                     // as far as the limits allow to believe it
+  Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
+  Twist V_WE_goal_{};                     // as far as the limits permit
 };
 
 }  // namespace longreach

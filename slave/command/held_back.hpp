@@ -1,8 +1,8 @@
 #pragma once
-// Whether a limit other than speed keeps the tool from its goal: the goal as played out has been farther
-// from the tool than `least` along the limit's direction for 0.1 s while the limit acted and the tool stood,
-// as it does not where the guard only makes it slower. Once for the place of the tool (m), once for its
-// rotation (rad).
+// Detects that a limit other than speed keeps the tool from its goal: the played goal has been farther from
+// the tool than `least` along the direction of the limit for 0.1 s while the limit was active and the tool
+// was at rest, which is not the case where the guard only slows it down. One instance for the position of the
+// tool (m), one for its rotation (rad).
 
 #include <cmath>
 #include <optional>
@@ -17,9 +17,9 @@ class HeldBack {
 
   void reset() { *this = HeldBack(least_); }
 
-  /// `place`: of the tool, from anywhere that rests; `missing`: from it to the goal, in W, m or rotation
-  /// vectors; `limited`: such a limit acts in this tick; `along`: unit, in which it acts; zero where that is
-  /// not known: towards the goal.
+  /// `place`: position of the tool, relative to any fixed point; `missing`: from it to the goal, in W, m or
+  /// rotation vector; `limited`: such a limit is active in this tick; `along`: unit direction of the limit;
+  /// zero if unknown: towards the goal.
   void step(const Vector3& place, const Vector3& missing, bool limited, const Vector3& along, double dt) {
     constexpr double kAfter_s = 0.1, kRemember_s = 0.05, kMean_s = 0.05;
     limited_s_ = limited ? kRemember_s : limited_s_ - dt;
@@ -33,7 +33,7 @@ class HeldBack {
     direction_ = far_s_ >= kAfter_s ? towards : Vector3::Zero();
   }
 
-  /// Unit, in W, towards the goal; zero: nothing holds the tool back.
+  /// Unit, in W, towards the goal; zero: no limit holds the tool back.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Which limits the setpoints have exceeded, each by the ticks in which it was, and which one first.
+// Counts the ticks in which the setpoints exceeded each limit, and records the first violation.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ std::string_view name_of(Limit limit);
 struct LimitViolations {
   std::array<std::uint64_t, static_cast<std::size_t>(Limit::kCount)> ticks{};
   Limit first = Limit::kCount;  // kCount: none
-  int joint = 0;                // that exceeded it, from 1; 0: none, or it is the tool's
+  int joint = 0;                // joint of that violation, from 1; 0: none, or the tool
 
   [[nodiscard]] std::uint64_t of(Limit limit) const { return ticks[static_cast<std::size_t>(limit)]; }
 };

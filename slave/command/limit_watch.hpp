@@ -1,6 +1,6 @@
 #pragma once
-// The watch over the setpoints: their differences against every limit, as the robot sees them. A limit counts
-// as exceeded by more than 1 %, a position limit by anything.
+// Monitors the setpoints: checks their differences against every limit, as the robot receives them. A limit
+// is violated by an excess of more than 1 %, a position limit by any excess.
 
 #include <cstdint>
 
@@ -14,7 +14,7 @@ class LimitWatch {
  public:
   explicit LimitWatch(const RobotConfig& robot) : robot_(robot) {}
 
-  /// Begins at rest.
+  /// Starts at rest.
   void reset(const JointVector& joint_rad, const Pose& X_WE);
   void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt);
 
@@ -27,7 +27,7 @@ class LimitWatch {
   void book(Limit limit, const JointFlags& exceeded);
 
   RobotConfig robot_;
-  // Of the tick before.
+  // Of the previous tick.
   Pose X_WE_{};
   Twist V_WE_{};
   JointVector joint_rad_ = JointVector::Zero();

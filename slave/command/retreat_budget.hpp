@@ -1,23 +1,23 @@
 #pragma once
-// How far a robot may give way to a force. On a way s, from the largest force F_0 that was met on it to F
-// now, smoothed,
+// Limits the distance of a retreat from a force. On a distance s, from the largest force F_0 on it to the
+// present, smoothed force F,
 //   s <= 20 mm + (F_0 - F)/(100 N/m);   to a moment, 0.1 rad + (M_0 - M)/(1 N m/rad)
-// and s <= way_max. F_0 rises by what the force grows by at rest: a wall that comes answers, too.
-// Each contact that pushes falls by more than that. What does not is no contact that giving way relieves: a
-// sensor that lies, a body that the robot carries. What the force has fallen beyond what s
-// asks for is forgotten: a lie that eases by itself buys 20 mm again at most. It counts until the force
-// has gone.
+// and s <= way_max. F_0 rises by the growth of the force at rest, so that an approaching surface counts as a
+// response. The force of each contact that pushes falls faster than that. Otherwise a retreat cannot relieve
+// the contact: the sensor is faulty, or the robot carries a body. A decrease of the force beyond the one
+// required for s is not credited: a faulty force that decreases by itself adds 20 mm at most. The distance
+// counts until the force has vanished.
 
 #include <algorithm>
 
 namespace longreach {
 
-/// Of a force. Of a moment N are N m, m are rad.
+/// For a force. For a moment N are N m, m are rad.
 struct RetreatBounds {
   double unanswered_m = 0.02;
   double answer_n_per_m = 100.0;
-  double noise_n = 0.5;  // no answer
-  double end_m = 1e-4;   // so near the end is at it
+  double noise_n = 0.5;  // below it, a decrease is not a response
+  double end_m = 1e-4;   // tolerance for reaching the end
   double way_max_m = 1e9;
 };
 
@@ -26,8 +26,8 @@ class RetreatBudget {
   explicit RetreatBudget(const RetreatBounds& bounds = {}) : bounds_(bounds) {}
 
   void limit(double way_max_m) { bounds_.way_max_m = way_max_m; }
-  /// It has gone `way_m` in `dt` s, in again where that is negative, and the force is now `force_n`; at rest
-  /// it grows by `trend_n_per_s`.
+  /// The tool has moved by `way_m` in `dt` s, into the contact if negative, and the force is now `force_n`;
+  /// at rest it grows by `trend_n_per_s`.
   void go(double way_m, double force_n, double dt, double trend_n_per_s = 0.0) {
     way_m_ = std::max(way_m_ + way_m, 0.0);
     force_n_ = most_n_ > 0.0 ? force_n_ + std::min(dt / kSmooth_s, 1.0) * (force_n - force_n_) : force_n;
@@ -35,7 +35,7 @@ class RetreatBudget {
     const double asked_n = bounds_.noise_n + bounds_.answer_n_per_m * way_m_;
     most_n_ = std::min(std::max(most_n_, force_n_), force_n_ + asked_n);
   }
-  /// Way that is left.
+  /// Remaining distance.
   [[nodiscard]] double left_m() const {
     const double answer_n = std::max(most_n_ - force_n_ - bounds_.noise_n, 0.0);
     const double answered_m = bounds_.unanswered_m + answer_n / bounds_.answer_n_per_m;

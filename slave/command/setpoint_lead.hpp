@@ -1,6 +1,5 @@
 #pragma once
-// How far the setpoint is ahead of a tool that follows it through a servo (servo_lag.hpp), in place and in
-// rotation.
+// Lead of the setpoint over a tool that follows it through a servo (servo_lag.hpp), in position and rotation.
 
 #include "slave/command/servo_lag.hpp"
 
@@ -10,7 +9,7 @@ class SetpointLead {
  public:
   explicit SetpointLead(double servo_hz) : place_(servo_hz), turn_(servo_hz) {}
 
-  /// The tool rests at this setpoint.
+  /// The tool is at rest at this setpoint.
   void reset(const Pose& X_WE) {
     place_.reset(X_WE.p);
     turn_.reset(turned_rad_);
@@ -20,7 +19,7 @@ class SetpointLead {
     m_.setZero();
     rad_.setZero();
   }
-  /// The setpoint, `dt` > 0 after the last.
+  /// The setpoint, `dt` > 0 after the last one.
   void step(const Pose& X_WE, double dt) {
     turned_rad_ += log_rotation(X_WE.q * q_WE_.conjugate());
     q_WE_ = X_WE.q;
@@ -30,7 +29,7 @@ class SetpointLead {
     rad_ = turn_.step(turned_rad_, dt);
   }
   [[nodiscard]] const Vector3& m() const { return m_; }
-  /// The setpoint stands, but for rounding, and the way still to come makes no force that is seen.
+  /// The setpoint is at rest except for rounding, and the remaining lead causes no measurable force.
   [[nodiscard]] bool still() const { return speed_m_per_s_ < 1e-4 && m_.norm() < 5e-6; }
   [[nodiscard]] const Vector3& rad() const { return rad_; }
 
@@ -39,7 +38,7 @@ class SetpointLead {
   Quaternion q_WE_ = Quaternion::Identity();
   Vector3 p_WE_ = Vector3::Zero();
   double speed_m_per_s_ = 0.0;
-  Vector3 turned_rad_ = Vector3::Zero();  // sum of the setpoint's turns
+  Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
   Vector3 m_ = Vector3::Zero(), rad_ = Vector3::Zero();
 };
 

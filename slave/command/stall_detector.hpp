@@ -1,5 +1,5 @@
 #pragma once
-// Whether the tool still comes nearer to a goal that rests. The distance is √((L angle)² + |p|²), L =
+// Detects that the tool no longer approaches a goal at rest. The distance is √((L angle)² + |p|²), L =
 // Kinematics::motion_length_m.
 
 #include <cmath>
@@ -12,14 +12,14 @@ namespace longreach {
 
 class StallDetector {
  public:
-  static constexpr double kMoved = 1e-3;  // of L: a goal that moves by less rests
-  static constexpr double kThere = 2e-3;  // of L: nearer than this the tool is at the goal
+  static constexpr double kMoved = 1e-3;  // of L: a goal that moves by less is at rest
+  static constexpr double kThere = 2e-3;  // of L: within this distance the tool is at the goal
 
   explicit StallDetector(double length_m) : length_m_(length_m) {}
 
   void reset() { X_WE_goal_.reset(); }
 
-  /// True: far from a goal that rests, the tool has come no nearer for kPatienceS. dt in s.
+  /// Returns true if the tool is far from a goal at rest and has not approached it for kStallS. dt in s.
   [[nodiscard]] bool ends(const Pose& X_WE, const Pose& X_WE_goal, double dt) {
     constexpr double kStallS = 3.0, kNearer = 1e-4;  // of L
     if (!X_WE_goal_ || !(distance_m(*X_WE_goal_, X_WE_goal) <= kMoved * length_m_)) {

@@ -1,10 +1,10 @@
 #pragma once
-// The velocity that brings a point to its goal as fast as speed and acceleration allow, without passing it.
+// Velocity that moves a point to its goal as fast as speed and acceleration permit, without overshoot.
 //   u(r) = r/(N dt) + a dt (N - 1)/2,  N = ⌈(√(1 + 8 r/(a dt²)) - 1)/2⌉
-// is the largest speed from which N equal steps of braking at a end exactly at distance r (discrete form of
-// √(2 a r)). It is applied to the motion relative to the goal, v = v_goal + u(|r|) r/|r|, so that a goal that
-// itself keeps the limits is followed without lag once reached. Caps bound the component of the velocity in
-// given directions. Braking for distance uses 0.8 of the acceleration; the rest turns the path.
+// is the maximum speed from which N equal steps of braking at a end exactly at distance r (discrete form of
+// √(2 a r)). It is applied to the motion relative to the goal, v = v_goal + u(|r|) r/|r|, so that a goal
+// within the limits is followed without lag once reached. Caps bound the component of the velocity in given
+// directions. Braking for distance uses 0.8 of the acceleration; the remainder turns the path.
 
 #include <array>
 
@@ -12,7 +12,7 @@
 
 namespace longreach {
 
-/// Largest speed (>= 0) from which steps of braking at `acceleration` end at `distance` (>= 0). Any unit of
+/// Maximum speed (>= 0) from which steps of braking at `acceleration` end at `distance` (>= 0). Any unit of
 /// length.
 double braking_speed(double distance, double acceleration, double dt);
 
@@ -38,9 +38,9 @@ struct VectorPursuit {
 
 struct VectorStep {
   Vector3 velocity = Vector3::Zero();  // for this step; changed by at most acceleration * dt
-  bool fast = false;                   // at the limit of speed, and more was wanted
-  bool hasty = false;                  // the limit of acceleration was in the way
-  std::array<bool, 3> capped{};        // which cap was
+  bool fast = false;                   // at the speed limit, below the requested speed
+  bool hasty = false;                  // limited by the acceleration
+  std::array<bool, 3> capped{};        // caps that were active
 };
 
 VectorStep pursue(const VectorPursuit& pursuit, const VectorLimits& limits);

@@ -1,5 +1,5 @@
 #pragma once
-// The closed set of comparison laws, slave's end.
+// The closed set of comparison laws at the slave.
 
 #include <variant>
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the slave's end of every comparison law is given once a tick, and what it returns. The tool is an
-// ideal position servo: it is where the last setpoint put it.
+// Input and output of a comparison law at the slave in a tick. The tool is an ideal position servo: it is at
+// the last setpoint.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 namespace longreach {
 
 struct CouplingInput {
-  std::optional<ComparisonCommand> command{};  // newest that arrived in this tick
+  std::optional<ComparisonCommand> command{};  // newest command that arrived in this tick
   Vector3 force_n = Vector3::Zero();           // measured, by the environment on the tool
 };
 
@@ -18,8 +18,8 @@ struct CouplingOutput {
   ComparisonReport report{};             // to send now
 };
 
-/// The part of a step that an energy budget pays for: a step against the force costs -F·dx, and what it costs
-/// above `budget_j` (nothing, if that is negative) is taken away along the force.
+/// The part of a step that an energy budget permits: a step against the force costs -F·dx, and the cost above
+/// `budget_j` (zero if that is negative) is removed along the force.
 inline Vector3 paid_step(const Vector3& step_m, const Vector3& force_n, double budget_j) {
   const double missing_j = -force_n.dot(step_m) - (budget_j > 0.0 ? budget_j : 0.0);
   const double f2 = force_n.squaredNorm();

@@ -1,6 +1,6 @@
 #pragma once
-// Slave's end of direct force reflection: the tool goes where the handle was, x_s = x_m[k-d], and the force
-// is reported as measured.
+// Direct force reflection at the slave: the tool moves to the delayed position of the handle, x_s = x_m[k-d],
+// and the measured force is reported.
 
 #include "slave/comparison/coupling_port.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Slave's end of position-position: an admittance that a spring draws to where the handle was.
+// Position-position at the slave: an admittance that a spring attracts to the delayed position of the handle.
 //
 //   m a = Kc (x_m[k-d] - x_s) - Bs v_s + F_e       damping taken implicitly
 

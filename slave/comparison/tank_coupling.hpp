@@ -1,9 +1,9 @@
 #pragma once
-// Slave's end of the energy tank: the tool goes to where the handle was as far as its tank pays.
+// Energy tank at the slave: the tool moves to the delayed position of the handle as far as its tank permits.
 //
 //   H += (F_e[k-1] + F_e[k])/2 · (x_s[k] - x_s[k-1]) + received - sent,   sent = share · H · T
 //
-// H falls below zero by what the force grows in one step, at most.
+// H falls below zero by at most the growth of the force in one step.
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #pragma once
-// Slave's end of the wave variables, mirror image of the master's: an admittance that the wave pushes.
+// Wave variables at the slave, the mirror image of the master: an admittance that the wave drives.
 //
 //   F_s = √(2b) u_s - b v_s,   w_s = √(2b) v_s - u_s,   so  F_s v_s = (u_s² - w_s²)/2
 //   m a = F_s - Bs v_s + F_e       damping taken implicitly
 //
-// A wave that does not arrive counts as zero.
+// A missing wave counts as zero.
 
 #include <cmath>
 

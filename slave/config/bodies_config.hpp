@@ -1,6 +1,5 @@
 #pragma once
-// Free-floating bodies of a scene, as its file describes them. Meaning, unit and range: proto/config.proto;
-// the same names.
+// Free-floating bodies of a scene. proto/config.proto defines meaning, unit and range under the same names.
 
 #include <optional>
 #include <string>
@@ -39,7 +38,7 @@ struct LatchConfig {
 
 struct BodiesConfig {
   std::string mjcf_file;
-  std::vector<SceneFileConfig> file;  // the MJCF first, then what it names
+  std::vector<SceneFileConfig> file;  // the MJCF first, then the files that it names
   std::optional<GripperConfig> gripper{};
   std::optional<LatchConfig> latch{};
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Limits on what the robot is asked for. Meaning, unit and range: proto/config.proto; the same names.
+// Limits of the commands to the robot. proto/config.proto defines meaning, unit and range under the same
+// names.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,15 +22,15 @@ struct CommandConfig {
   double give_way_m = 0.2;
 };
 
-/// Of the stiffest stop that the moment guard reckons with.
+/// Maximum stiffness of a rotational stop that the moment guard assumes.
 constexpr double kGuardStiffness_nm_per_rad = 400.0;
 
-/// Force in contact that a hold comes down to.
+/// Contact force that a hold reduces to.
 inline double hold_limit_n(const CommandConfig& c) {
   return c.hold_force_n > 0.0 ? std::min(c.hold_force_n, c.force_guard_n) : 0.5 * c.force_guard_n;
 }
 
-/// Likewise of a moment.
+/// The same for a moment.
 inline double hold_limit_nm(const CommandConfig& c) { return 0.5 * c.moment_guard_nm; }
 
 }  // namespace longreach

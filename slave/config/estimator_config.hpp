@@ -1,5 +1,6 @@
 #pragma once
-// Parameters of the contact estimator. Meaning, unit and range: proto/config.proto; the same names.
+// Parameters of the contact estimator. proto/config.proto defines meaning, unit and range under the same
+// names.
 
 #include <cstdint>
 
@@ -10,9 +11,10 @@ enum class EstimatorKind : std::uint8_t { kFixedExponent = 0, kMaximumLikelihood
 struct EstimatorConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
   double exponent = 1.0;
-  double forgetting = 0.9999;  // a sample at 1 kHz
+  double forgetting = 0.9999;  // per sample at 1 kHz
   double depth_memory_s = 2.0;
-  double first_sd = 0.03;  // fraction; first values off by up to 6 % (p95); 0.05: 11 %, which is felt
+  /// fraction; the error of first values is up to 6 % (p95); at 0.05: 11 %, which is perceptible
+  double first_sd = 0.03;
   double deadband = 0.08;  // fraction
 };
 

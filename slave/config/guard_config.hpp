@@ -1,20 +1,19 @@
 #pragma once
-// The least force guard G that holds the peak of a first touch to 1.35 G. With speed v on stiffness k the
-// tool goes on by v T while nothing is slower yet, T the lag of loop and setpoint and what the contact needs
-// to be noticed. Then the setpoint brakes at a, and turns back until the tool, late by the servo's τ, has
-// come to rest after t; or, of a high guard, it brakes from where the guard's law begins to
-// (goal_limiter.hpp):
+// The minimum force guard G that keeps the peak of a first touch below 1.35 G. With speed v on stiffness k
+// the tool advances by v T before it slows down, T the lag of loop and setpoint and the time to detect the
+// contact. Then the setpoint brakes at a, and turns back until the tool, delayed by the servo's τ, has come
+// to rest after t; or, for a high guard, it brakes from where the law of the guard begins (goal_limiter.hpp):
 //   peak = max(k (v T + v t - a t²/2 + v τ),  G + k v lag - (k_max - k) v²/(2 a))
 //   T = lag + touch/(k v) + √(2 τ_f touch/(k v)),   t = v/a + τ (1 - exp(-t/τ))
-// A bound for a tool that does not give way; one of up to 10 kg on a servo of 3 Hz or more stays below. What
-// it comes to afterwards is the guard itself.
+// A bound for a rigid tool; one of up to 10 kg on a servo of 3 Hz or more stays below. The steady force
+// afterwards is the guard itself.
 
 #include <algorithm>
 #include <cmath>
 
 namespace longreach {
 
-constexpr double kGuardOvershoot = 1.35;  // of the guard, that a first touch may come to
+constexpr double kGuardOvershoot = 1.35;  // bound on the force of a first touch, relative to the guard
 
 struct FirstTouch {
   double stiffness_n_per_m = 5000.0;
@@ -23,8 +22,8 @@ struct FirstTouch {
   double deceleration_m_per_s2 = 1.25;
   double lag_s = 0.0;     // from the force to the setpoint
   double servo_s = 0.0;   // τ, from there to the tool
-  double touch_n = 0.3;   // at which a contact is noticed
-  double filter_s = 0.0;  // τ_f, of the force that decides
+  double touch_n = 0.3;   // detection threshold of a contact
+  double filter_s = 0.0;  // τ_f, of the filtered force used for detection
 };
 
 inline double least_guard_n(const FirstTouch& t) {

@@ -1,5 +1,5 @@
 #pragma once
-// A robot as its file describes it.
+// A robot as described by its file.
 
 #include <array>
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-/// Which table the rows are of: A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha) (Denavit, Hartenberg 1955), or
-/// A = Rx(alpha) Tx(a) Rz(q + theta) Tz(d) (Craig).
+/// Convention of the rows: A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha) (Denavit, Hartenberg 1955), or A =
+/// Rx(alpha) Tx(a) Rz(q + theta) Tz(d) (Craig).
 enum class DhConvention : std::uint8_t { kStandard, kModified };
 
 enum class JointKind : std::uint8_t {
@@ -19,11 +19,11 @@ enum class JointKind : std::uint8_t {
   kFixed       // does not move: q counts as 0
 };
 
-/// Which of the solutions within the joint limits is taken.
+/// Choice among the solutions within the joint limits.
 enum class BranchPreference : std::uint8_t {
-  kNearest,  // least distance in joint space from where the joints are
-  kSoonest,  // the joints are there first: least time of the slowest joint at its speed limit
-  kCentred   // farthest from the joint limits
+  kNearest,  // minimum distance in joint space from the present joints
+  kSoonest,  // minimum time of the slowest joint at its speed limit
+  kCentred   // maximum distance from the joint limits
 };
 
 /// Row of a Denavit-Hartenberg table and the joint's limits.
@@ -38,7 +38,7 @@ struct JointConfig {
   double acceleration_max_rad_per_s2 = 5.0;
   double start_rad = 0.0;
   JointKind kind = JointKind::kRevolute;
-  double draw_radius_m = 0.0;  // of the drawn link behind the joint; 0: in proportion to the robot
+  double draw_radius_m = 0.0;  // of the drawn link after the joint; 0: in proportion to the robot
   double jerk_max_rad_per_s3 = 2500.0;
   // Simulation only: a link on a spring behind its servo; 0: rigid.
   double stiffness_nm_per_rad = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the robot can meet, as the scene's file describes it.
+// Objects that the robot can touch, as described by the file of the scene.
 
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ struct MaterialConfig {
 struct PlaneConfig {
   Vector3 point_m = Vector3::Zero();
   Vector3 normal = -Vector3::UnitX();  // outward; need not be unit
-  bool from_tool_start = true;         // the point is measured from where the tool starts
+  bool from_tool_start = true;         // the point is relative to the start of the tool
 };
 
 struct SphereConfig {
@@ -48,7 +48,7 @@ struct CylinderConfig {
   bool from_tool_start = true;
 };
 
-/// Stop against rotation: a lever on the tool meets it beyond an angle from the tool's start.
+/// Stop against rotation: a lever on the tool touches it beyond an angle from the start of the tool.
 struct HingeConfig {
   Vector3 axis = Vector3::UnitZ();  // in W; need not be unit
   double angle_rad = 0.05;
@@ -62,7 +62,7 @@ struct MovementConfig {
   double frequency_hz = 0.0;
 };
 
-/// One of the shapes.
+/// One of the shapes is set.
 struct SurfaceConfig {
   std::string name;
   std::string material;  // by name
@@ -75,7 +75,7 @@ struct SurfaceConfig {
   std::optional<MovementConfig> movement{};
 };
 
-/// What the slave has to build for the scene.
+/// Components that the slave must build for the scene.
 struct NeedsConfig {
   bool contact = false;   // force sensor, detection, identification
   bool rotation = false;  // contact by rotation
@@ -85,7 +85,7 @@ struct WaypointConfig {
   Vector3 point_m = Vector3::Zero();
 };
 
-/// Straight from point to point, with quarter turns between.
+/// Straight segments with quarter turns between them.
 struct PathConfig {
   std::vector<WaypointConfig> waypoint;
   double turn_radius_m = 0.02;
@@ -97,14 +97,14 @@ struct SceneConfig {
   std::vector<MaterialConfig> material;
   std::vector<SurfaceConfig> surface;
   std::string basis;
-  std::optional<NeedsConfig> needs{};  // none: what the surfaces need
-  std::string robot_file;              // the robot that it is made for
+  std::optional<NeedsConfig> needs{};  // none: as required by the surfaces
+  std::string robot_file;              // robot for which the scene is made
   double tool_radius_m = 0.0;          // 0: the tool is a point
   std::optional<PathConfig> path{};
   std::optional<BodiesConfig> bodies{};
 };
 
-/// What is built: what the scene states, else what its surfaces need.
+/// Components to build: those that the scene states, else those that its surfaces require.
 NeedsConfig needs(const SceneConfig& scene);
 
 }  // namespace longreach

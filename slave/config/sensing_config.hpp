@@ -1,6 +1,6 @@
 #pragma once
-// Parameters of the force/torque sensor and of contact detection. Meaning, unit and range:
-// proto/config.proto; the same names.
+// Parameters of the force/torque sensor and of contact detection. proto/config.proto defines meaning, unit
+// and range under the same names.
 
 #include "common/spatial/spatial.hpp"
 
