@@ -1,8 +1,8 @@
 #pragma once
-// What an estimator of slave/estimation takes and gives.
+// Input and output of an estimator of slave/estimation.
 //   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;
 //                                              m = 0: Kelvin-Voigt
-// The parameters are those at a depth that was visited, so that none of them depends on the unit of length: k
+// The parameters are those at a depth that was reached, so that none of them depends on the unit of length: k
 // in N/mⁿ is an extrapolation to a depth of one metre.
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 namespace longreach {
 
 struct PenetrationSample {
-  double x_m = 0.0;        // along the inward normal, from the surface if that is known
+  double x_m = 0.0;        // along the inward normal, from the surface if it is known
   double v_m_per_s = 0.0;  // its derivative
   double force_n = 0.0;    // measured, along the outward normal
 };
@@ -19,7 +19,7 @@ struct PenetrationSample {
 struct ContactFit {
   bool valid = false;
   double reference_m = 1.0;  // x_ref
-  double surface_m = 0.0;    // x0; 0: known, or what the samples count from
+  double surface_m = 0.0;    // x0; 0: known, or the origin of the samples
   double force_n = 0.0;      // f: the elastic force at x_ref behind it
   double n = 1.0;
   double a_s_per_m = 0.0;

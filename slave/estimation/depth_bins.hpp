@@ -1,9 +1,9 @@
 #pragma once
-// The samples of a contact in bounded room, for a fit that has to try other surfaces and exponents: sums over
-// narrow bins of the position. A bin stands at the mean of its samples and knows how the speed changed with
-// the place in it, so what is lost is the curvature within a bin: at n = 1.5 and 64 bins 1e-4 of the force at
-// the greatest depth. The bins double their width, two becoming one, when a sample lies outside. Weights grow
-// by 1/forgetting a sample.
+// Stores the samples of a contact in bounded memory, for a fit that must try other surfaces and exponents:
+// sums over narrow bins of the position. A bin is located at the mean of its samples and stores how the speed
+// varied with the position in it, so only the curvature within a bin is lost: at n = 1.5 and 64 bins 1e-4 of
+// the force at the maximum depth. The bins double their width, merging in pairs, when a sample is outside.
+// Weights grow by 1/forgetting per sample.
 
 #include <array>
 #include <cmath>
@@ -66,8 +66,8 @@ class DepthBins {
   }
   [[nodiscard]] const std::array<DepthBin, kBins>& bins() const { return bins_; }
   [[nodiscard]] double weight() const { return weight_; }  // of the last sample
-  /// Σ w²/Σ w over that of the last sample: the variance of what is fitted, over that of samples that weigh
-  /// alike.
+  /// Σ w²/Σ w relative to the last sample: the variance of the fit relative to that of equally weighted
+  /// samples.
   [[nodiscard]] double variance_share() const { return sum_ > 0.0 ? square_sum_ / sum_ : 1.0; }
 
  private:
@@ -76,7 +76,7 @@ class DepthBins {
   static constexpr double kWeightMax = 1e6;
 
   [[nodiscard]] bool within(double x) const { return x >= first_m_ && x < first_m_ + kBins * width_m_; }
-  // Towards smaller or greater positions.
+  // Towards smaller or larger positions.
   void double_width(bool down) {
     std::array<DepthBin, kBins> wide{};
     const int first = down ? kBins / 2 : 0;
@@ -92,7 +92,7 @@ class DepthBins {
   double first_m_ = 0.0;
   double width_m_ = 0.0;  // 0: no sample yet
   double weight_ = 1.0;
-  double sum_ = 0.0, square_sum_ = 0.0;  // of the weights and their squares, over that of the last
+  double sum_ = 0.0, square_sum_ = 0.0;  // of the weights and their squares, relative to the last one
 };
 
 }  // namespace longreach

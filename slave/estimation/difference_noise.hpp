@@ -1,7 +1,7 @@
 #pragma once
-// Variance of the white noise on a smooth signal, from its third differences: E[(Δ³s)²] = 20 σ². What moves
-// slower than a tenth of the sample rate hardly counts; of a jump or a kink only so much does that the next
-// samples outweigh it.
+// Variance of the white noise on a smooth signal, from its third differences: E[(Δ³s)²] = 20 σ². Motion
+// slower than a tenth of the sample rate hardly contributes; the contribution of a jump or a kink is limited
+// so that the next samples outweigh it.
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,13 @@ class DifferenceNoise {
     const double usual = std::max(kOutlier * variance_, kStart * kStart * largest_ * largest_);
     variance_ += (std::min(difference * difference / 20.0, usual) - variance_) / (samples_ - 3.0);
   }
-  /// Rather too large while there are few samples; `first` is the sd with none.
+  /// Overestimated while there are few samples; `first` is the sd without samples.
   [[nodiscard]] double cautious_variance(double first) const {
     const double differences = std::max(samples_ - 3.0, 0.0);
     const double of_few = differences < kFew ? first * first : 0.0;
     return std::max(of_few, variance_ * (1.0 + kFew / std::max(differences, 1.0)));
   }
-  /// 0 with less than four samples.
+  /// 0 with fewer than four samples.
   [[nodiscard]] double variance() const { return variance_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// An estimator of a contact that is not the slave's own: of the laboratory, or yours.
+// Interface of an estimator of a contact from outside the slave: of the laboratory, or your own.
 
 #include <memory>
 #include <utility>
@@ -15,15 +15,15 @@ class Estimator {
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
-  /// Another contact: nothing of the one before is kept.
+  /// Starts another contact: discards everything of the previous one.
   virtual void reset() = 0;
-  /// A sample in contact and the variance of its force, N². Returns by how much the force was off what the
-  /// fit had foreseen, N; NaN where there is none yet.
+  /// A sample in contact and the variance of its force, N². Returns the force minus the force predicted by
+  /// the fit, N; NaN while there is no fit.
   virtual double step(const PenetrationSample& sample, double force_variance_n2) = 0;
   [[nodiscard]] virtual const ContactFit& fit() const = 0;
 };
 
-/// Held as those of this folder are.
+/// Wrapper that holds it like the estimators of this folder.
 class BroughtEstimator {
  public:
   explicit BroughtEstimator(std::unique_ptr<Estimator> estimator) : it_(std::move(estimator)) {}

@@ -1,11 +1,11 @@
 #pragma once
-// Everything that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs of all samples, for every
-// exponent n at once: the sums
+// The sums over all samples that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs for every
+// exponent n at once:
 //   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
-// are smooth functions of n, so nothing has to be linearised about an n that is not known yet. They are kept
-// either on a grid, for all n from 0.5 to 3.5, or as Taylor's series about an n that is nearly known.
-// Weights w grow by 1/forgetting a sample: forgetting that leaves the sums alone. Samples with ξ below 0.02
-// weigh nothing and are left out. Not handled: a depth, force or speed that is not finite.
+// are smooth functions of n, so no linearisation about an unknown n is necessary. They are stored either on a
+// grid, for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Weights w grow by
+// 1/forgetting per sample: this forgets without changing the sums. Samples with ξ below 0.02 have a
+// negligible weight and are skipped. Not handled: a depth, force or speed that is not finite.
 
 #include <array>
 #include <cstddef>
@@ -14,13 +14,13 @@
 
 namespace longreach {
 
-/// The sums at one n and their derivatives by n.
+/// The sums at one n and their derivatives with respect to n.
 struct ExponentSums {
   alignas(16) std::array<std::array<double, 6>, 3> S{};  // [p][order]
   alignas(16) std::array<std::array<double, 4>, 2> R{};
 };
 
-/// One sample as the sums see it.
+/// One sample in the form used by the sums.
 struct WeighedSample {
   double log_depth = 0.0;  // ln ξ
   double v_m_per_s = 0.0;
@@ -28,13 +28,13 @@ struct WeighedSample {
   double root_weight = 1.0;
 };
 
-/// Chooses x_ref, the largest depth within a factor of 2, and the weights.
+/// Chooses x_ref, the maximum depth within a factor of 2, and the weights.
 class SampleScale {
  public:
   struct Change {
-    bool counts = false;        // else the sample is too shallow
-    double log_ratio = 0.0;     // ln(x_ref before/x_ref now); 0: unchanged
-    double weight_ratio = 1.0;  // that the sums have to be multiplied with
+    bool counts = false;        // otherwise the sample is too shallow
+    double log_ratio = 0.0;     // ln(previous x_ref/new x_ref); 0: unchanged
+    double weight_ratio = 1.0;  // factor by which the sums must be multiplied
     WeighedSample sample;
   };
   Change step(const PenetrationSample& sample, double forgetting);
@@ -68,13 +68,13 @@ class ExponentGrid {
   std::array<Nodes, 2> R_{};
 };
 
-/// Taylor's series about `n0`. Error of S at n0 + δ: (2 δ ln ξ)⁶/720 of it, less for R.
+/// Taylor series about `n0`. Error of S at n0 + δ: (2 δ ln ξ)⁶/720 of it, less for R.
 class ExponentSeries {
  public:
   ExponentSeries() = default;
   ExponentSeries(const ExponentSums& sums, double n0) : sums_(sums), n0_(n0) {}
 
-  /// Returns ξⁿ of the sample, for an n near by.
+  /// Returns ξⁿ of the sample, for an n close to n0.
   double add(const WeighedSample& sample, double n);
   void rescale(double log_ratio, double weight_ratio);
   [[nodiscard]] ExponentSums at(double n) const;

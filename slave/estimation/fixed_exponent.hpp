@@ -1,7 +1,7 @@
 #pragma once
-// Hunt-Crossley with an exponent that is given, by recursive least squares of F = c0 ξⁿ + c1 ξⁿ v: what the
-// source paper describes. Exact if the exponent is right; 0.1 beside it k is 33 % wrong where depths are in
-// millimetres, and the sd does not say so.
+// Hunt-Crossley with a given exponent, by recursive least squares of F = c0 ξⁿ + c1 ξⁿ v, as described in the
+// source paper. Exact if the exponent is correct; with an error of 0.1, k is 33 % wrong for depths in
+// millimetres, and the sd does not include that.
 
 #include "slave/estimation/linear_contact.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The part that the contact laws with two parameters share: F = c0 φ0 + c1 φ1 by least squares, and its fit
-// with f = c0, a = c1/c0.
+// Common part of the contact laws with two parameters: F = c0 φ0 + c1 φ1 by least squares, and its fit with f
+// = c0, a = c1/c0.
 
 #include "slave/estimation/contact_fit.hpp"
 #include "slave/estimation/normal_equations.hpp"
@@ -12,7 +12,7 @@ struct LinearContact {
   NormalEquations<2> equations;
   ContactFit fit{};
 
-  /// Returns the force less what was foreseen, N; NaN without a fit.
+  /// Returns the force minus the predicted force, N; NaN without a fit.
   double step(const Eigen::Vector2d& phi, const PenetrationSample& sample, double forgetting,
               double variance_n2, double n, bool kelvin_voigt) {
     const double innovation =

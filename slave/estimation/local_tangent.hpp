@@ -1,8 +1,7 @@
 #pragma once
 // The tangent of a contact without a law: least squares of the force on depth and on depth times speed about
-// the mean depth of the last seconds, F = c + S (x - x̄) + b (x - x0) v. It tells what the hand works with
-// where no power law fits: a progressive foam, a pad on steel, a material with hysteresis. It says nothing
-// beyond the band that was probed.
+// the mean depth of the last seconds, F = c + S (x - x̄) + b (x - x0) v. It is used where no power law fits:
+// a progressive foam, a pad on steel, a material with hysteresis. It is valid only within the probed band.
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -17,7 +16,7 @@ class LocalTangent {
  public:
   void begin() { *this = LocalTangent(); }
 
-  /// `surface_m`: where the surface is thought to be; `memory_s` > 0.
+  /// `surface_m`: estimate of the surface; `memory_s` > 0.
   void step(const PenetrationSample& s, double surface_m, double memory_s, double dt) {
     const double depth_m = s.x_m - surface_m;
     if (!std::isfinite(depth_m) || !std::isfinite(s.force_n) || !(depth_m > 0.0) || !(dt > 0.0)) return;
@@ -30,13 +29,13 @@ class LocalTangent {
     samples_ = kept * samples_ + 1.0;
   }
 
-  /// Tangent and secant at the mean depth, with what they are known to; not valid while the band tells none.
+  /// Tangent and secant at the mean depth, with their accuracy; not valid while the band is too narrow.
   [[nodiscard]] ContactAnswer answer(double surface_m) const {
     ContactAnswer a;
     if (samples_ < kSamplesLeast) return a;
     const Eigen::Vector3d scale = A_.diagonal().cwiseSqrt();
     if (!(scale[1] > 0.0)) return a;
-    // Without movement along the speed there is no damping to tell: a little ridge leaves it at zero.
+    // Without variation of the speed the damping is not identifiable: a small ridge keeps it at zero.
     Eigen::Matrix3d R = A_;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {

@@ -1,16 +1,16 @@
 #pragma once
-// What of the estimate is told to the operator: the tangent of the contact's law at a depth, held. It is the
-// line through the force there with the slope there, and begins at its foot, depth - F/F' behind the surface.
-// Each change moves the felt wall a little, so the value appears when its sd is below `first_sd`, and then
-// changes only
+// The part of the estimate that is reported to the operator: the tangent of the contact law at a depth, held
+// constant between changes. It is the line through the force at that depth with the local slope, and begins
+// at its foot, depth - F/F' behind the surface. Each change moves the displayed wall slightly, so the value
+// appears when its sd is below `first_sd`, and then changes only
 //   by more than max(deadband, 3 sd);
-//   by more than max(2 %, 3 sd), of its own or by its direction, at most three times a touch, when its sd
-//       has halved since it was taken;
-//   when it is taken for another depth,
-// in the Frobenius norm of S n nᵀ: a direction that was learnt better is a change as well. It never gives way
-// to one that is farther from the depth that is asked for, but if it is surely wrong: over 30 % and 5 sd off
-// what any power law through it has at the depth of one known to 30 %. A second touch of the same surface
-// goes on with it.
+//   by more than max(2 %, 3 sd), of the value or of its direction, at most three times per touch, when its sd
+//       has halved since the last change;
+//   when it is computed for another depth,
+// in the Frobenius norm of S n nᵀ: a more accurate direction is a change as well. A value is never replaced
+// by one that is farther from the requested depth, unless it is certainly wrong: by over 30 % and 5 sd from
+// any power law through it at the depth of a value known within 30 %. A second touch of the same surface
+// continues with it.
 
 #include "common/spatial/spatial.hpp"
 #include "slave/estimation/identifier.hpp"
@@ -22,25 +22,25 @@ class ReportedTangent {
   explicit ReportedTangent(const EstimatorConfig& config) : config_(config) {}
 
   void configure(const EstimatorConfig& config) { config_ = config; }
-  /// A new touch; `again`: of a surface whose value still holds.
+  /// Starts a touch; `again`: of a surface whose value is still valid.
   void begin(bool again) {
     if (!again) stiffness_n_per_m_ = sd_ = depth_m_ = foot_m_ = 0.0;
     renewals_ = 0;
   }
 
-  /// `asked_m`: depth that the value is to be for; `elsewhere`: it is another one than so far. True if the
-  /// reported value has changed.
+  /// `asked_m`: requested depth of the value; `elsewhere`: it differs from the previous one. Returns true if
+  /// the reported value has changed.
   bool step(const ContactAnswer& answer, const Vector3& normal, double asked_m, bool elsewhere);
 
-  /// The surface is told for another place: the line keeps its slope and goes through the force that the
-  /// answer has at its depth.
+  /// The surface is reported at another position: the line keeps its slope and passes through the force of
+  /// the answer at its depth.
   void place(const ContactAnswer& answer);
 
   [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: none yet
-  [[nodiscard]] double sd() const { return sd_; }                  // of it, a fraction, as it was taken
-  [[nodiscard]] double depth_m() const { return depth_m_; }        // that it belongs to
+  [[nodiscard]] double sd() const { return sd_; }  // its standard deviation as a fraction, at the last change
+  [[nodiscard]] double depth_m() const { return depth_m_; }        // its depth
   [[nodiscard]] double foot_m() const { return foot_m_; }          // behind the surface, >= 0
-  [[nodiscard]] const Vector3& normal() const { return normal_; }  // that it was taken with
+  [[nodiscard]] const Vector3& normal() const { return normal_; }  // at the last change
 
  private:
   [[nodiscard]] bool surely_wrong(const ContactAnswer& answer) const;

@@ -1,8 +1,8 @@
 #pragma once
-// An identifier that notices another object or layer under the tool, whatever its estimator. An estimator
-// whose law does not fit is off by itself, and by more the deeper it goes: that says nothing. So a maximum
-// likelihood fit, which takes the contact for no law in particular, judges beside it: when that one is
-// contradicted by the force, the estimate begins anew as well.
+// An identifier that detects another object or layer under the tool with any estimator. If the law of an
+// estimator does not fit, its error grows with the depth, which indicates nothing. A maximum likelihood fit,
+// which assumes no particular law, therefore runs in parallel: when the force contradicts it, the estimate
+// restarts as well.
 
 #include "slave/estimation/identifier.hpp"
 

@@ -1,8 +1,9 @@
 #pragma once
-// The depth that the stiffness is reported for: where the hand works. At first that of a usual force, so that
-// the value does not follow the way in. Then the mean depth of about the last `memory_s`, held until the
-// tangent there is over 8 % off, unless the hand swings about the depth that is held. Of a hand that swings,
-// the mean of a whole swing, and of one that rests, what that mean has come to, each held until 2 % off.
+// The depth for which the stiffness is reported: the working depth of the hand. At first it is the depth of a
+// usual force, so that the value does not follow the approach. Then it is the mean depth of about the last
+// `memory_s`, held until the tangent there differs by over 8 %, unless the hand swings about the held depth.
+// For a swinging hand it is the mean of a whole swing, for a resting one the limit of the mean, each held
+// within 2 %.
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,13 @@ namespace longreach {
 class WorkingDepth {
  public:
   void begin() { *this = WorkingDepth(); }
-  /// Of a contact that has become another one under the hand: the hand is there.
+  /// For a contact that has changed under the hand: starts at the present depth.
   void begin_at(double present_m) {
     begin();
     held_m_ = std::max(present_m, 0.0);
   }
-  /// The tool has left, and may come again. Deeper than usual is nothing to begin with: a line from there is
-  /// felt too late, and a spring that grows in the hand takes energy that is not there.
+  /// The tool has left and may return. It does not start deeper than usual: a line from there is displayed
+  /// too late, and a spring that grows in the hand takes energy that is not available.
   void leave(double usual_m) {
     const double held_m = std::min(held_m_, usual_m);
     begin();
@@ -28,8 +29,8 @@ class WorkingDepth {
   /// `usual_m`: depth of the usual force.
   [[nodiscard]] double depth_m(double usual_m) const { return held_m_ > 0.0 ? held_m_ : usual_m; }
 
-  /// While the contact is known, with this exponent. `present_m`: depth now; `memory_s` > 0. Returns true
-  /// when another depth is held from now on.
+  /// Call it while the contact is known, with this exponent. `present_m`: present depth; `memory_s` > 0.
+  /// Returns true if the held depth has changed.
   bool follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
     const double held_m = depth_m(usual_m), now_m = std::max(present_m, 0.0);
     if (!begun_) mean_m_ = now_m;
@@ -53,7 +54,7 @@ class WorkingDepth {
   static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
   static constexpr double kRests = 2.5;  // times the memory
   static constexpr double kSwing = 0.5;  // of the depth's sd about its mean
-  static constexpr double kThere = 0.3;  // of the mean depth: else the tool only passes
+  static constexpr double kThere = 0.3;  // of the mean depth: otherwise the tool only passes
 
   bool hold(double depth_m) {
     if (!(depth_m > 0.0)) return false;
@@ -62,7 +63,7 @@ class WorkingDepth {
     return true;
   }
 
-  /// The mean depth of a swing that ends now, upwards through the mean; else 0.
+  /// Returns the mean depth of a swing that ends now, upwards through the mean; otherwise 0.
   double swing(double now_m, double swing_m, double dt) {
     swing_sum_ += now_m * dt;
     swing_s_ += dt;
@@ -76,11 +77,12 @@ class WorkingDepth {
   }
 
   bool begun_ = false;
-  double held_m_ = 0.0;  // gone to instead of the usual force's; 0: none
+  double held_m_ = 0.0;  // held instead of the depth of the usual force; 0: none
   double held_s_ = 0.0;  // since then
   double mean_m_ = 0.0, variance_m2_ = 0.0;
-  bool below_ = false, whole_ = false;      // the swing has been below the mean; it began at one's end
-  double swing_sum_ = 0.0, swing_s_ = 0.0;  // m s and s, since it began
+  /// the swing has been below the mean; it started at the end of another one
+  bool below_ = false, whole_ = false;
+  double swing_sum_ = 0.0, swing_s_ = 0.0;  // m s and s, since its start
 };
 
 }  // namespace longreach
