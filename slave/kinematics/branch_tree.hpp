@@ -1,7 +1,7 @@
 #pragma once
-// The branches of a closed form as they are found: two ways at each square root, and six angles at the end of
-// each way. If only the nearest branch is wanted, the nearer way is taken first, and another one is left out
-// when its angle alone is farther off than what was found.
+// Search of the branches of a closed form: two alternatives at each square root, and six angles at each end.
+// If only the nearest branch is wanted, the nearer alternative is tried first, and another one is skipped if
+// its angle alone is farther away than the best result.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ class BranchTree {
     out.count = 0;
   }
 
-  /// Both signs of the sine of `aside` (>= 0), that on the side of `here` first: the angle before, from the
+  /// Both signs of the sine of `aside` (>= 0), first the one on the side of `here`, the previous angle
+  /// relative to the middle of both.
   /// middle of both.
   template <typename Then>
   void fork(const Turn& here, const Turn& aside, const Then& then) {
@@ -37,7 +38,7 @@ class BranchTree {
     return nearest_ && too_far(likeness(t, before(role)));
   }
 
-  /// The turn from one vector to another; where one of them vanishes, the angle before.
+  /// The rotation from one vector to another; if one of them vanishes, the previous angle.
   [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) const {
     const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
     if (!(std::min(square, other) > kFreeSquare)) return before(role);
@@ -47,7 +48,7 @@ class BranchTree {
 
   [[nodiscard]] Turn before(Role role) const { return {before_.cos[role], before_.sin[role]}; }
 
-  /// Least miss of the branches that `then` finds, which are not kept.
+  /// Minimum miss of the branches that `then` finds; these are not kept.
   template <typename Then>
   [[nodiscard]] double probe(const Then& then) {
     const double before = std::exchange(least_miss_, std::numeric_limits<double>::infinity());
@@ -82,7 +83,7 @@ class BranchTree {
   }
 
  private:
-  // From those before: next to them a sine is enough.
+  // From the previous joints: near them a sine is sufficient.
   void angles(double (&angle)[6]) const {
     double s[6], c[6];
     for (std::size_t role = 0; role < 6; ++role) {
@@ -101,7 +102,7 @@ class BranchTree {
   Branches& out_;
   bool nearest_, probing_ = false;
   double least_miss_ = std::numeric_limits<double>::infinity();
-  double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest so far, rad²
+  double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest branch so far, rad²
   double sin_[6], cos_[6];                                  // by role
 };
 

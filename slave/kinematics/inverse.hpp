@@ -1,18 +1,18 @@
 #pragma once
-// Joint angles for a tool pose: the one inverse of the slave. Closed form where the arm has one
-// (closed_inverse.hpp), linear for a Cartesian robot, numeric search else.
+// Joint angles for a tool pose: the inverse kinematics of the slave. Closed form if the arm has one
+// (closed_inverse.hpp), linear for a Cartesian robot, numeric search otherwise.
 //
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
 // the tool is within Refinement::kExact of the goal (rad, and share of the reach). Of those within the joint
-// limits, each angle taken from the turn that is nearest to the measured joints, the preferred one is chosen.
-// Where there is none, the damped iteration of numeric_inverse.hpp goes to the nearest pose within the
-// limits.
+// limits, with each angle on the turn nearest to the measured joints, the preferred one is chosen. If there
+// is none, the damped iteration of numeric_inverse.hpp moves to the nearest pose within the limits.
 //
 // kFound     the tool reaches the goal
-// kSingular  it does, but in `lost` it cannot move from there
-// kNearest   it does not: the goal is out of reach, or only beyond joint limits; the errors say by how much.
-//            A search (restarts_max > 0) never says so while all() lists a solution within the limits
-// A robot without a wrist (Cartesian) ignores the rotation of the goal and says so in `rotation_ignored`.
+// kSingular  the tool reaches the goal, but cannot move from there in the direction `lost`
+// kNearest   the goal is out of reach, or only beyond joint limits; the errors give the deviation. A search
+//            (restarts_max > 0) never returns this while all() lists a solution within the limits
+// A robot without a wrist (Cartesian) ignores the rotation of the goal and reports that in
+// `rotation_ignored`.
 
 #include <cstdint>
 #include <string_view>
@@ -38,16 +38,16 @@ struct InverseResult {
   double position_error_m = 0.0;                // of X_WE from the goal
   double rotation_error_rad = 0.0;
   double conditioning = 0.0;       // joint_step.hpp: 0 at a singular pose, about 0.3 at a good one
-  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times length; linear]; else zero
-  bool at_joint_limit = false;     // a joint limit was in the way
+  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times length; linear]; otherwise zero
+  bool at_joint_limit = false;     // limited by a joint limit
   bool rotation_ignored = false;
   std::uint32_t iterations = 0;  // of the numeric inverse
 };
 
-/// All solutions of one pose, without regard to joint limits, each angle the one nearest to the joints
-/// before.
+/// All solutions for one pose, regardless of joint limits, each angle on the turn nearest to the previous
+/// joints.
 struct InverseSolutions {
-  static constexpr int kMax = 16;  // of any arm with six revolute joints (Primrose 1986)
+  static constexpr int kMax = 16;  // maximum for any arm with six revolute joints (Primrose 1986)
   int count = 0;
   std::array<JointVector, kMax> joint_rad;
 };
@@ -58,21 +58,21 @@ class Inverse {
 
   explicit Inverse(const RobotConfig& robot);
 
-  /// `near_rad`: finite; where to continue from. `tolerance` is for the numeric inverse. A goal that is not
-  /// finite is answered with `near_rad` and kNearest.
+  /// `near_rad`: finite start of the search. `tolerance` is for the numeric inverse. For a goal that is not
+  /// finite it returns `near_rad` and kNearest.
   [[nodiscard]] InverseResult solve(const Pose& X_WE_goal, const JointVector& near_rad,
                                     const InverseTolerance& tolerance) const;
 
-  /// As solve, for a goal one tick away: a solution farther off than a joint can have meant to go (another
-  /// branch, or the near side of a singular pose) is not jumped to but approached by the damped iteration.
+  /// Like solve, for a goal one tick ahead: a solution farther away than a joint can move (another branch, or
+  /// the other side of a singular pose) is not jumped to but approached by the damped iteration.
   [[nodiscard]] InverseResult follow(const Pose& X_WE_goal, const JointVector& joint_rad,
                                      const InverseTolerance& tolerance) const;
 
-  /// In closed form all, else those that `tolerance.restarts_max` runs of the search come upon.
+  /// All solutions in closed form; otherwise those that `tolerance.restarts_max` runs of the search find.
   [[nodiscard]] InverseSolutions all(const Pose& X_WE_goal, const JointVector& near_rad,
                                      const InverseTolerance& tolerance) const;
 
-  /// Which kind of inverse this is, for people.
+  /// Description of the kind of inverse.
   [[nodiscard]] std::string_view words() const;
   [[nodiscard]] const Kinematics& kinematics() const { return numeric_.kinematics(); }
   [[nodiscard]] const ClosedInverse& closed() const { return closed_; }

@@ -1,10 +1,10 @@
 #pragma once
-// Where the tool is, and how it moves, for a chain of six joints.
+// Pose and velocity of the tool of a chain of six joints.
 //   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α)     (Denavit, Hartenberg 1955)
 //   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o, [0; z] of a prismatic joint
-// B = 1 in the standard convention. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); Rx Tx moves behind
-// the joint before it, that of the first row becomes B. E is the tool frame.
-// The robot's base S is the world W. Does not know limits, speeds or singularities.
+// B = 1 in the standard convention. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved
+// to the previous joint, and that of the first row becomes B. E is the tool frame. The base S of the robot is
+// the world W. Limits, speeds and singularities are not considered.
 
 #include <array>
 
@@ -20,13 +20,13 @@ struct ToolKinematics {
   Jacobian J;
 };
 
-/// The same with the rotation as matrix, for solvers.
+/// The same with the rotation as a matrix, for solvers.
 struct RigidKinematics {
   Rigid X_WE{};
   Jacobian J;
 };
 
-/// Row of a table in the standard convention, whatever the file's.
+/// Row of a table in the standard convention, regardless of the file.
 struct DhLink {
   double a_m = 0.0, alpha_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
 };
@@ -43,14 +43,13 @@ class Kinematics {
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths, offsets and slides of the table, tool included, at least 1 mm: the size of the
-  /// numbers that are added up, and so of their rounding.
+  /// Sum of all link lengths, offsets and slides of the table, tool included, at least 1 mm: the magnitude of
+  /// the summed numbers, and so of their rounding error.
   [[nodiscard]] double reach_m() const { return reach_m_; }
-  static constexpr double kMotion = 1.1;  // of a long arm it is the sum of its links
+  static constexpr double kMotion = 1.1;  // for a long arm it is the sum of its links
   /// The length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean
-  /// square of how far the tool moves per rad, over all joints and all their angles; of a slide, its travel.
-  /// It depends on how the tool moves and on nothing else: not on where the base is, nor on which table says
-  /// it.
+  /// square of the tool motion per rad, over all joints and all their angles; for a slide, its travel. It
+  /// depends only on the motion of the tool, not on the position of the base or the convention of the table.
   [[nodiscard]] double motion_length_m() const { return motion_length_m_; }
   [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
   [[nodiscard]] const Rigid& base() const { return base_; }  // B
@@ -71,7 +70,7 @@ class Kinematics {
   std::array<Link, kMaxJoints> link_{};
   std::array<DhLink, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
-  Rigid last_{};  // behind the last joint: its Tz(d) Tx(a) Rx(α), then the tool
+  Rigid last_{};  // after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
   double motion_length_m_ = 0.0;
   bool all_revolute_ = true;

@@ -1,13 +1,13 @@
 #pragma once
-// The least change of an angle that a pose leaves open which brings the rest of an arm within reach.
-// Costs some 150 evaluations: for singular poses only.
+// The minimum change of an undetermined angle that brings the remainder of an arm within reach. It takes some
+// 150 evaluations: for singular poses only.
 
 #include <cmath>
 
 namespace longreach {
 
-/// The h in [-width, width] next to 0 with miss(h) <= 0; where there is none, that of the least miss.
-/// `miss`: continuous, narrow valleys are found from samples width / 24 apart.
+/// Returns the h in [-width, width] nearest to 0 with miss(h) <= 0; if there is none, the one with the
+/// minimum miss. `miss` must be continuous; narrow valleys are found from samples width / 24 apart.
 template <typename Miss>
 double least_aside(double width, const Miss& miss) {
   constexpr int kSamples = 24, kHalvings = 50;

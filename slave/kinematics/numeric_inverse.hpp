@@ -1,11 +1,11 @@
 #pragma once
-// Joint angles for a tool pose, from joint angles nearby: damped least squares
+// Joint angles for a tool pose from nearby joint angles, by damped least squares
 //   (JᵀJ + (|e|² + μ) I) Δq = Jᵀ e,   e = [L log(R_goal Rᵀ); p_goal - p]
 // with L (Kinematics::motion_length_m) making radians and metres comparable, damping |e|² that vanishes at
-// the solution (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after a step
-// that did not help (Levenberg). Joint limits are kept by projection. One run finds a solution of the branch
-// that it starts in and no other; a search starts again from elsewhere until it has found one: from a fixed
-// sequence of starts, those first whose tools are nearest to the goal.
+// the solution (Sugihara 2011: quadratic convergence), and μ that rises near singular poses and after an
+// unsuccessful step (Levenberg). Joint limits are respected by projection. One run finds only a solution of
+// its own branch; a search restarts from a fixed sequence of starts until it has found a solution, first from
+// those whose tools are nearest to the goal.
 
 #include <cstdint>
 
@@ -14,17 +14,17 @@
 namespace longreach {
 
 struct InverseTolerance {
-  double residual_m = 1e-10;          // |e| at which it stops, m
-  std::uint32_t iterations_max = 20;  // steps tried a run, at least 1
-  std::uint32_t restarts_max = 0;     // runs from elsewhere when the first fails
+  double residual_m = 1e-10;          // |e| at which the iteration ends, m
+  std::uint32_t iterations_max = 20;  // steps per run, at least 1
+  std::uint32_t restarts_max = 0;     // further runs if the first one fails
 };
 
 struct NumericResult {
-  bool found = false;                           // within the tolerance; else the nearest that was seen
+  bool found = false;                           // within the tolerance; otherwise the nearest result
   JointVector joint_rad = JointVector::Zero();  // within the joint limits; finite if the start was
   RigidKinematics tool{};                       // of joint_rad
   double residual_m = 0.0;                      // |e| of joint_rad
-  bool at_joint_limit = false;                  // a joint limit was in the way
+  bool at_joint_limit = false;                  // limited by a joint limit
   std::uint32_t iterations = 0;
 };
 
@@ -32,11 +32,11 @@ class NumericInverse {
  public:
   explicit NumericInverse(const RobotConfig& robot);
 
-  /// `start_rad`: within the joint limits, finite. A goal that is not finite is answered with the start.
+  /// `start_rad`: within the joint limits, finite. For a goal that is not finite it returns the start.
   [[nodiscard]] NumericResult solve(const Rigid& X_WE_goal, const JointVector& start_rad,
                                     const InverseTolerance& tolerance) const;
 
-  /// One run of the search; its iteration passes limits of joints that can make a whole turn.
+  /// One run of the search; its iteration ignores the limits of joints that can make a whole turn.
   [[nodiscard]] NumericResult search_once(const Rigid& X_WE_goal, const JointVector& start_rad,
                                           const InverseTolerance& tolerance) const;
 
@@ -49,7 +49,7 @@ class NumericInverse {
 
  private:
   struct Run;
-  static constexpr std::uint32_t kKnownStarts = 128;  // whose tools' places are known
+  static constexpr std::uint32_t kKnownStarts = 128;  // starts whose tool poses are stored
   using Place = Eigen::Matrix<double, 1, 12>;  // of a tool: rotation matrix times a length, position; m
 
   [[nodiscard]] Place place_m(const Rigid& X_WE) const;

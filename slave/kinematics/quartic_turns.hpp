@@ -2,10 +2,10 @@
 // Zeros of a trigonometric polynomial of second degree on the circle,
 //   F(φ) = A + B cos φ + C sin φ + D cos 2φ + E sin 2φ,
 // at most four. In t = tan(χ/2), χ counted from opposite the largest of eight samples, F is a quartic whose
-// leading coefficient is that sample, so no zero is far out. Its real zeros are bracketed by those of its
-// derivatives, so none is lost, and each is found by Newton steps that may not leave the bracket.
-// A place where F nearly touches zero (below kTouch of `size`) is listed, too, with a
-// neighbour on either side: rounding decides whether there are two zeros, one or none.
+// leading coefficient is that sample, so all zeros are moderate. Its real zeros are bracketed by those of its
+// derivatives, so none is missed, and each is found by Newton steps within the bracket. A point where F
+// nearly touches zero (below kTouch of `size`) is also listed, with a neighbour on either side: rounding
+// decides whether there are two zeros, one or none.
 
 #include <array>
 
@@ -31,12 +31,12 @@ Trig2 squared(const Trig& f, double weight);
 constexpr double kTouch = 1e-11;
 
 struct QuarticTurns {
-  static constexpr int kMax = 13;  // four zeros, and three touches with a neighbour on either side
+  static constexpr int kMax = 13;  // four zeros, and three touching points with a neighbour on either side
   int count = 0;
   std::array<Turn, kMax> turn{};
 };
 
-/// `size`: of the terms that F was added up from.
+/// `size`: magnitude of the terms of F.
 QuarticTurns zeros(const Trig2& F, double size);
 
 }  // namespace longreach

@@ -1,13 +1,13 @@
 #pragma once
-// Takes joint angles that almost place the tool at a goal to where they do so exactly: Newton steps with the
-// exact kinematics, also next to singular poses, where the closed form has lost half of its digits.
-// Is not meant for starts farther off than about 1e-3.
+// Improves joint angles that almost place the tool at a goal to full accuracy: Newton steps with the exact
+// kinematics, also near singular poses, where the closed form has lost half of its digits. Not for starts
+// farther away than about 1e-3.
 
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {
 
-/// Joint angles, and what the exact kinematics say of them.
+/// Joint angles and the corresponding exact kinematics.
 struct Placed {
   JointVector joint_rad = JointVector::Zero();
   RigidKinematics tool{};
@@ -24,7 +24,8 @@ class Refinement {
 
   [[nodiscard]] Placed at(const JointVector& joint_rad) const;
 
-  /// From `placed.joint_rad`. True: the tool is within kExact of the goal. All of `placed` is filled.
+  /// From `placed.joint_rad`. Returns true if the tool is within kExact of the goal. All of `placed` is
+  /// filled in.
   [[nodiscard]] bool improve(Placed& placed) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Rotations about z, and what turns with them: the algebra in which closed_inverse.cpp is written.
+// Rotations about z and their action on vectors: the algebra of closed_inverse.cpp.
 
 #include <cmath>
 

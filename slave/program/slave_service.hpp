@@ -1,6 +1,6 @@
 #pragma once
-// What RPC clients may do at the slave: look, tighten, impair, stop. Engagement, mode and scale are the
-// master's.
+// Operations of the slave for RPC clients: queries, tightening of limits, impairment, stop. The master
+// decides about engagement, mode and scale.
 
 #include <chrono>
 #include <mutex>
@@ -12,12 +12,12 @@
 
 namespace longreach {
 
-/// Why the robot cannot be engaged and what to do, or empty.
+/// Returns why the robot cannot be engaged, and a remedy, or empty.
 std::string robot_trouble(const SlaveView& view);
 
 class SlaveService : public ControlBackend {
  public:
-  /// `config`: as loaded, files resolved; its limits are the ceiling for what may be set later.
+  /// `config`: as loaded, files resolved; its limits are upper bounds for later changes.
   SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
@@ -36,13 +36,14 @@ class SlaveService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Before the loop begins: from its first tick on, as a replay needs it. Throws RecordingError.
+  /// Call it before the loop starts, so that its first tick is recorded, as a replay requires. Throws
+  /// RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Who has the robot: the address that its session was opened from; empty: nobody.
+  /// Address of the master that has control of the robot; empty: none.
   [[nodiscard]] std::string lease() const;
 
-  /// The newest picture of the loop; callable from any thread but the loop's.
+  /// Newest snapshot of the loop; callable from any thread except the loop's.
   SlaveSnapshot snapshot();
 
  private:
@@ -50,19 +51,19 @@ class SlaveService : public ControlBackend {
   void set_lease(const std::string& holder);
 
   SideRecording<SlaveRecordBuffer>::Request recording_request(double max_mb) const;
-  /// Hands a tape to the loop; false: it did not answer.
+  /// Passes a record buffer to the loop; false: it did not respond.
   bool attach(SlaveRecordBuffer* record_buffer);
 
   SlaveShell& shell_;
   SideConfig<proto::SlaveConfig> config_;
-  std::uint32_t config_number_ = 0;  // of those that the loop was handed
+  std::uint32_t config_number_ = 0;  // of the configurations passed to the loop
   RecordingPlace recordings_;
   SideRecording<SlaveRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::mutex reading_;  // among those who read snapshots
+  std::mutex reading_;  // for readers of snapshots
   mutable std::mutex leasing_;
   std::string lease_;
-  std::string refused_;  // who was refused last
+  std::string refused_;  // the last refused master
 };
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// The slave's loop with real sockets and a robot: one tick receives, steps the node, moves the robot, sends.
-// Runs in the loop's thread alone; other threads reach it through mailbox, stops and snapshots, which make
-// it wait for nothing.
+// The loop of the slave with real sockets and a robot: one tick receives, steps the node, moves the robot,
+// sends. It runs only in the thread of the loop; other threads communicate with it by mailbox, stops and
+// snapshots, which never block it.
 
 #include <variant>
 
@@ -24,27 +24,27 @@ struct SlaveSnapshot {
   SlaveView view{};
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
-  double send_hz = 300.0;  // of the master, as it said
+  double send_hz = 300.0;  // of the master, as reported
   AdapterFigures adapter{};
 };
 
 struct SlaveChange {
   SlaveConfig config{};
-  bool only_disengaged = false;  // a field changes that must not while engaged
+  bool only_disengaged = false;  // a field changes that cannot change while engaged
   bool impairment = false;       // config.link.impairment has changed
   std::uint32_t number = 0;      // of the configuration, for a recording
 };
-/// What is written down from now on; none: nothing. The loop no longer uses the one before.
+/// Record buffer from now on; none: no recording. The loop no longer uses the previous one.
 struct SlaveRecordingChange {
   SlaveRecordBuffer* record_buffer = nullptr;
 };
-/// A master asks for the robot. `take`: also while another one has it.
+/// A master requests control of the robot. `take`: also if another one has it.
 struct SlaveLease {
   Session session{};
   bool take = false;
   double send_hz = 300.0;
 };
-/// A master gives it back.
+/// A master returns control.
 struct SlaveReturn {
   std::uint64_t session = 0;
 };
@@ -53,15 +53,16 @@ using SlaveCommand =
 
 class SlaveShell {
  public:
-  /// Throws AddressError or std::runtime_error when the socket cannot be had. `seed`: of the artificial
+  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: of the artificial
   /// impairment and of the simulated arm.
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
-  /// Waits until the robot's adapter answers, at most 2 s, and not when there is none. Before the first tick.
+  /// Waits until the adapter of the robot answers, at most 2 s; returns at once if there is none. Call it
+  /// before the first tick.
   void wait_for_robot();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Before the first tick; later by SlaveRecordingChange.
+  /// Call it before the first tick; later use SlaveRecordingChange.
   void record(SlaveRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
@@ -77,15 +78,15 @@ class SlaveShell {
 
   UdpChannel channel_;
   SlavePort port_;
-  SimulatedArm arm_;  // moves while there is no adapter
+  SimulatedArm arm_;  // simulated while there is no adapter
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<RobotAdapter> adapter_;
   Robot& robot_;
   SlaveNode node_;
   SideObserver observer_;
-  SlaveRecordBuffer* record_buffer_ = nullptr;  // none: nothing is recorded
+  SlaveRecordBuffer* record_buffer_ = nullptr;  // none: no recording
   std::uint64_t ticks_ = 0;                     // steps of the node
-  std::uint32_t config_number_ = 0;             // of what it was configured with
+  std::uint32_t config_number_ = 0;             // number of its configuration
   SlaveSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;

@@ -1,8 +1,7 @@
 #pragma once
-// What the slave's loop writes down for a recording: each tick's inputs and outputs, exactly, so that a node
-// can be run again on them; and, less often, what it shows. The loop's calls cost copies into memory that is
-// there already: they do not wait, allocate or call the system. A tick that the recorder has left no room for
-// is not recorded, and counted.
+// Records of the slave's loop for a recording: exact inputs and outputs of each tick, so that a node can be
+// replayed, and, less often, its view. The calls of the loop copy into preallocated memory: they do not wait,
+// allocate or make system calls. A tick for which there is no space is dropped and counted.
 
 #include <cstdint>
 #include <variant>
@@ -13,10 +12,10 @@
 
 namespace longreach {
 
-/// A step of the node. `input` without the messages, which are recorded before it.
+/// A step of the node. `input` is without the messages, which are recorded before it.
 struct SlaveTickRecord {
   std::uint64_t tick = 0;    // from 0 at the node's first step
-  std::uint32_t config = 0;  // number of the configuration that the node has
+  std::uint32_t config = 0;  // number of the node's configuration
   std::uint32_t commands = 0;
   SlaveInput input{};
   SlaveOutput output{};
@@ -26,10 +25,10 @@ class SlaveRecordBuffer : public RecordBuffer {
  public:
   SlaveRecordBuffer(double rate_hz, Duration to_log_time);
 
-  /// Loop: a step that was taken, and what the node shows after it.
+  /// Loop: adds a step and the resulting view of the node.
   void add_tick(std::uint64_t tick, std::uint32_t config, const SlaveInput& input, const SlaveOutput& output,
                 const SlaveView& view);
-  /// Loop: whether the link is due, after this tick.
+  /// Loop: returns whether a record of the link is due after this tick.
   [[nodiscard]] bool link_due(std::uint64_t tick) const { return tick % link_every_ == 0; }
   void add_link(const LinkSample& sample);
 
@@ -56,7 +55,7 @@ class SlaveRecordBuffer : public RecordBuffer {
   recording::SlaveView view_;
 };
 
-/// Without the messages, whose number is in `out` already.
+/// Without the messages, whose number is already in `out`.
 void write(const SlaveInput& input, recording::SlaveInput& out);
 void write(const SlaveOutput& output, recording::SlaveOutput& out);
 void write(const SlaveView& view, recording::SlaveView& out);

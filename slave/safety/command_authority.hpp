@@ -1,13 +1,13 @@
 #pragma once
-// Is the robot commanded in this tick?
+// Decides whether the robot is commanded in this tick:
 //   Engaged, Holding  yes
-//   Stopped, Fault    while it brakes, and 0.5 s on until its servos have come after; not if it is the
-//                     robot that is at fault
-//   else              no: it rests by its own brakes, whoever moves it, and the setpoint follows what is
-//                     measured
-// An engagement of a robot that is not commanded begins where it is, so it has to be at rest, in its
-// workspace (the node sees to that), and within 1 mrad (mm) of its position limits; one that is commanded
-// goes on from its setpoint, so it has to be there.
+//   Stopped, Fault    while it brakes, and 0.5 s longer until its servos have settled; not if the robot
+//                     itself is at fault
+//   otherwise         no: its own brakes hold it, anyone may move it, and the setpoint follows the
+//                     measurement
+// An engagement of an uncommanded robot starts at its measured position, so it must be at rest, in its
+// workspace (checked by the node), and within 1 mrad (mm) of its position limits; an engagement of a
+// commanded robot continues from its setpoint, so it must be there.
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ class CommandAuthority {
 
   struct Input {
     SafetyState state = SafetyState::kIdle;
-    bool robot_ok = true;         // and does what its setpoints say
+    bool robot_ok = true;         // and follows its setpoints
     bool setpoint_rests = false;  // as last sent
     double dt = 0.0;              // s
   };
@@ -37,7 +37,7 @@ class CommandAuthority {
   }
   [[nodiscard]] bool commands() const { return commands_; }
 
-  /// Why no engagement may begin; kNone: one may. `setpoint_rad`: of a robot that is commanded.
+  /// Returns why no engagement may start; kNone: it may. `setpoint_rad`: of a commanded robot.
   [[nodiscard]] Reason why_not(const RobotState& robot, const JointVector& setpoint_rad) const {
     if (commands_) {
       const bool there = (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
@@ -58,7 +58,7 @@ class CommandAuthority {
  private:
   static constexpr double kRest_s = 0.5;
   static constexpr double kSetpointLost = 0.05;  // rad: more than any servo lag
-  static constexpr double kStillShare = 0.02;    // of its speed limit a joint at rest may be told to have
+  static constexpr double kStillShare = 0.02;    // share of its speed limit that a joint at rest may report
   static constexpr double kOutside = 1e-3;
 
   RobotConfig robot_;

@@ -1,10 +1,10 @@
 #pragma once
-// Can the joints be where the robot says they are? From one sample to the next, which came later by T,
+// Checks whether the reported joint positions are possible. Between samples at an interval T,
 //   |Δq| <= 1.5 V (T + 20 ms) + 0.02 rad (or m),   |q̇| <= 10 V + 0.1 rad/s,   V the joint's speed limit
-// and within 0.1 rad of their position limits, which is more than a link on a spring swings. After a leap the
-// joints are believed again when they are back where they were believed last, or when the robot has failed
-// and works again: then it may be anywhere. Not noticed: leaps below the bound, and readings that stand still
-// (robot_watch notices those once a setpoint has moved on).
+// and within 0.1 rad of their position limits, which is more than the oscillation of a link on a spring.
+// After a jump the joints are accepted again when they return to the last accepted position, or when the
+// robot has failed and works again: it may then be anywhere. Not detected: jumps below the bound, and
+// constant readings (robot_watch detects those once a setpoint has moved).
 
 #include <cmath>
 #include <cstdint>
@@ -20,7 +20,7 @@ class JointPlausibility {
  public:
   explicit JointPlausibility(const RobotConfig& robot) : robot_(robot) {}
 
-  /// `robot`: ok and finite. What is wrong with it, first of its joints.
+  /// `robot`: ok and finite. Returns the first problem of its joints.
   Reason check(const RobotState& robot, Time now) {
     const Time measured = now - from_seconds(robot.age_s);
     Reason found;
@@ -52,7 +52,7 @@ class JointPlausibility {
     const double q = robot.joint_rad[i];
     if (j.kind == JointKind::kFixed) return {};
     if (accepted_) {
-      // After a leap the time does not make it likelier.
+      // After a jump, elapsed time does not make the position more plausible.
       const double apart_s = leapt_ ? 0.0 : std::max(0.0, to_seconds(measured - accepted_->at));
       const double from = accepted_->rad[i];
       if (std::abs(q - from) > kSwiftShare * j.speed_max_rad_per_s * (apart_s + kJitter_s) + kLeap)
@@ -67,7 +67,7 @@ class JointPlausibility {
 
   RobotConfig robot_;
   std::optional<Sample> accepted_{};
-  bool leapt_ = false;  // and not been back
+  bool leapt_ = false;  // and has not returned
 };
 
 }  // namespace longreach

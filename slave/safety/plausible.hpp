@@ -1,6 +1,6 @@
 #pragma once
-// What the slave's node believes: joints of finite numbers, and goals that somebody could have meant. The
-// force has its own witness (slave/sensing/sensor_watch.hpp).
+// Input checks of the slave's node: joints must be finite, and goals must be possible. The force has its own
+// check (slave/sensing/sensor_watch.hpp).
 
 #include "common/link/motion_command.hpp"
 #include "slave/robot/robot.hpp"

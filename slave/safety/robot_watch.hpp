@@ -1,13 +1,13 @@
 #pragma once
-// Does the robot do what its setpoints say? From measured joints q alone:
-//   x' = 2π f (s - x)   where a servo of bandwidth f has the joint, s the setpoint
-//   tracking_lost    a joint is off x by more than 0.1 rad (or m) for half a second on end
-//   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f) on end, while
-//             its setpoint rests
-// That is more than what a joint gives way by, and longer than a stop by the robot's own watchdog after a
-// late tick. After this side has stood still a joint that is off by so much was moved meanwhile: it is tracking_lost
-// at once, so that nothing calls it back. What is between the two stays unnoticed: a robot that drifts slowly
-// is first noticed when it is tracking_lost.
+// Checks from the measured joints q alone whether the robot follows its setpoints:
+//   x' = 2π f (s - x)   for a joint with a servo of bandwidth f, s the setpoint
+//   tracking_lost       a joint deviates from x by more than 0.1 rad (or m) for half a second
+//   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f),
+//                       while its setpoint is at rest
+// These bounds exceed the deflection of a joint, and the duration of a stop by the robot's own watchdog after
+// a late tick. A joint with such a deviation after a stall of this side was moved meanwhile: it is
+// tracking_lost immediately, so that it is not moved back. Deviations in between are not detected: a slow
+// drift is detected only when it is tracking_lost.
 
 #include <cmath>
 #include <numbers>
@@ -25,8 +25,8 @@ class RobotWatch {
       brisk_rad_per_s_[i] = 0.1 * robot.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
   }
 
-  /// `commanded`: the setpoint matters; else the robot may be anywhere. `rests`: it does not change.
-  /// `dt` > 0, s, since the setpoint before. `stood`: no setpoint came for longer than the gap timer.
+  /// `commanded`: the setpoint matters; otherwise the robot may be anywhere. `rests`: it does not change.
+  /// `dt` > 0, s, since the previous setpoint. `stood`: no setpoint for longer than the gap timer.
   void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt,
             bool stood = false) {
     if (!commanded) expected_rad_ = robot.joint_rad;
