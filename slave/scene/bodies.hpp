@@ -1,11 +1,11 @@
 #pragma once
-// Free-floating rigid bodies, what they touch, a gripper that holds one, and a latch. The tool's motion is
-// given; nothing else moves but by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
-// gravity. Each step solves one implicit equation for the mean wrenches (interaction.hpp) by Newton, so that,
-// for any stiffness and several contacts at once,
-//   energy of the bodies, contacts and bonds  <=  that before + work of the tool,
-// momentum is conserved, and no contact pulls. Frame S: origin where the tool starts, axes of W; `tool` has
-// the axes of S at start. No friction. A robot with flexible joints does not give way to bodies.
+// Free-floating rigid bodies and their contacts, a gripper that holds one, and a latch. The motion of the
+// tool is given; bodies move only by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
+// gravity. Each step solves one implicit equation for the mean wrenches (interaction.hpp) by Newton
+// iteration, so that, for any stiffness and several simultaneous contacts,
+//   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool,
+// momentum is conserved, and no contact pulls. Frame S: origin at the start of the tool, axes of W; `tool`
+// has the axes of S at start. No friction. A robot with flexible joints does not yield to bodies.
 
 #include <array>
 #include <cstdint>
@@ -16,41 +16,41 @@
 namespace longreach {
 
 struct BodiesContact {
-  Wrench F_E_W{};        // mean over the step, on the tool at E, by contacts and by what it holds
-  double depth_m = 0.0;  // of the deepest contact of the tool or of the body that it holds
-  int contacts = 0;      // pairs of geoms in touch
+  Wrench F_E_W{};        // mean over the step, on the tool at E, by contacts and by the held body
+  double depth_m = 0.0;  // of the deepest contact of the tool or of the held body
+  int contacts = 0;      // pairs of geoms in contact
   bool holds = false;    // the gripper holds a body
   bool latched = false;
 };
 
 class Bodies {
  public:
-  /// Throws std::invalid_argument as CollisionModel does. scene.bodies is there.
+  /// Throws std::invalid_argument like CollisionModel. scene.bodies must be set.
   Bodies(const SceneConfig& scene, const Pose& X_WE_start);
 
-  /// A level. Closing, it holds a fixture within reach; open, it lets go.
+  /// State of the gripper. When closing, it holds a fixture within reach; when open, it releases it.
   void grip(bool closed) { closed_ = closed; }
 
-  /// To where the tool is after dt s, in W. dt = 0 changes nothing.
+  /// Moves the tool to its pose after dt s, in W. dt = 0 changes nothing.
   const BodiesContact& step(const Pose& X_WE, double dt);
 
   [[nodiscard]] const BodiesContact& contact() const { return contact_; }
   [[nodiscard]] int count() const { return model_.tool(); }
   [[nodiscard]] const FreeBody& body(int i) const { return model_.bodies()[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }  // in S
-  /// How a body stands relative to how it started: [0] in W.
+  /// Motion of a body relative to its start: [0] in W.
   [[nodiscard]] Pose displaced(int i) const;
   void push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s);  // sets its velocities, in W
   void place(int i, const Pose& X_S);                                      // its inertial frame
   /// Distance from E to the gripper's fixture, in W; zero without a gripper.
   [[nodiscard]] Vector3 to_fixture_m() const;
 
-  [[nodiscard]] double energy_j() const;  // kinetic, of gravity, in contacts and bonds
+  [[nodiscard]] double energy_j() const;  // kinetic and gravitational energy, energy in contacts and bonds
   [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // done by the tool so far
-  [[nodiscard]] double spent_j() const { return spent_j_; }          // let go of by gripper and latch so far
+  [[nodiscard]] double spent_j() const { return spent_j_; }          // released by gripper and latch so far
   [[nodiscard]] std::uint64_t unconverged() const {
     return unconverged_;
-  }  // steps that were split to the end
+  }  // steps that were subdivided to the limit
 
  private:
   static constexpr int kMost = CollisionModel::kBodiesMax;
@@ -62,7 +62,7 @@ class Bodies {
     std::array<RigidState, kMost> to{};
     std::array<Mover, kMost + 2> mover{};
     Wrenches answer{};
-    Wrench on_tool{};  // about the middle of the tool's way
+    Wrench on_tool{};  // about the middle of the tool's path
     double tool_work_j = 0.0;
     Stiffness stiffness{};
   };
@@ -75,11 +75,11 @@ class Bodies {
   void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
   void answer(double dt, Attempt& out);
   void find_contacts(double dt, Attempt& out);
-  /// How much nearer to each other any two geoms can have come at most.
+  /// Upper bound on the approach of any two geoms.
   [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);
-  void find_near_pairs();  // what is near what, now
+  void find_near_pairs();  // pairs that are near each other now
   void close_gripper();
   void close_latch();
   [[nodiscard]] bool off(const GeomPair& pair) const;
@@ -94,7 +94,7 @@ class Bodies {
   std::array<RigidState, kMost> state_{};
   Pose X_tool_{};               // in S
   std::vector<GeomPair> near_;  // at the state
-  double clear_m_ = 0.0;        // no two geoms are nearer than this
+  double clear_m_ = 0.0;        // lower bound on the distance of any two geoms
   bool closed_ = false;
   std::optional<Held> held_{}, latched_{};
   Wrench impulse_{};  // on the tool in this step

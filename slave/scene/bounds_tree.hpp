@@ -1,6 +1,6 @@
 #pragma once
-// Which of many boxes hold a point: a tree of bounds, halved at the median of the longest side. Built once; a
-// question costs the logarithm of the number of boxes and what it finds.
+// Finds which of many boxes contain a point: a tree of bounds, split at the median of the longest side. Built
+// once; the cost of a query is the logarithm of the number of boxes plus its results.
 
 #include <cstdint>
 #include <span>
@@ -16,8 +16,8 @@ class BoundsTree {
   /// Finite bounds.
   explicit BoundsTree(std::span<const Bounds> bounds);
 
-  /// Calls visit(index) for each of the bounds within reach of p, in an order that only the bounds decide,
-  /// perhaps also for others near it.
+  /// Calls visit(index) for each of the bounds within reach of p, in an order that depends only on the
+  /// bounds, possibly also for others near it.
   template <class Visit>
   void find(const Vector3& p, double reach_m, Visit&& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {

@@ -1,7 +1,7 @@
 #pragma once
 // The contact law of Hunt and Crossley (1975), with a = λ/k:
 //   F(x, v) = k xⁿ (1 + a v)   for penetration x > 0 and speed v inwards, never below 0; else 0
-// and what an impact of a mass m on it conserves,
+// and the quantity that is conserved in an impact of a mass m,
 //   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1),
 // which holds while 1 + a v > 0. Units of k: N/mⁿ. Friction is not handled.
 
@@ -29,7 +29,7 @@ struct HuntCrossley {
     double force_n = 0.0;        // (U(x + dx) - U(x))/dx, without cancellation; it grows with dx
     double slope_n_per_m = 0.0;  // its derivative by dx
   };
-  /// The elastic force over the way from x to x + dx.
+  /// Mean elastic force over the motion from x to x + dx.
   [[nodiscard]] Mean mean_elastic(double x, double dx) const {
     const double deep = dx > 0.0 ? x + dx : x, way = std::abs(dx);
     if (!(deep > 0.0)) return {};
@@ -41,7 +41,7 @@ struct HuntCrossley {
       mean *= -spent;
       if (dx < 0.0) end = most * (1.0 + spent) / (1.0 - share);
     }
-    // By its limit where the quotient would cancel.
+    // Uses the limit where the quotient would cancel.
     return {mean, share < 1e-4 ? 0.5 * n * mean / deep : (end - mean) / dx};
   }
 

@@ -1,10 +1,10 @@
 #pragma once
-// What two bodies A and B do to each other over one step, such that no step creates energy: forces between
-// them are equal, opposite and act at one point, and their work is what is stored or spent (rigid_body.hpp
-// says how a point moves in a step). A potential U (of depth or stretch) between the bodies then acts by a
-// mean force F̄ that is turned and scaled onto the way u that B went at that point relative to A,
+// Interaction of two bodies A and B over one step, such that no step creates energy: forces between them are
+// equal, opposite and act at one point, and their work equals the stored or dissipated energy (rigid_body.hpp
+// defines the motion of a point in a step). A potential U (of depth or stretch) between the bodies acts by a
+// mean force F̄ that is corrected along the motion u of B at that point relative to A,
 //   F = F̄ + (-ΔU - F̄·u) u/|u|²   (Gonzalez 1996),   so that F·u = -ΔU,
-// and dampers by -D u/dt.
+// and dampers act by -D u/dt.
 
 #include "slave/config/bodies_config.hpp"
 #include "slave/scene/hunt_crossley.hpp"
@@ -12,16 +12,16 @@
 
 namespace longreach {
 
-/// A body over a step.
+/// Motion of a body over a step.
 struct Mover {
   Pose from{}, to{};
   RigidMove move{};
   [[nodiscard]] Vector3 middle() const { return 0.5 * (from.p + to.p); }
-  /// Of a point that is at x in the middle of the step.
+  /// Displacement of a point that is at x in the middle of the step.
   [[nodiscard]] Vector3 way_of(const Vector3& x) const { return move.way_m + move.turn.cross(x - middle()); }
 };
 
-/// On B; on A the opposite.
+/// Acts on B; the opposite acts on A.
 struct Interaction {
   Vector3 point_m = Vector3::Zero();
   Vector3 force_n = Vector3::Zero();
@@ -30,18 +30,18 @@ struct Interaction {
   Matrix3 by_turn = Matrix3::Zero();  // about -∂moment/∂turn, N m/rad
 };
 
-/// A place where two surfaces meet or are near.
+/// A pair of surfaces that touch or are near each other.
 struct SurfacePair {
   double depth_m = 0.0;  // negative: apart
   Vector3 point_m = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, from A to B
 };
 
-/// One contact from its meeting before to that after the step.
+/// One contact, from its geometry before the step to that after it.
 Interaction touch(const HuntCrossley& law, const SurfacePair& before, const SurfacePair& after,
                   const Mover& a, const Mover& b, double dt);
 
-/// Where a bond begins: A's and B's pose when it does nothing.
+/// Rest configuration of a bond: poses of A and B without force.
 struct BondRest {
   Vector3 on_a_m = Vector3::Zero(), on_b_m = Vector3::Zero();  // one point, in the frames of A and B
   Quaternion q_AB = Quaternion::Identity();
@@ -50,7 +50,7 @@ BondRest rest(const Pose& X_A, const Pose& X_B, const Vector3& point_m);
 
 Interaction hold(const BondConfig& bond, const BondRest& rest, const Mover& a, const Mover& b, double dt);
 
-/// Stored in a bond.
+/// Energy stored in a bond.
 double energy_j(const BondConfig& bond, const BondRest& rest, const Pose& X_A, const Pose& X_B);
 
 }  // namespace longreach

@@ -1,11 +1,11 @@
 #pragma once
-// A free rigid body over one step, in which the wrench w that acts on average moves it: midpoint rule for the
-// way, the energy-momentum rule of Simo and Wong (1991) for the turn,
+// A free rigid body over one step under the mean wrench w: midpoint rule for the translation, the
+// energy-momentum rule of Simo and Wong (1991) for the rotation,
 //   Δp = dt (v + dt F/2m),   Δv = dt F/m
 //   R' = R cay(dt Ω̄),        L' = L + dt M,    Ω̄ = (Ω + Ω')/2,   L = R I Ω
 // It conserves momentum, and its kinetic energy changes by exactly w·move, with move = [θ; Δp] and the Cayley
-// vector θ = dt R Ω̄, by which a point x of the body goes Δx = Δp + θ × (x̄ - p̄), bars for means over the
-// step: so a force that acts there does the work F·Δx, and what is stored elsewhere can be balanced with it.
+// vector θ = dt R Ω̄. A point x of the body moves by Δx = Δp + θ × (x̄ - p̄), bars for means over the step: a
+// force at this point does the work F·Δx, which can be balanced with energy stored elsewhere.
 
 #include "common/spatial/spatial.hpp"
 
@@ -36,15 +36,15 @@ struct RigidStep {
 /// `wrench`: [moment about the centre of mass; force], mean over dt > 0, without gravity.
 RigidStep step_rigid(const RigidMass& mass, const RigidState& from, const Vector6& wrench, double dt);
 
-/// The move between two poses; turns by less than π.
+/// The move between two poses; rotations of less than π.
 RigidMove move_between(const Pose& from, const Pose& to);
 
-/// About the change of [turn; way] by the wrench.
+/// Approximate change of [turn; way] by the wrench.
 Eigen::Matrix<double, 6, 6> rigid_compliance(const RigidMass& mass, const Pose& X, double dt);
 
 /// Angular velocity in W.
 Vector3 angular_rad_per_s(const RigidMass& mass, const RigidState& state);
-/// With gravity's, zero at the origin.
+/// Includes gravity; zero at the origin.
 double energy_j(const RigidMass& mass, const RigidState& state);
 
 }  // namespace longreach

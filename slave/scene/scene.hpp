@@ -1,14 +1,13 @@
 #pragma once
-// What the tool meets: solids of Hunt-Crossley material (hunt_crossley.hpp). Tool: a sphere about E, or the
-// point E.
+// Surfaces that the tool touches: solids of Hunt-Crossley material (hunt_crossley.hpp). The tool is a sphere
+// about E, or the point E.
 //   depth p = radius - distance of E from the solid,   v = ṗ,   F = max(0, k pⁿ (1 + a v)) along the way out,
 //   k = stiffness / reference_depth^(n-1)
-// Bodies push each on its own, the forces are summed; of the surfaces of one body only the deepest pushes, so
-// that a union has no force inside. A hinge resists rotation: with the turn θ of the tool about its axis
-// since the start,
+// The forces of separate bodies are summed; of the surfaces of one body only the deepest acts, so that a
+// union has no internal force. A hinge resists rotation: with the rotation θ of the tool about its axis since
+// the start,
 //   p = arm (θ - angle),   M = -F arm ∂θ
-// No friction. The tool's motion is given. Bodies at rest and of finite size are found through a tree of
-// bounds.
+// No friction. The motion of the tool is given. Finite bodies at rest are found through a tree of bounds.
 
 #include <vector>
 
@@ -33,7 +32,7 @@ struct SceneContact {
   Vector3 normal = Vector3::Zero();  // out of the deepest surface, unit; zero without contact and for a hinge
   double depth_m = 0.0;              // of the deepest penetration; 0 without contact
   int surface = -1;                  // index of the deepest surface; -1 without contact
-  int contacts = 0;                  // bodies and hinges that are touched
+  int contacts = 0;                  // bodies and hinges in contact
   int asked = 0;                     // surfaces whose distance was computed
 };
 
@@ -44,20 +43,20 @@ struct SceneMean {
 
 class Scene {
  public:
-  /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or a direction or
-  /// the path (path.hpp) is none.
+  /// Throws std::invalid_argument if a surface names an unknown material, has no shape, or if a direction or
+  /// the path (path.hpp) is invalid.
   Scene(const SceneConfig& config, const Pose& X_WE_start);
 
   [[nodiscard]] bool empty() const { return bodies_.empty() && hinges_.empty(); }
   [[nodiscard]] SceneContact contact(const ToolMotion& tool) const;
 
-  /// What acts over a move in which the poses and times of `from` and `to` count, not their velocities; dt >
-  /// 0, s. Its work is what the contacts store or spend: mean elastic force (hunt_crossley.hpp) times (1 + a
-  /// Δp/dt), along a direction that makes it F·move = -F Δp (discrete gradient, Gonzalez 1996). So no move
-  /// creates energy.
+  /// Mean contact over a move defined by the poses and times of `from` and `to`, not their velocities; dt >
+  /// 0, s. Its work equals the energy stored or dissipated by the contacts: mean elastic force
+  /// (hunt_crossley.hpp) times (1 + a Δp/dt), along a direction that makes it F·move = -F Δp (discrete
+  /// gradient, Gonzalez 1996). So no move creates energy.
   [[nodiscard]] SceneMean mean_contact(const ToolMotion& from, const ToolMotion& to, double dt) const;
 
-  /// Static F/p of surface `surface` at `depth_m` > 0, N/m; 0 for an index that is none.
+  /// Static F/p of surface `surface` at `depth_m` > 0, N/m; 0 for an invalid index.
   [[nodiscard]] double secant_n_per_m(int surface, double depth_m) const;
 
  private:
@@ -80,9 +79,9 @@ class Scene {
   void plant_tree();
   // The nearest side of a body, or of the stop of a hinge.
   struct Nearest {
-    double depth_m;     // negative: not touching
-    Vector3 gradient;   // of depth: by place, of a body, or by turn, of a hinge
-    Vector3 by_m;       // how far the surface has moved
+    double depth_m;     // negative: no contact
+    Vector3 gradient;   // of depth: by position for a body, by rotation for a hinge
+    Vector3 by_m;       // displacement of the surface
     Vector3 v_m_per_s;  // its velocity
     int surface;
   };
@@ -96,8 +95,8 @@ class Scene {
   std::vector<Body> bodies_;
   std::vector<Hinge> hinges_;
   std::vector<HuntCrossley> laws_;      // of each surface
-  std::vector<std::uint32_t> always_;   // bodies without end, or that move
-  std::vector<std::uint32_t> in_tree_;  // the others, as the tree counts them
+  std::vector<std::uint32_t> always_;   // infinite or moving bodies
+  std::vector<std::uint32_t> in_tree_;  // the others, in the order of the tree
   BoundsTree tree_;
 };
 

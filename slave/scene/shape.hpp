@@ -1,7 +1,7 @@
 #pragma once
-// Implicit surfaces: the signed distance of a point from a solid, and the way out of it.
+// Implicit surfaces: the signed distance of a point from a solid, and the outward direction.
 //   distance > 0 outside, < 0 inside (to the nearest point of the surface, exact for each shape)
-// Edges and corners are sharp; a tool that is a sphere goes round them smoothly.
+// Edges and corners are sharp; a spherical tool moves around them smoothly.
 
 #include <limits>
 #include <variant>
@@ -55,7 +55,7 @@ struct Bounds {
   Vector3 low = Vector3::Constant(-std::numeric_limits<double>::infinity());
   Vector3 high = Vector3::Constant(std::numeric_limits<double>::infinity());
   [[nodiscard]] bool finite() const { return low.allFinite() && high.allFinite(); }
-  /// False also for a point that is not a number.
+  /// False also for a point that is not finite.
   [[nodiscard]] bool within(const Vector3& p, double reach_m) const {
     return ((p - low).array() >= -reach_m).all() && ((high - p).array() >= -reach_m).all();
   }

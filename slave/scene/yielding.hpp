@@ -1,10 +1,10 @@
 #pragma once
-// A tool that gives way to what it touches, over one step: with the wrench w that acts on average it ends at
-//   free ∘ C w,   C symmetric, positive semidefinite: what the wrench moves it by (a mass: dt²/(2 m),
+// A tool that yields to contacts, over one step: under the mean wrench w it ends at
+//   free ∘ C w,   C symmetric, positive semidefinite: displacement by the wrench (a mass: dt²/(2 m),
 //                 joints: J c Jᵀ)
-// and w is the mean of the scene over that very move (Scene::mean_contact): implicit, one equation in w, by
-// Newton. So whatever stands behind C, the contacts take as much energy as they get, for any stiffness, also
-// several at once.
+// and w is the mean wrench of the scene over this move (Scene::mean_contact): an implicit equation in w,
+// solved by Newton iteration. For any C the contacts therefore receive exactly the energy that the tool
+// loses, for any stiffness, also for several contacts at once.
 
 #include "slave/scene/scene.hpp"
 
@@ -14,8 +14,8 @@ using Compliance = Eigen::Matrix<double, 6, 6>;  // of [turn; way] by [moment; f
 
 struct Yielded {
   Vector6 wrench = Vector6::Zero();  // mean over the step, by the scene on the tool
-  ToolMotion to{};                   // where that brings the tool
-  bool converged = true;  // false: `wrench` acts, but the scene would answer the move with another one
+  ToolMotion to{};                   // resulting motion of the tool
+  bool converged = true;  // false: `wrench` acts, but differs from the response of the scene to the move
 };
 
 /// dt > 0, s.

@@ -1,13 +1,13 @@
 #pragma once
-// Is the tool in contact, and in which direction does the contact push?
+// Detects contact of the tool, and the direction of its force.
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact begins when |f̄| > touch, ends when |f̄| < release
-// A sensor that becomes noisy makes no contact: touch is at least 8 standard deviations of f̄ along an axis,
-// from the third differences of the last 20 ms (difference_noise.hpp says what they see). It ends none
-// either.
-//   n = Σ w f̄ / |Σ w f̄| over the contact, its last 2 s: the direction of the force on the tool (outward
-//   normal of a frictionless wall); above ten times the touch threshold w falls as 1/|f̄|, so that a great
-//   force that was there before does not hide what presses now
-// A sample that is not finite is left out and counted.
+// A noisy sensor does not cause contacts: touch is at least 8 standard deviations of f̄ along an axis, from
+// the third differences of the last 20 ms (difference_noise.hpp describes their limits). Noise does not end a
+// contact either.
+//   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact: the direction of the force on the tool (outward
+//   normal of a frictionless wall); above ten times the touch threshold w falls as 1/|f̄|, so that an earlier
+//   large force does not hide the present one
+// A sample that is not finite is skipped and counted.
 
 #include <array>
 #include <cstdint>
@@ -22,8 +22,8 @@ struct ContactReading {
   bool began = false;                    // in this step
   bool ended = false;                    // in this step
   Vector3 filtered_n = Vector3::Zero();  // N, in the frame of the input
-  double touch_n = 0.0;                  // what makes a contact now, N
-  Vector3 normal = Vector3::Zero();      // unit, while in contact; else zero
+  double touch_n = 0.0;                  // present threshold of a contact, N
+  Vector3 normal = Vector3::Zero();      // unit, during contact; otherwise zero
 };
 
 class ContactDetector {
@@ -32,7 +32,7 @@ class ContactDetector {
 
   void configure(const SensingConfig& config) { config_ = config; }
 
-  /// `doubt_n`: what of the force may be none; so much more makes a contact.
+  /// `uncertainty_n`: uncertain part of the force, which is added to the threshold.
   ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
