@@ -1,6 +1,6 @@
 #pragma once
-// What the slave tells, and when: reports on change, else as a heartbeat; telemetry at its own rate. What the
-// link has no budget for waits.
+// Messages of the slave and their timing: reports on change, otherwise as a heartbeat; telemetry at its own
+// rate. Messages beyond the budget of the link wait.
 
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// A steady pace: late calls do not shift it, a long pause does not pile up.
+/// A constant rate: late calls do not shift it, and missed ones do not accumulate.
 class SendSchedule {
  public:
   bool due(Time now, double rate_hz);
@@ -20,7 +20,7 @@ class SendSchedule {
   std::optional<Time> next_{};
 };
 
-/// The goals that a touch is looked for among.
+/// The goals among which a touch is located.
 struct PlayedGoals {
   const Playout& positions;
   const Playout& turns;
@@ -28,12 +28,12 @@ struct PlayedGoals {
   double sequence, turn_sequence;  // as played
 };
 
-/// A contact in translation or in rotation, with the tool's place from the anchor and the direction in which
-/// a limit holds it back.
+/// A contact in translation or in rotation, with the position of the tool from the anchor and the direction
+/// in which a limit holds it back.
 struct ContactAtPlace {
   SlaveContact& contact;
   Vector3 place, held_back;
-  Vector3 anchor;  // from which places count
+  Vector3 anchor;  // origin of positions
 };
 
 class SlaveReports {
@@ -41,11 +41,11 @@ class SlaveReports {
   explicit SlaveReports(const SlaveLinkConfig& link) : link_(link) {}
   void configure(const SlaveLinkConfig& link) { link_ = link; }
 
-  /// The one haptic message, if it is due. Of `view`: state, cause, engagement.
+  /// The haptic message, if it is due. Uses state, cause and engagement of `view`.
   void report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
               const PlayedGoals& goals, const ContactAtPlace& translation, const ContactAtPlace& rotation,
               SlaveOutput& output);
-  /// For the eyes and the log, if it is due.
+  /// For display and log, if it is due.
   void telemetry(const SlaveInput& input, const SlaveView& view, bool robot_ok, double penetration_m,
                  SlaveOutput& output);
 

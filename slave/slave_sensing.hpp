@@ -1,8 +1,8 @@
 #pragma once
-// What the robot's force sensor says: each sample is judged (sensor_watch.hpp), tool, load and bias are taken
-// out (tool_load.hpp), contacts are found in what is left (contact.hpp), and the force is doubted where it
-// does not behave like one (force_plausibility.hpp). What a sensor that was found to lie has made of surfaces is
-// forgotten.
+// Processing of the robot's force sensor: each sample is checked (sensor_watch.hpp), tool, load and bias are
+// compensated (tool_load.hpp), contacts are detected in the remainder (contact.hpp), and the plausibility of
+// the force is monitored (force_plausibility.hpp). If a sensor fault is detected, the surfaces from its force
+// are discarded.
 
 #include <optional>
 
@@ -16,14 +16,14 @@
 
 namespace longreach {
 
-/// What is done while it is felt.
+/// Conditions of the measurement.
 struct SensingInput {
   SafetyState state = SafetyState::kIdle;
-  bool let_go = false;  // nobody holds the handle
-  bool still = false;   // the setpoint stands, and the tool is there
+  bool let_go = false;  // no hand is on the handle
+  bool still = false;   // the setpoint is at rest, and the tool has reached it
   double scale = 1.0;   // k_scale as last sent
   double played_sequence = 0.0, played_turn_sequence = 0.0;
-  double news_age_s = 0.0;  // of what the operator knew of this side when the goal was commanded
+  double news_age_s = 0.0;  // age of the operator's information about this side when the goal was commanded
   Clamps clamps{};          // of the last step
   Quaternion q_anchor = Quaternion::Identity();
   double dt = 0.0;  // s
@@ -34,11 +34,11 @@ class SlaveSensing {
   explicit SlaveSensing(const SlaveConfig& config);
   void configure(const SlaveConfig& config);
 
-  /// Judges what the robot says, before anything believes it. A sample that repeats the one before while the
-  /// arm moves is none.
+  /// Checks the state of the robot before it is used. A sample that repeats the previous one while the arm
+  /// moves is ignored.
   void update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now);
   void step(const SensingInput& input);
-  /// Of an engagement that begins, from where the rotations were counted before.
+  /// Starts an engagement; `q_before` is the previous reference of rotations.
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
   void zero() { load_.zero(); }
 
@@ -50,10 +50,11 @@ class SlaveSensing {
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
   [[nodiscard]] const ForcePlausibility& plausibility() const { return plausibility_; }
   SlaveContact& contact() { return contact_; }
-  SlaveContact& turn_contact() { return turn_contact_; }  // places are rotation vectors from the anchor, in W
+  /// positions are rotation vectors from the anchor, in W
+  SlaveContact& turn_contact() { return turn_contact_; }
 
-  /// What the guards know, of the force and of the moment. `moves`: the reflexes may move the robot; else
-  /// there is no force for them.
+  /// Information for the guards about force and moment. `moves`: the guards may move the robot; otherwise
+  /// they receive no force.
   [[nodiscard]] ContactForce pressed(const SetpointLead& lead, bool moves) const;
   [[nodiscard]] ContactForce turned(const SetpointLead& lead, bool moves) const;
 
@@ -62,14 +63,14 @@ class SlaveSensing {
   void forget_lies();
 
   double loop_hz_;
-  NeedsConfig needs_;  // what is not needed of contact, sensor and estimator is not there
+  NeedsConfig needs_;  // components of contact, sensor and estimator that are not needed are absent
   SensorWatch watch_;
   ForcePlausibility plausibility_;
   ToolCompensation load_;
   SlaveContact contact_;
   SlaveContact turn_contact_;
 
-  RobotState before_{};  // its last sample that was a new one
+  RobotState before_{};  // its last new sample
   std::optional<Time> sampled_at_{};
   ToolKinematics tool_{};
   Twist V_WE_{};

@@ -1,6 +1,6 @@
 #pragma once
-// What keeps the tool from its goal (held_back.hpp), in place and in rotation: which limit acts, and in which
-// direction as far as it is one limit.
+// Detects what keeps the tool from its goal (held_back.hpp), in position and rotation: which limit acts, and
+// its direction if it is a single limit.
 
 #include "slave/command/held_back.hpp"
 #include "slave/estimation/contact.hpp"
@@ -25,7 +25,7 @@ class ToolHeldBack {
   void step(const ToolHeldBackInput& in, const SlaveContact& contact, const SlaveContact& turn_contact) {
     const Clamps& clamps = in.clamps;
     const bool arm = clamps.joint_position || clamps.singularity || clamps.unreachable;
-    // Several limits at once act in no direction of one of them.
+    // Several simultaneous limits have no single direction.
     Vector3 along = Vector3::Zero(), about = Vector3::Zero();
     if (!arm && clamps.workspace && !clamps.force_guard) along = (in.X_WE.p - in.centre_m).stableNormalized();
     if (!arm && !clamps.workspace && contact.in_contact()) along = -contact.normal();
@@ -36,12 +36,13 @@ class ToolHeldBack {
                log_rotation(in.X_WE_goal.q * in.X_WE.q.conjugate()), arm || clamps.moment_guard, about,
                in.dt);
   }
-  /// Of each: unit, in W, towards the goal; zero: nothing holds the tool back.
+  /// For each: unit, in W, towards the goal; zero: no limit holds the tool back.
   [[nodiscard]] const Vector3& place() const { return place_.direction(); }
   [[nodiscard]] const Vector3& turn() const { return turn_.direction(); }
 
  private:
-  HeldBack place_{2e-3}, turn_{0.02};  // from its goal, m and rad: the tool does not follow
+  /// distance from its goal in m and rad above which the tool is held back
+  HeldBack place_{2e-3}, turn_{0.02};
 };
 
 }  // namespace longreach

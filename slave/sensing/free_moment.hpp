@@ -1,9 +1,10 @@
 #pragma once
-// What of a measured moment is a contact by rotation. A force F that acts at r makes the moment r x F about
-// the tool: across F, and at most |r| |F|. That part is the force at its lever:
+// Extracts the moment of a contact by rotation from the measured moment. A force F that acts at r causes the
+// moment r x F about the tool: across F, and at most |r| |F|. That part is attributed to the force at its
+// lever:
 //   τ_free = τ - min(1, L |F|/|τ_across|) τ_across,  τ_across = τ - (τ·F) F/|F|²
-// L is the longest lever that a tool has. A force that may be noise explains nothing. A stop that turns the
-// tool about an axis across a force that presses at the same time is noticed only from L |F| on.
+// L is the maximum lever of a tool. A force within the noise explains no moment. A stop that turns the tool
+// about an axis across a simultaneous force is detected only above L |F|.
 
 #include "common/spatial/spatial.hpp"
 

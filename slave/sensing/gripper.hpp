@@ -1,5 +1,6 @@
 #pragma once
-// The gripper is the robot's: closed or open as somebody asked last, and until then as the robot says.
+// State of the gripper, which belongs to the robot: as last requested, and before any request as reported by
+// the robot.
 
 #include <optional>
 
@@ -12,13 +13,13 @@ namespace longreach {
 class Gripper {
  public:
   void see(const RobotState& robot) { holds_ = robot.load; }
-  /// None: nothing is asked. A hold or a silence asks for nothing, and drops nothing.
+  /// None: no request. A hold or a silence requests nothing, and releases nothing.
   void ask(const std::optional<bool>& closed) {
     if (closed) asked_ = closed;
   }
   [[nodiscard]] const std::optional<bool>& asked() const { return asked_; }
   [[nodiscard]] bool closed() const { return asked_.value_or(holds_); }
-  /// Closed, or a robot that says that something is in it.
+  /// Closed, or the robot reports that it holds something.
   [[nodiscard]] bool may_hold() const { return closed() || holds_; }
   [[nodiscard]] GripperState state(const LoadIdentifier& load) const {
     const bool known = load.known();
@@ -26,8 +27,8 @@ class Gripper {
   }
 
  private:
-  bool holds_ = false;           // as the robot says
-  std::optional<bool> asked_{};  // none: nobody has
+  bool holds_ = false;           // as reported by the robot
+  std::optional<bool> asked_{};  // none: no request yet
 };
 
 }  // namespace longreach

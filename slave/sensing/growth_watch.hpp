@@ -1,13 +1,14 @@
 #pragma once
-// In which direction does the tool's own motion make the force larger, although the force that is told does
-// not point against it? A surface at rest, no stiffer than k_max, pushes harder only where the tool goes
+// Detects a direction in which the tool's own motion increases the force although the reported force does not
+// oppose it. A surface at rest, with a stiffness of at most k_max, pushes harder only where the tool moves
 // against its force:
 //   |F| - |F_i| <= k_max max(0, -n (p - p_i)) + 1.3 g (t - t_i),   n = F/|F|
-// for every place p_i of the last half millimetre and half second, to the deepest approach since; g is what
-// it is known to grow by at rest (force_answer.hpp), for that is not the tool's doing. What grows
-// by more than that and noise, and not faster than ten times k_max on the way gone, grows along d = p - p_i:
-// the sign or the frame of the sensor is wrong, or the surface comes. What grows while the tool rests is not
-// its own; nor is what grows within 60 degrees of against the force: there it is but a stiffer surface.
+// for every position p_i of the last half millimetre and half second, to the deepest approach since; g is the
+// known growth at rest (force_answer.hpp), which the tool does not cause. A force that grows by more than
+// that and the noise, and not faster than ten times k_max over the distance, grows along d = p - p_i: the
+// sign or the frame of the sensor is wrong, or the surface is approaching. Growth while the tool is at rest
+// is not attributed to its motion; growth within 60 degrees of the direction against the force only indicates
+// a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -34,20 +35,21 @@ class GrowthWatch {
   void configure(const GrowthBounds& bounds) { bounds_ = bounds; }
   [[nodiscard]] const GrowthBounds& bounds() const { return bounds_; }
   void reset();
-  /// What was seen does not count, as the tool gives way.
+  /// Discards the observations, because the tool retreats.
   void forget();
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
-  /// Unit; zero: the force grows in no direction that it should not. Until the contact ends, or the tool goes
-  /// that way and the force does not grow.
+  /// Unit; zero: the force grows in no unexpected direction. Kept until the contact ends, or the tool moves
+  /// in this direction and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
-  [[nodiscard]] double age_s() const { return age_s_; }  // since it last did
+  [[nodiscard]] double age_s() const { return age_s_; }  // since it last grew
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
   [[nodiscard]] double n_per_s() const { return n_per_s_; }  // of that growth
-  /// It grows across the force: a surface stiffer than k_max, on which the tool slides, could do that too.
+  /// It grows across the force, which a surface stiffer than k_max, on which the tool slides, could also
+  /// cause.
   [[nodiscard]] bool across() const { return across_; }
-  [[nodiscard]] double size_n() const { return size_n_; }  // |F|, smooth
+  [[nodiscard]] double size_n() const { return size_n_; }  // |F|, filtered
   [[nodiscard]] const Vector3& place_m() const { return p_m_; }
 
  private:
@@ -55,7 +57,7 @@ class GrowthWatch {
   struct Place {
     Vector3 p_m;
     double force_n;
-    double deepest_m;  // approach since
+    double deepest_m;  // deepest approach since
     double time_s;
   };
   void smooth(const GrowthSample& sample);
@@ -65,13 +67,13 @@ class GrowthWatch {
 
   GrowthBounds bounds_;
   Ring<Place> places_;
-  Vector3 lagged_m_ = Vector3::Zero(), p_m_ = Vector3::Zero();  // as late as the sensor; and smooth
+  Vector3 lagged_m_ = Vector3::Zero(), p_m_ = Vector3::Zero();  // with the delay of the sensor; and filtered
   Vector3 force_n_ = Vector3::Zero();
-  double size_n_ = 0.0;  // |F|, smooth
+  double size_n_ = 0.0;  // |F|, filtered
   bool begun_ = false;
   double time_s_ = 0.0, rest_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();
-  Vector3 seen_m_ = Vector3::Zero();  // where it last grew, and to what
+  Vector3 seen_m_ = Vector3::Zero();  // position of the last growth, and the force there
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
   double slope_n_per_m_ = 0.0;  // of that growth

@@ -1,15 +1,15 @@
 #pragma once
-// What the gripper holds: its mass m and the first moment h = m c of its mass, c from the sensor's origin,
-// from what it does to the force sensor while nothing is touched. In the sensor's frame, a the acceleration
-// of its origin, ω, α its rotation, g gravity, b the sensor's bias:
+// Identifies the load in the gripper: its mass m and the first moment h = m c, c from the origin of the
+// sensor, from its effect on the force sensor without contact. In the frame of the sensor, a the acceleration
+// of its origin, ω, α its rotation, g gravity, b the bias of the sensor:
 //
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
-// A load hangs on a bond that spreads a push over some 10 ms, so that f and m a do not agree from sample to
-// sample; what they sum to does. Both sides are smoothed alike (two lags of kLoadBand_s), and a Kalman filter
-// of the constants m, h and of the bias, which drifts, takes them every kLoadUpdate_s. What the bond may
-// still make of a force that changes counts as noise. Opened, the gripper holds nothing; closed, anything up
-// to robot.load_max_kg.
+// A load is held by a bond that spreads a push over some 10 ms, so that f and m a do not agree from sample to
+// sample, but their integrals do. Both sides are filtered equally (two lags of kLoadBand_s), and a Kalman
+// filter of the constants m, h and of the drifting bias processes them every kLoadUpdate_s. The remaining
+// effect of the bond on a changing force is treated as noise. An open gripper holds nothing; a closed one
+// anything up to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 
@@ -32,30 +32,30 @@ class LoadIdentifier {
   LoadIdentifier(const SensingConfig& sensing, double load_max_kg);
   void configure(const SensingConfig& sensing) { sensing_ = sensing; }
 
-  /// A level. Another one than before: what is held is not known any more, or nothing is.
+  /// State of the gripper. A change makes the load unknown, or absent.
   void grip(bool closed);
 
-  /// A sample, `dt` > 0 after the last, in the sensor's frame: what is left of it when the tool is taken out,
-  /// with its bias. `free`: nothing is touched. What is not finite is left out.
+  /// A sample, `dt` > 0 after the last one, in the frame of the sensor: the reading minus the tool, with its
+  /// bias. `free`: there is no contact. Samples that are not finite are skipped.
   void step(const Wrench& left, const SensorMotion& motion, bool free, double dt);
 
-  /// As it is held now; zero until something is known of it.
+  /// The present load; zero until it is identified.
   [[nodiscard]] ToolLoadConfig load() const;
   [[nodiscard]] double sd_kg() const;
-  /// Its mass is known to a tenth, or to be next to nothing.
+  /// Its mass is known within a tenth, or known to be negligible.
   [[nodiscard]] bool known() const;
-  [[nodiscard]] bool holds() const;  // something that weighs, for certain
-  /// As much mass may answer an acceleration otherwise than load() says, kg.
+  [[nodiscard]] bool holds() const;  // a load with a certain weight
+  /// Uncertainty of the mass in addition to load(), kg.
   [[nodiscard]] double uncertainty_kg() const;
 
  private:
   static constexpr int kStates = 10;  // m, h, b_f, b_τ
   using Row = Eigen::Matrix<double, kStates, 1>;
-  /// What is smoothed: f, τ, g - a, and α× + ω×ω× by columns.
+  /// Filtered signals: f, τ, g - a, and α× + ω×ω× by columns.
   using Signals = Eigen::Matrix<double, 18, 1>;
 
   void update(const Signals& smooth, const Signals& change, const Vector3& gravity);
-  /// One equation: `row` . state = `value`, of variance `variance`.
+  /// Processes one equation: `row` . state = `value`, of variance `variance`.
   void take(const Row& row, double value, double variance);
 
   SensingConfig sensing_;

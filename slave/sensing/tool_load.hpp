@@ -1,16 +1,16 @@
 #pragma once
-// What the tool itself does to the force sensor that carries it, and its removal. With the tool's mass m,
-// centre of mass c and inertia I about it, in the sensor's frame; g gravity, a the acceleration of the
-// sensor's origin, ω, α its rotation, all in that frame:
+// Effect of the tool on the force sensor that carries it, and its compensation. With the mass m, centre of
+// mass c and inertia I of the tool about it, in the frame of the sensor; g gravity, a the acceleration of the
+// origin of the sensor, ω, α its rotation, all in that frame:
 //   a_c = a + α × c + ω × (ω × c)
 //   f = m (g - a_c),   τ = c × f - I α - ω × I ω
-// What is left when this is subtracted is what the environment does, and the sensor's bias. Zeroing takes the
-// mean of that, over `zero_s` in which nothing is touched, for the bias; no more of it than a bound, and
-// later zeros no more than a fifth of that besides, so that it hides no greater force. Where samples came
-// irregularly, the acceleration is known no better than from one of them to the next: the doubt is what the
-// tool would do by it. What the gripper holds is taken out likewise, as far as it is known
-// (load_identifier.hpp), by an acceleration that is smoothed as a bond does; what of it is not known is in
-// doubt while the tool accelerates, and 0.3 s longer.
+// The remainder is the wrench by the environment plus the bias of the sensor. Zeroing estimates the bias as
+// the mean of the remainder over `zero_s` without contact, limited by a bound; later zeros may change it by
+// at most a fifth of the bound, so that zeroing cannot hide a larger force. With irregular samples the
+// acceleration is uncertain by its changes between them, and the uncertainty is its effect on the tool. The
+// load of the gripper is compensated likewise, as far as it is known (load_identifier.hpp), by an
+// acceleration filtered like the bond; its unknown part counts as uncertainty while the tool accelerates, and
+// 0.3 s longer.
 
 #include <limits>
 #include <optional>
@@ -22,15 +22,15 @@
 
 namespace longreach {
 
-/// By the tool on the sensor, at its origin.
+/// Wrench by the tool on the sensor, at its origin.
 Wrench tool_wrench(const ToolLoadConfig& tool, const SensorMotion& motion);
 
-/// Motion of a sensor from its velocities: their differences, smoothed with the sensor's bandwidth, so that
-/// both are late by the same.
+/// Motion of a sensor from its velocities: their differences, filtered with the bandwidth of the sensor, so
+/// that both have the same delay.
 class SensorMotionEstimate {
  public:
-  /// Velocity `V_WF` of the sensor's origin in W, `dt` after the last; bandwidth 0: not smoothed.
-  /// Acceleration is zero at first.
+  /// Velocity `V_WF` of the origin of the sensor in W, `dt` after the last one; bandwidth 0: not filtered.
+  /// The acceleration is zero at first.
   SensorMotion step(const Quaternion& q_WF, const Twist& V_WF, const Vector3& gravity_W, double bandwidth_hz,
                     double dt);
 
@@ -39,10 +39,10 @@ class SensorMotionEstimate {
   Twist acceleration_{};  // in W
 };
 
-/// Of an acceleration from velocities that come irregularly.
+/// Uncertainty of an acceleration from irregular velocities.
 class AccelerationUncertainty {
  public:
-  /// V_WF, `dt` after the last.
+  /// V_WF, `dt` after the last one.
   void step(const Twist& V_WF, double dt);
   [[nodiscard]] double m_per_s2() const { return m_per_s2_; }
   [[nodiscard]] double rad_per_s2() const { return rad_per_s2_; }
@@ -54,7 +54,7 @@ class AccelerationUncertainty {
   double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
 };
 
-/// The greatest that an acceleration was in the last 0.3 s.
+/// Maximum acceleration of the last 0.3 s.
 class AccelerationPeak {
  public:
   void step(double m_per_s2, double dt) {
@@ -70,28 +70,29 @@ class AccelerationPeak {
   double most_ = 0.0, age_s_ = 0.0;
 };
 
-/// What a load may be learnt from.
+/// Sample for the identification of a load.
 struct LoadSample {
-  bool free = false;  // nothing is touched
-  // Of the sensor: a load is moved by ways. A speed that is told may be that of an instant, of a servo that
+  bool free = false;  // there is no contact
+  // Motion of the sensor from displacements, because a reported speed may be an instantaneous value of a
+  // servo that stops between two setpoints.
   // comes to rest between two setpoints.
   Pose X_WF{};
 };
 
-/// What is never exceeded: by a force that is taken for a bias, and by what a load that is not known may do
-/// without being a contact, so that the guards see every force.
+/// Upper bounds of a force that may be treated as bias, and of the effect of an unknown load that is not
+/// treated as a contact, so that the guards receive every larger force.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
-  /// By the guards of force and moment.
+  /// From the guards of force and moment.
   static CompensationLimits of(const CommandConfig& c) {
     return {0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
   }
 };
 
-/// Removes it.
+/// Compensates the tool.
 class ToolCompensation {
  public:
   explicit ToolCompensation(const SensingConfig& config, const CompensationLimits& limits = {},
@@ -109,26 +110,26 @@ class ToolCompensation {
     if (!(config.zero_s > 0.0)) abandon();
   }
 
-  /// Begins to average; nothing must be touched until it is over. What was zeroed before holds till then.
-  /// Nothing where zero_s = 0.
+  /// Starts averaging; there must be no contact until it is complete. The previous zero is used until then.
+  /// Does nothing if zero_s = 0.
   void zero();
-  /// Something was touched, or may be from now on: what was zeroed before stays.
+  /// There is contact, or may be from now on: the previous zero is kept.
   void abandon() { zeroing_ = first_ = false; }
 
-  /// What the environment does to the tool, W: `reading` (in W) less tool and bias, at a sensor of
-  /// orientation `q_WF` and velocity `V_WF`, `dt` after the last. What is not finite is handed on and
-  /// averaged into nothing.
+  /// Returns the wrench by the environment on the tool, W: `reading` (in W) minus tool and bias, for a sensor
+  /// of orientation `q_WF` and velocity `V_WF`, `dt` after the last one. Values that are not finite are
+  /// passed through and not averaged.
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
               const LoadSample& load = {});
-  /// The gripper is closed, a level.
+  /// State of the gripper: closed.
   void grip(bool closed) { load_.grip(closed); }
 
-  /// False while the first zero is still being taken: what is left holds the bias.
+  /// Returns false during the first zeroing: the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the sensor's frame
   [[nodiscard]] const LoadIdentifier& load() const { return load_; }
-  /// What of force and moment may be by an acceleration or a load that is not known.
+  /// Part of force and moment that an uncertain acceleration or load may cause.
   [[nodiscard]] double uncertainty_n() const;
   [[nodiscard]] double uncertainty_nm() const;
 
@@ -144,7 +145,7 @@ class ToolCompensation {
   LoadIdentifier load_;
   std::optional<Pose> X_WF_{};        // at the last sample of a load
   AccelerationPeak push_{}, turn_{};  // of a load
-  SensorMotion slow_{}, quick_{};     // as a bond hands it on; as it may at the fastest
+  SensorMotion slow_{}, quick_{};     // as a bond transmits it; the fastest possible
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
   double time_s_ = 0.0;

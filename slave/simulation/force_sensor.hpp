@@ -1,11 +1,11 @@
 #pragma once
-// A simulated six-axis force/torque sensor: what it tells of the wrench that acts on it. Each of the six
-// channels, in the sensor's own frame:
+// A simulated six-axis force/torque sensor: its reading of the wrench that acts on it. Each of the six
+// channels, in the frame of the sensor:
 //   y += (1 - exp(-2π f dt)) (w - y)                        bandwidth f
-//   b += drift √dt ξ                                        bias, a random walk from where it begins
+//   b += drift √dt ξ                                        bias, a random walk from its initial value
 //   reading = clamp(round((y + b + noise ξ)/res) res)       resolution, range
-// with ξ normal, of deviation 1. Cross talk, hysteresis and temperature are not modelled: they are a bias
-// that nobody zeroed.
+// with ξ normal, of deviation 1. Cross talk, hysteresis and temperature are not modelled separately from a
+// bias.
 
 #include "common/core/random.hpp"
 #include "common/spatial/spatial.hpp"
@@ -17,7 +17,8 @@ class ForceSensor {
  public:
   ForceSensor(const SensingConfig& config, Random random);
 
-  /// The reading, `dt` (>= 0, s) after the last. A wrench that is not finite is read as the last one.
+  /// Returns the reading, `dt` (>= 0, s) after the last one. A wrench that is not finite gives the previous
+  /// one.
   Wrench step(const Wrench& wrench, double dt);
 
   [[nodiscard]] const Wrench& bias() const { return bias_; }

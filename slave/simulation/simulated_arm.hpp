@@ -1,14 +1,14 @@
 #pragma once
-// A robot that is not there: six joints with first-order servos, the tool by forward kinematics, the scene's
-// force on the tool, a force sensor at E that carries the tool.
+// A simulated robot: six joints with first-order servos, the tool by forward kinematics, the force of the
+// scene on the tool, a force sensor at E that carries the tool.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
 //                                                                   0 Hz: q̇ only limited
 // A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
-// gives way to what the tool touches, so that the contact creates no energy however stiff it is
-// (yielding.hpp); the others do not (their motion is imposed). Joints are measured at the link, exactly. Its
-// time is what read() is given. Without a setpoint, or when nobody has written for 20 ms, its servos brake by
-// their acceleration limits and then hold, whatever pushes, until the next one. The accessors that begin with
-// true_ and displace() are for the laboratory alone.
+// yields to contacts, so that the contact creates no energy for any stiffness (yielding.hpp); the other
+// joints do not yield. Joints are measured at the link, exactly. Its time is the argument of read(). Without
+// a setpoint, or without a write for 20 ms, its servos brake at their acceleration limits and then hold their
+// position until the next setpoint. The accessors that begin with true_ and displace() are for the laboratory
+// only.
 
 #include <cstdint>
 #include <optional>
@@ -25,7 +25,7 @@ namespace longreach {
 
 class SimulatedArm : public Robot {
  public:
-  /// Throws std::invalid_argument as Scene and Bodies do.
+  /// Throws std::invalid_argument like Scene and Bodies.
   SimulatedArm(const SlaveConfig& config, Random random);
 
   RobotState read(Time now) override;
@@ -40,14 +40,15 @@ class SimulatedArm : public Robot {
   [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
   [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
-  /// Static dF/dp of all that is touched at `p_WE`, along the way out, by differences; N/m, 0 in free space.
+  /// Static dF/dp of all contacts at `p_WE`, along the outward direction, by differences; N/m, 0 in free
+  /// space.
   [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
-  /// What floats freely; null in a scene without.
+  /// Free-floating bodies; null for a scene without.
   [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
   [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
-  /// Somebody else moves it: its joints are there now, at rest.
+  /// Moves the joints externally: they are at this position now, at rest.
   void displace(const JointVector& joint_rad);
-  /// The surroundings are these from now on. Throws std::invalid_argument as Scene does.
+  /// Replaces the scene. Throws std::invalid_argument like Scene.
   void surround(const SceneConfig& scene) { scene_ = Scene(scene, X_WE_start_); }
   [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
