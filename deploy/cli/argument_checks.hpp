@@ -1,5 +1,5 @@
 #pragma once
-// Words of the command line that have to be numbers or addresses. Throw UsageError.
+// Checks of command-line arguments that must be numbers or addresses. They throw UsageError.
 
 #include <optional>
 #include <string>

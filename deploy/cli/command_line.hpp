@@ -1,5 +1,5 @@
 #pragma once
-// From the words of the command line to an Invocation; help and version texts.
+// Parses the command line to an Invocation; help and version texts.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-/// What to print instead of carrying out a command: help or version.
+/// Text to print instead of carrying out a command: help or version.
 struct Printout {
   std::string text;
   ExitStatus exit = ExitStatus::kDone;

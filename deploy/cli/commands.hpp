@@ -1,6 +1,5 @@
 #pragma once
-// Carries out what was asked for. Prints the answer; throws SideError, UsageError or ConfigError for the
-// rest.
+// Carries out the command. Prints the answer; throws SideError, UsageError or ConfigError on failure.
 
 #include <string>
 
@@ -11,7 +10,7 @@ namespace longreach {
 
 ExitStatus run(const Invocation& invocation);
 
-// One file each.
+// One file per command.
 ExitStatus run_watch(const Options& options, const WatchCommand& command);
 ExitStatus run_view(const Options& options, const ViewCommand& command);
 ExitStatus run_doctor(const Options& options, const DoctorCommand& command);
@@ -22,15 +21,15 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command);
 ExitStatus run_link_show(const Options& options);
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
 
-/// Both directions, or none: a direction that was changed is put back when the other one refuses. Returns
-/// what was done.
+/// Changes both directions or none: a changed direction is restored if the other one refuses. Returns a
+/// description of the change.
 std::string set_link(const Options& options, const LinkSetCommand& command);
-/// Done when one of them has answered; likewise.
+/// Done when one of them has answered. Returns a description of the change.
 std::string stop_sides(const Options& options);
 
-/// Prints what was done: a sentence, or {"done": ...}.
+/// Prints a description of the change: a sentence, or {"done": ...}.
 void print_done(const Options& options, const std::string& sentence);
-/// Prints an error as it was announced: a sentence on stderr, and with JSON {"error": ...} on stdout.
+/// Prints an error: a sentence on stderr, and with JSON {"error": ...} on stdout.
 void print_error(bool json, const std::string& sentence);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// What the doctor finds, and how it is told: a line a finding for people, one JSON object for programs. Pure.
+// Findings of the doctor and their output: a line per finding for users, one JSON object for programs. Pure.
 
 #include <cstdint>
 #include <string>
@@ -9,23 +9,23 @@ namespace longreach {
 
 enum class FindingVerdict { kOk, kWarning, kFailure };
 
-/// How often a time was met.
+/// Number of occurrences of a time.
 struct Histogram {
   struct Bar {
     double up_to_s = 0.0;
     std::uint64_t count = 0;
   };
-  std::vector<Bar> bars{};  // rising; the last one may be open
+  std::vector<Bar> bars{};  // ascending; the last one may be unbounded
 };
-/// Into bars up to 1, 2, 5, 10, ... that cover what was seen, or, where all is within a factor of 2.5, into
-/// bars of one width. Nothing seen: no bars.
+/// Groups the times into bars up to 1, 2, 5, 10, ..., or, if all are within a factor of 2.5, into bars of
+/// equal width. Without times: no bars.
 Histogram histogram_of(const std::vector<double>& times_s);
 
 struct Finding {
   FindingVerdict verdict = FindingVerdict::kOk;
-  std::string what;      // what was looked at, a word or two
-  std::string text;      // what was found
-  std::string advice{};  // what to do; empty: nothing
+  std::string what;      // subject of the check, a word or two
+  std::string text;      // result
+  std::string advice{};  // remedy; empty: none
   Histogram histogram{};
 };
 

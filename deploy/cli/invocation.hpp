@@ -1,5 +1,5 @@
 #pragma once
-// What the user asked for: a parsed and, as far as it can be judged here, valid command line.
+// A parsed command line, validated as far as possible here.
 
 #include <cstdint>
 #include <optional>
@@ -21,23 +21,24 @@ constexpr std::string_view name_of(Side side) { return side == Side::kMaster ? "
 enum class ExitStatus : int {
   kDone = 0,
   kFailed = 1,  // refused, or a side does not answer
-  kUsage = 2,   // bad usage or bad value
+  kUsage = 2,   // invalid usage or value
 };
 
-/// Bad usage or a bad value: one sentence for the user.
+/// Invalid usage or value: one sentence for the user.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A direction of the link: up is master to slave and is set at the slave, down is set at the master.
+/// A direction of the link: up is master to slave and is set at the slave, down is slave to master and is set
+/// at the master.
 enum class Direction { kUp, kDown, kBoth };
 
 struct StatusCommand {};
 struct WatchCommand {
   double rate_hz = 4.0;
   std::optional<std::uint64_t> count{};  // none: until Ctrl-C
-  bool plain = false;                    // a line an update, on a terminal, too
+  bool plain = false;                    // a line per update, also on a terminal
 };
 /// Serves the page until Ctrl-C.
 struct ViewCommand {
@@ -52,34 +53,34 @@ struct SetCommand {
   std::vector<std::pair<std::string, std::string>> assignments;  // path, value
 };
 struct LinkShowCommand {};
-/// Also blackout and clear, which are a change of some fields and of all.
+/// Also used by blackout and clear, which change some fields and all fields.
 struct LinkSetCommand {
   Direction direction = Direction::kBoth;
-  std::optional<std::string> profile{};  // replaces the direction before `fields` go over it
-  bool clear = false;                    // likewise, with an undisturbed link
-  proto::Impairment fields;              // of each direction that it is applied to
+  std::optional<std::string> profile{};  // replaces the direction before `fields` are applied
+  bool clear = false;                    // likewise, with an unimpaired link
+  proto::Impairment fields;              // for each affected direction
 };
 struct ModeCommand {
   proto::Mapping::Mode mode = proto::Mapping::POSITION;
 };
 struct ScaleCommand {
   std::optional<double> value{};
-  int steps = 0;  // of 0.05, without a value
+  int steps = 0;  // of 0.05, if there is no value
 };
 struct EngageCommand {};
 struct StopCommand {};
-/// This host joins the site of the slave whose token this is.
+/// This host joins the site of the slave that issued the token.
 struct PairCommand {
-  std::string token_file;  // -: standard input; empty: asked for on the terminal
-  bool replace = false;    // a site that is here already is put aside
-  bool list = false;       // nothing but: who was paired here
+  std::string token_file;  // -: standard input; empty: prompt on the terminal
+  bool replace = false;    // an existing site is moved away
+  bool list = false;       // only list the paired hosts
 };
-/// What paired hosts got here counts no more.
+/// Revokes the certificates of paired hosts.
 struct UnpairCommand {
   std::vector<std::string> names;  // of hosts, or fingerprints
 };
 
-/// `seconds`: how long sides and loop are watched.
+/// `seconds`: duration of the measurement.
 struct DoctorCommand {
   double seconds = 2.0;
 };
@@ -87,18 +88,18 @@ struct DoctorCommand {
 struct RecordCommand {
   enum class What { kStart, kStop, kList, kExport };
   What what = What::kStart;
-  std::string name;                  // of a start; empty: the time
+  std::string name;                  // for start; empty: the time
   double max_mb = 4096.0;            // likewise
-  std::vector<std::string> files{};  // to be exported
-  std::string folder;                // listed or exported to; empty: the usual one
+  std::vector<std::string> files{};  // to export
+  std::string folder;                // to list or export to; empty: the default folder
 };
-/// An adapter of a device or a robot is tried.
+/// Tests an adapter of a device or a robot.
 struct AdapterCheckCommand {
   bool robot = false;
   std::string address;
-  double force_n = 0.5;  // of a device
-  double move = 0.0;     // of a robot's first joint, rad or m
-  bool push = false;     // instead: a person pushes a robot's tool
+  double force_n = 0.5;  // for a device
+  double move = 0.0;     // for a robot's first joint, rad or m
+  bool push = false;     // instead: the user pushes the tool of a robot
   std::string robot_file{};
   double push_timeout_s = 30.0;  // for each push
 };
@@ -111,10 +112,10 @@ using Command =
 struct Options {
   std::string master_address;  // host:port of its RPC server
   std::string slave_address;
-  double timeout_s = 3.0;  // for each call, connecting included
+  double timeout_s = 3.0;  // for each call, including the connection
   bool json = false;
-  std::string site{};     // folder of the certificates; empty: the usual one
-  bool insecure = false;  // in clear, on this machine
+  std::string site{};     // folder of the certificates; empty: the default folder
+  bool insecure = false;  // unencrypted, on this machine
 };
 
 struct Invocation {

@@ -1,7 +1,7 @@
 #pragma once
-// JSON of the client's answers, one object a line. Names are those of the protobuf fields; fields that are
-// not set are there with their defaults, so that the set of keys is stable; 64-bit counts are strings, as in
-// all protobuf JSON.
+// JSON of the client's answers, one object per line. Names are those of the protobuf fields. Fields that are
+// not set are included with their defaults, so that the set of keys is stable; 64-bit counts are strings, as
+// in all protobuf JSON.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace longreach {
 std::string json_string(std::string_view text);
 std::string json_object(const google::protobuf::Message& message);
 
-/// {"master": {...}, "slave": {...}}; null for a side that is down, and then "error": why.
+/// {"master": {...}, "slave": {...}}; null for a side that is down, and then "error" with the reason.
 std::string status_json(const BothReports& reports);
 
 }  // namespace longreach

@@ -1,12 +1,12 @@
 #pragma once
-// Colour for rows of the status table: labels dim, states as in traffic. Pure.
+// Colours for rows of the status table: dim labels, states in green, yellow or red. Pure.
 
 #include <string>
 #include <string_view>
 
 namespace longreach {
 
-/// `row` without its end, with ANSI colours; it is as wide as before.
+/// Returns `row` without its newline, with ANSI colours and unchanged width.
 std::string painted(std::string_view row);
 
 }  // namespace longreach

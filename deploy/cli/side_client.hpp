@@ -1,5 +1,5 @@
 #pragma once
-// The RPC client of one side. Every call ends after the timeout at the latest, connecting included.
+// RPC client of one side. Every call ends after the timeout at the latest, including the connection.
 
 #include <memory>
 #include <optional>
@@ -24,9 +24,9 @@ namespace longreach {
 class SideError : public std::runtime_error {
  public:
   enum class Kind {
-    kDown,      // no answer: what was asked for may have happened or not
-    kRefused,   // not now, or not by this side: nothing has changed
-    kBadValue,  // never: nothing has changed
+    kDown,      // no answer: the request may or may not have been carried out
+    kRefused,   // not in this state, or not by this side: nothing has changed
+    kBadValue,  // invalid: nothing has changed
   };
   SideError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   [[nodiscard]] Kind kind() const { return kind_; }
@@ -46,8 +46,8 @@ class SideClient {
   SideClient(SideClient&&) noexcept;
   ~SideClient();
 
-  // All throw SideError. What returns a text returns the side's answer.
-  proto::Status status();  // also when another side answers at the address
+  // All throw SideError. Functions that return a text return the answer of the side.
+  proto::Status status();  // also if another side answers at the address
   std::string get(const std::string& path);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
@@ -64,15 +64,15 @@ class SideClient {
   std::unique_ptr<State> state_;
 };
 
-/// What is known about a side: its status, or why there is none.
+/// Information about a side: its status, or why there is none.
 struct SideReport {
   Side side = Side::kMaster;
   std::string address;
   std::optional<proto::Status> status{};
-  std::string error;  // one sentence, when there is no status
+  std::string error;  // one sentence, if there is no status
 };
 
-/// The newest status of a side, read by a thread of its own; connects again whenever the side comes back.
+/// The newest status of a side, read by a separate thread, which reconnects when the side is available again.
 class StatusStream {
  public:
   StatusStream(Side side, const Options& options, double rate_hz);

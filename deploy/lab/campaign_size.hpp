@@ -1,5 +1,5 @@
 #pragma once
-// How many samples a property takes: all with LONGREACH_FULL set in the environment, a smoke size without.
+// Number of samples of a property: all with LONGREACH_FULL set in the environment, otherwise a small number.
 
 #include <cstdlib>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Does an adapter keep the rules of common/link/adapter_datagram.hpp? A finding a rule, with what to do.
+// Checks an adapter against the rules of common/link/adapter_datagram.hpp, with one finding and remedy per
+// rule.
 
 #include <string>
 
@@ -7,9 +8,9 @@
 
 namespace longreach {
 
-/// `force_n` > 0: the largest that it is asked for.
+/// `force_n` > 0: maximum commanded force.
 Section check_device_adapter(const std::string& address, double force_n);
-/// `move_rad`: how far the first joint may move, m of a prismatic one; 0: not at all.
+/// `move_rad`: maximum motion of the first joint, m for a prismatic one; 0: none.
 Section check_robot_adapter(const std::string& address, double move_rad);
 
 }  // namespace longreach

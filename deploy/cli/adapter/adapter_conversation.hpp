@@ -1,5 +1,5 @@
 #pragma once
-// longreach's end of the talk with an adapter, as long as a check wants it and with what no longreach sends.
+// longreach's end of the exchange with an adapter for the duration of a check, including invalid datagrams.
 
 #include <algorithm>
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace longreach {
 
-/// What is wrong with bytes that should be a datagram; empty: nothing.
+/// Returns why the bytes are not a valid datagram; empty: they are.
 template <class In>
 std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
   In in;
@@ -39,7 +39,7 @@ class Conversation {
   struct Seen {
     std::int64_t at_ns = 0;
     In in{};
-    bool excused = false;  // this end was late itself: an adapter's watchdog may have acted
+    bool excused = false;  // this end was late itself: the watchdog of the adapter may have acted
   };
   using Say = std::function<Out(double t_s)>;
   using Beside = std::function<void(const AdapterSocket&, const Out&)>;
@@ -49,20 +49,21 @@ class Conversation {
     begin();
   }
 
-  /// A program that starts again.
+  /// Acts as a restarted program.
   void begin() {
     exchange_ = adapter::Exchange(random_.next() | 1U);
     sent_ = 0;
   }
 
-  /// Sends every millisecond what `say` says, and `beside` after it; without `say` only listens. What came.
+  /// Sends the output of `say` every millisecond, followed by `beside`; without `say` it only listens.
+  /// Returns the received datagrams.
   std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
     constexpr std::int64_t kPeriod_ns = 1'000'000;
     std::vector<Seen> seen;
     const std::int64_t begin_ns = AdapterSocket::now_ns();
     const auto end_ns = begin_ns + static_cast<std::int64_t>(1e9 * seconds);
     for (std::int64_t due_ns = begin_ns; due_ns < end_ns; due_ns += kPeriod_ns) {
-      // What was missed is not made up for.
+      // Missed datagrams are not sent later.
       due_ns = std::max(due_ns, AdapterSocket::now_ns() - kPeriod_ns);
       if (say) {
         Out out = say(1e-9 * static_cast<double>(due_ns - begin_ns));
@@ -79,9 +80,9 @@ class Conversation {
     return seen;
   }
 
-  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // of this session
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // in this session
   [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
-  /// What came that is no datagram: why, and how often.
+  /// Received invalid datagrams: reasons and counts.
   [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }
   [[nodiscard]] const AdapterSocket& socket() const { return socket_; }
   Random& random() { return random_; }
@@ -94,7 +95,7 @@ class Conversation {
     while (sends_ns_.front() < at_ns - kMemory_ns) sends_ns_.pop_front();
   }
 
-  /// A pause of this end shortly before.
+  /// Whether this end paused shortly before.
   [[nodiscard]] bool paused(std::int64_t at_ns) const {
     std::int64_t before_ns = 0;
     for (const std::int64_t send_ns : sends_ns_) {

@@ -1,6 +1,6 @@
 #pragma once
-// `longreach adapter check --push`: asks a person to push a robot's tool and to turn it, and looks at what
-// the adapter then tells. The robot is sent no motion meanwhile.
+// `longreach adapter check --push`: prompts the user to push and turn the tool of a robot, and checks the
+// reports of the adapter. The robot is not moved.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// `robot_file`: of the robot, for where its tool points. `patience_s`: to wait for each push. Prompts go to
-/// standard output. Throws UsageError, AddressError.
+/// `robot_file`: file of the robot, for the orientation of its tool. `patience_s`: time limit for each push.
+/// Prompts are printed on standard output. Throws UsageError, AddressError.
 Section check_pushes(const std::string& address, const std::string& robot_file, double push_timeout_s);
 
 }  // namespace longreach

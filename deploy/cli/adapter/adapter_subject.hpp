@@ -1,5 +1,5 @@
 #pragma once
-// What a check of an adapter asks of a device and of a robot, and how it sees that it was done.
+// Commands that a check of an adapter sends to a device or a robot, and the evaluation of their effect.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ inline std::string in_text(const char* format, double value) {
   return text;
 }
 
-/// A haptic device: a small force along z, which it says it makes.
+/// A haptic device: a small force along z, which it must report.
 class DeviceSubject {
  public:
   using Out = adapter::WrenchDatagram;
@@ -36,7 +36,7 @@ class DeviceSubject {
     out.force_n[2] = force_n_;
     return out;
   }
-  /// The same with a force along x besides, which nobody may take.
+  /// The same with an additional force along x, which must be ignored.
   [[nodiscard]] Out poison(Out out) const {
     out.force_n[0] = 2.0 * force_n_;
     return out;
@@ -63,7 +63,7 @@ class DeviceSubject {
   double force_n_;
 };
 
-/// A robot: to be where it is or, if it may move, a small way on with its first joint.
+/// A robot: to stay in place or, if it may move, to move its first joint by a small amount.
 class RobotSubject {
  public:
   using Out = adapter::SetpointDatagram;
@@ -77,7 +77,7 @@ class RobotSubject {
   explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
 
   void know(const In& in) { std::copy_n(in.joint_rad, adapter::kJoints, start_rad_); }
-  /// Within the first half second it goes there.
+  /// It moves within the first half second.
   [[nodiscard]] Out ask(double t_s) {
     share_ = std::max(share_, std::min(1.0, 2.0 * t_s));
     Out out;

@@ -1,5 +1,5 @@
 #pragma once
-// What a robot's file says: where its tool points, and where its joints may be.
+// Content of a robot file: orientation of the tool, and ranges of the joints.
 
 #include <memory>
 #include <string>
@@ -10,13 +10,13 @@ namespace longreach {
 
 class DescribedRobot {
  public:
-  /// A file as longreach-slave has it in robot_file. Throws UsageError.
+  /// Reads a file like robot_file of longreach-slave. Throws UsageError.
   explicit DescribedRobot(const std::string& file);
   ~DescribedRobot();
 
-  /// R_WE with its joints there: rad, m of a prismatic one.
+  /// R_WE at these joints: rad, m for a prismatic one.
   [[nodiscard]] Matrix3 orientation(const Vector6& joint_rad) const;
-  /// What is wrong with the joints, and what to do: for whoever wrote an adapter. Empty: nothing.
+  /// What is wrong with the joints, and a remedy, for the author of an adapter. Empty: nothing.
   struct Wrong {
     std::string text, advice;
   };

@@ -1,18 +1,18 @@
 #pragma once
-// What the doctor looks at, a section each. Nothing that runs is changed, and nothing is made: the site
-// folder is only read, the sides are asked as by `longreach status`. Their UDP ports get five datagrams of
-// 508 bytes each that they reject and count, which is how the doctor knows that such datagrams arrive.
+// Checks of the doctor, one section each. It changes and creates nothing: the site folder is only read, and
+// the sides are queried as by `longreach status`. Their UDP ports get five datagrams of 508 bytes each that
+// they reject and count, which shows that such datagrams arrive.
 
 #include "deploy/cli/finding.hpp"
 #include "deploy/cli/invocation.hpp"
 
 namespace longreach {
 
-/// Clock, rights, processor, and a bare loop of `seconds` at 1 kHz.
+/// Clock, permissions, processor, and a bare loop of `seconds` at 1 kHz.
 Section examine_machine(double seconds);
-/// The site folder: who may open it, which roles it has, whether its certificates are good.
+/// The site folder: its access rights, its roles, and the validity of its certificates.
 Section examine_site(const Options& options);
-/// Whether it answers, its version, loop and link; `seconds`: how long it is watched.
+/// Availability, version, loop and link of a side; `seconds`: duration of the measurement.
 Section examine_side(Side side, const Options& options, double seconds);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the command line that is about recordings.
+// The part of the command line for recordings.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -13,7 +13,7 @@ class RecordWords {
  public:
   /// Adds `record` with its commands.
   void declare(CLI::App& app);
-  /// What was asked for, where `record` was. Throws UsageError.
+  /// Returns the command, if `record` was given. Throws UsageError.
   [[nodiscard]] RecordCommand command() const;
 
  private:

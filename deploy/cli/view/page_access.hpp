@@ -1,8 +1,8 @@
 #pragma once
-// Who may have what of the view's server. Pure. A page of another site cannot use this server: neither under
-// a name of its own that leads here (Host), nor by a WebSocket from there (Origin). Every path begins with a
-// token, on loopback too: other users of this machine have a loopback as well. It stays in the path, since a
-// cookie would go to every port of the host, those of other users included.
+// Access control of the view server. Pure. A page of another site cannot use this server: neither under its
+// own name that resolves to this host (Host), nor by a WebSocket from there (Origin). Every path begins with
+// a token, also on loopback, which other users of this machine share. The token is in the path, since a
+// cookie would be sent to every port of the host, including those of other users.
 
 #include <string>
 #include <string_view>
@@ -11,11 +11,11 @@
 namespace longreach {
 
 struct PageAccess {
-  std::string token;               // first part of every path; empty: nobody gets in
-  std::vector<std::string> hosts;  // names and port that lead here; empty: any
+  std::string token;               // first part of every path; empty: no access
+  std::vector<std::string> hosts;  // names and port of this server; empty: any
 };
 
-/// The head of a request; what is absent is empty.
+/// The head of a request; missing parts are empty.
 struct ViewRequest {
   std::string_view method;
   std::string_view target;
@@ -27,13 +27,13 @@ struct ViewRequest {
 enum class ViewAnswer { kPage, kScript, kStyle, kLive, kForbidden, kNotFound, kNotAllowed };
 
 ViewAnswer answer(const PageAccess& access, const ViewRequest& request);
-/// Whether the answer shows that the token was right.
+/// Returns whether the answer implies that the token was correct.
 bool is_let_in(ViewAnswer answer);
 
-/// The names under which a server on loopback is known to browsers.
+/// The names of a server on loopback for browsers.
 std::vector<std::string> loopback_hosts(int port);
 
-/// 130 random bits, in letters and digits.
+/// Returns 130 random bits as letters and digits.
 std::string draw_token();
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// What a page asks for: one JSON object a message.
+// A command of a page: one JSON object per message.
 //
-//   {"take": true}                     the hand; false: gives it back
+//   {"take": true}                     takes the hand; false: returns it
 //   {"aim": [x, y, z], "turn": [x, y, z], "clutch": false, "grip": false}    m and rad from the handle's home
 //   {"do": "engage"}                   or "stop"
 //   {"mode": "rate"}                   or "position"
@@ -25,7 +25,7 @@ struct PageCommand {
   std::string link{};  // a profile's name: letters, digits, - and _
 };
 
-/// None: it cannot be understood.
+/// Returns none if the text is not a valid command.
 std::optional<PageCommand> read_page_command(std::string_view text);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// One connection to the view's server until it is answered or has become a viewer. It has 5 s for each
-// request, however slowly it speaks. Lives in the server's thread.
+// One connection to the view server until it is answered or becomes a viewer. Each request has a timeout of 5
+// s. It runs in the thread of the server.
 
 #include <boost/asio/ip/tcp.hpp>
 #include <memory>
@@ -13,14 +13,14 @@ namespace longreach {
 
 class PageSession : public std::enable_shared_from_this<PageSession> {
  public:
-  /// `door` outlives it. `seat` is kept as long as the connection lasts.
+  /// `access` outlives it. `slot` is kept as long as the connection lasts.
   PageSession(boost::asio::ip::tcp::socket socket, const PageAccess& access, Viewer::Backend backend,
               std::shared_ptr<void> slot);
 
   void read();
   /// It has shown the token.
   [[nodiscard]] bool let_in() const { return let_in_; }
-  /// Makes room for another one.
+  /// Closes the connection to make room for another one.
   void drop() { stream_.close(); }
 
  private:

@@ -1,12 +1,11 @@
 #pragma once
-// What the page shows, fetched from both sides by threads of its own, as JSON. Connects again whenever a side
-// comes back.
+// Data of the page, fetched from both sides by separate threads, as JSON. It reconnects when a side is
+// available again.
 //
-// From the master: {"frame": proto/control's Frame} 60 times a second, or {"down": why} when there is none.
-// From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config when it is first heard and
-// when it has restarted, and
-// {"anchor": {"engagement": N, "position_m": [...], "rotation_rad": [...]}} at each engagement;
-// {"slave_down": why}.
+// From the master: {"frame": proto/control's Frame} 60 times a second, or {"down": reason} if there is none.
+// From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config at the first contact and
+// after a restart, {"anchor": {"engagement": N, "position_m": [...], "rotation_rad": [...]}} at each
+// engagement, and {"slave_down": reason}.
 
 #include <atomic>
 #include <chrono>
@@ -40,7 +39,7 @@ class ViewFeed {
   std::string read_frames();
   void ask_slave();
   double check_slave(SideClient& slave, double uptime_s);
-  /// False at the end.
+  /// Returns false at the end.
   bool rest(std::chrono::milliseconds time);
 
   const Options options_;
@@ -49,8 +48,8 @@ class ViewFeed {
   std::condition_variable changed_;
   bool ended_ = false;
   grpc::ClientContext* open_ = nullptr;
-  std::atomic<std::uint32_t> engagement_{0};  // the master's
-  std::uint32_t anchored_ = 0;                // engagement whose anchor is known; the slave's thread alone
+  std::atomic<std::uint32_t> engagement_{0};  // of the master
+  std::uint32_t anchored_ = 0;  // engagement of the known anchor; used by the thread of the slave only
   std::thread master_, slave_;
 };
 

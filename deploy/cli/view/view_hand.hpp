@@ -1,7 +1,6 @@
 #pragma once
-// The hand of a page on its way to the master: a thread that passes on the newest aim, each once, over the
-// RPC Hold. What the page does not say is not said: the master notices by itself that a hand has fallen
-// silent.
+// Forwards the hand of a page to the master: a thread sends the newest aim, each once, over the RPC Hold. If
+// the page sends nothing, nothing is forwarded: the master detects a silent hand.
 
 #include <condition_variable>
 #include <functional>
@@ -21,15 +20,15 @@ namespace longreach {
 
 class ViewHand {
  public:
-  /// `refused`: the master does not take the hand, and why.
+  /// `refused`: called with the reason if the master refuses the hand.
   ViewHand(const Options& options, std::function<void(const std::string&)> refused);
   ~ViewHand();
   ViewHand(const ViewHand&) = delete;
   ViewHand& operator=(const ViewHand&) = delete;
 
-  // From any thread; they do not wait.
+  // Callable from any thread; they do not wait.
   void aim(const proto::HandAim& aim);
-  /// `lost`: the stream is broken off, so that the robot holds.
+  /// `lost`: the stream is cancelled, so that the robot holds.
   void let_go(bool lost);
 
  private:

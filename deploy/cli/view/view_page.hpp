@@ -1,5 +1,5 @@
 #pragma once
-// The page, as the build has bundled it from master/console/page.
+// The page, bundled by the build from master/console/page.
 
 #include <string_view>
 

@@ -1,8 +1,8 @@
 #pragma once
-// Serves the page and, by WebSocket, what it shows. One thread of its own. A viewer that reads too slowly
-// misses frames, oldest first; one that says too much is cut off. One viewer at a time has the hand: it alone
-// may move and change things; anybody may stop. When all connections are taken, a new one takes the place of
-// the oldest that has not shown the token.
+// Serves the page and, by WebSocket, its data, in one thread of its own. A slow viewer misses frames, oldest
+// first; a viewer that sends too much is disconnected. One viewer at a time has the hand and may move and
+// change things; every viewer may stop. When all connections are in use, a new one replaces the oldest that
+// has not shown the token.
 
 #include <functional>
 #include <memory>
@@ -15,38 +15,38 @@ namespace longreach {
 inline constexpr int kViewersMax = 16;
 inline constexpr int kConnectionsMax = 64;
 
-/// What viewers ask of the rest; called in the server's thread, must not wait.
+/// Requests of viewers; called in the thread of the server, must not block.
 struct PageBackend {
   std::function<void(const PageCommand&)> act;     // engage, stop, mode, scale, link
   std::function<void(const proto::HandAim&)> aim;  // of the viewer that has the hand
-  std::function<void(bool lost)> let_go;           // it has not any more; lost: without having said so
+  std::function<void(bool lost)> let_go;           // it no longer has the hand; lost: without a release
 };
 
 class ViewServer {
  public:
-  /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence, when it
-  /// cannot listen.
+  /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence, if it cannot
+  /// listen.
   explicit ViewServer(const std::string& listen);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
-  /// Begins to answer; once.
+  /// Starts serving; call it once.
   void serve(PageBackend backend);
-  /// Nothing is asked of anybody after it.
+  /// No function of the backend is called after it.
   void stop();
 
-  /// For a browser, token included.
+  /// Address for a browser, including the token.
   [[nodiscard]] const std::string& address() const;
 
-  // From any thread. All texts are JSON.
-  /// A frame that nobody has fetched when the next one comes is left out.
+  // Callable from any thread. All texts are JSON.
+  /// Sends a frame; a frame that was not sent when the next one arrives is skipped.
   void show(std::string frame);
-  /// Something that lasts: the newest of each topic reaches every viewer, later ones too.
+  /// Sends persistent data: every viewer receives the newest text of each topic, also later ones.
   void tell(const std::string& topic, std::string text);
-  /// Something of the moment, to those who are there.
+  /// Sends a message to the present viewers.
   void say(std::string text);
-  /// Takes the hand from whoever has it.
+  /// Takes the hand away from its viewer.
   void revoke(const std::string& why);
 
  private:

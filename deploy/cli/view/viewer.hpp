@@ -1,5 +1,5 @@
 #pragma once
-// One page that is open: a WebSocket with a short queue. Lives in the server's thread.
+// One open page: a WebSocket with a short queue. It runs in the thread of the server.
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -28,9 +28,9 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   Viewer(boost::beast::tcp_stream stream, Backend backend);
 
   void accept(const ViewHttpRequest& request);
-  /// A frame: pushes out the oldest one that waits when there are too many.
+  /// Sends a frame; the oldest queued frame is dropped if there are too many.
   void show(const Text& frame);
-  /// Not to be left out; a viewer that lets too many wait is cut off.
+  /// Sends a text that must not be dropped; a viewer with too many queued texts is disconnected.
   void tell(const Text& text);
   void close();
 

@@ -1,7 +1,7 @@
 #pragma once
-// What a campaign leaves on disk: DIR/campaign.txtpb says whose it is, DIR/cells/NUMBER.txtpb what a cell
-// gave. Each file is written under another name and renamed: it is there as a whole or not at all, also when
-// several programs, on one host or on many, write into one folder.
+// Files of a campaign: DIR/campaign.txtpb identifies it, DIR/cells/NUMBER.txtpb has the result of a cell.
+// Each file is written under a temporary name and renamed, so that it is always complete, also if several
+// programs, on one host or on many, write into one folder.
 
 #include <filesystem>
 #include <optional>
@@ -11,19 +11,20 @@
 
 namespace longreach {
 
-/// Text of a file that is replaced as a whole. Throws std::runtime_error.
+/// Writes the text of a file atomically. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 
 class CampaignFolder {
  public:
-  /// A folder of `record`: made if it is not there. Throws ConfigError if it is that of another campaign.
+  /// A folder of `record`: created if it does not exist. Throws ConfigError if it belongs to another
+  /// campaign.
   CampaignFolder(std::filesystem::path folder, const proto::CampaignRecord& record);
-  /// What is in a folder. Throws ConfigError if it is none of a campaign.
+  /// Opens an existing folder. Throws ConfigError if it does not belong to a campaign.
   explicit CampaignFolder(std::filesystem::path folder);
 
   [[nodiscard]] const proto::CampaignRecord& record() const { return record_; }
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-  /// Of a cell, if it is done. Throws ConfigError for a result of another campaign.
+  /// Result of a cell, if it is done. Throws ConfigError for a result of another campaign.
   [[nodiscard]] std::optional<proto::CellRecord> result(std::size_t cell) const;
   /// Completes `result` (campaign, cell, complete) and writes it. Throws std::runtime_error.
   void write(std::size_t cell, proto::CellRecord result) const;
@@ -36,7 +37,7 @@ class CampaignFolder {
   std::string name_;  // hash of the record
 };
 
-/// Why results of the one do not belong to the other, as "of commit A, not B"; empty if they do.
+/// Returns why results of one do not belong to the other, for example "of commit A, not B"; empty if they do.
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The cells of a campaign, in their order: experiments, then the values of each setting, then the seeds; what
-// comes last turns fastest. A cell's number is its place, from 0.
+// The cells of a campaign in order: experiments, then the values of each setting, then the seeds; the last
+// varies fastest. The number of a cell is its index, from 0.
 
 #include <cstdint>
 #include <string>
@@ -12,15 +12,15 @@ namespace longreach {
 
 struct Cell {
   std::size_t number = 0;
-  std::size_t combination = 0;     // of the settings' values: its place among all
+  std::size_t combination = 0;     // index of the combination of settings
   std::string experiment;          // name
-  std::vector<std::size_t> value;  // place of each setting's value in its list
+  std::vector<std::size_t> value;  // index of the value of each setting
   std::uint64_t seed = 1;
 };
 
 class Grid {
  public:
-  /// More are no campaign but a mistake in one: a day and a night at a second each.
+  /// A larger campaign is assumed to be a mistake: this one takes a day at a second per cell.
   static constexpr std::size_t kCellsMax = 100'000;
 
   /// A campaign with at least one experiment, a value for each setting, and seeds in order.
@@ -32,7 +32,7 @@ class Grid {
   [[nodiscard]] Cell cell(std::size_t number) const;
   /// "PATH=VALUE" of each setting.
   [[nodiscard]] std::vector<std::string> settings(const Cell& cell) const;
-  /// For people: "touch profile=moon mapping.scale=0.2 seed=3".
+  /// Name for the user: "touch profile=moon mapping.scale=0.2 seed=3".
   [[nodiscard]] std::string name(const Cell& cell) const;
   [[nodiscard]] const proto::Campaign& campaign() const { return campaign_; }
 

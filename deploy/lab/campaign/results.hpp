@@ -1,11 +1,11 @@
 #pragma once
-// What a campaign gave, as CSV (RFC 4180, numbers in their shortest form that gives the same number back): a
-// row a cell in the grid's order, a column a metric in the order of its first appearance.
+// Results of a campaign as CSV (RFC 4180, numbers in the shortest form that gives the same number back): a
+// row per cell in the order of the grid, a column per metric in the order of first appearance.
 //
 //   cell, experiment, seed, set.PATH of each setting, commit, config, metrics
 //
-// A cell without result has a row without metrics. Times are not the same in every run: they, and what each
-// cell took, have a file of their own beside it, NAME.times.csv.
+// A cell without result has a row without metrics. Times differ between runs; they and the run time of each
+// cell are in a separate file, NAME.times.csv.
 
 #include <filesystem>
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace longreach {
 
-/// By the numbers of the cells.
+/// By cell number.
 using CellResults = std::vector<std::optional<proto::CellRecord>>;
 
 /// Throws std::runtime_error.
@@ -26,7 +26,7 @@ void write_results(const std::filesystem::path& file, const proto::CampaignRecor
 /// "NAME.times.csv".
 std::filesystem::path times_file(const std::filesystem::path& file);
 
-/// Tells on standard error which cells have no result, the first twenty by their names. Returns how many.
+/// Lists the cells without result on standard error, the first twenty by name. Returns their number.
 std::size_t complain_of_missing(const Grid& grid, const CellResults& results);
 
 }  // namespace longreach

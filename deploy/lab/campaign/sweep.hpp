@@ -1,6 +1,6 @@
 #pragma once
-// `longreach-lab sweep`: a campaign, cell by cell, each in a process of its own; what is done is not done
-// again. `longreach-lab merge`: what several shards gave, as one.
+// `longreach-lab sweep`: runs a campaign, each cell in a separate process; completed cells are not repeated.
+// `longreach-lab merge`: joins the results of several shards.
 
 #include <filesystem>
 #include <string>
@@ -11,13 +11,13 @@ namespace longreach {
 struct SweepOptions {
   std::filesystem::path file;
   std::filesystem::path out;  // empty: out/NAME of the file
-  int jobs = 0;               // at a time; 0: one a processor
+  int jobs = 0;               // in parallel; 0: one per processor
   std::string shard = "1/1";  // I/N: the cells I, I + N, I + 2 N, ..., I from 1
   bool quiet = false;
 };
 
-/// Exit status: 0 when every cell of the shard is done, 1 when some failed, 3 when some were without contact,
-/// 128 + signal when stopped. Throws ConfigError before the first cell runs.
+/// Exit status: 0 if every cell of the shard is done, 1 if some failed, 3 if some had no contact, 128 +
+/// signal if stopped. Throws ConfigError before the first cell runs.
 int sweep(const SweepOptions& options);
 
 struct MergeOptions {
@@ -25,8 +25,8 @@ struct MergeOptions {
   std::filesystem::path out;  // CSV file; empty: results.csv in the first folder
 };
 
-/// Exit status: 0 when every cell is there, 1 when some are missing. Throws ConfigError for folders that do
-/// not belong together.
+/// Exit status: 0 if every cell has a result, 1 if some are missing. Throws ConfigError for folders of
+/// different campaigns.
 int merge(const MergeOptions& options);
 
 /// "I/N" with I from 1 to N. Throws ConfigError.

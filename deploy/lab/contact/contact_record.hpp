@@ -1,6 +1,6 @@
 #pragma once
-// Recordings of a Hunt-Crossley contact with white noise on the force, and the Cramér-Rao bound of what can
-// be learnt from one: 2 s at 1 kHz, 10 N at the deepest. The law is written out here on its own.
+// Recordings of a Hunt-Crossley contact with white noise on the force, and the Cramér-Rao bound of the
+// estimates from one: 2 s at 1 kHz, 10 N at the maximum depth. The law is implemented here independently.
 
 #include <Eigen/LU>
 #include <cmath>
@@ -30,7 +30,7 @@ struct ContactCell {
   }
 };
 
-/// Depth over the deepest, and its derivative in 1/s.
+/// Depth relative to the maximum, and its derivative in 1/s.
 inline PenetrationSample motion(Excitation excitation, double t) {
   constexpr double w = 2.0 * std::numbers::pi;
   switch (excitation) {
@@ -62,14 +62,14 @@ inline Samples with_noise(Samples record, double sd_n, Random& random) {
   return record;
 }
 
-/// Least sd of any unbiased estimate, surface known: of n, of the others as fractions. stiffness: the tangent
-/// at the deepest.
+/// Minimum sd of any unbiased estimate with a known surface: of n absolute, of the others as fractions.
+/// stiffness: the tangent at the maximum depth.
 struct ContactBound {
   double k = 0.0, lambda = 0.0, n = 0.0, stiffness = 0.0;
 };
 
 inline ContactBound cramer_rao(const ContactCell& cell, const Samples& exact) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  // of (ln f at the deepest, n, a at the speed scale)
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  // of (ln of the maximum force, n, a at the speed scale)
   const double deepest = cell.deepest_m();
   for (const PenetrationSample& s : exact) {
     if (!(s.x_m > 0.0)) continue;
