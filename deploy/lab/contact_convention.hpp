@@ -1,15 +1,15 @@
 #pragma once
-// Whether a recording of a contact keeps to the convention: t in s, x in m from the surface, f without an
-// offset, x and f positive while pressing, v the growth of x. What does not is no contact to an estimator,
-// which would answer "not yet" for ever, or wrongly.
-//   time     samples further apart than 50 ms (20 Hz, by the median of the first) are taken for ms, us or ns
-//   length   x without a unit that spans more than 0.2 m under force, or grows by more than 2 m/s there, is
-//            taken for mm or um
+// Checks the conventions of a recording of a contact: t in s, x in m from the surface, f without an offset, x
+// and f positive while pressing, v the derivative of x. Otherwise an estimator would find no contact, or give
+// wrong results.
+//   time     sample intervals over 50 ms (20 Hz, median of the first samples) indicate ms, us or ns
+//   length   x without a unit that spans more than 0.2 m under force, or grows by more than 2 m/s there,
+//            indicates mm or um
 //   sign     more than 90 % of the sum of f^2 is in free space and grows with -x (correlation of |f| above
 //            0.5), or f falls while x grows
 //   speed    v falls as x grows, or is 10 times its growth or more, or a tenth or less
 //   tare     in free space f is steady and above 5 % of the force of the contact
-//   surface  the force begins beyond 60 % of the greatest x, or grows above 10 % in front of x = 0
+//   surface  the force begins beyond 60 % of the maximum x, or grows above 10 % in front of x = 0
 
 #include <array>
 #include <optional>
@@ -21,20 +21,20 @@ namespace longreach {
 
 class ContactConvention {
  public:
-  /// Throws solve_json::BadRequest when the unit of time is not s; not with `time_has_unit`.
+  /// Throws solve_json::BadRequest if the unit of time is not s; not with `time_has_unit`.
   void step(const ContactRow& row, bool time_has_unit);
-  /// After the last row. Throws solve_json::BadRequest, which says what to change.
+  /// Call it after the last row. Throws solve_json::BadRequest, which names the necessary change.
   void require(bool x_has_unit) const;
-  /// Some sample is behind the surface.
+  /// At least one sample is behind the surface.
   [[nodiscard]] bool touches() const { return inside_.n > 0.0; }
 
  private:
-  /// Of x and f on one side of the surface.
+  /// Sums of x and f on one side of the surface.
   struct Sums {
     double n = 0.0, x = 0.0, f = 0.0, xx = 0.0, xf = 0.0, ff = 0.0;
     [[nodiscard]] double correlation() const;
   };
-  /// Of v and the growth of x.
+  /// Sums of v and the derivative of x.
   struct Speeds {
     double n = 0.0, vv = 0.0, vg = 0.0, gg = 0.0;
   };
@@ -53,7 +53,7 @@ class ContactConvention {
   std::array<double, kSteps> steps_s_{};
   std::size_t rows_ = 0;
   std::optional<ContactRow> last_{};
-  std::vector<ContactRow> kept_;  // every `stride_`-th
+  std::vector<ContactRow> kept_;  // every `stride_`-th row
   std::size_t stride_ = 1;
 };
 

@@ -1,13 +1,13 @@
 #pragma once
-// A recording of a contact, line by line, as spreadsheets, loggers and programs write it. JSON objects, one a
-// line, or CSV with a header:
-//   separator   comma, semicolon, tab, bar or spaces, found in the header; a line `sep=;` is obeyed
-//   cells       may be quoted; a decimal comma is read where it cannot be a separator; `+0.1`, `1E-3`
+// Reads a recording of a contact line by line, in the formats of spreadsheets, loggers and programs: JSON
+// objects, one per line, or CSV with a header:
+//   separator   comma, semicolon, tab, bar or spaces, detected in the header; a line `sep=;` is supported
+//   cells       may be quoted; a decimal comma is accepted if it cannot be a separator; `+0.1`, `1E-3`
 //   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
 //               in `x [mm]`, `t (ms)`, `f_kN`, or in a line below; without one s, m, m/s and N; also as
-//               MATLAB and R make names of them: `x_mm_`, `v..m.s.`
-//   around it   a byte order mark, CR LF, empty lines and cells behind the last, comments that begin with #
-// Not read: UTF-16, thousands separators, cells over several lines, heads of LabVIEW.
+//               MATLAB and R convert them: `x_mm_`, `v..m.s.`
+//   other       a byte order mark, CR LF, empty lines, empty trailing cells, comments that begin with #
+// Not supported: UTF-16, thousands separators, cells over several lines, LabVIEW headers.
 
 #include <optional>
 #include <string>
@@ -19,22 +19,23 @@ struct ContactRow {
   double t_s = 0.0;
   double x_m = 0.0;                   // penetration; 0 and below: free space
   std::optional<double> v_m_per_s{};  // of x
-  double f_n = 0.0;                   // positive when pushing
+  double f_n = 0.0;                   // derivative of x
 };
 
 class ContactTable {
  public:
-  /// The row of the next line; none for a header, a comment or an empty line. Throws solve_json::BadRequest.
+  /// Returns the row of the next line; none for a header, a comment or an empty line. Throws
+  /// solve_json::BadRequest.
   std::optional<ContactRow> read(std::string line);
 
-  /// Whether the recording names the unit of t.
+  /// Whether the recording states the unit of t.
   [[nodiscard]] bool time_has_unit() const { return time_has_unit_; }
-  /// Likewise of x.
+  /// Whether it states the unit of x.
   [[nodiscard]] bool x_has_unit() const { return x_has_unit_; }
 
  private:
   struct Column {
-    char key = ' ';  // t, x, v or f; space: an empty one behind the last
+    char key = ' ';  // t, x, v or f; space: an empty trailing column
     std::string name;
     double unit = 1.0;  // in SI
   };

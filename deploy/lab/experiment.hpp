@@ -1,6 +1,6 @@
 #pragma once
-// What an experiment of the laboratory is: a name, a sentence, a function from (config, seed) to metrics that
-// may write traces into its folder, and the plots that are drawn of them.
+// An experiment of the laboratory: a name, a question, a function from (config, seed) to metrics that may
+// write traces into its folder, and its plots.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,58 +18,58 @@ struct Metric {
   std::string name;
   double value = 0.0;
   std::string unit;         // "" for a pure number
-  bool of_machine = false;  // a time, or a ratio of times: not the same in every run
+  bool of_machine = false;  // a time, or a ratio of times, which differs between runs
 };
 
 struct ExperimentRun {
   proto::LabConfig config;  // complete: files and profile resolved
   std::uint64_t seed = 1;
-  std::filesystem::path out;                  // folder for traces, exists; empty: write none
+  std::filesystem::path out;                  // existing folder for traces; empty: write none
   std::function<void(double done)> progress;  // share of the work, 0 to 1; may be empty
 };
 
 struct Experiment {
   std::string_view name;
   std::string_view summary;
-  // What it takes from the configuration: paths of groups and fields, on both sides where none is named; with
-  // a minus what it sets itself or never reads inside of them (settings_used.hpp). Empty: nothing.
+  // Parts of the configuration that it uses: paths of groups and fields, on both sides if no side is given;
+  // with a minus, parts that it sets itself or ignores (settings_used.hpp). Empty: none.
   std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
-  std::string_view figure{};  // of the source paper (Liu et al. 2019) that it repeats; empty: none
+  std::string_view figure{};  // figure of the source paper (Liu et al. 2019) that it reproduces; empty: none
   std::string_view answer{};  // sentence of the report: {NAME} stands for a metric, {NAME*1e3} for a multiple
-  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // each plot to what was found; may be empty
+  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // adapts each plot to the results; may be empty
 };
 
-/// Its plots, fitted to what a run has found.
+/// Its plots, adapted to the results of a run.
 std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics);
 
-/// All experiments, in the order in which `longreach-lab list` shows them.
+/// All experiments, in the order of `longreach-lab list`.
 const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
-/// A complete configuration from settings "path=value": first those that name files (profile, robot_file,
-/// scene_file) or choose others (accuracy), then what the files say, then the other settings in their order.
-/// Relative names of files count from `from` first. Throws ConfigError.
+/// Returns a complete configuration from settings "path=value": first those that name files (profile,
+/// robot_file, scene_file) or select presets (accuracy), then the content of the files, then the other
+/// settings in order. Relative file names are searched in `from` first. Throws ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
                            const std::filesystem::path& from = std::filesystem::current_path());
 
-/// "no contact" for metrics of a run that was to touch something and did not; else empty.
+/// "no contact" for metrics of a run without the intended contact; otherwise empty.
 std::string_view outcome_of(const std::vector<Metric>& metrics);
 
-/// Names a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
+/// Identifies a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);
 
-/// Commit that the program was built from, with "-dirty" if the tree differed.
+/// Commit of the build, with "-dirty" if the tree differed.
 std::string_view commit();
 
-/// Makes it if it is missing. Throws ConfigError that names --out.
+/// Creates the folder if it does not exist. Throws ConfigError that names --out.
 void make_folder(const std::filesystem::path& folder);
 
-/// Runs it. Into `run.out`, unless that is empty, go the traces, metrics.json and the plots; `trouble` is
-/// told of plots that could not be drawn. Throws std::runtime_error when a file cannot be written,
-/// ConfigError when the folder cannot be made.
+/// Runs it. Traces, metrics.json and the plots are written to `run.out`, unless that is empty; `trouble` is
+/// called for plots that could not be drawn. Throws std::runtime_error if a file cannot be written,
+/// ConfigError if the folder cannot be created.
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
                                    const std::function<void(const std::string&)>& trouble);
 

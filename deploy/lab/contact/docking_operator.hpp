@@ -1,10 +1,10 @@
 #pragma once
-// A simulated person who docks: approaches in rate mode, grasps in position mode, drags the load in rate
-// mode, turns and pushes it in in position mode, and stops when the force that has risen vanishes; then opens
-// the gripper and backs off. Knows what a person would: the own hand, the felt contact force, the ghost of
-// the own commands, and a picture that comes late and is judged with an error. His hand goes at 10 to 30 mm/s
-// and pauses at times; after each leg he waits a round trip and looks again (move and wait, Ferrell 1965).
-// Never evidence about people.
+// A simulated operator who docks: approaches in rate mode, grasps in position mode, drags the load in rate
+// mode, turns and inserts it in position mode, and stops when the force that has risen vanishes; then opens
+// the gripper and retreats. The operator uses only the information of a person: the own hand, the displayed
+// contact force, the ghost of the own commands, and a delayed picture that is judged with an error. The hand
+// moves at 10 to 30 mm/s and pauses at times; after each segment the operator waits a round trip and looks
+// again (move and wait, Ferrell 1965). It is not evidence about people.
 
 #include <cstdint>
 #include <optional>
@@ -18,9 +18,9 @@ namespace longreach {
 
 enum class DockingMistake : std::uint8_t {
   kNone,
-  kTilted,       // does not turn the target straight
-  kMissesGuide,  // comes in beside the funnel
-  kPushesOn      // does not stop when the catch has given way
+  kTilted,       // does not align the target
+  kMissesGuide,  // enters beside the funnel
+  kPushesOn      // does not stop after the latch has yielded
 };
 constexpr int kDockingMistakes = 4;
 std::string_view to_string(DockingMistake mistake);
@@ -39,19 +39,19 @@ enum class DockingPhase : std::uint8_t {
   kDone
 };
 
-/// What is seen: places from where the tool started, turns from how things stood then.
+/// Visible data: positions from the start of the tool, rotations relative to the initial state.
 struct DockingPicture {
   Pose tool{};
-  Vector3 fixture_m = Vector3::Zero();   // where the gripper belongs
+  Vector3 fixture_m = Vector3::Zero();   // target of the gripper
   Vector3 striker_m = Vector3::Zero();   // tip of the probe
   Vector3 turned_rad = Vector3::Zero();  // of the target
   bool load = false;
 };
 
-/// The way in, from where the tool started.
+/// The insertion path, from the start of the tool.
 struct DockingGuide {
-  Vector3 mouth_m = Vector3::Zero();  // the striker's place in front of the funnel
-  double end_m = 0.0;                 // x of the striker's centre when it touches the catch
+  Vector3 mouth_m = Vector3::Zero();  // position of the striker in front of the funnel
+  double end_m = 0.0;                 // x of the centre of the striker when it touches the latch
 };
 
 struct DockingOperatorInput {
@@ -59,7 +59,7 @@ struct DockingOperatorInput {
   double dt_s = 0.001;
   const MasterView* master = nullptr;
   DockingPicture picture{};
-  Vector3 ghost_m = Vector3::Zero();  // the goal, from where the tool started
+  Vector3 ghost_m = Vector3::Zero();  // the goal, from the start of the tool
   Vector3 ghost_rad = Vector3::Zero();
   double rtt_s = 0.0;
 };
@@ -77,7 +77,7 @@ class DockingOperator {
   DockingOperatorOutput step(const DockingOperatorInput& input);
 
   [[nodiscard]] DockingPhase phase() const { return phase_; }
-  /// A force has risen and vanished, as felt.
+  /// The displayed force has risen and vanished.
   [[nodiscard]] bool felt_success() const { return felt_success_; }
   [[nodiscard]] int grasps() const { return grasps_; }  // attempts
 
@@ -95,13 +95,13 @@ class DockingOperator {
   void press(const DockingOperatorInput& in);
   void release(const DockingOperatorInput& in);
   void retreat(const DockingOperatorInput& in);
-  /// Ghost to the target; true once it has been there for a moment.
+  /// Moves the ghost to the target; returns true once it has been there for a moment.
   bool drive(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   bool carry(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   void turn(const DockingOperatorInput& in, const Vector3& target_rad);
   bool relocate(const DockingOperatorInput& in, const Vector3& to_m);
   void choose(const DockingOperatorInput& in, MotionMode mode);
-  /// True a round trip and a moment after the first call since the phase or the last look began.
+  /// Returns true a round trip and a moment after the first call of the phase or the last look.
   bool looked(const DockingOperatorInput& in);
   [[nodiscard]] Vector3 striker_from_tool(const DockingOperatorInput& in) const;
 
@@ -109,7 +109,7 @@ class DockingOperator {
   double rate_stiffness_;
   DockingGuide guide_;
   DockingMistake mistake_;
-  Vector3 misjudged_m_;  // error of the eye
+  Vector3 misjudged_m_;  // visual error
   Vector3 misjudged_rad_;
   double reaction_s_, speed_m_per_s_;
   Random random_{0};
@@ -119,8 +119,8 @@ class DockingOperator {
   std::optional<double> there_s_{}, look_s_{}, relocating_s_{}, held_s_{};
   std::optional<Vector3> relocate_to_{};
   MotionMode mode_ = MotionMode::kPosition;
-  bool closed_ = false, asked_ = false;  // the gripper, as he wants it and has asked for
-  Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // where he wants the handle
+  bool closed_ = false, asked_ = false;  // desired and requested state of the gripper
+  Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // target of the handle
   Vector3 centre_m_ = Vector3::Zero();                             // of rate mode
   Vector3 aim_m_ = Vector3::Zero(), aim_rad_ = Vector3::Zero();
   int rounds_ = 0, grasps_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A mass that hits a Hunt-Crossley contact and leaves it again, by one of the integrators, step after step of
+// A mass that hits a Hunt-Crossley contact and leaves it, computed by one of the integrators with steps of
 // dt.
 
 #include <string_view>
@@ -12,21 +12,22 @@ struct FreeImpact {
   ContactMass contact{};
   double speed_m_per_s = 0.1;  // > 0, at touch
   double dt = 1e-3;            // > 0, s
-  double phase = 0.0;          // of the first step that passes before the touch, 0 to 1
+  double phase = 0.0;          // part of the first step before the touch, 0 to 1
   Integrator integrator = Integrator::kDiscreteGradient;
 };
 
 struct FreeImpactOutcome {
-  bool left = false;         // false: it needed too many steps, or a number overflowed
-  double restitution = 0.0;  // speed of leaving / speed of touching
+  bool left = false;         // false: too many steps, or an overflow
+  double restitution = 0.0;  // speed after / speed before the impact
   double penetration_max_m = 0.0;
   double contact_time_s = 0.0;
-  double energy_error = 0.0;  // largest |H - H0|/H0 of a step (hunt_crossley.hpp)
-  double energy_rise = 0.0;  // largest rise of kinetic and elastic energy in a step / kinetic energy at touch
-  long evaluations = 0;      // of the contact's force
+  double energy_error = 0.0;  // maximum |H - H0|/H0 of a step (hunt_crossley.hpp)
+  /// maximum increase of kinetic and elastic energy in a step / kinetic energy at touch
+  double energy_rise = 0.0;
+  long evaluations = 0;      // evaluations of the contact force
 };
 
-constexpr long kFreeImpactSteps = 10'000'000;  // at most
+constexpr long kFreeImpactSteps = 10'000'000;  // maximum number of steps
 
 FreeImpactOutcome run_free_impact(const FreeImpact& impact);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A free impact on a Hunt-Crossley contact as its integrals say, in long double; nothing of it steps.
+// A free impact on a Hunt-Crossley contact from its integrals, in long double, without time steps.
 //   G(v) = v - ln(1 + v) in units of 1/a;  G(-e vi) = G(vi);  U(x_max) = m G(vi)
 //   duration: ∫dx/v from the surface to where v = vi/2 and back to it from -e vi/2, ∫dv/v̇ between.
 
@@ -19,7 +19,7 @@ struct ImpactOracle {
   [[nodiscard]] long double G(long double v) const {
     return a == 0.0L ? 0.5L * v * v : log_part(a * v) / (a * a);
   }
-  /// Where G = value, for v > 0 (sign 1) or v < 0 (sign -1).
+  /// Solves G = value, for v > 0 (sign 1) or v < 0 (sign -1).
   [[nodiscard]] long double speed_of(long double value, long double sign) const {
     long double low = 0.0L, high = sign < 0.0L && a > 0.0L ? std::min(vi, (1.0L - 1e-18L) / a) : vi;
     for (int i = 0; i < 120; ++i) {

@@ -2,9 +2,9 @@
 // A comparison law between the simulated DELTA device and a wall, in one dimension: along the vertical
 // through home, downwards into the wall. Device and hand are those of the laboratory, without Coulomb
 // friction, encoder steps, motor lag and weight; the link is a pure delay at 1 kHz; the tool is an ideal
-// position servo, moved by the law's own coupling, in front of the wall F = K p.
+// position servo, moved by the coupling of the law, in front of the wall F = K p.
 //
-// From handle to force the loop has two samples besides the link: the servo's and the order of the two sides.
+// The loop has a delay of two samples besides the link: the servo and the order of the two sides.
 
 #include <cmath>
 #include <cstdint>
@@ -24,14 +24,14 @@ struct BilateralCase {
   Grip grip = Grip::kLight;
   double rtt_s = 0.3;
   double wall_n_per_m = 1000.0;
-  double jitter_s = 0.0;  // of either way
+  double jitter_s = 0.0;  // of either direction
   double loss = 0.0;
   std::uint64_t seed = 1;
 };
 
 inline constexpr double kBenchPeriod_s = 1e-3;
 inline constexpr int kBenchLoopSamples = 2;
-/// Whole delay of the loop, with half a sample for the held force.
+/// Total delay of the loop, including half a sample for the held force.
 inline double bench_loop_s(double rtt_s) { return rtt_s + (kBenchLoopSamples + 0.5) * kBenchPeriod_s; }
 inline int bench_samples(double time_s) { return static_cast<int>(std::lround(time_s / kBenchPeriod_s)); }
 
@@ -39,10 +39,10 @@ class BilateralBench {
  public:
   explicit BilateralBench(const BilateralCase& c);
 
-  /// One sample: the hand is drawn to `hand_depth_m` and besides pushes with `press_n` downwards.
+  /// One sample: the hand is attracted to `hand_depth_m` and pushes with `press_n` downwards.
   void step(double hand_depth_m, double press_n);
 
-  /// Holds the handle there until everything that is under way says so, then lets it go at `from_m`.
+  /// Holds the handle there until all delayed data is consistent, then releases it at `from_m`.
   void settle(double depth_m, double from_m);
 
   [[nodiscard]] double depth_m() const { return -device_.position_m().z(); }
@@ -69,7 +69,7 @@ class BilateralBench {
   double port_j_ = 0.0;
 };
 
-/// Slave's end of a law.
+/// The part of a law at the slave.
 Coupling make_coupling(RenderingLaw law, const ComparisonConfig& config);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The grid of the delay sweep: every law x round trip x wall x hand, and what came out.
+// The grid of the delay sweep: every law x round trip x wall x hand, and the results.
 
 #include <array>
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace longreach {
 
 struct LawName {
   RenderingLaw law;
-  std::string_view column;  // of the traces
-  std::string_view title;   // in the plots
+  std::string_view column;  // column of the traces
+  std::string_view title;   // title in the plots
 };
 inline constexpr std::array<LawName, 6> kLawNames = {
     {{RenderingLaw::kDirect, "direct", "direct force"},
@@ -41,14 +41,14 @@ struct DelayResult {
   double wall_n_per_m = 0.0;
   Grip grip = Grip::kLight;
   Pressed found{};
-  double error = 0.0;        // of the displayed stiffness, relative; 0 for a hand that has let go
-  double estimate_sd = 0.0;  // relative; of the law of this system alone
+  double error = 0.0;        // of the displayed stiffness, relative; 0 for a released handle
+  double estimate_sd = 0.0;  // relative; only for the law of this system
 };
 
 struct LawSummary {
   int cases = 0;
   int limit_cycles = 0;
-  int right = 0;  // calm, and displayed within 5 %
+  int right = 0;  // stable, and displayed within 5 %
   double error_max = 0.0;
   double port_energy_min_j = 0.0;
   double drawdown_max_j = 0.0;
@@ -63,28 +63,29 @@ class DelayResults {
 
   /// Throws std::out_of_range for a case that was not run.
   [[nodiscard]] const Pressed& at(RenderingLaw law, double rtt_s, double wall_n_per_m, Grip grip) const;
-  /// Most that is displayed of any wall, but not more than the wall, without a limit cycle; 0: nothing.
+  /// Maximum displayed stiffness of any wall without a limit cycle, at most the stiffness of the wall; 0:
+  /// none.
   [[nodiscard]] double displayable_n_per_m(RenderingLaw law, double rtt_s, Grip grip) const;
   [[nodiscard]] LawSummary summary(RenderingLaw law) const;
 
-  /// All of it as sweep.csv, and for each wall WALL_n_per_m.csv: the light hand's curves over the delay.
+  /// Writes everything as sweep.csv, and for each wall WALL_n_per_m.csv: the curves of the light hand over
+  /// the delay.
   void write(const std::filesystem::path& folder) const;
 
  private:
   std::vector<DelayResult> results_;
 };
 
-/// Coupling of position-position across this delay: 80 % of what its stability condition allows, at most 2
-/// N/mm.
+/// Coupling of position-position for this delay: 80 % of its stability limit, at most 2 N/mm.
 double tuned_coupling_n_per_m(const DeviceConfig& device, const ComparisonConfig& config, double rtt_s);
 
 DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const DeviceConfig& device);
 
-/// The link of the configuration with half of this round trip each way.
+/// The configured link with half of this round trip in each direction.
 proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
 
-/// The law of this system in the laboratory: displayed stiffness as touch measures it; a released hand lets
-/// go of the handle in the wall.
+/// The law of this system in the laboratory: displayed stiffness as measured by touch; a `released` hand
+/// releases the handle in the wall.
 DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
                          Grip grip);
 

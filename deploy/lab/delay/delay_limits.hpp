@@ -1,5 +1,5 @@
 #pragma once
-// The stiffness that the comparison laws can reach across a delay: measured on the bench, and by theory.
+// The maximum stiffness of the comparison laws with a delay: measured on the bench, and by theory.
 
 #include "deploy/lab/delay/bilateral_bench.hpp"
 
@@ -13,28 +13,28 @@ struct HeldHandle {
 };
 HeldHandle held_handle(const DeviceConfig& device, Grip grip);
 
-/// A device whose handle weighs `mass_kg` and has this damping, at home along the vertical; ideal otherwise.
-/// The mass must be above that of the arms.
+/// A device with a handle of `mass_kg` and this damping, at home along the vertical; otherwise ideal. The
+/// mass must be above that of the arms.
 DeviceConfig ideal_handle(const DeviceConfig& device, double mass_kg, double n_s_per_m);
 
-/// Delay margin of direct force reflection: the least K at which  m s² + b s + k + K exp(-s τ)
+/// Delay margin of direct force reflection: the minimum K at which  m s² + b s + k + K exp(-s τ)
 /// has a root jω,
 ///   K = |k - m ω² + j b ω|  over the ω with  ω τ + arg(k - m ω² + j b ω) = π, 3π, 5π ...
-/// τ is the whole delay of the loop, with half a sample for the held force.
+/// τ is the total delay of the loop, including half a sample for the held force.
 double direct_limit_n_per_m(const HeldHandle& handle, double loop_delay_s);
 
 /// Stiffness of a wave line, 2 b/RTT: a line shut at its far end is b coth(s RTT/2), near zero b/(s RTT/2).
 inline double wave_line_n_per_m(double impedance, double rtt_s) { return 2.0 * impedance / rtt_s; }
 
-/// Largest coupling of position-position that 4 Bm Bs > (T1² + T2²) Kc² allows, either way half of the RTT.
+/// Maximum coupling of position-position permitted by 4 Bm Bs > (T1² + T2²) Kc², each direction half of the
+/// RTT.
 double position_position_limit_n_per_m(double master_n_s_per_m, double slave_n_s_per_m, double rtt_s);
 
-/// Of two springs in series.
+/// Stiffness of two springs in series.
 inline double in_series(double a, double b) { return a * b / (a + b); }
 
-/// Largest wall stiffness at which direct force reflection is calm: a small disturbance of a handle that
-/// rests in the wall dies away; by bisection to `tolerance`, up to `most_n_per_m`. The case's wall is left
-/// out.
+/// Maximum wall stiffness at which direct force reflection is stable: a small disturbance of a handle at rest
+/// in the wall decays; by bisection to `tolerance`, up to `most_n_per_m`. The wall of the case is ignored.
 double measured_direct_limit_n_per_m(const BilateralCase& c, double most_n_per_m, double tolerance);
 
 }  // namespace longreach

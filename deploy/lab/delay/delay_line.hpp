@@ -1,6 +1,6 @@
 #pragma once
-// An ideal link that is stepped once a sample: what is pushed comes out some samples later, or is lost, or
-// jitters; then the newest of what is due comes out, and what it has overtaken does not.
+// An ideal link that is stepped once per sample: pushed data comes out some samples later, is lost, or has
+// jitter; then the newest due data comes out, and overtaken data is dropped.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace longreach {
 
 struct DelayLineConfig {
   int samples = 0;
-  double jitter_samples = 0.0;  // standard deviation; late only up to six of them, early down to no delay
+  double jitter_samples = 0.0;  // standard deviation; limited to six of them late and to zero delay early
   double loss = 0.0;
 };
 
@@ -26,7 +26,7 @@ class DelayLine {
         random_(random),
         slots_(static_cast<std::size_t>(config.samples + std::ceil(6.0 * config.jitter_samples)) + 1) {}
 
-  /// Once a sample, before pop.
+  /// Call it once per sample, before pop.
   void push(const T& value) {
     ++sequence_;
     if (config_.loss > 0.0 && random_.chance(config_.loss)) return;
@@ -37,7 +37,7 @@ class DelayLine {
     slot(sequence_ + ahead) = {sequence_, value};
   }
 
-  /// What arrived in this sample.
+  /// Returns the data that arrived in this sample.
   std::optional<T> pop() {
     QueuedDatagram& queued_datagram = slot(sequence_);
     if (queued_datagram.sequence <= newest_) return std::nullopt;

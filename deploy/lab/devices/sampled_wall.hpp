@@ -1,10 +1,10 @@
 #pragma once
-// The largest stiffness of a virtual wall that a sampled device can hold, by theory.
+// The theoretical maximum stiffness of a virtual wall on a sampled device.
 //
 //   m x'' + b x' + k x = u,  u held for a sample,  u[j] = -K x[j-d] - B (x[j-d] - x[j-d-1])/T
 //
-// m, b, k of device and hand together. exact_limit: the K at which the spectral radius of the discrete model
-// is 1. The others are the textbook lines beside it.
+// m, b, k are of device and hand together. exact_limit is the K at which the spectral radius of the discrete
+// model is 1. The others are textbook limits.
 
 namespace longreach {
 
@@ -21,13 +21,13 @@ struct SampledWall {
 /// Spectral radius of the model with stiffness `K`, N/m.
 double spectral_radius(const SampledWall& wall, double stiffness_n_per_m);
 
-/// Largest K with a spectral radius of at most 1, N/m; 0 where not even a small one is stable.
+/// Maximum K with a spectral radius of at most 1, N/m; 0 if even a small one is unstable.
 double exact_limit_n_per_m(const SampledWall& wall);
 
-/// K (T/2 + t_d) = b + B: small delays, hand's spring left out.
+/// K (T/2 + t_d) = b + B: for small delays, without the spring of the hand.
 double formula_limit_n_per_m(const SampledWall& wall);
 
-/// b_device = K T/2 + |B| (Colgate and Schenkel 1997): passive whatever holds it. Delays are left out.
+/// b_device = K T/2 + |B| (Colgate and Schenkel 1997): passive with any hand. Delays are ignored.
 double passive_limit_n_per_m(const SampledWall& wall);
 
 }  // namespace longreach

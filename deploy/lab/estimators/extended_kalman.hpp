@@ -2,11 +2,11 @@
 // Extended Kalman filter over (ln f, n, a) of F = f ξⁿ (1 + a v), which starts from weighted_log_linear.hpp:
 //   H = (F̂, F̂ ln ξ, f ξⁿ v),  s = H P Hᵀ,  K = P Hᵀ/(s + s²/F̂² + σ²),  θ ← θ + K (F - F̂),  P ← P - K H P
 // Published: the extended Kalman filter over the parameters of this law (Zhu, Gao, Zhong, Gu and Choi, J.
-// Mech. Behav. Biomed. Mater. 2021), of k, λ and n as they are. Ours: the logarithm and the unit of depth,
-// since in N/mⁿ and metres the filter is off by 98 % above 1e5; the start, about which the law is linear; and
-// s²/F̂², the linearisation error as noise (the second-order filter has half of it: Bar-Shalom, Li and
-// Kirubarajan, Estimation with Applications to Tracking and Navigation), without which it diverges where a v
-// is about 1.
+// Mech. Behav. Biomed. Mater. 2021), directly over k, λ and n. Added: the logarithm and the unit of depth,
+// since with N/mⁿ and metres the error of the filter is 98 % above 1e5; the start, about which the law is
+// linear; and s²/F̂², the linearisation error as noise (the second-order filter has half of it: Bar-Shalom,
+// Li and Kirubarajan, Estimation with Applications to Tracking and Navigation), without which it diverges
+// where a v is about 1.
 
 #include "deploy/lab/estimators/weighted_log_linear.hpp"
 
@@ -18,7 +18,7 @@ class ExtendedKalman {
 
   void reset() { *this = ExtendedKalman(forgetting_); }
 
-  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
+  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (!begun_) return begin(sample, force_variance_n2);
     const double log_xi = std::log(sample.x_m / fit_.reference_m);
@@ -30,7 +30,7 @@ class ExtendedKalman {
     const double spread = h.dot(Ph);
     const double variance = spread + spread * spread / (foreseen * foreseen) + force_variance_n2;
     const Eigen::Vector3d change = Ph * (innovation / variance);
-    // Beyond that, or without a force, the law is not linear.
+    // Beyond that, or without a force, the linearisation is not valid.
     if (!(variance > 0.0 && std::abs(change[0]) < kReach && std::abs(change[1]) < kReach)) return innovation;
     P_ -= Ph * Ph.transpose() / variance;
     const bool bounded = P_(1, 1) < weak_prior::kExponentSd * weak_prior::kExponentSd &&
@@ -46,7 +46,7 @@ class ExtendedKalman {
   [[nodiscard]] const ContactFit& fit() const { return fit_; }
 
  private:
-  // Of the start: sd of ln f, of n, and of a v at the greatest speed.
+  // At the start: sd of ln f, of n, and of a v at the maximum speed.
   static constexpr double kForceSd = 0.05, kExponentSd = 0.2, kDampingSd = 0.2;
   static constexpr double kReach = 1.0;  // of ln f and n, in one step
 

@@ -1,7 +1,7 @@
 #pragma once
 // Spring and damper, F = K x + B v, by recursive least squares: the linear model. It gives k = K in N/m, λ =
-// B in N s/m, n = 1. Wrong at the touch and at the release (it jumps by B v and pulls), and wherever n is
-// not 1.
+// B in N s/m, n = 1. It is wrong at touch and release (the force jumps by B v and may pull), and for any
+// other n.
 
 #include "slave/estimation/linear_contact.hpp"
 

@@ -1,10 +1,10 @@
 #pragma once
-// Hunt-Crossley made linear by its logarithm (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012):
+// Hunt-Crossley linearised by its logarithm (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012):
 //   ln F = ln f + a v + n ln ξ,   for |a v| << 1
-// by least squares, all samples alike: the form that was published. Bias of k: -4 % where a v reaches 0.42,
-// -20 % at 0.84. The noise of ln F grows as F falls, so samples below 5 sd of the force are left out: many of
-// a touch are. weighted_log_linear.hpp mends both. The fit is brought up to date when the samples have grown
-// by 1/32, at least every 32.
+// by least squares with equal weights: the published form. Bias of k: -4 % where a v reaches 0.42, -20 % at
+// 0.84. The noise of ln F grows as F decreases, so samples below 5 sd of the force are skipped, which affects
+// much of a touch. weighted_log_linear.hpp corrects both. The fit is updated when the number of samples has
+// grown by 1/32, at least every 32.
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ class LogLinear {
 
   void reset() { *this = LogLinear(forgetting_); }
 
-  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
+  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     const double innovation = fit_.valid ? sample.force_n - fit_.force_at(sample) : std::nan("");
     if (!(sample.force_n > 0.0) || sample.force_n * sample.force_n < 25.0 * force_variance_n2)

@@ -1,6 +1,6 @@
 #pragma once
-// The estimators that the laboratory compares: the slave's own two, and published ones in their best form.
-// Their headers say what is published and what is added.
+// The estimators that the laboratory compares: the two of the slave, and published ones in their best form.
+// Their headers state which parts are published and which are added.
 
 #include <optional>
 #include <string_view>
@@ -19,17 +19,17 @@ enum class Method : std::uint8_t {
   kExtendedKalman
 };
 
-/// In the order of their numbers.
+/// Ordered by number.
 inline constexpr Method kAllMethods[] = {
     Method::kFixedExponent,     Method::kTwoStage,          Method::kLogLinear,     Method::kKelvinVoigt,
     Method::kMaximumLikelihood, Method::kWeightedLogLinear, Method::kExtendedKalman};
 
 /// "maximum-likelihood" and so on.
 std::string_view name_of(Method method);
-/// Nothing for any other name.
+/// Returns none for any other name.
 std::optional<Method> method_of(std::string_view name);
 
-/// `config` of this method.
+/// Returns `config` for this method.
 IdentifierConfig by(Method method, IdentifierConfig config = {});
 
 }  // namespace longreach

@@ -1,14 +1,13 @@
 #pragma once
-// Two least squares problems that feed each other (Diolaiti, Melchiorri, Stramigioli, IEEE T-RO 2005):
-//   F = (c0 + c1 v) ξⁿ  for (c0, c1) with n as known;   ln(F/(c0 + c1 v)) = n ln ξ  for n with these
-// Published: the two, recursively. Ours, since without each of them it is handicapped: ξ = x/x_ref (with x in
-// metres it does not converge at all), x_ref the weighted geometric mean of the depths, so that an error of n
-// hardly changes c0 and both agree soon; the weight and the mean of a logarithm in the second
-// (weighted_log_linear.hpp); the prior; and, besides `forgetting`, forgetting at the start only, of what the
-// stages learnt from each other's first errors: 1 - 0.05·0.995^samples (Ljung and Söderström, Theory and
-// Practice of Recursive Identification). Its sd counts the noise only, not how far it still is. Samples below
-// 5 sd of the force do not count for n. Not handled: a v of the order of 1, where it does not converge in 2
-// s.
+// Two coupled least squares problems (Diolaiti, Melchiorri, Stramigioli, IEEE T-RO 2005):
+//   F = (c0 + c1 v) ξⁿ  for (c0, c1) with the present n;   ln(F/(c0 + c1 v)) = n ln ξ  for n with these
+// Published: both problems, solved recursively. Added, because each is necessary for good accuracy: ξ =
+// x/x_ref (with x in metres it does not converge), x_ref the weighted geometric mean of the depths, so that
+// an error of n hardly changes c0 and both converge quickly; the weight and the mean of a logarithm in the
+// second (weighted_log_linear.hpp); the prior; and, besides `forgetting`, additional forgetting at the start,
+// of the first errors of both stages: 1 - 0.05·0.995^samples (Ljung and Söderström, Theory and Practice of
+// Recursive Identification). Its sd includes only the noise, not the error of convergence. Samples below 5 sd
+// of the force are not used for n. Not handled: a v of the order of 1, where it does not converge in 2 s.
 
 #include <algorithm>
 
@@ -24,7 +23,7 @@ class TwoStage {
 
   void reset() { *this = TwoStage(forgetting_); }
 
-  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
+  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (startup_ == kStartup) fit_.reference_m = sample.x_m;
     startup_ *= kStartupKept;
@@ -67,7 +66,7 @@ class TwoStage {
       y = memory * y + weight * log_ratio;
       ly = memory * ly + weight * log_xi * log_ratio;
     }
-    /// The unit of depth becomes exp(by) times as long: l' = l - by, y' = y - n by.
+    /// Multiplies the unit of depth by exp(by): l' = l - by, y' = y - n by.
     void refer(double by, double n) {
       const double y_after = y - n * by * w;
       ly += -n * by * l - by * y_after;

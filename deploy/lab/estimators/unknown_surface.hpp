@@ -1,8 +1,8 @@
 #pragma once
-// An estimator that needs to know the surface, behind one that has to be found: by ContactCurve, since that
-// does not depend on what the estimator takes the contact for. It begins as soon as the surface is known to a
-// fifth of the depth, and anew whenever the surface has moved by a twentieth of it. Its own sd does not count
-// that the surface may be elsewhere.
+// Adapts an estimator that requires a known surface to an unknown one: ContactCurve finds the surface
+// independently of the assumptions of the estimator. The estimator starts when the surface is known within a
+// fifth of the depth, and restarts when the surface has moved by a twentieth of it. Its sd does not include
+// the error of the surface.
 
 #include <limits>
 

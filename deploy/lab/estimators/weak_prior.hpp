@@ -1,7 +1,7 @@
 #pragma once
-// What the estimators of this folder start from, as every recursive least squares starts from a covariance:
-// the same as MaximumLikelihood, so that none has an advantage. The data outweigh it within some samples;
-// without it, a few samples in a row, which hardly differ, give an exponent and a damping that are far off.
+// The prior of the estimators of this folder, like the initial covariance of every recursive least squares:
+// the same as for MaximumLikelihood, so that none has an advantage. The data outweigh it within some samples;
+// without it, a few similar samples would give a very inaccurate exponent and damping.
 
 namespace longreach::weak_prior {
 

@@ -1,15 +1,15 @@
 #pragma once
-// log_linear.hpp with what noise and damping ask for. With û = v/(1 + â v) and the linearisation error p û²,
-// p the variance of a:
+// log_linear.hpp with corrections for noise and damping. With û = v/(1 + â v) and the linearisation error p
+// û², p the variance of a:
 //   y = ln F - ln(1 + â v) + â û + σ²/(2 F̂²) = ln f + n ln ξ + a û,   weight F̂²/(σ² + (F̂ p û²)²)
 // Published: the regression (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012); that noise σ of F is noise σ/F of
-// ln F, which the weight F² mends (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential
-// functions"). Ours: F̂ is the force that the fit foresees, since the measured one favours noise upwards;
-// σ²/(2 F̂²), by which noise lowers the mean of a logarithm; ln(1 + a v) is linearised about the present â and
-// not about 0; what that leaves counts as noise, so that samples from before a was known do not bias it. F̂ is
-// the measured force while ln F̂ is not known to 10 %. Samples below 5 sd of the force are left out. The fit
-// is brought up to date when the samples have grown by 1/32, at least every 32. Not handled: a v near -1,
-// where the logarithm ends.
+// ln F, which the weight F² corrects (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential
+// functions"). Added: F̂ is the predicted force, since the measured one favours positive noise; σ²/(2 F̂²),
+// the bias of the mean of a logarithm by noise; linearisation of ln(1 + a v) about the present â instead of
+// 0; its remainder is treated as noise, so that samples from before a was known do not bias it. F̂ is the
+// measured force while ln F̂ is not known within 10 %. Samples below 5 sd of the force are skipped. The fit
+// is updated when the number of samples has grown by 1/32, at least every 32. Not handled: a v near -1, where
+// the logarithm diverges.
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ class WeightedLogLinear {
 
   void reset() { *this = WeightedLogLinear(forgetting_); }
 
-  /// Returns the force less what was foreseen, N; NaN without a fit. `sample.x_m` > 0.
+  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (samples_ == 0) fit_.reference_m = sample.x_m;
     const double log_xi = std::log(sample.x_m / fit_.reference_m), speed = sample.v_m_per_s;
@@ -39,7 +39,7 @@ class WeightedLogLinear {
     return sample.force_n - foreseen;
   }
   [[nodiscard]] const ContactFit& fit() const { return fit_; }
-  [[nodiscard]] bool fresh() const { return unused_ == 0; }  // all samples are in it
+  [[nodiscard]] bool fresh() const { return unused_ == 0; }  // all samples are in the fit
 
  private:
   static constexpr double kSd = 5.0;
