@@ -1,7 +1,7 @@
 #pragma once
-// Both nodes, the link between them, robot and device, in one process and in virtual time. The same nodes,
-// ports, codecs and impairments as in the programs; only channel, clock and device are simulated. A run is
-// named by (commit, config, seed): the same name gives the same bytes.
+// Both nodes, the link between them, robot and device, in one process and in virtual time. Nodes, ports,
+// codecs and impairments are those of the programs; only channel, clock and device are simulated. A run is
+// identified by (commit, config, seed); the same three give the same bytes.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace longreach {
 
 class LabRecording;
 
-/// What the slave has sent of the one haptic quantity.
+/// Statistics of the stiffness reports of the slave.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;  // without header and tag
@@ -31,8 +31,8 @@ struct HapticReturn {
 
 class Laboratory {
  public:
-  /// Configurations complete, files resolved, link profile already in the impairments. Throws
-  /// std::invalid_argument for a comparison law, which has a bench of its own.
+  /// The configurations must be complete, with files resolved and the link profile in the impairments. Throws
+  /// std::invalid_argument for a comparison law, which has a separate bench.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
 
   ~Laboratory();
@@ -50,56 +50,56 @@ class Laboratory {
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
-  /// What the network does to what arrives at a side, from now on.
+  /// Sets the impairment of the data that a side receives, from now on.
   void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
   void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
-  /// Datagrams that came out of the network at both sides.
+  /// Datagrams that arrived at both sides.
   [[nodiscard]] std::uint64_t arrived() {
     return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
   }
-  /// Another session begins, at the side that it is handed to.
+  /// Starts another session at the given side.
   void hand_slave(const Session& session) { slave_port_.follow(session); }
   void hand_master(const Session& session) { master_port_.follow(session); }
   void configure_slave(const SlaveConfig& config) { slave_node_.configure(config); }
   void configure_master(const MasterConfig& config) { master_node_.configure(config); }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
-  /// What the slave hears of the master.
+  /// Link statistics of the direction from the master, as measured by the slave.
   [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
-  /// What the slave last told the arm; none: it was not commanded.
+  /// The last setpoint of the slave for the arm; none: it was not commanded.
   [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
-  /// Where the stiffness which the master renders now belongs to, in W; zero before the first.
+  /// Position that the presently rendered stiffness belongs to, in W; zero before the first.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
-  /// What the person does from now on, instead of the script.
+  /// Sets the target of the hand from now on, instead of the script.
   void drive(const HandTarget& target) { driven_ = target; }
-  /// Asked for in the next tick, besides what the script does.
+  /// Requests for the next tick, in addition to those of the script.
   OperatorRequests& requests() { return requests_; }
-  /// The person lets go of the handles, for good unless the hand returns.
+  /// The operator releases the handles, permanently unless the hand returns.
   void let_go(bool away = true) { let_go_ = away; }
-  /// One side ends from now on, as a program does that is killed; robot and devices go on by themselves.
+  /// Ends one side, like a killed program; robot and devices continue.
   void kill_slave() { slave_lives_ = false; }
   void kill_master() { master_lives_ = false; }
-  /// One side's loop stands still for this long from now on, as a program that is stopped: what comes lies in
-  /// its socket, and then a tick comes late. Robot, devices, hand and the other side go on.
+  /// Stalls the loop of one side for this time, like a stopped program: received datagrams queue up in its
+  /// socket, and the next tick is late. Robot, devices, hand and the other side continue.
   void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
   void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
   /// Must live as long as the laboratory steps.
   void set_fault_hooks(FaultHooks& fault_hooks) { fault_hooks_ = &fault_hooks; }
-  /// Records from now on, before the first step: both sides into one file. Throws RecordingError.
+  /// Starts a recording of both sides into one file, before the first step. Throws RecordingError.
   void record(const std::filesystem::path& file);
-  /// Ends the file. Throws RecordingError when it could not be written.
+  /// Ends the file. Throws RecordingError if it could not be written.
   void end_recording();
-  /// Who sits on the wire: called after each side's turn, may take and send at both ends (a: master, b:
-  /// slave).
+  /// Sets a hook on the channel: called after the tick of each side, may receive and send at both ends (a:
+  /// master, b: slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
-  /// For tests: called before the first step of every laboratory, in its thread, with what it runs with.
+  /// For tests: called before the first step of every laboratory, in its thread, with its configuration.
   struct Begun {
     const MasterConfig& master;
     const SlaveConfig& slave;
-    bool driven;  // by drive(): the script moves nothing
+    bool driven;  // by drive(): the script is not used
   };
   inline static std::function<void(const Begun&)> on_first_step{};
-  /// What stands between the robot and the slave: may change what the robot says of itself, in each tick.
+  /// Sets a hook that may change the state reported by the robot in each tick.
   void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
 
  private:

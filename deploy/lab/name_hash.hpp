@@ -1,5 +1,5 @@
 #pragma once
-// 64-bit FNV-1a as 16 hexadecimal digits: names what is too long to be a name.
+// 64-bit FNV-1a as 16 hexadecimal digits: an identifier for long texts.
 
 #include <cstdint>
 #include <string>

@@ -1,13 +1,14 @@
 #pragma once
-// Independent trials on every core that this process may use.
+// Runs independent trials on all cores available to this process.
 
 #include <cstddef>
 #include <functional>
 
 namespace longreach {
 
-/// Calls `one` with each number below `count`, several at once; what `one` writes must have a place for each.
-/// `progress`, if any, is told the share done, by this thread. Throws the first that `one` throws.
+/// Calls `one` with each number below `count`, several in parallel; `one` must write to separate places for
+/// each number. `progress`, if given, is called in this thread with the completed share. Throws the first
+/// exception of `one`.
 void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& one,
                   const std::function<void(double)>& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// SVG plots by gnuplot: panels one above the other over a common x axis, each with its own y axis.
+// SVG plots by gnuplot: stacked panels over a common x axis, each with its own y axis.
 
 #include <filesystem>
 #include <string>
@@ -10,16 +10,16 @@ namespace longreach {
 
 struct Curve {
   std::string column;         // of the CSV file
-  std::string title;          // in the legend; empty: not there
-  double factor = 1.0;        // from the column's unit to the axis's
+  std::string title;          // in the legend; empty: omitted
+  double factor = 1.0;        // from the unit of the column to that of the axis
   bool points = false;        // instead of a line
   int mark = 7;               // gnuplot's point type
-  int colour = -1;            // place in the palette; negative: that of the curve in its panel
+  int colour = -1;            // index in the palette; negative: that of the curve in its panel
   double size = 0.0;          // of the points; 0: the panel's
-  std::string csv{};          // trace of its own; empty: the plot's
+  std::string csv{};          // separate trace; empty: that of the plot
   std::string low{}, high{};  // columns of error bars; empty: none
-  bool dashed = false;        // shows a curve that lies below it
-  bool scales = true;         // the y axis holds all of it
+  bool dashed = false;        // for a curve on top of another one
+  bool scales = true;         // included in the range of the y axis
 };
 
 struct Panel {
@@ -34,13 +34,13 @@ struct Plot {
   std::string title;
   std::string x_column;
   std::string x_label;
-  double x_factor = 1.0;  // from the column's unit to the axis's
+  double x_factor = 1.0;  // from the unit of the column to that of the axis
   std::vector<Panel> panels;
   double panel_px = 190.0;  // height of a panel
 };
 
-/// Writes FOLDER/NAME.gp and FOLDER/NAME.svg. Returns a sentence when gnuplot is missing or fails, else
-/// nothing.
+/// Writes FOLDER/NAME.gp and FOLDER/NAME.svg. Returns a sentence if gnuplot is missing or fails, otherwise an
+/// empty string.
 std::string draw(const std::filesystem::path& folder, const Plot& plot);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// How far a long command is, and how long it still takes: on a terminal one line, rewritten in place;
-// elsewhere a plain line every ten seconds, so that a short command says nothing there.
+// Progress and remaining time of a long command: on a terminal one line, rewritten in place; elsewhere a
+// plain line every ten seconds, so that a short command prints nothing.
 
 #include <chrono>
 #include <ostream>
@@ -15,16 +15,16 @@ class ProgressLine {
 
   static constexpr std::chrono::seconds kPlainEvery{10};
 
-  /// On standard error, as that is.
+  /// On standard error, according to its type.
   explicit ProgressLine(bool quiet);
   ProgressLine(std::ostream& out, Style style, Clock::time_point began);
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `what`, e.g. "sweep: 3 of 10 cells", and the seconds to go by the share that is done.
+  /// `what`, e.g. "sweep: 3 of 10 cells", and the remaining seconds estimated from the completed share.
   void show(const std::string& what, double done, Clock::time_point now = Clock::now());
-  /// Leaves the terminal's line empty for others.
+  /// Clears the line of the terminal.
   void clear();
 
  private:

@@ -1,29 +1,29 @@
 #pragma once
-// A simulated operator who leads the tool along a way, aim after aim: moves, waits a round trip and a
-// reaction, looks at the shown place of the tool, goes on or corrects (move and wait, Ferrell 1965). Never
-// evidence about people. Of each person, seeded:
+// A simulated operator who moves the tool along a path, aim after aim: moves, waits a round trip and a
+// reaction time, looks at the displayed position of the tool, continues or corrects (move and wait, Ferrell
+// 1965). It is not evidence about people. The parameters of each person are random:
 //
 //   reaction N(0.25, 0.04) s; aimed moves of minimum jerk, a + b log2(d/W + 1) long, a ~ N(0.25, 0.05) s,
 //   b ~ N(0.07, 0.015) s; they end 5 % short, and off by sd 0.11 lognormal(0.25) d + 0.4 mm in each
 //   coordinate
 //
-// with d the way of the hand. Position mode: an aimed move for each aim; a relocation of 1.0 to 1.5 s where
-// the handle would leave its room. Rate mode: holds a deflection of the speed v, changes only its direction
-// from aim to aim, and lets go of the handle, which stops the robot and glides home, when the distance left,
-// as shown, is less than v (reaction + round trip); until the first round trip of the run is over he takes v
-// times its age for it, since nothing has been seen yet. Hybrid: in each line or turn rate until near, then
-// position.
+// with d the distance of the hand. Position mode: an aimed move for each aim; a relocation of 1.0 to 1.5 s
+// where the handle would leave its workspace. Rate mode: holds a deflection for the speed v, changes only its
+// direction from aim to aim, and releases the handle, which stops the robot and glides home, when the
+// displayed remaining distance is less than v (reaction + round trip); until the end of the first round trip
+// the operator assumes v times the age of the run, since there is no display yet. Hybrid: in each line or
+// turn rate mode until near, then position mode.
 //
-// He waits from when his hand is at rest, or the handle that he let go is home (3 mm). Not so where the
-// picture is live, without delay or predicted: he sees the tool come. There he goes on from an aim that is no
-// target without a wait, waits from when he lets go of the handle, and goes on in rate mode when it is in the
-// dead zone, in position mode wherever it is.
+// The operator waits until the hand is at rest, or the released handle is home (3 mm). With a live display,
+// without delay or predicted, the arriving tool is visible: the operator then continues from an intermediate
+// aim without waiting, waits from the release of the handle, and continues in rate mode when the handle is in
+// the dead zone, in position mode at any position.
 //
-// The model leaves open what a live picture saves, which is chosen so that the delay slows down each way of
-// working as its bands say; v (a run lasts a second); near (kNearSd: earlier is nearer to the way and slower,
-// as `mapping-trade` shows; chosen on the 100 operators of the seeds 2 to 6, so that hybrid is as surely
-// faster than position as it is nearer than rate); when a target is reached (2 mm, the radius of the scene's
-// tool); and the room of the handle (60 mm of 75).
+// The model leaves these parameters open: the time saved by a live display, chosen so that the delay slows
+// down each mode within the predicted bands; v (a run lasts a second); near (kNearSd: an earlier end of rate
+// mode is more accurate and slower, as `mapping-trade` shows; chosen on the 100 operators of the seeds 2 to
+// 6, so that the gain over position in time is as significant as that over rate in accuracy); the tolerance
+// of a target (2 mm, the radius of the tool in the scene); and the workspace of the handle (60 mm of 75).
 
 #include <cstdint>
 #include <optional>
@@ -38,7 +38,7 @@
 
 namespace longreach {
 
-// Hybrid: he leaves rate mode so many sd of an aimed move's end, of the run's length, before the target.
+// Hybrid: rate mode ends this number of sd of an aimed move, over the length of the run, before the target.
 constexpr double kNearSd = 2.1;
 
 enum class PathStrategy : std::uint8_t { kRate, kPosition, kHybrid };
@@ -48,7 +48,7 @@ std::string_view to_string(PathStrategy strategy);
 struct PathPerson {
   double reaction_s = 0.25;
   double aim_s = 0.25, aim_s_per_bit = 0.07;  // a, b
-  double spread = 0.11;                       // sd of an aimed move's end over its length
+  double spread = 0.11;                       // sd of the end of an aimed move relative to its length
 
   static PathPerson draw(Random random);
 };
@@ -56,15 +56,16 @@ struct PathPerson {
 struct PathWork {
   PathStrategy strategy = PathStrategy::kHybrid;
   MappingConfig mapping{};
-  double spring_share = 0.0;  // stiffness of rate mode's spring over that of the hand
+  double spring_share = 0.0;  // stiffness of the rate mode spring relative to that of the hand
   Grip grip = Grip::kLight;
   double near_sd = kNearSd;
-  double late_s = 0.0;  // of what is shown behind the hand: the round trip; 0 of a predicted picture
+  /// delay of the display relative to the hand: the round trip; 0 for a predicted display
+  double late_s = 0.0;
 };
 
 struct PathOperatorInput {
   double t_s = 0.0;
-  Vector3 shown_m = Vector3::Zero();   // place of the tool as he sees it, from where it started, W
+  Vector3 shown_m = Vector3::Zero();   // displayed position of the tool, from its start, W
   Vector3 handle_m = Vector3::Zero();  // from home, M
 };
 
@@ -80,14 +81,14 @@ class PathOperator {
   PathOperatorOutput step(const PathOperatorInput& input);
 
   [[nodiscard]] bool done() const { return next_ == aims_.size(); }
-  /// Next of the aims; what is before it he has left behind.
+  /// Index of the next aim.
   [[nodiscard]] std::size_t next() const { return next_; }
-  [[nodiscard]] int moves() const { return moves_; }  // after which he waited
+  [[nodiscard]] int moves() const { return moves_; }  // moves followed by a wait
   [[nodiscard]] int relocations() const { return relocations_; }
 
  private:
   enum class Phase : std::uint8_t { kLook, kMove, kRelocate, kSteer, kGlide };
-  struct Reach {  // of the hand, minimum jerk
+  struct Reach {  // motion of the hand, minimum jerk
     Vector3 from_m = Vector3::Zero(), to_m = Vector3::Zero();
     double begin_s = 0.0, lasts_s = 0.0;
     [[nodiscard]] bool over(double t_s) const { return t_s >= begin_s + lasts_s; }
@@ -105,7 +106,7 @@ class PathOperator {
   void wait(const PathOperatorInput& in, bool foreseen);
 
   [[nodiscard]] bool live() const;
-  [[nodiscard]] double sd_of(double length_m) const;  // of an aimed move's end, a coordinate
+  [[nodiscard]] double sd_of(double length_m) const;  // of the end of an aimed move, per coordinate
   [[nodiscard]] Vector3 error_of(double length_m);
   [[nodiscard]] double time_of(double length_m, double width_m) const;
   [[nodiscard]] double left_m(const Vector3& from_m) const;  // along the aims to the end of the line or turn
@@ -120,16 +121,16 @@ class PathOperator {
   std::size_t next_ = 0;
   Phase phase_ = Phase::kLook;
   MotionMode mode_;
-  bool tried_ = false;  // he has moved for the next aim
+  bool tried_ = false;  // there was a move for the next aim
   bool ran_ = false;    // in rate mode, in this line or turn
-  bool away_ = false;   // he has let go, and the handle is not home yet
+  bool away_ = false;   // the handle is released and not home yet
   double until_s_ = 0.0;
   Reach reach_{};
-  Vector3 hand_m_ = Vector3::Zero(), hand_m_per_s_ = Vector3::Zero();  // where he wants the handle
+  Vector3 hand_m_ = Vector3::Zero(), hand_m_per_s_ = Vector3::Zero();  // target of the handle
   Vector3 direction_ = Vector3::UnitX();                               // of the run in rate mode
   double speed_m_per_s_ = 0.0, began_s_ = 0.0;                         // likewise
-  double near_m_ = 0.0;     // hybrid: what the run leaves for position mode
-  double give_up_s_ = 0.0;  // if it has come to nothing
+  double near_m_ = 0.0;     // hybrid: distance of the run that is left to position mode
+  double give_up_s_ = 0.0;  // if there was no result
   std::optional<double> react_s_{};
   int moves_ = 0, relocations_ = 0;
   PathOperatorOutput out_{};

@@ -1,5 +1,5 @@
 #pragma once
-// What simulated operators did in one way of working: a figure for each, the mean of his trials.
+// Results of simulated operators in one mode: a value for each operator, the mean of the trials.
 
 #include <cstdint>
 #include <functional>
@@ -14,20 +14,21 @@ namespace longreach {
 
 struct PathSample {
   std::vector<double> time_s, error_m, target_error_m;  // of each operator
-  double moves = 0.0, relocations = 0.0;                // a trial, mean
+  double moves = 0.0, relocations = 0.0;                // per trial, mean
   int unfinished = 0;                                   // trials
 };
 
 struct PathSize {
   int persons = 100, trials = 2;
-  static PathSize chosen();  // by LONGREACH_FULL; 20 persons differ too much to tell modes apart surely
+  /// by LONGREACH_FULL; 20 persons are too few to distinguish the modes with certainty
+  static PathSize chosen();
 };
 
-/// Runs `c` with each operator, on all cores; `progress`, if any, is told the share done.
+/// Runs `c` with each operator, on all cores; `progress`, if given, is called with the completed share.
 PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
                         const std::function<void(double)>& progress = {});
 
-/// a - b of each.
+/// a - b for each operator.
 std::vector<double> paired(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Mean and standard deviation over the operators, as NAME_SUFFIX and NAME_sd_SUFFIX.

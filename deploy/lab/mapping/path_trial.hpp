@@ -1,7 +1,7 @@
 #pragma once
 // One trial of the path and target task in the laboratory: both nodes, simulated devices and hand, the
-// Cartesian robot, a link that does nothing but delay. The scene's path, reordered; what stands beside it is
-// not built: the way alone counts.
+// Cartesian robot, a link that only delays. The path of the scene, reordered; other surfaces are not built,
+// because only the path matters.
 
 #include <cstdint>
 
@@ -14,32 +14,34 @@ namespace longreach {
 struct PathCase {
   PathStrategy strategy = PathStrategy::kHybrid;
   double rtt_s = 0.0;
-  bool ghost = false;  // he looks at where the robot is told to be, instead of where it is shown
+  /// the display shows the commanded position of the robot instead of the delayed measured one
+  bool ghost = false;
   double near_sd = kNearSd;
   int person = 0, trial = 0;
-  std::uint64_t seed = 1;  // person and way are the same in every case of a seed
+  std::uint64_t seed = 1;  // person and path are the same in every case of a seed
 };
 
 struct PathResult {
   bool finished = false;
-  double time_s = 0.0;   // from his first look till the tool stands at the last target
-  double error_m = 0.0;  // distance from the way, mean over what the tool has gone: waits count nothing
-  double target_error_m = 0.0;  // of the goal from a target where he leaves it behind, mean
+  double time_s = 0.0;   // from the first look until the tool is at rest at the last target
+  double error_m = 0.0;  // distance from the path, mean over the distance of the tool: waits do not count
+  double target_error_m = 0.0;  // distance of the goal from a target when the operator continues, mean
   int moves = 0, relocations = 0;
 };
 
-/// A configuration for these trials: scene `path`. Throws ConfigError.
+/// Returns a configuration for these trials: scene `path`. Throws ConfigError.
 proto::LabConfig path_task_config(const proto::LabConfig& config);
 
 PathResult run_path_trial(const proto::LabConfig& config, const PathCase& c, Trace* trace = nullptr);
 
-/// A place as the plots show it: the diagonal x = y = z to the right, so that the way goes on, z - x up.
+/// Coordinates of a point in the plots: the diagonal x = y = z to the right, in the direction of the path, z
+/// - x up.
 Eigen::Vector2d drawn(const Vector3& p_m);
 
-/// The columns of the trace: place of the tool from its start, also as the plots show it.
+/// The columns of the trace: position of the tool from its start, also in plot coordinates.
 Trace path_trace(const std::filesystem::path& folder, std::string_view name);
 
-/// The way of a person's trial.
+/// The path of a person's trial.
 PathCourse course_of(const proto::LabConfig& config, const PathCase& c);
 
 }  // namespace longreach

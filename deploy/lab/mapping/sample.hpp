@@ -1,5 +1,5 @@
 #pragma once
-// What is said of a sample of simulated operators: its spread, and whether two ways of working differ.
+// Statistics of a sample of simulated operators: spread, and significance of the difference of two modes.
 
 #include <span>
 
@@ -13,9 +13,9 @@ struct Spread {
 /// Zeros for an empty sample.
 Spread spread_of(std::span<const double> sample);
 
-/// Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) of paired differences: the probability, if each
-/// were as likely to have the other sign, of a rank sum at least as far from its mean as this one. Two-sided,
-/// exact by counting; equal sizes share their ranks, zeros are left out. 1 where nothing is left.
+/// Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) of paired differences: the probability, for
+/// equally likely signs, of a rank sum at least as far from its mean. Two-sided, exact by counting; ties
+/// share their ranks, zeros are dropped. 1 if none remain.
 double signed_rank_p(std::span<const double> differences);
 
 }  // namespace longreach

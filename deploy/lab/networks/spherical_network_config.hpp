@@ -1,6 +1,6 @@
 #pragma once
-// The trained networks of one 3-RRR mechanism, as numbers: what spherical_network.hpp evaluates,
-// `longreach-lab train spherical` makes and deploy/devices/ holds.
+// The trained networks of one 3-RRR mechanism as numbers: evaluated by spherical_network.hpp, created by
+// `longreach-lab train spherical`, stored in deploy/devices/.
 
 #include <array>
 #include <cmath>
@@ -10,10 +10,9 @@
 
 namespace longreach {
 
-/// Motor angles that the networks were trained on: with d = θ - home and m the mean of d,
-/// |m| <= common and |d - m| <= differential: a cylinder about home. All of it hangs together with home and
-/// no pose in it is singular, so every triple of angles in it has exactly one orientation of home's assembly
-/// mode.
+/// Motor angles of the training: with d = θ - home and m the mean of d, |m| <= common and |d - m| <=
+/// differential: a cylinder about home. It is connected with home and has no singular pose, so every triple
+/// of angles in it has exactly one orientation of home's assembly mode.
 struct SphericalWorkspace {
   Vector3 home_rad = Vector3::Zero();     // motor angles at home
   Quaternion q_home{1.0, 0.0, 0.0, 0.0};  // orientation at home
@@ -28,7 +27,7 @@ struct SphericalWorkspace {
   }
 };
 
-/// Three angles in, one layer of hidden units, three numbers out:  y = c + B s(A θ + a).
+/// Three angles as inputs, one hidden layer, three numbers as outputs:  y = c + B s(A θ + a).
 struct SphericalPerceptron {
   static constexpr int kUnits = 24;
 
@@ -38,8 +37,8 @@ struct SphericalPerceptron {
   std::array<double, 3> offset{};                              // c
 };
 
-/// The subspaces: a grid of equal boxes about home in g = axis tan(angle/2) of the turn from home, each
-/// widened on all sides by `overlap` of its width.
+/// The subspaces: a grid of equal boxes about home in g = axis tan(angle/2) of the rotation from home, each
+/// extended on all sides by `overlap` of its width.
 struct SphericalCells {
   int per_axis = 1;                 // odd, 1 to 9
   Vector3 width = Vector3::Zero();  // of g, without the overlap, > 0
@@ -47,7 +46,7 @@ struct SphericalCells {
 };
 
 struct SphericalNetworkConfig {
-  SphericalAxes axes;  // of the mechanism that the networks know
+  SphericalAxes axes;  // of the trained mechanism
   SphericalWorkspace workspace;
   SphericalCells cells;
   SphericalPerceptron rough;              // g anywhere in the workspace

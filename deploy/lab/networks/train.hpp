@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab train KIND`: makes the weights of trained networks, reproducibly.
+// `longreach-lab train KIND`: creates the weights of trained networks, reproducibly.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace longreach {
 /// Names of the kinds.
 std::vector<std::string> train_kinds();
 
-/// Trains and writes the file; one line of progress a network on standard error. Throws std::runtime_error.
+/// Trains and writes the file; one line of progress per network on standard error. Throws std::runtime_error.
 /// The same seed gives the same bytes.
 void train(const std::string& kind, std::uint64_t seed, const std::filesystem::path& out);
 

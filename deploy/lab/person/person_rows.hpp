@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the experiment `person`: what a person does, and what must then be true.
+// The rows of the experiment `person`: the behaviour of a person, and the required results.
 
 #include <string>
 #include <vector>
@@ -18,19 +18,19 @@ struct PersonRow {
   const char* what;
   void (*prepare)(PersonScenario& scenario);
   std::vector<PersonCheck> (*judge)(const PersonScenario& scenario, const PersonSeen& seen);
-  bool by_place = false;  // lives by the tool's place in the reports: without it a check must fail
+  bool by_place = false;  // depends on the position of the tool in the reports: without it a check must fail
 };
 
-/// All of them.
+/// All rows.
 const std::vector<PersonRow>& person_rows();
 
-/// Hands that rest: what they feel, and that it is calm.
+/// Resting hands: displayed force and stability.
 void add_resting_hands(std::vector<PersonRow>& rows);
 
-/// Surfaces on either side, met from behind, known before the engagement, curved laws, stops.
+/// Surfaces on either side, touched from behind, known before the engagement, curved laws, stops.
 void add_oriented_surfaces(std::vector<PersonRow>& rows);
 
-/// What was right before the experiment was, and is to stay so.
+/// Cases that were correct before the experiment existed and must remain so.
 void add_rows_that_stay(std::vector<PersonRow>& rows);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// A recording of a laboratory run, both sides in one file, as the programs write them: the same tapes, but
-// written between the ticks, so that a run by the same name makes the same bytes. The file's time is the
-// run's.
+// A recording of a laboratory run, both sides in one file, in the format of the programs: the same record
+// buffers, but written between the ticks, so that equal runs give equal bytes. The time in the file is that
+// of the run.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace longreach {
 
 class LabRecording {
  public:
-  /// When the clocks of the sides began.
+  /// Start of the clocks of the sides.
   struct Clocks {
     Time master{}, slave{};
   };
@@ -31,7 +31,7 @@ class LabRecording {
   void add_master_tick(const MasterInput& input, const MasterOutput& output, const MasterView& view,
                        std::optional<double> rtt_s);
 
-  /// Writes the rest. Throws RecordingError when anything could not be written.
+  /// Writes the remaining records. Throws RecordingError if anything could not be written.
   void finish();
 
  private:
@@ -42,7 +42,7 @@ class LabRecording {
   MasterRecordBuffer master_;
   SlaveRecordBuffer slave_;
   std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
-  std::uint64_t undrained_ = 0;  // records, at most
+  std::uint64_t undrained_ = 0;  // maximum number of records
   bool finished_ = false;
 };
 

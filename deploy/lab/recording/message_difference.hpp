@@ -1,5 +1,5 @@
 #pragma once
-// Where two messages of one type differ first, bit for bit, in the order of the schema.
+// The first difference of two messages of one type, bit for bit, in the order of the schema.
 
 #include <google/protobuf/message.h>
 
@@ -10,9 +10,9 @@ namespace longreach {
 
 struct MessageDifference {
   std::string field;  // path, e.g. "wrench.force_n.x"
-  std::string a, b;   // values as text; "absent" for a message that is not there
+  std::string a, b;   // values as text; "absent" for a missing message
 };
-/// None: they are the same. Does not handle repeated fields, which recorded outputs have none of.
+/// Returns none if they are equal. Repeated fields are not handled, because recorded outputs have none.
 std::optional<MessageDifference> first_difference(const google::protobuf::Message& a,
                                                   const google::protobuf::Message& b);
 

@@ -1,5 +1,5 @@
 #pragma once
-// One side of a replay: fed with the messages of a recording in their order.
+// Replay of one side: receives the messages of a recording in order.
 
 #include <map>
 #include <memory>
@@ -23,20 +23,21 @@ class NodeReplay {
   NodeReplay(const NodeReplay&) = delete;
   NodeReplay& operator=(const NodeReplay&) = delete;
 
-  /// `name`: of the topic, without the side. Ignored once there is a difference, or it was stopped.
+  /// `name`: of the topic, without the side. Ignored after a difference or a stop.
   void take(std::string_view name, std::string_view bytes);
   [[nodiscard]] const SideReplay& result() const { return result_; }
 
  protected:
-  /// A message of the node's own topics.
+  /// A message of a topic of this node.
   virtual void take_own(std::string_view name, std::string_view bytes) = 0;
   virtual void begin(const std::string& config) = 0;
   virtual void configure(const std::string& config) = 0;
   [[nodiscard]] virtual bool began() const = 0;
 
-  /// Whether the node is ready for this tick: begun, in order, with its configuration and its messages.
+  /// Returns whether the node is ready for this tick: started, in order, with its configuration and its
+  /// messages.
   bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete);
-  /// Books a difference, if there is one.
+  /// Records a difference, if there is one.
   void compare(const char* what, const google::protobuf::Message& recorded,
                const google::protobuf::Message& replayed);
   void book_tick(std::size_t messages);
@@ -48,22 +49,22 @@ class NodeReplay {
 
   SideReplay result_{};
   std::map<std::uint32_t, std::string> configs_;
-  std::uint32_t config_ = 0;  // that the node has
+  std::uint32_t config_ = 0;  // of the node
   std::uint64_t next_tick_ = 0;
   std::int64_t first_ns_ = 0, now_ns_ = 0;
   std::string recorded_bytes_, replayed_bytes_;
 };
 
-/// What both sides do alike.
+/// Common part of both sides.
 template <class Node, class Config, class Tick, class Output, class View>
 class ReplayOf : public NodeReplay {
  public:
   using NodeReplay::NodeReplay;
 
  protected:
-  /// Steps the node with the recorded input and compares what comes out.
+  /// Steps the node with the recorded input and compares its output.
   virtual void step() = 0;
-  /// A message that the next tick takes.
+  /// A message for the next tick.
   virtual void take_received(std::string_view name, std::string_view bytes) = 0;
   template <class Input>
   void step_node(const Input& in, std::size_t messages);
