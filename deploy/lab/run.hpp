@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab run` and `list`: one experiment, its metrics printed.
+// `longreach-lab run` and `list`: runs one experiment and prints its metrics.
 
 #include <cstdint>
 #include <string>
@@ -18,11 +18,12 @@ struct LabRunOptions {
   bool quiet = false;
 };
 
-/// Exit status: 0, or 3 when there was no contact. Throws ConfigError for an experiment or a setting that is
-/// none, or that the experiment does not use.
+/// Exit status: 0, or 3 if there was no contact. Throws ConfigError for an unknown experiment or setting, or
+/// a setting that the experiment does not use.
 int run(const LabRunOptions& options);
 
-/// Runs it with a line of progress; then prints, unless quiet, the outcome, the metrics and the run's name.
+/// Runs it with a progress line; then prints, unless quiet, the outcome, the metrics and the identity of the
+/// run.
 std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun run, bool quiet);
 
 void list_experiments();

@@ -1,6 +1,6 @@
 #pragma once
-// Which settings an experiment uses. One that it does not use is refused: a run with it would be the run
-// without it, and a sweep over it a table of equal rows.
+// Settings that an experiment uses. Another setting is refused, because it would not change the run, and the
+// rows of a sweep over it would be equal.
 
 #include <string>
 #include <vector>
@@ -9,14 +9,15 @@
 
 namespace longreach {
 
-/// Whether the experiment depends on what `path` of `--set PATH=VALUE` sets, by Experiment::uses; the longest
-/// path that holds the field decides. A file counts as what it describes, `profile` as the delay of the link.
+/// Returns whether the experiment depends on the field that `path` of `--set PATH=VALUE` sets, by
+/// Experiment::uses; the longest path that contains the field decides. A file counts as its content,
+/// `profile` as the delay of the link.
 bool uses_setting(const Experiment& experiment, const std::string& path);
 
 /// Throws ConfigError that names the first setting "PATH=VALUE" that the experiment does not use.
 void refuse_unused(const Experiment& experiment, const std::vector<std::string>& settings);
 
-/// The sentence of that error.
+/// The text of that error.
 std::string unused_sentence(const Experiment& experiment, const std::string& path);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The main experiment with a recording of both sides: OUT/touch.mcap. The run is the same.
+// The main experiment with a recording of both sides, OUT/touch.mcap. The run is identical.
 
 #include <vector>
 

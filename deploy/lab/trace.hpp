@@ -1,6 +1,6 @@
 #pragma once
-// A CSV file of numbers: one header line of names that end in their unit, one row a call. Nine significant
-// digits. Throws std::runtime_error when the file cannot be written.
+// A CSV file of numbers: a header line of names that end with their unit, one row per call. Nine significant
+// digits. Throws std::runtime_error if the file cannot be written.
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +12,7 @@ namespace longreach {
 
 class Trace {
  public:
-  /// An empty folder: rows go nowhere.
+  /// With an empty folder nothing is written.
   Trace(const std::filesystem::path& folder, std::string_view name,
         const std::vector<std::string_view>& columns);
 

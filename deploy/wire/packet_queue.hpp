@@ -1,6 +1,7 @@
 #pragma once
-// A link's delay and loss, made of real packets by the kernel's NFQUEUE: the kernel keeps the packets, this
-// decides when each goes on, and whether. In the network namespace of the thread that makes it.
+// Delay and loss of a link for real packets, by the kernel's NFQUEUE: the kernel stores the packets, and this
+// class decides whether and when each is forwarded. It works in the network namespace of the thread that
+// creates it.
 
 #include <chrono>
 #include <cstdint>
@@ -17,13 +18,13 @@ namespace longreach {
 
 class PacketQueue {
  public:
-  /// Throws std::runtime_error, one sentence, where the kernel or the rights do not permit it.
+  /// Throws std::runtime_error, one sentence, if the kernel or the permissions do not allow it.
   PacketQueue(const WireConfig& config, std::uint16_t number);
   ~PacketQueue();
   PacketQueue(const PacketQueue&) = delete;
   PacketQueue& operator=(const PacketQueue&) = delete;
 
-  /// Waits for packets and for due times, 0.1 s at most, and serves both. Returns early on a signal.
+  /// Waits for packets and for due times, at most 0.1 s, and processes both. Returns early on a signal.
   void step();
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
@@ -47,8 +48,8 @@ class PacketQueue {
   Clock::duration delay_;
   std::mt19937_64 random_;
   std::unique_ptr<nfq_handle, Close> handle_;
-  nfq_q_handle* queue_ = nullptr;                // the handle's
-  std::deque<QueuedDatagram> queued_datagrams_;  // the delay is one for all: due in order
+  nfq_q_handle* queue_ = nullptr;                // of the handle
+  std::deque<QueuedDatagram> queued_datagrams_;  // all packets have the same delay: due in order
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// A link's delay and loss where the kernel has no packet queues: a cable between two network namespaces whose
-// ends are TUN interfaces, and between them this, which carries every IP packet itself.
+// Delay and loss of a link where the kernel has no packet queues: a cable between two network namespaces
+// whose ends are TUN interfaces; this class forwards every IP packet between them.
 
 #include <sys/types.h>
 

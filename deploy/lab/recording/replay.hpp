@@ -1,9 +1,9 @@
 #pragma once
-// Runs a node again on what was recorded of it: the inputs of every tick, from the first on, and compares its
-// outputs, and what it shows, with those of the recording, bit for bit.
+// Runs a node again on its recorded inputs, from the first tick on, and compares its outputs and its view
+// with the recorded ones, bit for bit.
 //
-// A node's state is nowhere but in the node, so a replay begins where the node began: a recording that begins
-// later, or lacks ticks, is followed as far as it can be, and says so.
+// The state of a node is not recorded, so a replay begins at the start of the node: a recording that begins
+// later, or lacks ticks, is replayed as far as possible, and the result says so.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace longreach {
 
-/// The first value that is not the recorded one.
+/// The first value that differs from the recording.
 struct ReplayDifference {
   std::uint64_t tick = 0;
   double time_s = 0.0;  // since the first tick
@@ -25,25 +25,25 @@ struct ReplayDifference {
 
 struct SideReplay {
   std::string side;            // master or slave
-  std::uint64_t ticks = 0;     // replayed and the same
+  std::uint64_t ticks = 0;     // replayed without a difference
   double seconds = 0.0;        // between the first of them and the last, as recorded
   std::uint64_t messages = 0;  // received, in these ticks
   std::optional<ReplayDifference> difference{};
-  std::string stopped{};  // why it could not be followed to its end, in words
+  std::string stopped{};  // why it could not be replayed to its end
 };
 
 struct FileReplay {
   std::vector<SideReplay> sides;
-  bool whole = false;   // the file was ended properly
+  bool whole = false;   // the file was completed
   double last_s = 0.0;  // of its last message, since its first
-  std::string commit;   // that recorded it
+  std::string commit;   // of the recording program
 };
 
-/// Throws RecordingError for a file that cannot be read.
+/// Throws RecordingError if the file cannot be read.
 FileReplay replay_file(const std::filesystem::path& file);
 
-/// `longreach-lab replay FILE...`: prints a line a side. 0: all bit for bit; 1: there is a difference; 2: not
-/// all could be replayed.
+/// `longreach-lab replay FILE...`: prints a line per side. 0: equal bit for bit; 1: there is a difference; 2:
+/// not everything could be replayed.
 int replay(const std::vector<std::string>& files, std::ostream& out, std::ostream& err);
 
 }  // namespace longreach

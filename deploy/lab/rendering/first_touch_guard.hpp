@@ -1,6 +1,6 @@
 #pragma once
-// The slave's part of a first touch: what the force guard makes of 50 mm/s on 5 N/mm, over the robots that it
-// has to hold, and what comes of the same touches without it.
+// The first touch at the slave: the effect of the force guard at 50 mm/s on 5 N/mm, over the robots that it
+// must support, and the same touches without it.
 
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/plot.hpp"

@@ -1,8 +1,8 @@
 #pragma once
-// The first touch, as the slave alone lives through it: a goal that comes at a constant speed and goes on
-// behind a wall that nobody knew of, for as long as the news of it needs. Through the slave's node and the
-// simulated arm: a gantry whose tool of some mass hangs on its servo by a spring and a damper, so that it
-// gives way to the wall; or a servo that does not (mass 0), which follows with the lag of its bandwidth.
+// The first touch at the slave alone: a goal that moves at a constant speed and continues into an unknown
+// wall for one round trip. It uses the slave's node and a simulated robot: a gantry with a tool of some mass
+// on a spring and a damper behind its servo, which yields to the wall; or a rigid servo (mass 0), which
+// follows with the lag of its bandwidth.
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,11 @@ enum class Then : std::uint8_t { kGoOn, kSilence, kStop };
 
 struct GuardCase {
   double guard_n = 8.0;
-  double delay_s = 4e-3;  // from sensing to setpoint, beyond it the robot's own lag
+  double delay_s = 4e-3;  // from sensing to setpoint; the lag of the robot is additional
   double deceleration_m_per_s2 = 1.25;
-  double mass_kg = 10.0;  // 0: the tool follows its servo whatever it meets
+  double mass_kg = 10.0;  // 0: the tool follows its servo rigidly
   double servo_hz = 10.0;
-  double round_trip_s = 3.0;  // of the link: so long the hand goes on
+  double round_trip_s = 3.0;  // of the link: the hand continues for this time
   double speed_m_per_s = 0.05;
   double wall_n_per_m = 5000.0;
   bool guarded = true;
@@ -34,7 +34,7 @@ struct GuardCase {
   std::uint64_t seed = 1;
 };
 
-/// What the guard has to hold: every corner, and between.
+/// Range of the guard: all corners, and points in between.
 inline std::vector<GuardCase> guard_envelope() {
   std::vector<GuardCase> cases;
   for (const double guard_n : {8.0, 12.0, 20.0, 40.0}) {
@@ -54,8 +54,8 @@ inline std::vector<GuardCase> guard_envelope() {
   return cases;
 }
 
-/// The whole grid with LONGREACH_FULL, else every 29th of it, which has every value of every factor; and the
-/// worst.
+/// The whole grid with LONGREACH_FULL, otherwise every 29th case, which includes every value of every factor;
+/// and the worst case.
 inline std::vector<GuardCase> guard_sample() {
   const std::vector<GuardCase> all = guard_envelope();
   std::vector<GuardCase> some;
@@ -71,8 +71,8 @@ inline std::ostream& operator<<(std::ostream& out, const GuardCase& c) {
              << c.speed_m_per_s << " m/s on " << c.wall_n_per_m << " N/m, seed " << c.seed;
 }
 
-constexpr double kGuardWall_m = 0.03;  // from where the tool starts
-constexpr double kServoDamping = 0.7;  // of the critical one
+constexpr double kGuardWall_m = 0.03;  // from the start of the tool
+constexpr double kServoDamping = 0.7;  // of the critical damping
 constexpr double kWithoutGuard_n = 1e9;
 
 inline SlaveConfig guard_config(const GuardCase& c) {
@@ -110,13 +110,13 @@ struct GuardRow {
 struct GuardTouch {
   double touched_s = -1.0;
   double peak_n = 0.0;
-  std::vector<GuardRow> rows{};  // a tick each
+  std::vector<GuardRow> rows{};  // one per tick
   SlaveView view{};              // at the end
 };
 
-constexpr double kPressed_s = 1.5;  // in all, after the touch
+constexpr double kPressed_s = 1.5;  // in total, after the touch
 
-/// The master's datagrams, 200 a second.
+/// The datagrams of the master, 200 per second.
 class GuardCommands {
  public:
   explicit GuardCommands(const GuardCase& c) : case_(c) {}

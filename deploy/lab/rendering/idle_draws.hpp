@@ -1,5 +1,5 @@
 #pragma once
-// The draws of the campaign `idle`: devices, places, grips, modes, delays, walls.
+// The draws of the campaign `idle`: devices, poses, grips, modes, delays, walls.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace longreach {
 
-/// The masters of the device files that are drawn from, complete.
+/// The complete master configurations of the device files.
 std::vector<MasterConfig> idle_masters(const proto::LabConfig& config);
 
-/// The draw with this number: the same for the same seed and number.
+/// The draw with this number: equal for equal seed and number.
 IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed, std::size_t number);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Energy and ripple at one port of the hand, from the force that was commanded and the true motion; the
-// equations are in idle_draw.hpp.
+// Energy and ripple at one port of the hand, from the commanded force and the true motion; the equations are
+// in idle_draw.hpp.
 
 #include <algorithm>
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace longreach {
 
-/// One port, as an outsider sees it.
+/// External measurement of one port.
 class PortMeter {
  public:
-  static constexpr std::size_t kBlock = 1000;  // ticks of a second
+  static constexpr std::size_t kBlock = 1000;  // ticks per second
 
-  /// After the handle has moved by `moved` to `x` under the force `f` that was commanded before.
+  /// The handle has moved by `moved` under the previously commanded force `f`.
   void moved(const Vector3& f, const Vector3& moved) { energy_j_ -= f.dot(moved); }
   void engaged() { energy_j_ = lowest_j_ = 0.0; }
-  /// Longest way of the handle within one count of every encoder, where it rests.
+  /// Maximum motion of the handle within one count of every encoder, at its present pose.
   void rests(double count) { count_ = count; }
-  /// From the engagement on, while the hand is on the handle: springs began at rest.
+  /// Call it from the engagement on, while the hand is on the handle: springs started at rest.
   void hold() { lowest_j_ = std::min(lowest_j_, energy_j_); }
 
-  /// While the hand is still.
+  /// Call it while the hand is at rest.
   void watch(const Vector3& f, const Vector3& x, bool stable) {
     f_[ticks_] = f;
     x_[ticks_] = x;
@@ -60,7 +60,7 @@ class PortMeter {
       fallen_j_ = std::max(fallen_j_, highest_j_ - unspent_j_);
     }
     if (stable) motion_ = std::max(motion_, to_and_fro(x_));
-    // A handle that goes on is no standstill: its spring follows.
+    // A drifting handle is not at rest: its spring follows.
     if (stable && drift(x_, now.x) < 0.1 * count_) {
       ripple_ = std::max(ripple_, ripple(f_, now.f));
       ++quiet_s_;
@@ -72,7 +72,7 @@ class PortMeter {
 
   static constexpr double kMiddle = 0.5 * (kBlock - 1), kSpread = kBlock * (kBlock * kBlock - 1.0) / 12.0;
 
-  /// Of the straight line that fits best, a tick.
+  /// Slope of the best straight line, per tick.
   static Vector3 slope(const Second& y, const Vector3& mean) {
     Vector3 sum = Vector3::Zero();
     for (std::size_t i = 0; i < kBlock; ++i)
@@ -93,7 +93,7 @@ class PortMeter {
     return (high - low).norm();
   }
 
-  /// The way that it went and came back, in either order: none of a handle that eases to its place.
+  /// Distance that it moved back and forth, in either order: zero for a monotonic motion.
   static double to_and_fro(const Second& y) {
     Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
     for (const Vector3& at : y) {

@@ -1,5 +1,5 @@
 #pragma once
-// The sentence that a report says of an experiment, with the figures of its metrics put in.
+// The sentence of a report on an experiment, with the values of its metrics.
 
 #include <string>
 #include <string_view>
@@ -12,8 +12,9 @@ namespace longreach {
 /// Three significant digits, without an exponent from 0.001 up to a million; 0 for zero.
 std::string figure(double value);
 
-/// `sentence` with {NAME} and {NAME*FACTOR} replaced by the figures of metrics. Throws std::invalid_argument
-/// that names what is not a metric, is one of the machine (no two runs would say the same) or is no factor.
+/// Returns `sentence` with {NAME} and {NAME*FACTOR} replaced by values of metrics. Throws
+/// std::invalid_argument that names an unknown metric, a metric of the machine (which differs between runs)
+/// or an invalid factor.
 std::string answer(std::string_view sentence, const std::vector<Metric>& metrics);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The report as one HTML page that needs no other file, and as a table for a text in Markdown.
+// The report as one self-contained HTML page, and as a Markdown table.
 
 #include <string>
 #include <vector>
@@ -13,25 +13,25 @@ struct ReportPicture {
   std::string svg;
 };
 
-/// What one experiment gave.
+/// Results of one experiment.
 struct ReportChapter {
   const Experiment* experiment = nullptr;
-  std::string command;  // that repeats it
+  std::string command;  // command that reproduces it
   std::string config;   // hash
   std::vector<Metric> metrics;
   std::vector<ReportPicture> pictures;
-  std::string failure;  // why it gave nothing; empty: it did
+  std::string failure;  // why there are no results; empty: success
 };
 
 struct ReportHead {
   std::string commit;
-  std::string size;  // of the campaigns, in words
+  std::string size;  // of the campaigns, as text
   std::uint64_t seed = 1;
 };
 
 std::string report_page(const ReportHead& head, const std::vector<ReportChapter>& chapters);
 
-/// "| experiment | asks | answer |", one row a chapter that has an answer.
+/// "| experiment | question | answer |", one row per chapter that has an answer.
 std::string report_table(const std::vector<ReportChapter>& chapters);
 
 }  // namespace longreach

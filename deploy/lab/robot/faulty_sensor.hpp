@@ -1,10 +1,10 @@
 #pragma once
-// A force sensor that lies: what it tells of the wrench that a robot's own sensor measured. In the frame of
-// the tool, f the force, u the direction, a the amount, t since the lie began:
+// A faulty force sensor: its output for the wrench that the sensor of a robot measured. In the frame of the
+// tool, f the force, u the direction, a the amount, t since the start of the fault:
 //   bias f + a u    drift f + a t u    stuck a u    frozen f at t = 0    spike a u in one sample every period
 //   saturation each channel within ±a    sign -f    frame f turned by a about u
-//   axes channel x tells y, y tells z, z tells x    scale a f
-// Sign, frame, axes and scale act on the moment, too; frozen, stuck and bias leave it.
+//   axes channel x outputs y, y outputs z, z outputs x    scale a f
+// Sign, frame, axes and scale affect the moment too; frozen, stuck and bias do not.
 
 #include <cstdint>
 #include <optional>
@@ -33,7 +33,7 @@ std::string_view name(SensorFaultKind sensor_fault);
 
 struct SensorFault {
   SensorFaultKind sensor_fault = SensorFaultKind::kNone;
-  double amount = 0.0;                   // N, N/s, rad, or a factor; may be anything, NaN too
+  double amount = 0.0;                   // N, N/s, rad, or a factor; any value, including NaN
   Vector3 direction = Vector3::UnitX();  // unit, in the frame of the tool
   double period_s = 0.0;                 // of spikes; 0: one
 };
@@ -42,9 +42,9 @@ class FaultySensor {
  public:
   explicit FaultySensor(const RobotConfig& robot) : kinematics_(robot) {}
 
-  /// From the next sample on; kNone: the truth.
+  /// Sets the fault from the next sample on; kNone: no fault.
   void sensor_fault(const SensorFault& sensor_fault);
-  /// Changes what the robot said at `now`. The times of samples rise.
+  /// Changes the reported state of the robot at `now`. The times of samples must increase.
   void apply(Time now, RobotState& robot);
 
   [[nodiscard]] const SensorFault& sensor_fault() const { return sensor_fault_; }

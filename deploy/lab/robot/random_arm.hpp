@@ -1,5 +1,5 @@
 #pragma once
-// Arms for the laws of the robot: those that ship, as plain values, and random ones of each family.
+// Arms for tests of the robot: the supplied ones, as plain values, and random ones of each family.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ constexpr double kHalfPi = 1.57079632679489661923;
 struct NamedArm {
   std::string name;
   RobotConfig robot;            // without joint limits
-  RobotConfig limited = robot;  // with those of its file, where it has one
+  RobotConfig limited = robot;  // with those of its file, if it has one
 };
 
 inline RobotConfig unlimited(RobotConfig robot) {
@@ -77,7 +77,7 @@ inline JointVector random_joints(Random& random, const RobotConfig& robot) {
   return q;
 }
 
-/// Slides along z, y and x; as deploy/robots/cartesian.txtpb.
+/// Slides along z, y and x, like deploy/robots/cartesian.txtpb.
 inline RobotConfig cartesian() {
   RobotConfig robot;
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
@@ -105,7 +105,7 @@ inline RobotConfig random_arm(Random& random) {
   return unlimited(robot);
 }
 
-/// With axes `first` to `first + 2`, from 0, meeting or parallel (one of them backwards in a third of the
+/// With axes `first` to `first + 2`, from 0, intersecting or parallel (one of them reversed in a third of the
 /// cases each).
 inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t first) {
   RobotConfig robot = random_arm(random);
@@ -120,11 +120,11 @@ inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t firs
   return robot;
 }
 
-/// Distance of the tool at `q` from `goal`: the larger of rad and share of the reach. In long double, with
-/// rows as they stand in the table: nothing of it is the code under test.
+/// Distance of the tool at `q` from `goal`: the larger of rad and share of the reach. In long double, from
+/// the rows of the table, independent of the code under test.
 double exact_error(const RobotConfig& robot, const JointVector& q, const Pose& goal, double reach_m);
 
-/// Largest difference of two sets of angles, whole turns apart counting as equal, rad.
+/// Maximum difference of two sets of angles modulo whole turns, rad.
 double apart(const JointVector& a, const JointVector& b);
 
 }  // namespace longreach::test

@@ -1,7 +1,7 @@
 #pragma once
-// `longreach-lab solve KIND`: kinematics and statics of the devices and the robot, for anybody's geometry,
-// and impacts. One JSON object a line in, one a line out; {"error": "..."} for a line that cannot be
-// answered. Radians unless a key says _deg.
+// `longreach-lab solve KIND`: kinematics and statics of devices and robots with any geometry, and impacts.
+// One JSON object per line as input, one per line as output; {"error": "..."} for a line that cannot be
+// answered. Radians unless a key ends with _deg.
 //
 //   delta-ik        geometry, p                 -> {"theta": [[two roots] a leg]}
 //   delta-fk        geometry, theta             -> {"solutions": [[x, y, z], ...]}
@@ -17,11 +17,11 @@
 //   impact          m, k, lambda, n, v, dt, integrator -> {"restitution", "penetration_max", "contact_time",
 //                   "energy_error", "evaluations"}           SI; a free impact at speed v, free_impact.hpp
 //
-// integrator: "discrete_gradient" (the default), "explicit_euler", "semi_implicit_euler" or "rk4". Without dt
-// it is a 64th of the time of contact or less. robot: name of a file of deploy/robots; dh: six of {"a",
-// "alpha", "d", "theta"}; convention "standard" (the default) or "modified". Joint limits do not count.
+// integrator: "discrete_gradient" (the default), "explicit_euler", "semi_implicit_euler" or "rk4". The
+// default of dt is at most a 64th of the contact time. robot: name of a file in deploy/robots; dh: six of
+// {"a", "alpha", "d", "theta"}; convention "standard" (the default) or "modified". Joint limits are ignored.
 //
-// Unreachable: an empty list. In delta-statics a position takes the first working mode, angles the working
+// Unreachable: an empty list. In delta-statics a position uses the first working mode, angles the working
 // assembly (delta_kinematics.hpp).
 
 #include <iosfwd>
@@ -34,7 +34,7 @@ namespace longreach {
 /// Names of the kinds.
 std::vector<std::string> solve_kinds();
 
-/// Answers every line of `in`. Returns 0; 1 after a bad line; 2 for an unknown kind, with nothing read.
+/// Answers every line of `in`. Returns 0; 1 after an invalid line; 2 for an unknown kind, without reading.
 int solve(std::string_view kind, std::istream& in, std::ostream& out);
 
 }  // namespace longreach

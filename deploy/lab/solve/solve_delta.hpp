@@ -1,5 +1,5 @@
 #pragma once
-// The DELTA's part of `longreach-lab solve`: one request, one answer. Throws BadRequest or GeometryError.
+// `longreach-lab solve` for the DELTA: one request, one answer. Throws BadRequest or GeometryError.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

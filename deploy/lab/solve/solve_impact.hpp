@@ -1,5 +1,5 @@
 #pragma once
-// The impact's part of `longreach-lab solve`: one request, one answer. Throws BadRequest.
+// `longreach-lab solve` for impacts: one request, one answer. Throws BadRequest.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The robot's part of `longreach-lab solve`: one request, one answer. Throws BadRequest or ConfigError.
-// Joint limits do not count here: the questions are about geometry.
+// `longreach-lab solve` for robots: one request, one answer. Throws BadRequest or ConfigError. Joint limits
+// are ignored, because the requests are about geometry.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
-// The 3-RRR device's part of `longreach-lab solve`: one request, one answer. Throws BadRequest or
-// GeometryError.
+// `longreach-lab solve` for the 3-RRR device: one request, one answer. Throws BadRequest or GeometryError.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

@@ -1,17 +1,17 @@
 #pragma once
-// Figures by which the dimensions of a DELTA are judged, at a position and over a cube of positions:
+// Figures of merit for the dimensions of a DELTA, at a position and over a cube of positions:
 //
-//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (that of J⁻ᵀ, torques to forces, is the same;
-//                  all entries of J are lengths, so dividing it by the arm's length changes nothing)
-//   torque_i     = |J e_i|       what motor i gives for a unit force, in the direction that is worst for it
+//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (that of J⁻ᵀ, torques to forces, is equal; all
+//                  entries of J are lengths, so the length of the arm does not matter)
+//   torque_i     = |J e_i|       torque of motor i for a unit force in its worst direction
 //   bend_i       = (l_i/arm)² = (ρ/rod)² (1 - cos²γ),  cos γ = (d² - arm² - (offset + ρ)²)/(2 arm (offset +
 //   ρ))
 //
-// l_i the lever, ρ the rods seen in the leg's plane, d the distance of the platform joint from the motor
-// there, γ the angle between arm and forearm. bend continues smoothly to negative values where the leg does
-// not reach, so that an optimiser finds its way back. Elbows are on the outer side (mode 0).
+// l_i is the lever, ρ the rods projected on the plane of the leg, d the distance of the platform joint from
+// the motor in it, γ the angle between arm and forearm. bend continues smoothly to negative values where the
+// leg does not reach, so that an optimiser can return. Elbows are on the outer side (mode 0).
 //
-// Not handled: links that meet each other, how far ball joints turn, the device's own weight.
+// Not handled: collisions of links, ranges of ball joints, the weight of the device.
 
 #include <limits>
 
@@ -19,13 +19,13 @@
 
 namespace longreach {
 
-/// At one position. Out of reach: all figures but `bend` have the values below.
+/// At one position. Out of reach, all figures except `bend` have the values below.
 struct DeltaFigures {
-  Vector3 bend = Vector3::Constant(-1.0);  // a leg that does not reach: negative
-  double rods = 0.0;                       // least singular value of the three unit rods, 0 to 1
-  double conditioning = 0.0;               // 0 to 1; 1: the same force in all directions for the same torque
+  Vector3 bend = Vector3::Constant(-1.0);  // negative for a leg that does not reach
+  double rods = 0.0;                       // minimum singular value of the three unit rods, 0 to 1
+  double conditioning = 0.0;               // 0 to 1; 1: the same force in all directions for equal torque
   Vector3 torque_m = Vector3::Constant(std::numeric_limits<double>::infinity());  // N m per N
-  Vector3 elbow_m = Vector3::Zero();  // arm's end under the base: towards the working side
+  Vector3 elbow_m = Vector3::Zero();  // end of the arm below the base: towards the working side
 };
 
 DeltaFigures figures(const DeltaGeometry& g, const Vector3& p_m);
@@ -36,46 +36,46 @@ struct DeltaCube {
   double side_m = 0.0;
 };
 
-/// What a device must do everywhere in its cube, and the cylinder about the base's axis into which it must
-/// fit.
+/// Requirements for a device in its cube, and the cylinder about the axis of the base that must contain it.
 struct DeltaDemand {
-  double conditioning = 0.0;        // at least
-  double arm = 0.25;                // |l_i| / arm at least: distance from type 1 singularities
-  double rods = 0.25;               // at least: distance from type 2 singularities
+  double conditioning = 0.0;        // minimum
+  double arm = 0.25;                // minimum |l_i| / arm: distance from type 1 singularities
+  double rods = 0.25;               // minimum: distance from type 2 singularities
   double force_n = 0.0;             // in every direction
-  double torque_nm = 1.0;           // with at most this torque of each motor
-  double platform_radius_m = 0.02;  // of the platform joints; the base is larger by the geometry's radius
-  double radius_m = 1.0;            // of the cylinder: arms stretched out stay inside
-  double height_m = 1.0;            // of the cylinder: from base or highest elbow to the platform's lowest
+  double torque_nm = 1.0;           // with at most this torque per motor
+  /// of the platform joints; the base is larger by the radius of the geometry
+  double platform_radius_m = 0.02;
+  double radius_m = 1.0;            // of the cylinder, which contains stretched arms
+  double height_m = 1.0;  // of the cylinder: from base or highest elbow to the lowest point of the platform
 };
 
-/// By how much a position of a cube meets the demand: dimensionless, met where not negative. In this order:
-/// bend (3), torque (3, not below -1), height (3), radius, rods, conditioning.
+/// Margins of a position of a cube: dimensionless, non-negative if the requirement is fulfilled. In this
+/// order: bend (3), torque (3, not below -1), height (3), radius, rods, conditioning.
 using DeltaSlacks = Eigen::Matrix<double, 12, 1>;
 constexpr int kDeltaConditioningSlack = 11;
 DeltaSlacks slacks(const DeltaGeometry& g, const DeltaDemand& demand, const DeltaCube& cube,
                    const DeltaFigures& at);
 
-/// Over a grid of `per_edge`³ positions, corners and faces included (1: the centre). Only the mean is not the
-/// worst of all.
+/// Over a grid of `per_edge`³ positions, corners and faces included (1: the centre). All values are the
+/// worst, except the mean.
 struct DeltaCubeFigures {
-  double slack = 0.0;  // least of all slacks: not negative where the whole demand is met
+  double slack = 0.0;  // minimum of all margins: non-negative if all requirements are fulfilled
   double conditioning = 0.0;
   double conditioning_mean = 0.0;
-  double arm = 0.0;  // least |l_i| / arm; 0 out of reach
+  double arm = 0.0;  // minimum |l_i| / arm; 0 out of reach
   double rods = 0.0;
   double torque_m = 0.0;  // N m per N
-  double radius_m = 0.0;  // of the cylinder that the device needs
+  double radius_m = 0.0;  // of the necessary cylinder
   double height_m = 0.0;
 };
 
 DeltaCubeFigures figures(const DeltaGeometry& g, const DeltaDemand& demand, const DeltaCube& cube,
                          int per_edge);
 
-/// Side of the largest cube about `centre_m` that meets the demand on the grid; 0 where the centre itself
-/// does not. Bisection: exact to 1e-6 of the device's size, as larger cubes about the same centre contain
-/// smaller ones. Between the positions the torque may be higher: with 5, 9, 17 an edge the reconstructed
-/// device's cube of 4 N at 0.3 N m is 2.5, 0.9, 0.3 % larger than with 49.
+/// Side of the largest cube about `centre_m` that fulfils the requirements on the grid; 0 if the centre does
+/// not. Bisection, exact to 1e-6 of the size of the device, because larger cubes about the same centre
+/// contain smaller ones. Between the positions the torque may be higher: with 5, 9, 17 per edge the cube of
+/// the reconstructed device for 4 N at 0.3 N m is 2.5, 0.9, 0.3 % larger than with 49.
 double largest_cube_m(const DeltaGeometry& g, const DeltaDemand& demand, const Vector3& centre_m,
                       int per_edge);
 

@@ -1,11 +1,11 @@
 #pragma once
-// Searches for the best design of a SynthesisProblem, each within a budget of evaluations (one evaluation:
-// all slacks of one design; those for gradients count). Deterministic from the seed.
+// Searches for the best design of a SynthesisProblem within a budget of evaluations (one evaluation: all
+// margins of one design, including those for gradients). Deterministic for a seed.
 //
 //   genetic     pagmo's `sga`: simulated binary crossover, polynomial mutation, tournament. A genetic
 //               algorithm proper; NLopt's evolutionary methods are evolution strategies. Constraints by Deb's
 //               rule (2000): feasible before infeasible, these by violation.
-//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until it converges. Gradients by central
+//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence. Gradients by central
 //               differences.
 //   restarted   the same from further random starts until the budget is spent.
 //   genetic, then sequential: the first with four fifths of the budget, its best design starts the second.
@@ -19,18 +19,18 @@
 
 namespace longreach {
 
-/// Everything a search has evaluated, and where its budget ends.
+/// Record of all evaluations of a search, with its budget.
 class SearchLog {
  public:
   using Variables = SynthesisProblem::Variables;
   struct Step {
     int evaluations = 0;
-    double value = 0.0;  // best feasible one from here on
+    double value = 0.0;  // best feasible value from here on
   };
 
   SearchLog(const SynthesisProblem& problem, int budget) : problem_(problem), budget_(budget) {}
 
-  /// Evaluates and keeps the best: feasible before infeasible, then by value, or by violation.
+  /// Evaluates a design and keeps the best: feasible before infeasible, then by value, or by violation.
   SynthesisProblem::Evaluation evaluate(const Variables& x);
 
   [[nodiscard]] const SynthesisProblem& problem() const { return problem_; }
@@ -55,7 +55,7 @@ class SearchLog {
 constexpr int kGradientEvaluations = 11;  // of one step of the sequential method
 
 void run_genetic(SearchLog& log, int evaluations, Random random);
-/// One run of the method: ends when it converges, fails or has spent the budget.
+/// One run of the method, until it converges, fails or has used up the budget.
 void run_sequential(SearchLog& log, const SearchLog::Variables& start);
 
 SearchLog::Variables random_start(const SynthesisProblem& problem, Random& random);

@@ -1,5 +1,5 @@
 #pragma once
-// What a call costs on this machine.
+// Cost of a call on this machine.
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,7 @@
 
 namespace longreach {
 
-/// ns of one of `times` calls, call(0) to call(times - 1), in the quickest of some rounds: the others were
-/// disturbed.
+/// ns per call of call(0) to call(times - 1), in the fastest of some rounds, which is the least disturbed.
 template <class Call>
 double cost_ns(int times, Call&& call) {
   constexpr int kRounds = 7;
@@ -23,8 +22,8 @@ double cost_ns(int times, Call&& call) {
   return best;
 }
 
-/// Instructions of one of `times` calls, which a child process takes step by step (ptrace): exact, whatever
-/// else the machine does. NaN where the system forbids it.
+/// Instructions per call, counted by single-stepping a child process (ptrace): exact, independent of the load
+/// of the machine. NaN if the system does not permit it.
 double instructions(int times, const std::function<void(int)>& call);
 
 }  // namespace longreach

@@ -1,5 +1,6 @@
 #pragma once
-// Whole runs of the laboratory for `trade`: how well the tool follows the hand, and how right a wall feels.
+// Complete runs of the laboratory for `trade`: tracking error of the tool, and error of the displayed
+// stiffness.
 
 #include <string>
 #include <vector>
@@ -8,17 +9,17 @@
 
 namespace longreach {
 
-/// The hand moves to and fro in three dimensions for a minute, up to 20 mm/s, in free space; the tool is
-/// compared with what was commanded one link delay before.
+/// The hand moves back and forth in three dimensions for a minute, at up to 20 mm/s, in free space; the tool
+/// is compared with the command of one link delay before.
 struct Tracking {
   double error_rms_m = 0.0;
-  double late_s = 0.0;              // delay of the best fit, beyond that of the link
-  double bent_rms_m = 0.0;          // what is left of the error then
+  double late_s = 0.0;              // delay of the best fit, in addition to that of the link
+  double bent_rms_m = 0.0;          // remaining error
   double roughness_m_per_s2 = 0.0;  // acceleration of the tool, rms; that of the hand is 0.02
-  double kbit_per_s = 0.0;          // commands, headers counted
-  double cost_us = 0.0;             // of both sides and the simulation, a millisecond of virtual time
+  double kbit_per_s = 0.0;          // commands, including headers
+  double cost_us = 0.0;             // of both sides and the simulation, per millisecond of virtual time
 };
-/// `settings`: PATH=VALUE, beyond those of the run; over `analog` unless they name a profile.
+/// `settings`: PATH=VALUE, in addition to those of the run; over `analog` unless they name a profile.
 Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
 /// The experiment `touch` over the same link, with some seeds.

@@ -1,6 +1,6 @@
 #pragma once
-// Speed against accuracy of the stages that can trade one for the other: what each way to do it costs, and
-// how far off it is. A point is on the front when no other is both cheaper and more accurate.
+// Cost against error of the methods of each stage. A point is on the front if no other point is both cheaper
+// and more accurate.
 
 #include <limits>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace longreach {
 
-/// One way to do what a stage does.
+/// One method of a stage.
 struct TradePoint {
   std::string series;                                              // one of the stage's
-  std::string setting;                                             // of the series; empty: it has one only
+  std::string setting;  // within the series; empty: there is only one
   double cost = 0.0;                                               // > 0
   double error = 0.0;                                              // >= 0
-  double instructions = std::numeric_limits<double>::quiet_NaN();  // of a call; NaN: not counted
-  bool standard = false;                                           // what the defaults choose
+  double instructions = std::numeric_limits<double>::quiet_NaN();  // per call; NaN: not counted
+  bool standard = false;                                           // used by the defaults
 };
 
 struct TradeStage {
@@ -31,7 +31,7 @@ struct TradeStage {
   std::vector<TradePoint> (*measure)(const ExperimentRun& run);
 };
 
-/// Whether no other point is cheaper and as accurate, or as cheap and more accurate.
+/// Whether no other point is cheaper and at least as accurate, or more accurate and at most as expensive.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 
 // The stages, one file each.
