@@ -107,7 +107,7 @@ MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<Sta
 MasterNode::~MasterNode() = default;
 
 void MasterNode::State::take_handle(HandleState h) {
-  if (!config.device.interleaver) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
+  if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
   if (plausible(h)) {
     handle = motion.step(h, period_s);
   } else {
@@ -277,7 +277,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
-  if (!s.config.device.interleaver) out.F_H_M.moment.setZero();
+  if (!s.config.device.turns) out.F_H_M.moment.setZero();
 
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
@@ -334,7 +334,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
   view.spring_moment_nm =
       -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
-  if (!config.device.interleaver) view.spring_moment_nm.setZero();
+  if (!config.device.turns) view.spring_moment_nm.setZero();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.force_step_n = renderer.force_step_n();
   view.port_energy_j = renderer.port_energy_j();
@@ -344,7 +344,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.tank_j = linear.tank.level_j();
   view.force_clamped = linear.guard.clamped() || linear.contact.yielding();
   view.stiffness_clamped = linear.contact.clamped();
-  view.rotational_stiffness_clamped = config.device.interleaver && angular.contact.clamped();
+  view.rotational_stiffness_clamped = config.device.turns && angular.contact.clamped();
   view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   view.damping_injected = linear.guard.injecting() || angular.guard.injecting();
   view.false_holds = safety.false_holds();

@@ -179,7 +179,7 @@ Reason SlaveNode::State::unready(const RobotState& robot) const {
 
 void SlaveNode::State::accept_robot(const RobotState& robot, Time now) {
   if (!robot.ok) joints.forget();
-  view.unready = robot.ok && finite(robot) ? joints.update(robot, now) : Reason(HoldCause::kRobotFault);
+  view.unready = robot.ok && finite(robot) ? joints.check(robot, now) : Reason(HoldCause::kRobotFault);
   robot_ok = view.unready == HoldCause::kNone;
   if (robot_ok) gripper.see(robot);
   if (robot_ok && !view.robot_seen) sensing.zero();
@@ -303,7 +303,7 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.reported_stiffness_n_per_m = surface.reported().stiffness_n_per_m();
   view.turn_estimate = stop.estimate();
   view.reported_stiffness_nm_per_rad = stop.reported().stiffness_n_per_m();
-  view.reported_at_m = surface.published_at_m();
+  view.reported_at_m = surface.reported_at_m();
   view.touch_sequence = surface.touch_sequence();
   view.touch = contact.touch();
   view.played_sequence = played_sequence;

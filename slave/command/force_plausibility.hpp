@@ -33,7 +33,7 @@ class ForcePlausibility {
   /// An engagement begins.
   void reset() {
     growth_.reset();
-    trial_.reset();
+    sign_test_.reset();
     answer_.reset();
   }
 
@@ -45,25 +45,25 @@ class ForcePlausibility {
     const bool moves = holds || robot.state == SafetyState::kEngaged;
     const double guard_n = holds || robot.let_go ? hold_limit_n(limits_) : limits_.force_guard_n;
     answer_.step({growth_.place_m(), growth_.size_n(), force.reaction, felt.in_contact, robot.still,
-                  moves && trial_.verdict() == ForceSignTest::Verdict::kNone, kGiveWay * guard_n, guard_n,
+                  moves && sign_test_.verdict() == ForceSignTest::Verdict::kNone, kGiveWay * guard_n, guard_n,
                   felt.dt});
     if (answer_.gives_way() || answer_.rests()) return growth_.forget();
     if (!moves) return;
     const double bound_n = holds ? hold_limit_n(limits_) : kNear * limits_.force_guard_n;
     const bool lately = !growth_.direction().isZero(0.0) && growth_.age_s() < (holds ? kHeld_s : kLately_s);
     const bool may_be_stiff = growth_.across() && growth_.slope_n_per_m() > limits_.guard_stiffness_n_per_m;
-    if (lately && !may_be_stiff && force.force_n > bound_n) trial_.begin(growth_);
+    if (lately && !may_be_stiff && force.force_n > bound_n) sign_test_.begin(growth_);
     const bool doubted = rests();
-    trial_.step(growth_, force.reaction, growth_.bounds(), felt.dt, answer_.grows());
+    sign_test_.step(growth_, force.reaction, growth_.bounds(), felt.dt, answer_.grows());
     if (doubted && !rests()) growth_.forget();
   }
 
   [[nodiscard]] bool rests() const {
-    return answer_.rests() || trial_.verdict() != ForceSignTest::Verdict::kNone;
+    return answer_.rests() || sign_test_.verdict() != ForceSignTest::Verdict::kNone;
   }
   [[nodiscard]] bool wrong_sign() const {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
-           trial_.verdict() == ForceSignTest::Verdict::kSign;
+           sign_test_.verdict() == ForceSignTest::Verdict::kSign;
   }
   /// The force has answered to giving way: a wall comes, and this is the way out.
   [[nodiscard]] Reason comes(const Vector3& reaction) const {
@@ -74,14 +74,14 @@ class ForcePlausibility {
     return {HoldCause::kWallComes, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
   }
   [[nodiscard]] bool force_persists() const {
-    return trial_.verdict() == ForceSignTest::Verdict::kForcePersists;
+    return sign_test_.verdict() == ForceSignTest::Verdict::kForcePersists;
   }
   /// What the reflexes must know of it.
-  void tell(ContactForce& force, const Vector3& lead_m) const {
+  void report(ContactForce& force, const Vector3& lead_m) const {
     force.grows = growth_.direction();
     force.grows_lead_m = force.grows.dot(lead_m);
     force.trusted = !rests();
-    force.ease_m_per_s = trial_.ease_m_per_s();
+    force.ease_m_per_s = sign_test_.ease_m_per_s();
     force.gives_way = answer_.gives_way();
     force.gave_way = answer_.gave_way();
     force.retreat_m_per_s = answer_.retreat_m_per_s();
@@ -106,7 +106,7 @@ class ForcePlausibility {
   CommandConfig limits_;
   GrowthWatch growth_;
   ForceAnswer answer_;
-  ForceSignTest trial_{};
+  ForceSignTest sign_test_{};
 };
 
 }  // namespace longreach
