@@ -54,7 +54,7 @@ struct MasterView {
   std::uint32_t engagement = 0;
   /// safety.presence = HOLD, and no hand is on the handle: engagement is impossible
   bool hand_missing = false;
-  bool engaging = false;      // an engagement waits for its answer
+  bool engaging = false;  // an engagement waits for its answer
   // Seconds until the answer can arrive; none: no engagement is pending, or unknown.
   std::optional<double> answer_in_s{};
   std::optional<double> rtt_s{};        // median of the last half second
@@ -79,7 +79,7 @@ struct MasterView {
   Vector3 spring_moment_nm = Vector3::Zero();        // of a contact by rotation
   double rotational_stiffness_nm_per_rad = 0.0;      // rendered stiffness, about the foremost axis
   double rotational_stiffness_max_nm_per_rad = 0.0;  // maximum rendered stiffness
-  double force_step_n = 0.0;       // change of the spring force by the last applied report
+  double force_step_n = 0.0;                         // change of the spring force by the last applied report
   double port_energy_j = 0.0;      // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
   double port_energy_min_j = 0.0;  // its minimum since the start of an engagement, over all engagements
   double stored_energy_j = 0.0;

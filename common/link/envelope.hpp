@@ -40,12 +40,12 @@ constexpr Duration kNoRtt{-1};  // an unknown round trip, like any value below z
 template <class Message>
 struct Received {
   std::uint64_t sequence = 0;
-  PeerTime sent{};                  // on the sender's clock
-  Time received{};                  // on this clock
+  PeerTime sent{};  // on the sender's clock
+  Time received{};  // on this clock
   /// when this side sent the newest datagram that the peer had received; none: not yet
   std::optional<Time> echo_sent{};
-  Duration rtt = kNoRtt;            // from then until now, without the time held at the peer
-  bool newest = true;               // no newer one of its type has arrived before
+  Duration rtt = kNoRtt;  // from then until now, without the time held at the peer
+  bool newest = true;     // no newer one of its type has arrived before
   Message message{};
 };
 

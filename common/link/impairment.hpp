@@ -27,20 +27,20 @@ namespace longreach {
 
 /// One direction of a link. All times one-way.
 struct ImpairmentConfig {
-  double delay_s = 0.0;              // 0 to 100
-  double jitter_s = 0.0;             // standard deviation, 0 to 10
-  double loss = 0.0;                 // mean fraction of lost datagrams, 0 to 1
-  double loss_burst = 1.0;           // mean length of a loss burst in datagrams; 1: independent losses
-  double duplicate = 0.0;            // fraction of duplicated datagrams
-  double reorder = 0.0;  // fraction that passes its predecessors: delivered with half of the delay
-  double corrupt = 0.0;              // fraction with one bit flipped
-  double rate_bit_per_s = 0.0;       // 0: unlimited
-  double queue_s = 0.2;              // longest queue before the rate limit drops
-  double step_delay_s = 0.0;         // added to the delay while the step lasts
-  double step_start_s = 0.0;         // start of the step, after the profile was set
-  double step_duration_s = 0.0;      // 0: no step
-  double drift_s_per_s = 0.0;        // change of delay with time (range rate over c)
-  double blackout_start_s = 0.0;     // first loss of signal, after the profile was set
+  double delay_s = 0.0;           // 0 to 100
+  double jitter_s = 0.0;          // standard deviation, 0 to 10
+  double loss = 0.0;              // mean fraction of lost datagrams, 0 to 1
+  double loss_burst = 1.0;        // mean length of a loss burst in datagrams; 1: independent losses
+  double duplicate = 0.0;         // fraction of duplicated datagrams
+  double reorder = 0.0;           // fraction that passes its predecessors: delivered with half of the delay
+  double corrupt = 0.0;           // fraction with one bit flipped
+  double rate_bit_per_s = 0.0;    // 0: unlimited
+  double queue_s = 0.2;           // longest queue before the rate limit drops
+  double step_delay_s = 0.0;      // added to the delay while the step lasts
+  double step_start_s = 0.0;      // start of the step, after the profile was set
+  double step_duration_s = 0.0;   // 0: no step
+  double drift_s_per_s = 0.0;     // change of delay with time (range rate over c)
+  double blackout_start_s = 0.0;  // first loss of signal, after the profile was set
   double blackout_duration_s = 0.0;  // 0: none
   double blackout_period_s = 0.0;    // repeat; 0: once
 

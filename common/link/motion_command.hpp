@@ -24,9 +24,9 @@ struct MotionCommand {
   std::uint32_t engagement = 0;  // number of the requested engagement; 0: never engaged
   Request request = Request::kHold;
   MotionMode mode = MotionMode::kPosition;
-  double scale = 1.0;                        // k_scale, 0.05 to 1
+  double scale = 1.0;          // k_scale, 0.05 to 1
   std::optional<bool> grip{};  // requested state of the gripper, closed or open; none: unchanged
-  bool let_go = false;                       // no hand is on the handle; sent in every datagram
+  bool let_go = false;         // no hand is on the handle; sent in every datagram
   GoalKind goal_kind = GoalKind::kPosition;  // which of the two goals below this datagram carries
   Vector3 position_m = Vector3::Zero();      // goal minus anchor, in W
   Vector3 rotation_rad =

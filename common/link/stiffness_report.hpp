@@ -27,8 +27,7 @@ struct ReportedSurface {
   // remembered, as it is older; it lies at `offset` along the normal from the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
-  std::uint32_t touch =
-      0;  // number of the touch, from 1, in which it is or was last pressed; 0: no surface
+  std::uint32_t touch = 0;  // number of the touch, from 1, in which it is or was last pressed; 0: no surface
   bool pressed = false;
 };
 

@@ -22,7 +22,7 @@ struct AdapterFigures {
   std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
   std::uint64_t late = 0;       // overtaken, repeated, or of another session during one
   std::uint64_t restarts = 0;
-  double silent_after_s = 0.0;                  // duration of the last silence when it became a fault
+  double silent_after_s = 0.0;  // duration of the last silence when it became a fault
   /// the other user to which the listening program belongs, if it is refused
   std::optional<std::uint32_t> unknown_peer{};
 };

@@ -27,7 +27,7 @@ struct SummaryConfig {
   double energy_out_max_j = 1e-3;        // energy that encoder steps can simulate without a leak
   double force_step_n = 0.1;             // a report may change the spring's force by this, or
   double force_step_share = 0.05;  // by this share of it: differences below 7 to 10 % are not perceptible
-  bool outages = false;                  // the profile of the link specifies outages
+  bool outages = false;            // the profile of the link specifies outages
 };
 
 /// Counters at the end of the run.
@@ -90,8 +90,7 @@ class RunSummary {
   LineFit fit_;
   double estimate_sum_n_per_m_ = 0.0;
   std::uint64_t estimates_ = 0;
-  double cut_to_n_per_m_ =
-      0.0;  // limit of the device, if that was below the wall; 0: it was not
+  double cut_to_n_per_m_ = 0.0;  // limit of the device, if that was below the wall; 0: it was not
   double energy_min_j_ = 0.0;
   double energy_drawdown_j_ = 0.0;
   std::uint64_t reports_ = 0;

@@ -42,8 +42,7 @@ class LeadBound {
  private:
   double lead_;
   GoalBound bound_{};
-  std::optional<std::uint64_t>
-      within_{};  // first of the later commands whose goals were within the bound
+  std::optional<std::uint64_t> within_{};  // first of the later commands whose goals were within the bound
 };
 
 }  // namespace longreach

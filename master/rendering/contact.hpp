@@ -36,12 +36,12 @@ enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
 
 /// The handle now.
 struct ContactHandle {
-  Vector3 x = Vector3::Zero();           // in M
-  Vector3 rate = Vector3::Zero();        // x'
-  Vector3 goal = Vector3::Zero();        // commanded, in W
+  Vector3 x = Vector3::Zero();     // in M
+  Vector3 rate = Vector3::Zero();  // x'
+  Vector3 goal = Vector3::Zero();  // commanded, in W
   bool rate_mode = false;  // there is no position to press against: the depth of the goal itself is displayed
-  bool held = true;                      // on a released handle the springs fade
-  bool clutched = false;                 // the hand moves without the robot
+  bool held = true;        // on a released handle the springs fade
+  bool clutched = false;   // the hand moves without the robot
   Vector3 deflection = Vector3::Zero();  // from the centre of rate mode, in M
 };
 

@@ -24,12 +24,12 @@ namespace longreach {
 /// Information of the guard about the contact.
 struct ContactForce {
   bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();   // unit, direction of the force on the tool
-  double force_n = 0.0;                 // measured along it
-  double stiffness_n_per_m = 0.0;       // as identified; 0: unknown
+  Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
+  double force_n = 0.0;                // measured along it
+  double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
   double lead_m = 0.0;  // lead of the setpoint into the contact, which the lag of the servo has yet to add
-  Vector3 grows = Vector3::Zero();      // unit, direction in which the force grows unexpectedly; zero: none
-  double grows_lead_m = 0.0;            // lead of the setpoint in that direction
+  Vector3 grows = Vector3::Zero();  // unit, direction in which the force grows unexpectedly; zero: none
+  double grows_lead_m = 0.0;        // lead of the setpoint in that direction
   /// unit, direction of the whole force if it is far from `reaction`, and
   Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;

@@ -77,11 +77,10 @@ class SlaveMotion {
   LimitWatch watch_;
   StallDetector stall_detector_;
   Pose X_WE_{};
-  std::optional<Clamps> stands_{};  // reason
-  bool turning_ = false;            // moving along a joint path to another solution
-  double conditioning_ = 1.0;       // of the previous tick
-  JointVector home_rad_ =
-      JointVector::Zero();  // of the last branch of the arm, away from singular poses
+  std::optional<Clamps> stands_{};              // reason
+  bool turning_ = false;                        // moving along a joint path to another solution
+  double conditioning_ = 1.0;                   // of the previous tick
+  JointVector home_rad_ = JointVector::Zero();  // of the last branch of the arm, away from singular poses
   std::uint64_t failures_ = 0;
   bool force_persists_ = false;
 };

@@ -67,7 +67,7 @@ class SlaveContact {
     Vector3 p_WE = Vector3::Zero();  // position of the tool when that force was last in the noise
     double way_m = 0.0,
            /// share of the motion against it, and of the force on the pressed surfaces, as last evaluated
-           share = 0.0;
+        share = 0.0;
   };
 
   /// Starts a touch by `force_n`, of a known or new surface.

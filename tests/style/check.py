@@ -14,6 +14,7 @@ import sys
 sys.dont_write_bytecode = True   # the source tree stays as it is
 import layers  # noqa: E402
 import source  # noqa: E402
+import words  # noqa: E402
 
 TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
 TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CONTRIBUTING.md', 'LICENSE', 'NOTICE',
@@ -260,12 +261,14 @@ def check(root, form=True):
     check_layout(root, found)
     paths = tree(root)
     check_folders(paths, found)
-    codes = {}
+    codes, texts = {}, {}
     for path in paths:
         check_name(path, found)
         text = read(root, path)
         if text is None:
             continue
+        if path != 'CHANGELOG.md':   # it names what was renamed
+            texts[path] = text
         check_lines(path, text, found)
         if path in PLACES:
             check_paths(path, text, paths, found)
@@ -275,10 +278,13 @@ def check(root, form=True):
             check_types(path, source.code_only(text), found)
         if path.endswith(CPP):
             check_cpp(root, path, text, found)
+            words.check_test_names(path, text, found)
             codes[path] = source.code_only(text)
         if path.endswith('.py'):
             check_python(path, text, found)
     check_definitions(codes, found)
+    if words.LIST in texts:
+        words.check_words(words.parse(texts[words.LIST]), texts, found)
     if form:
         check_format(root, [path for path in paths if path.endswith(CPP)], found)
     return found

@@ -57,6 +57,26 @@ class Planted(unittest.TestCase):
     def test_an_adapter_that_vendors_copy_includes_the_layout_alone(self):
         self.found('deploy/adapters/a.cpp', include('common/core/a.hpp'), 'vendors')
 
+    def test_a_banned_word_that_occurs_more_often_than_its_row_allows(self):
+        rows = '# word | allowed | instead\nwhoever | 1 | a client\nnever used | 0 | -\n'
+        two = {'tests/style/words.txt': rows, 'README.md': 'whoever\nand whoever\n'}
+        self.assertTrue(any('"whoever" occurs 2 times' in error for error in self.findings(two).errors))
+        one = {'tests/style/words.txt': rows, 'README.md': 'whoever, whoevers\n'}
+        self.assertEqual(self.findings(one).errors, [])
+
+    def test_a_banned_phrase_across_lines_of_a_comment(self):
+        files = {'tests/style/words.txt': 'goes on | 0 | resumes\n',
+                 'common/core/a.hpp': '#pragma once\n// It goes\n// on.\n' + HEADER[13:] % 'A'}
+        self.assertTrue(any('"goes on" occurs 1 times' in error for error in self.findings(files).errors))
+
+    def test_a_row_that_allows_more_than_there_is(self):
+        files = {'tests/style/words.txt': 'whoever | 2 | a client\n', 'README.md': 'whoever\n'}
+        self.assertTrue(any('lower the number' in error for error in self.findings(files).errors))
+
+    def test_a_name_of_a_test_over_60_characters(self):
+        self.found('tests/unit/a_test.cpp', f'TEST(A, {"B" * 61}) {{}}\n', '61 characters')
+        self.sound('tests/unit/a_test.cpp', f'TEST(A, {"B" * 60}) {{}}\n')
+
     def test_a_sound_tree_has_no_findings(self):
         result = self.findings({})
         self.assertEqual(result.errors + result.warnings, [])

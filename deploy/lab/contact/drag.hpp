@@ -27,7 +27,7 @@ struct DragResult {
   int holds = 0;                     // ended engagements, and faults
   /// position of the tool at the end of each rest, relative to the one with an empty gripper
   double overrun_m = 0.0;
-  double push_n = 0.0;               // maximum m |a|
+  double push_n = 0.0;  // maximum m |a|
   double reported_kg = 0.0, reported_sd_kg = 0.0;
   double reported_s = 0.0;  // from the first motion until the mass was identified; 0: never
   double found_s = 0.0;     // from the load's first contact with the wall; 0: none

@@ -24,7 +24,7 @@ struct FreeImpactOutcome {
   double energy_error = 0.0;  // maximum |H - H0|/H0 of a step (hunt_crossley.hpp)
   /// maximum increase of kinetic and elastic energy in a step / kinetic energy at touch
   double energy_rise = 0.0;
-  long evaluations = 0;      // evaluations of the contact force
+  long evaluations = 0;  // evaluations of the contact force
 };
 
 constexpr long kFreeImpactSteps = 10'000'000;  // maximum number of steps

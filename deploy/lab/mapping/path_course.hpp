@@ -17,8 +17,8 @@ struct PathAim {
 };
 
 struct PathCourse {
-  PathConfig path{};          // from the start of the tool
-  std::vector<PathAim> aims;  // ends of lines and turns, and between them steps of at most 30 mm or 30°
+  PathConfig path{};             // from the start of the tool
+  std::vector<PathAim> aims;     // ends of lines and turns, and between them steps of at most 30 mm or 30°
   std::vector<Vector3> drawn_m;  // points for drawing the path with straight lines
   double length_m = 0.0;
 };

@@ -58,8 +58,8 @@ struct MoveSeen {
   double tool_max_n = 0.0;
   double felt_nm = 0.0, tool_nm = 0.0;  // moments likewise, at its end
   double given_j = 0.0;  // work of the contact force on the hand, until the contact force last vanished
-  double felt_s = -1.0;                 // from its beginning until 0.2 N are displayed; -1: never
-  double lead_m = 0.0;                  // |goal - tool| at its end
+  double felt_s = -1.0;  // from its beginning until 0.2 N are displayed; -1: never
+  double lead_m = 0.0;   // |goal - tool| at its end
   double lead_max_m = 0.0;
   double goal_step_m = 0.0;   // maximum in a tick
   double felt_step_n = 0.0;   // maximum increase in a tick

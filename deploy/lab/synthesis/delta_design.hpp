@@ -38,14 +38,14 @@ struct DeltaCube {
 
 /// Requirements for a device in its cube, and the cylinder about the axis of the base that must contain it.
 struct DeltaDemand {
-  double conditioning = 0.0;        // minimum
-  double arm = 0.25;                // minimum |l_i| / arm: distance from type 1 singularities
-  double rods = 0.25;               // minimum: distance from type 2 singularities
-  double force_n = 0.0;             // in every direction
-  double torque_nm = 1.0;           // with at most this torque per motor
+  double conditioning = 0.0;  // minimum
+  double arm = 0.25;          // minimum |l_i| / arm: distance from type 1 singularities
+  double rods = 0.25;         // minimum: distance from type 2 singularities
+  double force_n = 0.0;       // in every direction
+  double torque_nm = 1.0;     // with at most this torque per motor
   /// of the platform joints; the base is larger by the radius of the geometry
   double platform_radius_m = 0.02;
-  double radius_m = 1.0;            // of the cylinder, which contains stretched arms
+  double radius_m = 1.0;  // of the cylinder, which contains stretched arms
   double height_m = 1.0;  // of the cylinder: from base or highest elbow to the lowest point of the platform
 };
 

@@ -13,10 +13,10 @@ namespace longreach {
 
 /// One method of a stage.
 struct TradePoint {
-  std::string series;                                              // one of the stage's
+  std::string series;   // one of the stage's
   std::string setting;  // within the series; empty: there is only one
-  double cost = 0.0;                                               // > 0
-  double error = 0.0;                                              // >= 0
+  double cost = 0.0;    // > 0
+  double error = 0.0;   // >= 0
   double instructions = std::numeric_limits<double>::quiet_NaN();  // per call; NaN: not counted
   bool standard = false;                                           // used by the defaults
 };
