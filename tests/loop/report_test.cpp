@@ -62,9 +62,10 @@ TEST(ReportPage, HoldsEveryChapterAndSaysWhatFailed) {
        {"Is a &lt; b?", "by 0.25 m", "Reproduces Fig. 9", "data:image/svg+xml;base64,PHN2Zy8+\"",
         "longreach-lab run good", "Failed: the disk is full", "href=\"#bad\""})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(report_table({right, wrong}),
-            "| `longreach-lab run ...` | asks | answer |\n|---|---|---|\n| `good` | Is a < b? (Fig. 9) | by "
-            "0.25 m |\n");
+  EXPECT_EQ(
+      report_table({right, wrong}),
+      "| `longreach-lab run ...` | question | answer |\n|---|---|---|\n| `good` | Is a < b? (Fig. 9) | by "
+      "0.25 m |\n");
 }
 
 // Every answer can be said of what its experiment measures: a report would fail at the end of hours else.

@@ -136,7 +136,7 @@ std::string report_page(const ReportHead& head, const std::vector<ReportChapter>
 }
 
 std::string report_table(const std::vector<ReportChapter>& chapters) {
-  std::string text = "| `longreach-lab run ...` | asks | answer |\n|---|---|---|\n";
+  std::string text = "| `longreach-lab run ...` | question | answer |\n|---|---|---|\n";
   for (const ReportChapter& c : chapters) {
     const std::string said = answer_of(c);
     if (said.empty()) continue;
