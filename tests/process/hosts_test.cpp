@@ -168,13 +168,13 @@ TEST(Hosts, ReportBadOptionsAndMissingNamespacePermission) {
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   };
   const std::string hosts = std::string(LONGREACH_DEPLOY) + "/hosts";
-  refused(hosts, {"--delay", "soon"}, "--delay wants a time");
-  refused(hosts, {"--loss", "much"}, "--loss wants a fraction");
-  refused(hosts, {"--wire", "rope"}, "--wire wants auto, queue or relay");
-  refused(hosts, {"--operator", "ghost"}, "--operator wants script or keyboard");
+  refused(hosts, {"--delay", "soon"}, "--delay needs a time");
+  refused(hosts, {"--loss", "much"}, "--loss needs a fraction");
+  refused(hosts, {"--wire", "rope"}, "--wire needs auto, queue or relay");
+  refused(hosts, {"--operator", "ghost"}, "--operator needs script or keyboard");
   refused(hosts, {"--operator", "keyboard"}, "needs a terminal");
   refused(hosts, {"--bin", LONGREACH_DEPLOY}, "has no longreach-master");
-  refused(hosts, {"--seconds"}, "--seconds wants a value");
+  refused(hosts, {"--seconds"}, "--seconds needs a value");
   refused("/usr/bin/unshare",
           {"--user", hosts, "--bin", LONGREACH_BIN},  // nobody in particular, without a single right
           "does not let this user make network namespaces");

@@ -2,8 +2,8 @@
 // itself.
 
 const RETRY_MS = 1000;
-const SILENT = 'the view server does not answer; it is asked again every second';
-const ANOTHER = 'the view server was started anew: open the address that it printed now';
+const SILENT = 'the view server does not answer; retrying every second';
+const ANOTHER = 'the view server was restarted: open the address that it printed';
 
 export class Feed {
   /** `talk`: functions by the name of what is told: frame, scene, anchor, desk, said, links, down, slave_down, full, and

@@ -50,7 +50,7 @@ function show_lag(pose) {
   let text = '';
   if (pose && frame.far) {
     const mm = 1e3 * new Vector3(...frame.far.tool_m).distanceTo(pose.position);
-    text = `robot ${mm.toFixed(mm < 10 ? 1 : 0)} mm from where it is sent`;
+    text = `robot ${mm.toFixed(mm < 10 ? 1 : 0)} mm from its goal`;
   }
   at('lag').textContent = text;
 }
@@ -64,7 +64,7 @@ function robot_age_s() {
 function show_age(old) {
   document.body.classList.toggle('old', old);
   const age = robot_age_s();
-  at('robot-key').textContent = age === null ? 'robot, as last heard' : `robot, ${age.toFixed(age < 10 ? 1 : 0)} s ago`;
+  at('robot-key').textContent = age === null ? 'robot, as last received' : `robot, ${age.toFixed(age < 10 ? 1 : 0)} s ago`;
 }
 
 const feed = new Feed({
@@ -181,7 +181,7 @@ function draw(now_ms) {
   show_lag(pose);
   if (now_ms - rate_ms > 500) {
     rate_ms = now_ms;
-    at('rate').textContent = `${feed.rate_hz().toFixed(0)} updates a second`;
+    at('rate').textContent = `${feed.rate_hz().toFixed(0)} updates per second`;
   }
 }
 requestAnimationFrame(draw);

@@ -40,13 +40,13 @@ export class Panel {
     const mine = holder === 'you';
     const take = by_id('take');
     take.classList.toggle('held', mine);
-    take.textContent = mine ? 'Give the hand back' : 'Take the hand';
+    take.textContent = mine ? 'Return the hand' : 'Take the hand';
     take.disabled = holder === 'other';
     by_id('reach').classList.toggle('held', mine);
     for (const element of document.querySelectorAll('#controls button, #controls input, #controls select'))
       element.disabled = !mine;
-    const pages = viewers === 1 ? '' : ` · ${viewers} pages look`;
-    write('holder', (mine ? 'yours' : holder === 'other' ? 'another page has it' : 'you look on') + pages);
+    const pages = viewers === 1 ? '' : ` · ${viewers} pages observe`;
+    write('holder', (mine ? 'you have the hand' : holder === 'other' ? 'another page has the hand' : 'you observe') + pages);
   }
 
   /** Told with every connection. */
