@@ -227,7 +227,8 @@ TEST(Client, ModeAndEngageAreAskedOfTheMaster) {
 
 TEST(Client, APreconditionIsStatus1AndABadValueStatus2) {
   FakeStation station;
-  station.master.refuse(Refusal{Refusal::Kind::kPrecondition, "no datagram arrives from the slave: wait for it"});
+  station.master.refuse(
+      Refusal{Refusal::Kind::kPrecondition, "no datagram arrives from the slave: wait for it"});
   expect_one_sentence(run(station.arguments({"engage"})), 1, "no datagram arrives from the slave");
   station.master.refuse(Refusal{Refusal::Kind::kUnavailable, "the loop did not answer"});
   const Ended unavailable = run(station.arguments({"engage"}));

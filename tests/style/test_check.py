@@ -71,7 +71,7 @@ class Planted(unittest.TestCase):
 
     def test_a_row_that_allows_more_than_there_is(self):
         files = {'tests/style/words.txt': 'whoever | 2 | a client\n', 'README.md': 'whoever\n'}
-        self.assertTrue(any('lower the number' in error for error in self.findings(files).errors))
+        self.assertTrue(any('lower the number' in warning for warning in self.findings(files).warnings))
 
     def test_a_name_of_a_test_over_60_characters(self):
         self.found('tests/unit/a_test.cpp', f'TEST(A, {"B" * 61}) {{}}\n', '61 characters')

@@ -1,6 +1,12 @@
-"""Banned words and phrases, and the length of the names of tests."""
+"""Banned words and phrases, and the length of the names of tests.
 
+Usage: words.py ROOT writes the present numbers into the list, after a merge of branches that each lowered them.
+"""
+
+import pathlib
 import re
+import subprocess
+import sys
 
 LIST = 'tests/style/words.txt'
 TEST_NAME = 60
@@ -18,18 +24,23 @@ def parse(text):
     return rows
 
 
+def pattern_of(word):
+    """A phrase may go over lines, also those of a comment."""
+    return re.compile(r'(?<!\w)' + r'\s+(?://+\s*)?'.join(map(re.escape, word.split())) + r'(?!\w)')
+
+
 def check_words(rows, texts, found):
     """`texts`: path -> text. A word may occur at most as often as its row allows, in all files together."""
     texts = {path: text for path, text in texts.items() if not path.startswith(EXEMPT)}
     for word, allowed, instead in rows:
-        pattern = re.compile(r'(?<!\w)' + r'\s+(?://+\s*)?'.join(map(re.escape, word.split())) + r'(?!\w)')
+        pattern = pattern_of(word)
         places = [(path, text.count('\n', 0, match.start()) + 1)
                   for path, text in sorted(texts.items()) for match in pattern.finditer(text)]
         if len(places) > allowed:
             path, line = places[-1] if allowed else places[0]
             found.error(path, line, f'"{word}" occurs {len(places)} times, over {allowed}: write {instead}')
         elif len(places) < allowed:
-            found.error(LIST, 1, f'"{word}" occurs {len(places)} times now: lower the number {allowed} to that')
+            found.warning(LIST, 1, f'"{word}" occurs {len(places)} times now: lower the number {allowed} to that')
 
 
 def check_test_names(path, text, found):
@@ -37,3 +48,22 @@ def check_test_names(path, text, found):
         if len(match.group(2)) > TEST_NAME:
             found.error(path, text.count('\n', 0, match.start()) + 1,
                         f'the name {match.group(1)}.{match.group(2)} has {len(match.group(2))} characters, over {TEST_NAME}')
+
+
+def write(root):
+    names = subprocess.run(['git', 'ls-files'], cwd=root, stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+    texts = []
+    for name in names:
+        if not name.startswith(EXEMPT) and name != 'CHANGELOG.md':
+            texts.append((root / name).read_bytes().decode('utf-8', 'replace'))
+    rows = []
+    for line in (root / LIST).read_text().splitlines():
+        if line and not line.startswith('#'):
+            word, _, instead = (part.strip() for part in line.split('|'))
+            line = f'{word} | {sum(len(pattern_of(word).findall(text)) for text in texts)} | {instead}'
+        rows.append(line)
+    (root / LIST).write_text('\n'.join(rows) + '\n')
+
+
+if __name__ == '__main__':
+    write(pathlib.Path(sys.argv[1]))
