@@ -323,11 +323,12 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
     const char* reported;
     const char* advice;
   };
-  const Case cases[] = {{SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
-                        {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
-                        {SensorFlaw::kExchanged, "told as x, y, z are y, x, z of the tool", "in the order"},
-                        {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N without contact", "sensing.tool"},
-                        {SensorFlaw::kDead, "reports nothing along y of the base", "a channel is dead"}};
+  const Case cases[] = {
+      {SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
+      {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
+      {SensorFlaw::kExchanged, "the reported x, y, z are y, x, z of the tool", "in the order"},
+      {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N without contact", "sensing.tool"},
+      {SensorFlaw::kDead, "reports nothing along y of the base", "a channel is dead"}};
   // A person each, all at once.
   auto uncorrupted = std::async(std::launch::async, pushed, SensorFlaw::kNone);
   std::vector<std::future<Tried>> persons;

@@ -42,7 +42,7 @@ TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
     expect({"--record-max-mb", "nan"}, "nan is not a number from 1 to 1000000");
     expect({"--site", "/etc/passwd"}, "/etc/passwd is not a folder");
     expect({"--adapter", "nowhere"},
-           "adapter.address = nowhere is not where an adapter listens: write unix:/PATH");
+           "adapter.address = nowhere is not an address of an adapter: write unix:/PATH");
     expect({"--set", "rpc.listen=nowhere"}, "rpc.listen = \"nowhere\" is not an address");
     expect({"--config", "no-such-file.txtpb"}, "no-such-file.txtpb");
     expect({"--set", "loop.rate_hz=1"}, "loop.rate_hz");
@@ -74,8 +74,7 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"run", "touch", "--out", ""}, "--out: is empty");
   expect({"run", "touch", "--out", "/proc/longreach"}, "cannot create the folder /proc/longreach");
   expect({"run", "touch", "--out", "/etc/passwd"}, "cannot create the folder /etc/passwd");
-  expect({"run", "first-touch", "--set", "profile=lab"},
-         "first-touch does not use profile, so nothing would change");
+  expect({"run", "first-touch", "--set", "profile=lab"}, "first-touch does not use profile; it uses: ");
   expect({"run", "scenes-cost", "--set", "profile=lab"},
          "scenes-cost does not use profile, nor any other setting");
   expect({"run", "faults"}, "run `build/release/bin/faults`");
@@ -145,8 +144,9 @@ TEST(Usage, CheckPrintsTheConfigurationAndStartsNothing) {
   EXPECT_NE(master.output.find("mode: RATE"), std::string::npos) << master.output;
   // Of a device file that says nothing of them.
   const Ended falcon = run("longreach-master", {"--check", "--set", "device_file=devices/falcon.txtpb"});
-  for (const char* part : {"turns: false", "# the handle does not turn: the robot keeps its orientation",
-                           "behaviour {", "spherical {", "gravity_m_per_s2: [0, -9.81, 0]"})
+  for (const char* part :
+       {"turns: false", "# the handle does not turn: the orientation of the robot is constant", "behaviour {",
+        "spherical {", "gravity_m_per_s2: [0, -9.81, 0]"})
     EXPECT_NE(falcon.output.find(part), std::string::npos) << part << falcon.output;
   EXPECT_NE(master.output.find("gravity_m_per_s2: [0, 0, -9.81]"), std::string::npos) << master.output;
 }

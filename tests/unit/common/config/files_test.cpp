@@ -146,7 +146,7 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
                                  path("scenes") + " or " + folder.path().string());
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   EXPECT_EQ(resolve_error(),
-            path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": the file does not exist");
+            path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": there is no such file");
   const std::string mesh = path("scenes/m.obj");
   folder.write("scenes/m.obj", solid);
   EXPECT_EQ(resolve_error(), mesh + ":5: the mesh is not closed: an edge of this face has no second face");
@@ -323,7 +323,7 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
   folder.write("mine.txtpb", "up { delay_s: 0.7 }");
   const std::string mine = (folder.path() / "mine.txtpb").string();
   EXPECT_EQ(load_link_profile(folder.path(), mine).up().delay_s(), 0.7);
-  EXPECT_NE(error("/nowhere/mine.txtpb").find("/nowhere/mine.txtpb: the file does not exist"),
+  EXPECT_NE(error("/nowhere/mine.txtpb").find("/nowhere/mine.txtpb: there is no such file"),
             std::string::npos)
       << error("/nowhere/mine.txtpb");
   folder.write("links/moon.txtpb", "up { delay_s: -1 }");

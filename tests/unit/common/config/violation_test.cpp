@@ -220,7 +220,7 @@ TEST(Validation, WantsAddressesThatAreSuchByTheirForm) {
   EXPECT_EQ(validation_error(master), "no error");
   master.mutable_device_adapter()->set_address("foo");
   EXPECT_TRUE(validation_error(master).starts_with(
-      "device_adapter.address = foo is not where an adapter listens: write unix:/PATH"));
+      "device_adapter.address = foo is not an address of an adapter: write unix:/PATH"));
   proto::SlaveConfig slave;
   slave.mutable_rpc()->set_listen("foo");
   EXPECT_TRUE(validation_error(slave).starts_with("rpc.listen = \"foo\""));

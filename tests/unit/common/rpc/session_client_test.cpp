@@ -142,8 +142,8 @@ TEST(SessionClient, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
   ASSERT_TRUE(eventually([&] { return search.session_client.taken_by() == "192.0.2.9:4711"; }));
   // The words follow a moment later.
   EXPECT_TRUE(eventually([&] {
-    return search.session_client.trouble().find("another master (192.0.2.9:4711) has taken the robot") !=
-           std::string::npos;
+    return search.session_client.trouble().find(
+               "another master (192.0.2.9:4711) has taken control of the robot") != std::string::npos;
   }));
   ASSERT_TRUE(eventually([&] { return backend.calls().size() >= 4; }));
   const auto calls = backend.calls();

@@ -74,7 +74,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
   const std::string expected =
       "longreach master  21.3 s, 39 s left  operator: press\n"
       "\n"
-      "contact: the wall gives 0.98 N/mm (1.3 s ago)\n"
+      "contact: the wall has 0.98 N/mm (1.3 s ago)\n"
       "\n"
       "state     Engaged, slave Engaged\n"
       "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent 0.02 s\n"
@@ -90,7 +90,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "contact   n 1.5 within 0.02, lambda not identifiable\n"
       "hand         3.00 N [========................................] 15 N\n"
       "robot        2.90 N [========................................]\n"
-      "energy    +4.60 mJ into the hand's port, least -0.12 mJ\n"
+      "energy    +4.60 mJ into the hand's port, minimum -0.12 mJ\n"
       "\n"
       "clamped   nothing\n"
       "loop      0 ticks late, 0 missed, 0 rejected\n";
@@ -164,7 +164,7 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.engaging = true;
   EXPECT_EQ(happening(s), "engaging: waiting for the slave's answer");
   s.view.answer_in_s = 1.3;
-  EXPECT_EQ(happening(s), "engaging: the slave's answer can be here in 1.3 s (round trip 2.60 s)");
+  EXPECT_EQ(happening(s), "engaging: the slave's answer can arrive in 1.3 s (round trip 2.60 s)");
   s.view.answer_in_s = 0.0;
   EXPECT_EQ(happening(s), "engaging: the slave's answer is due (round trip 2.60 s)");
   s.view.engaging = false;
@@ -178,7 +178,7 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.stiffness_n_per_m = 0.0;
   EXPECT_EQ(happening(s), "contact: the slave is still measuring the wall (1.3 s ago)");
   s.view.stiffness_n_per_m = 981.0;
-  EXPECT_EQ(happening(s), "contact: the wall gives 0.98 N/mm (1.3 s ago)");
+  EXPECT_EQ(happening(s), "contact: the wall has 0.98 N/mm (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
@@ -225,7 +225,7 @@ TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   ConsoleSnapshot s = touching();
   s.view.in_contact = false;
-  EXPECT_EQ(happening(s), "the wall is remembered here, 0.98 N/mm; the robot is not touching it (1.3 s ago)");
+  EXPECT_EQ(happening(s), "remembered wall, 0.98 N/mm; the robot does not touch it (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {
@@ -234,12 +234,12 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   s.view.cause = HoldCause::kLinkSilent;
   s.link.silence_s = 0.7;
   s.view.silent = s.view.resumes = true;
-  EXPECT_EQ(happening(s), "holding: nothing has come from the slave for 0.7 s");
+  EXPECT_EQ(happening(s), "holding: nothing received from the slave for 0.7 s");
   EXPECT_TRUE(
       contains(render(s, 80, false), "Holding, slave Engaged (no datagram arrives from the other side)"));
   s.view.resumes = false;
   EXPECT_EQ(happening(s),
-            "holding: nothing has come from the slave for 0.7 s; engage when the link has "
+            "holding: nothing received from the slave for 0.7 s; engage when the link has "
             "recovered");
 }
 
@@ -249,11 +249,12 @@ TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
   s.view.cause = HoldCause::kLinkSilent;
   s.link.silence_s = 0.0;
   s.view.hold_silence_s = 12.31;
-  EXPECT_EQ(happening(s),
-            "holding: nothing came from the slave for 12.3 s; the link is back: engage to resume");
+  EXPECT_EQ(
+      happening(s),
+      "holding: nothing was received from the slave for 12.3 s; the link has recovered: engage to resume");
   EXPECT_TRUE(contains(render(s, 80, false), "(the link was silent)"));
   s.view.resumes = true;
-  EXPECT_TRUE(contains(happening(s), "the link is back: it resumes automatically"));
+  EXPECT_TRUE(contains(happening(s), "the link has recovered: it resumes automatically"));
   s.view.state = SafetyState::kObserving;
   EXPECT_TRUE(contains(happening(s), "the link was silent; check the link, then engage")) << happening(s);
 }
@@ -278,9 +279,8 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   s.view.refusal = {HoldCause::kJointLimit, 5, 2.15, 2.094};
   s.view.refusal_is_far = true;
   const std::string why =
-      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move it back by "
-      "the robot's "
-      "own means, then engage";
+      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move it back "
+      "with the robot's own controls, then engage";
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
   s.view.answer_in_s = 0.0;
@@ -297,7 +297,7 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
   s.view.state = SafetyState::kObserving;
   s.view.silent = true;
   s.link.silence_s = 140.0;
-  EXPECT_EQ(happening(s), "observing: nothing has come from the slave for 140.0 s; engage when it is back");
+  EXPECT_EQ(happening(s), "observing: nothing received from the slave for 140.0 s; engage when it is back");
   s.view.silent = false;
   s.view.far_state = SafetyState::kFault;
   s.view.far.cause = HoldCause::kSensorFault;
@@ -344,7 +344,7 @@ TEST(Words, NameEveryClamp) {
   view.rotational_stiffness_max_nm_per_rad = 0.45;
   EXPECT_EQ(clamps_in_words(view).size(), 4u);
   EXPECT_EQ(clamps_in_words(view)[2],
-            "rotational stiffness: cut to 0.45 N m/rad, the most that this device can render");
+            "rotational stiffness: limited to 0.45 N m/rad, the maximum that this device can render");
   view.far_known = true;
   view.far.clamps = {true, true, true, true, true, true, true, true, true};
   EXPECT_EQ(clamps_in_words(view).size(), 9u) << "a robot that keeps up is not slowed down";
