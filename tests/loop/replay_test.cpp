@@ -281,7 +281,7 @@ TEST_F(Replay, RefusesWhatIsNoRecording) {
   EXPECT_THROW((void)replay_file(file("text")), RecordingError);
   std::ostringstream out, err;
   EXPECT_EQ(replay({file("text").string(), file("none").string()}, out, err), 2);
-  EXPECT_NE(err.str().find("text.mcap is no recording"), std::string::npos) << err.str();
+  EXPECT_NE(err.str().find("text.mcap is not a recording"), std::string::npos) << err.str();
   EXPECT_NE(err.str().find("none.mcap"), std::string::npos) << err.str();
 }
 

@@ -303,7 +303,7 @@ TEST(RecordingList, KnowsWhatIsWholeAndWhatIsNot) {
   std::ofstream(folder.path() / "text.txt") << "no recording";
   const auto list = list_recordings(folder.path());
   ASSERT_EQ(list.size(), 3u);
-  EXPECT_NE(list[0].trouble.find("a.mcap is no recording"), std::string::npos) << list[0].trouble;
+  EXPECT_NE(list[0].trouble.find("a.mcap is not a recording"), std::string::npos) << list[0].trouble;
   EXPECT_EQ(list[1].trouble, "");
   EXPECT_EQ(list[1].side, "slave");
   EXPECT_EQ(list[1].began, "20260102T030405Z");
