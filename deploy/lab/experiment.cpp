@@ -30,12 +30,12 @@ const std::vector<Experiment> kExperiments = {
      "force on the hand {felt_after_round_trip_s} s after the round trip of {round_trip_s} s, largest "
      "step {force_step_max_n} N, wall registered within {registration_error_m*1e6} µm, without the touch"
      " sequence {registration_error_without_touch_sequence_m*1e3} mm; force at the tool at most "
-     "{guard_peak_over_guard_max} of its guard, without the guard "
-     "{guard_peak_over_guard_max_without_guard}"},
+     "{guard_peak_over_guard_max} times the guard, {guard_peak_over_guard_max_without_guard} times without "
+     "the guard"},
     {"spike", "The delay steps from 0.8 to 12 s in contact: force, energy, and recovery.",
      "master slave -link.impairment -operator.rate_distance_m -operator.probe_cycles -scene.surface.plane",
      run_spike, spike_plots, "",
-     "{stiffness_left_after_time_constant} of the stiffness remains after one time constant; the force "
+     "{stiffness_left_after_time_constant*100} % of the stiffness remains after one time constant; the force "
      "rises by at most {force_rise_max_n} N; {engagements} engagements, pressed again: {pressed_again}"},
     {"person",
      "Operators hold out, lean on limits, miss the surface, clutch and stop in contact; five links, two "
@@ -179,22 +179,23 @@ const std::vector<Experiment> kExperiments = {
      "A faulty force sensor on four arms in every state: how far does the robot move, how hard does it "
      "press?",
      "", run_sensor_faults, sensor_faults_plots, "",
-     "{runs} runs: at most {way_max_m*1e3} mm of uncommanded motion, {true_force_over_guard} of the "
-     "guard; a drift in contact responds like an approaching wall: {faked_answer_way_max_m*1e3} mm, "
-     "{faked_answer_true_force_over_guard}; reported at most {told_late_max_s} s late, false faults "
-     "{false_faults}; a false force that responds to the motion moves the robot by {control_way_m*1e3} "
+     "{runs} runs: at most {way_max_m*1e3} mm of uncommanded motion and {true_force_over_guard} times the "
+     "guard; a drift in contact responds like an approaching wall: {faked_answer_way_max_m*1e3} mm and "
+     "{faked_answer_true_force_over_guard} times the guard; every fault reported within {told_late_max_s} "
+     "s, {false_faults} false faults; a false force that responds to the motion moves the robot by "
+     "{control_way_m*1e3} "
      "mm"},
     {"moving-wall",
      "A wall approaches a robot at rest, four arms, 0.1 to 50 mm/s, 200 to 20,000 N/m; walls of layers, "
      "moving hands; and the same with a wrong sign of the force sensor.",
      "", run_moving_wall, moving_wall_plots, "",
-     "{runs} walls: at most {force_over_guard_max} of the guard up to 250 N/s, {force_over_bound_max} of"
-     " the formula's bound beyond, {layers_force_over_guard_max} where layers make the wall four times "
-     "as stiff, {hand_moves_force_over_guard_max} and {hand_moves_layers_force_over_guard_max} under "
-     "{hand_moves_runs} moving hands; reported within {told_beside_stop_max_s} s of the stop, sign "
-     "faults {false_signs}; wrong sign found in {wrong_sign_found} of {wrong_sign_pressed}, at rest at "
-     "{wrong_sign_at_rest_force_over_guard} of the guard; with a retreat of 20 mm "
-     "{control_force_over_guard}"},
+     "{runs} walls: force at most {force_over_guard_max} times the guard up to 250 N/s, and "
+     "{force_over_bound_max} times the bound of the formula beyond; {layers_force_over_guard_max} times the "
+     "guard where layers make the wall four times as stiff; {hand_moves_force_over_guard_max} and "
+     "{hand_moves_layers_force_over_guard_max} times with {hand_moves_runs} moving hands; reported within "
+     "{told_beside_stop_max_s} s of the stop, {false_signs} false sign faults; wrong sign found in "
+     "{wrong_sign_found} of {wrong_sign_pressed}, at rest at {wrong_sign_at_rest_force_over_guard} times "
+     "the guard; with a retreat of only 20 mm {control_force_over_guard} times the guard"},
     {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
      "", run_impact, impact_plots, "",
      "{impacts} impacts; restitution correct in {discrete_gradient_right} % by the discrete gradient "

@@ -93,7 +93,7 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
   metrics.push_back({"felt_success", static_cast<double>(felt), ""});
   metrics.push_back({"safe", static_cast<double>(safe), ""});
   metrics.push_back({"time_to_dock_s", time_s, "s, mean"});
-  metrics.push_back({"felt_least_n", felt_least_n, "N, greatest force of the rise, least of the seeds"});
+  metrics.push_back({"felt_least_n", felt_least_n, "N, maximum force of the rise, minimum over the seeds"});
   metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, mistakes included"});
   metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without the mistakes"});
   metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, mistakes included"});

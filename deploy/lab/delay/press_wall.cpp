@@ -66,7 +66,7 @@ void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics) {
   plot.title = "Pressing on a wall of " + figure(1e-3 * found["wall_n_per_m"]) + " N/mm, " +
                figure(found["rtt_s"]) + " s away";
   if (found["direct_limit_cycle"] == 0.0 || !found.contains("wave_limit_cycle")) return;
-  plot.title += "; direct force leaves the panels, to " + figure(found["direct_force_peak_n"]) + " N and " +
+  plot.title += "; direct force exceeds the axes, up to " + figure(found["direct_force_peak_n"]) + " N and " +
                 figure(1e3 * found["direct_port_energy_min_j"]) + " mJ";
   for (Panel& panel : plot.panels) panel.curves.front().scales = false;
 }
