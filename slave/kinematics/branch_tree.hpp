@@ -26,7 +26,6 @@ class BranchTree {
 
   /// Both signs of the sine of `aside` (>= 0), first the one on the side of `here`, the previous angle
   /// relative to the middle of both.
-  /// middle of both.
   template <typename Then>
   void fork(const Turn& here, const Turn& aside, const Then& then) {
     const Turn nearer{aside.c, std::copysign(aside.s, here.s)};

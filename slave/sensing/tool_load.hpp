@@ -113,7 +113,7 @@ class ToolCompensation {
   /// Starts averaging; there must be no contact until it is complete. The previous zero is used until then.
   /// Does nothing if zero_s = 0.
   void zero();
-  /// There is contact, or may be from now on: the previous zero is kept.
+  /// Call it when there is contact or contact becomes possible: the previous zero is kept.
   void abandon() { zeroing_ = first_ = false; }
 
   /// Returns the wrench by the environment on the tool, W: `reading` (in W) minus tool and bias, for a sensor
