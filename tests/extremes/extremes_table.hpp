@@ -1,6 +1,6 @@
 #pragma once
-// The table of extremes as extremes.csv (every message) and extremes.svg (cells coloured by outcome, the
-// accuracy in them).
+// Writes the table of extremes as extremes.csv (with all messages) and extremes.svg (cells coloured by
+// outcome, with their accuracy).
 
 #include <filesystem>
 
@@ -8,7 +8,7 @@
 
 namespace longreach {
 
-/// `results` as `rows` and their cells. Throws std::runtime_error when a file cannot be written.
+/// Writes `results` as rows with their cells. Throws std::runtime_error if a file cannot be written.
 void write_extremes(const std::filesystem::path& folder, const std::vector<ExtremeRow>& rows,
                     const std::vector<std::vector<ExtremeResult>>& results);
 

@@ -1,20 +1,20 @@
 #pragma once
-// The campaign of faults: program `faults`. How it hangs together:
+// The fault campaign: program `faults`. Its parts:
 //
-//   schedule   what goes wrong and when, drawn from a seed; a list that can be printed, read, shortened
-//   scenario   where: robot, scene, device, link, limits, habits of the operator
-//   kind       the table of all kinds of fault; *_kinds.cpp, one a group, each a few lines
-//   world      a laboratory with the faults of a schedule in it; it stands between the nodes and everything
-//              around them (deploy/lab/fault_hooks.hpp), with wire (who sits on the network) and person
-//   ghost      what the master really sent and the slave was given: who had the right to move the robot
-//   moment     one tick as an outsider saw it; all that the oracle reads
-//   invariant  the oracle; *_invariants.cpp and liveness.cpp, a class an invariant
-//   trial      one schedule under the oracle; shrink: the few faults of it that matter
-//   tally      many trials; faults.cpp runs them on all cores, in blocks that are kept in the folder --out, so
-//              that a campaign that was broken off goes on; faults_table draws what came of it
+//   schedule   faults and their times, drawn from a seed; a list that can be printed, read and shortened
+//   scenario   robot, scene, device, link, limits and behaviour of the operator
+//   kind       the table of all kinds of fault; *_kinds.cpp, one per group, a few lines per kind
+//   world      a laboratory with the faults of a schedule; it is between the nodes and their environment
+//              (deploy/lab/fault_hooks.hpp), with wire (the network and its attacker) and person
+//   sent_log   what the master sent and the slave received: who was permitted to move the robot
+//   moment     one tick as seen from outside; the only input of the oracle
+//   invariant  the oracle; *_invariants.cpp and liveness.cpp, one class per invariant
+//   trial      one schedule under the oracle; shrink: the few faults that cause a failure
+//   tally      results of many trials; faults.cpp runs them on all cores, in blocks stored in the folder
+//              --out, so that an interrupted campaign can resume; faults_table writes the results
 //
-// What needs real programs is in tests/process and not here: kill -9 and restarts, descriptors, disks, pipes,
-// RPC, certificates, idle connections, source addresses, wall clocks, local users.
+// Tests that need real programs are in tests/process: kill -9 and restarts, descriptors, disks, pipes, RPC,
+// certificates, idle connections, source addresses, wall clocks, local users.
 
 #include <cstdint>
 #include <filesystem>
@@ -26,18 +26,19 @@
 
 namespace longreach {
 
-/// Seeds `first` to `first + count - 1`, on all cores.
+/// Runs the seeds `first` to `first + count - 1` on all cores.
 Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<void(double)>& progress = {});
 
-/// The whole campaign, from `run.seed` on: half a virtual hour, or 400 with LONGREACH_FULL.
+/// Runs the whole campaign from `run.seed` on: half an hour of virtual time, or 400 hours with
+/// LONGREACH_FULL.
 std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
 std::vector<Plot> faults_plots();
 
-/// The first of the failures, on standard error: each with the command that repeats it.
+/// Prints the first failures to standard error, each with the command that repeats it.
 void say_failures(const Tally& tally);
 
-/// One seed, or a schedule that was written down: says what is violated, and by which faults at least. False
-/// if something is.
+/// Repeats one seed or a given schedule; reports the violations and a minimum set of faults that causes them.
+/// Returns false if there is a violation.
 bool repeat_faults(const Schedule& schedule, std::string& said);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// What a campaign of faults gave, as faults.csv and faults.svg: kinds and how often they were injected,
-// guards and how often they acted, invariants and how often they were judged and violated.
+// Writes the results of a fault campaign as faults.csv and faults.svg: kinds of fault and the number of
+// injections, guards and the number of activations, invariants and the numbers of checks and violations.
 
 #include <filesystem>
 
@@ -8,7 +8,7 @@
 
 namespace longreach {
 
-/// Throws std::runtime_error when a file cannot be written.
+/// Throws std::runtime_error if a file cannot be written.
 void write_faults(const std::filesystem::path& folder, const Tally& tally);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Controls: a product in which a guard is missing or a limit does not hold, made by lying to it, or about it,
-// at its boundary and behind the oracle's back. The campaign must find each of them.
+// Controls: a product in which a guard is missing or a limit does not hold. This is simulated by falsifying
+// data at its boundary, without the knowledge of the oracle. The campaign must find each of them.
 
 #include <array>
 #include <cstdint>
@@ -14,26 +14,26 @@ namespace longreach {
 
 enum class InjectedDefect : std::uint8_t {
   kNone,
-  kSilenceUnnoticed,     // the slave thinks that it has just heard the master
-  kRequestsNotReceived,  // holds and stops become requests to go on
+  kSilenceUnnoticed,     // the slave assumes that it has just received the master
+  kRequestsNotReceived,  // requests for hold and stop are removed
   kStopNotReceived,      // a stop at the slave does not reach its node
-  kForceNotRendered,     // the force sensor tells nothing
-  kForgeriesTaken,       // a command that nobody sent is among those taken
-  kLimitsFree,           // clients may loosen everything
-  kSetpointsShake,       // beyond the joints' limits
-  kPictureFrozen,        // the picture is that of the first moment
-  kHandPushed,           // by ten times what was rendered
-  kCauseWrong,           // each hold is said to be another master's
-  kContactUnreported,    // nor what holds the robot back
-  kRefusalUnreported,    // why an engagement is not granted is not told
-  kTouchedEarly,         // surfaces are reported nearer than they are, and as touched for ever
+  kForceNotRendered,     // the force sensor reports zero
+  kForgeriesTaken,       // a command that was never sent is accepted
+  kLimitsFree,           // clients may loosen all limits
+  kSetpointsShake,       // beyond the limits of the joints
+  kPictureFrozen,        // the display shows the first tick for ever
+  kHandPushed,           // with ten times the rendered force
+  kCauseWrong,           // the cause of each hold is reported as preempted
+  kContactUnreported,    // contacts, and what limits the robot, are not reported
+  kRefusalUnreported,    // the reason why an engagement is not granted is missing
+  kTouchedEarly,         // surfaces are reported too near, and always as touched
   kCount
 };
 
 struct DefectFacts {
   std::string_view name;
-  std::string_view invariant;  // that must see it
-  std::string_view fault{};    // that brings it out
+  std::string_view invariant;  // the invariant that must detect it
+  std::string_view fault{};    // a fault that makes it visible
 };
 constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCount)> kInjectedDefects = {{
     {"none", ""},
@@ -52,14 +52,14 @@ constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCoun
     {"touched early", "I32"},
 }};
 
-/// What is done to a side in a tick; remembers what it needs.
+/// Applies the defect to a side in a tick, with its state.
 class DefectInjector {
  public:
   explicit DefectInjector(InjectedDefect what) : what_(what) {}
 
   [[nodiscard]] bool frees_limits() const { return what_ == InjectedDefect::kLimitsFree; }
   void apply(RobotState& reported) const;
-  void before_sent_log(SlaveInput& input);  // what the ghost sees, too
+  void before_sent_log(SlaveInput& input);  // before the sent log records it
   void ask(SlaveInput& input);
   void answer(SlaveOutput& out);
   void answer(MasterOutput& out) const;

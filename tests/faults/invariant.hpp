@@ -1,7 +1,7 @@
 #pragma once
-// What must hold whatever happens, judged by what an outsider has seen (moment.hpp) and by nothing that a
-// node says of itself; states and causes count as claims, which are judged too. Each counts how often it was
-// judged: one that never was has proved nothing.
+// Invariants: what must hold under all faults. They are checked on data from outside (moment.hpp), never on
+// internal data of a node; reported states and causes are claims, which are checked too. Each counts its
+// checks, since an invariant without checks proves nothing.
 
 #include <cstdint>
 #include <memory>
@@ -34,7 +34,7 @@ class Invariant {
   [[nodiscard]] const Breach& first() const { return first_; }
 
  protected:
-  /// `value` is at most `bound`; NaN is not.
+  /// Checks that `value` is at most `bound`; NaN fails.
   void at_most(const Moment& moment, double value, double bound, const char* what);
   void that(const Moment& moment, bool good, const char* what);
 

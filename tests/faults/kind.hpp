@@ -1,6 +1,6 @@
 #pragma once
-// A kind of fault: what it does to a world while it lasts. A row of a table; the tables are in the files
-// *_kinds.cpp, one a group. Each function is called once a tick, in the order of the tick.
+// A kind of fault: its effect on a world while it is active. One row of a table; the tables are in
+// *_kinds.cpp, one per group. Each function is called once per tick, in the order of the tick.
 
 #include <cstdint>
 #include <deque>
@@ -17,20 +17,21 @@ namespace longreach {
 
 class World;
 
-/// What a fault makes untrue while it lasts, or what else it disturbs: the oracle must know.
+/// Data that a fault falsifies while it is active, or parts that it disturbs; the oracle takes them into
+/// account.
 enum class AffectedSignal : std::uint16_t {
-  kSensor = 1,       // the force that the slave is told
-  kJoints = 2,       // the joints that the slave is told
-  kRobot = 4,        // the robot does not do what it is asked for
-  kHandle = 8,       // the handle that the master is told
-  kLink = 16,        // datagrams come late or not at all
-  kSlaveTime = 32,   // the slave does not run when it should
-  kMasterTime = 64,  // likewise
-  kScene = 128,      // what is touched changes by itself
-  kMaster = 256,     // the master sends what no master should
-  kSlave = 512,      // the slave does
-  kOperator = 1024,  // the operator does not let it go on
-  kLease = 2048      // who has the robot changes
+  kSensor = 1,       // the force that the slave receives
+  kJoints = 2,       // the joint positions that the slave receives
+  kRobot = 4,        // the robot does not follow its setpoints
+  kHandle = 8,       // the handle state that the master receives
+  kLink = 16,        // datagrams arrive late or not at all
+  kSlaveTime = 32,   // the slave runs late
+  kMasterTime = 64,  // the master runs late
+  kScene = 128,      // the touched object changes by itself
+  kMaster = 256,     // the master sends data that no master may send
+  kSlave = 512,      // the slave sends data that no slave may send
+  kOperator = 1024,  // the operator prevents the engagement
+  kLease = 2048      // the control of the robot passes to another master
 };
 constexpr std::uint16_t operator|(AffectedSignal a, AffectedSignal b) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -38,13 +39,13 @@ constexpr std::uint16_t operator|(AffectedSignal a, AffectedSignal b) {
 
 constexpr std::uint16_t only(AffectedSignal a) { return static_cast<std::uint16_t>(a); }
 
-/// A fault that is there now.
+/// An active fault.
 struct Active {
   Fault fault;
   Random random;
-  double age_s = 0.0;  // since it began
-  bool begins = true;  // in this tick
-  // What it remembers.
+  double age_s = 0.0;  // since its start
+  bool begins = true;  // true in its first tick
+  // Its state.
   RobotState robot{};
   HandleState handle{};
   Vector3 direction = Vector3::Zero();
@@ -60,9 +61,9 @@ struct FaultKind {
   double longest_s = 5.0;
   double shortest_s = 0.005;
   double besides =
-      0.0;  // share of the seeds that have it once besides those they draw; 0: it is one of those
+      0.0;  // share of the seeds that have it once in addition to the drawn ones; 0: it is a drawn one
   void (*act)(World&, Active&) = nullptr;  // before the tick
-  void (*end)(World&, Active&) = nullptr;  // when it is over
+  void (*end)(World&, Active&) = nullptr;  // at its end
   void (*robot)(World&, Active&, RobotState&) = nullptr;
   void (*slave)(World&, Active&, SlaveInput&) = nullptr;
   void (*setpoint)(World&, Active&, JointVector&) = nullptr;
@@ -71,7 +72,7 @@ struct FaultKind {
   void (*command)(World&, Active&, MasterOutput&) = nullptr;
 };
 
-/// `size` 0 to 1 on a logarithmic scale from `low` to `high`.
+/// Maps `size` from 0 to 1 to `low` to `high` on a logarithmic scale.
 double log_scale(double size, double low, double high);
 
 std::span<const FaultKind> datagram_kinds();
@@ -84,9 +85,9 @@ std::span<const FaultKind> robot_kinds();
 std::span<const FaultKind> device_kinds();
 std::span<const FaultKind> contact_kinds();
 
-/// All of them, in the order of the groups.
+/// All kinds, in the order of the groups.
 const std::vector<FaultKind>& fault_kinds();
-/// Its place in fault_kinds(). Throws ConfigError for a kind that is none.
+/// Index in fault_kinds(). Throws ConfigError for an unknown kind.
 std::size_t fault_kind(std::string_view name);
 
 }  // namespace longreach

@@ -1,6 +1,7 @@
 #pragma once
-// The operator of a run: wanders with the handles, presses where the wall is, rests, and asks to engage again
-// whenever the screen shows that nothing is engaged. Between two places the hand moves with least jerk.
+// The simulated operator of a run: moves the handles, presses where the wall is, rests, and requests an
+// engagement whenever the display shows that there is none. Between two positions the hand follows
+// minimum-jerk trajectories.
 
 #include "common/core/random.hpp"
 #include "master/devices/hand_target.hpp"
@@ -12,13 +13,13 @@ class Person {
  public:
   Person(Random random, const MasterConfig& master, double round_trip_s);
 
-  /// What the hand wants now; a request to engage goes into `requests`.
+  /// Returns the target of the hand; a request to engage goes into `requests`.
   HandTarget step(double now_s, const MasterView& shown, OperatorRequests& requests);
 
-  /// Nothing but a still hand, from now on.
+  /// Holds the hand still from now on.
   void rest() { resting_ = true; }
   [[nodiscard]] bool asked() const { return asked_; }  // in this tick
-  /// Clicks on Engage again and again instead of waiting for an answer.
+  /// Requests an engagement again and again instead of waiting for an answer.
   void be_impatient(bool impatient) { impatient_ = impatient; }
 
  private:

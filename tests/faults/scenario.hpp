@@ -1,5 +1,5 @@
 #pragma once
-// Where a run takes place: robot, scene, device, link, limits and the operator's habits, drawn from the seed.
+// Scenario of a run: robot, scene, device, link, limits and behaviour of the operator, drawn from the seed.
 
 #include <cstdint>
 #include <string>
@@ -17,19 +17,19 @@ struct Scenario {
   proto::LabConfig config{};  // complete
   MasterConfig master{};
   SlaveConfig slave{};
-  std::vector<std::string> settings;  // as `longreach-lab run --set` takes them
-  double round_trip_s = 0.0;          // of the link while nothing is wrong
-  bool metamorphic = false;           // nothing of its link is drawn
+  std::vector<std::string> settings;  // as accepted by `longreach-lab run --set`
+  double round_trip_s = 0.0;          // of the link without faults
+  bool metamorphic = false;           // the link of the scenario is not random
 };
 
-/// What the clocks of both sides show when a run begins, beyond what they show otherwise.
+/// Offsets of the clocks of both sides at the start of a run.
 struct Clocks {
   Duration slave_ahead{0}, master_ahead{0};
 };
 
 Scenario draw_scenario(std::uint64_t seed);
 
-/// Of the tool, in W, where the robot starts.
+/// Pose of the tool in W at the start.
 Pose start_pose(const Scenario& scenario);
 
 }  // namespace longreach

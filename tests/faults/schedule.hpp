@@ -1,8 +1,9 @@
 #pragma once
-// What goes wrong in one run, and when: a plain list, drawn from a seed, that can be printed, read again and
-// shortened. Swarm testing (Groce et al. 2012): each seed has a few kinds of fault only, several times each,
-// so that kinds meet that rarely would if all were always there. Durations are log-uniform; faults overlap.
-// What takes seconds to make a guard act comes besides, in a share of the seeds, from a stream of its own.
+// Faults of one run and their times: a list, drawn from a seed, that can be printed, read and shortened.
+// Swarm testing (Groce et al. 2012): each seed has only a few kinds of fault, several times each, which
+// produces combinations that would be rare if all kinds were always present. Durations are log-uniform, and
+// faults overlap. Faults that must last for seconds to activate a guard are added in a share of the seeds,
+// from a stream of their own.
 //
 //   seed 17
 //   faults_end_s 31.5
@@ -19,18 +20,18 @@ struct Fault {
   std::string kind;
   double start_s = 0.0;
   double duration_s = 0.0;
-  double size = 0.5;       // 0 to 1: how bad; each kind has a scale of its own
-  std::uint64_t seed = 0;  // of what the fault draws
+  double size = 0.5;       // severity from 0 to 1; each kind has its own scale
+  std::uint64_t seed = 0;  // of the random numbers of the fault
 };
 
 struct Schedule {
   std::uint64_t seed = 1;     // of the scenario and of all streams
-  double faults_end_s = 0.0;  // from then on nothing goes wrong, and the system must come back
+  double faults_end_s = 0.0;  // from then on there are no faults, and the system must recover
   double end_s = 0.0;
   std::vector<Fault> faults;
 };
 
-/// `round_trip_s`: of the scenario's link; what comes back needs as long.
+/// `round_trip_s` of the scenario's link; recovery takes as long.
 Schedule draw_schedule(std::uint64_t seed, double round_trip_s);
 
 std::string to_text(const Schedule& schedule);

@@ -1,6 +1,6 @@
 #pragma once
-// What the master really sent, and when; what of it the slave was given, and when. It was written down
-// outside of both. From it follows whether anything may move the robot: the right to move.
+// Records what the master sent and what the slave received, with times, outside of both. From it follows
+// whether the robot is permitted to move.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,12 +20,12 @@ struct SentCommand {
   MotionCommand command{};
 };
 
-/// Whether the newest command that the slave was given lets the robot move.
+/// Whether the newest command that the slave received permits motion of the robot.
 struct MotionAuthority {
-  bool engaged = false;      // it asks for this engagement, and nothing has ended that since
-  double received_s = -1e9;  // when the newest command came
-  double sent_s = -1e9;      // when it had left
-  double had_s = -1e9;       // when it was there last
+  bool engaged = false;      // it requests this engagement, which has not been ended since
+  double received_s = -1e9;  // arrival of the newest command
+  double sent_s = -1e9;      // send time of that command
+  double had_s = -1e9;       // its previous value
   std::uint32_t engagement = 0;
   Request request = Request::kHold;
   const SentCommand* newest = nullptr;
@@ -33,32 +33,32 @@ struct MotionAuthority {
 
 class SentLog {
  public:
-  /// Times of the slave's safety: it holds after the one, and goes on by itself within the other.
+  /// Times of the slave's safety: it holds after `gap_s`, and resumes by itself within `resume_s`.
   SentLog(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
-  /// From now on the slave follows this session, and the master too if it was handed to it.
+  /// From now on the slave follows this session, and so does the master if it was given to it.
   void lease(double t_s, std::uint64_t session, bool to_master);
   void master_sent(double t_s, std::uint64_t sequence, const MotionCommand& command);
-  /// The operator asked for an engagement: the next number that the master sends is one.
+  /// The operator requested an engagement: the next new number of the master is one.
   void asked() { ++asks_; }
 
-  /// Judges what the slave was given as commands. False: one of them nobody sent so, or its number does not
-  /// rise, or it is of another session.
-  /// `slept_s`: between this tick of the slave and the one before. What lay there meanwhile is not heard now,
-  /// but for a stop.
+  /// Checks the commands that the slave received. Returns false if one of them was never sent so, its number
+  /// does not increase, or it belongs to another session.
+  /// `slept_s`: time between the previous tick of the slave and this one. Commands that queued up in between
+  /// are ignored, except a stop.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
-  [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this one are over
-  /// The slave says that it is engaged in it: a long silence from now on ends it. One that has not come about
-  /// may wait.
+  [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this one have ended
+  /// The slave reports that it is engaged in it: from now on a long silence ends it. An engagement that has
+  /// not started may wait.
   void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
-  /// Something at the slave ended every engagement there was.
+  /// An event at the slave ended all engagements so far.
   void ended(double t_s);
 
   [[nodiscard]] const MotionAuthority& authority() const { return authority_; }
   [[nodiscard]] std::uint64_t given() const { return given_; }
   [[nodiscard]] std::uint64_t asks() const { return asks_; }
   [[nodiscard]] const std::deque<SentCommand>& sent() const { return sent_; }
-  /// Greatest engagement that the master has sent.
+  /// Highest engagement that the master has sent.
   [[nodiscard]] std::uint32_t numbers() const { return numbers_; }
 
  private:
@@ -67,9 +67,9 @@ class SentLog {
 
   double gap_s_, resume_s_;
   std::uint64_t session_ = 1, master_session_ = 1;
-  std::deque<SentCommand> sent_;  // numbers rise
+  std::deque<SentCommand> sent_;  // numbers increase
   std::uint64_t newest_ = 0;
-  std::uint32_t ended_ = 0;  // engagements up to this one are over
+  std::uint32_t ended_ = 0;  // engagements up to this one have ended
   std::uint32_t entered_ = 0;
   std::uint32_t numbers_ = 0;
   std::uint64_t asks_ = 0, given_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What many trials gave together: kinds and how often they were injected, guards and how often they acted,
-// invariants and how often they were judged and violated. Sums that can be written, read and added.
+// Sum of the results of many trials: kinds of fault and the number of injections, guards and the number of
+// activations, invariants and the numbers of checks and violations. It can be written, read and added.
 
 #include <cstdint>
 #include <map>
@@ -25,16 +25,16 @@ struct Tally {
 
   void add(std::uint64_t seed, const Trial& trial);
   void add(const Tally& other);
-  /// Of what was tried besides the trial (twin.hpp).
+  /// Adds the result of a check outside of trials (twin.hpp).
   void judge(std::uint64_t seed, const char* invariant, bool good, const char* words);
 };
 
 std::string to_text(const Tally& tally);
-/// Throws ConfigError for what is no tally.
+/// Throws ConfigError for any other text.
 Tally parse_tally(const std::string& text);
 
-/// What a complete campaign lacks: kinds that were never injected, guards that never acted, invariants that
-/// were never judged.
+/// What a complete campaign lacks: kinds without injection, guards without activation, invariants without a
+/// check.
 std::vector<std::string> never_seen(const Tally& tally);
 
 }  // namespace longreach

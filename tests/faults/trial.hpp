@@ -1,5 +1,5 @@
 #pragma once
-// One schedule, run from beginning to end under the eyes of the oracle.
+// Runs one schedule from start to end under the oracle.
 
 #include <functional>
 #include <map>
@@ -22,7 +22,7 @@ struct Trial {
   std::vector<std::uint64_t> injected;  // by kind
   std::vector<Judged> judged;           // by invariant
   std::map<std::string, std::uint64_t> guards;
-  std::vector<Breach> violations;  // the first of each invariant
+  std::vector<Breach> violations;  // the first one of each invariant
   double virtual_s = 0.0, engaged_s = 0.0;
   std::uint64_t trajectory = 0;  // hash of all setpoints and wrenches
 };
@@ -33,12 +33,12 @@ Schedule schedule_of(std::uint64_t seed);
 Trial run_trial(const Schedule& schedule, InjectedDefect injected_defect = InjectedDefect::kNone);
 Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks);
 
-/// When a schedule fails, if it does.
+/// Returns the time at which a schedule fails; none if it does not.
 using Fails = std::function<std::optional<double>(const Schedule&)>;
 
-/// The fewest and shortest faults of a schedule that still fails.
+/// Returns the fewest and shortest faults of a schedule that still fail.
 Schedule shrink(const Schedule& schedule, const Fails& fails);
-/// ... that still violates `invariant`.
+/// The same for a violation of `invariant`.
 Schedule shrink(const Schedule& schedule, std::string_view invariant);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// The network between the two sides, in the hands of somebody who hears all, may hold back, drop, repeat and
-// add, but knows no secret. Each side has a socket that keeps what comes while the side does not run, up to a
-// bound, as a system's does.
+// The network between the two sides, under the control of an attacker who receives everything and can delay,
+// drop, repeat and add datagrams, but does not know the secrets. Each side has a socket that buffers
+// datagrams while the side does not run, up to a limit, as an operating system does.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,33 +19,33 @@ namespace longreach {
 
 using Bytes = std::vector<std::byte>;
 
-/// What is done to one way, in this tick.
+/// Faults of one direction in this tick.
 struct DirectionFaults {
-  bool cut = false;          // all is lost
-  bool held = false;         // all is kept until it is no longer so, then comes at once
-  bool late = false;         // likewise, but what is newer comes first
-  double delay_s = 0.0;      // more than the link's
-  std::uint32_t copies = 0;  // more than the one
-  bool swapped = false;      // every other one is overtaken by the next
+  bool cut = false;          // everything is lost
+  bool held = false;         // everything is kept until this ends, then arrives at once
+  bool late = false;         // likewise, but the newest arrives first
+  double delay_s = 0.0;      // in addition to the delay of the link
+  std::uint32_t copies = 0;  // additional copies
+  bool swapped = false;      // every other datagram is overtaken by the next one
 };
 
-/// One way of the wire.
+/// One direction of the network.
 class WireDirection {
  public:
   explicit WireDirection(Random random) : random_(random) {}
 
-  /// What a side has just sent.
+  /// Accepts what a side has just sent.
   void take(double now_s, Bytes datagram);
-  /// A datagram that nobody has sent arrives.
+  /// Adds a datagram that was never sent.
   void inject(Bytes datagram);
-  /// What has come by now goes to the side's socket.
+  /// Passes what has arrived by now to the socket of the side.
   void pass(double now_s);
-  /// All that is kept comes at once: nothing goes wrong any more.
+  /// Delivers everything that is kept; there are no faults from now on.
   void release();
-  /// Something that was sent comes later than the link would bring it, which outlasts what has delayed it:
-  /// what is sent afterwards queues behind it.
+  /// Returns whether a sent datagram arrives later than the link would deliver it. This outlasts the cause of
+  /// the delay, since later datagrams queue behind it.
   [[nodiscard]] bool keeps_back(double now_s) const { return now_s < kept_until_s_ || !held_.empty(); }
-  /// The side reads its socket, not more at a time than it reads.
+  /// The side reads its socket, with its limit per read.
   template <class Read>
   void empty(Read&& read) {
     const std::size_t count = std::min(socket_.size(), kRead);
@@ -57,7 +57,7 @@ class WireDirection {
   }
 
   DirectionFaults direction_faults{};
-  [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }  // some of what arrived
+  [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }  // a part of what arrived
   [[nodiscard]] std::uint64_t oversized() const { return oversized_; }         // of those that were read
 
  private:
@@ -77,7 +77,7 @@ class WireDirection {
   std::vector<Bytes> received_;
   std::optional<Bytes> swapped_;
   double release_s_ = 0.0;      // of what is held
-  double kept_until_s_ = -1e9;  // due time of the last that was delayed
+  double kept_until_s_ = -1e9;  // due time of the last delayed datagram
   std::uint64_t oversized_ = 0;
 };
 

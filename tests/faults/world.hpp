@@ -1,6 +1,6 @@
 #pragma once
-// A laboratory in which things go wrong: it stands between the nodes and everything around them, lets the
-// faults of a schedule act there, and writes down what really happened.
+// A laboratory with faults: it is between the nodes and their environment, applies the faults of a schedule
+// there, and records what really happened.
 
 #include <map>
 #include <utility>
@@ -16,9 +16,9 @@
 
 namespace longreach {
 
-/// What the faults of a tick ask for together; begins anew in each.
+/// Sum of the effects of all faults of a tick; reset in each tick.
 struct Levels {
-  ImpairmentConfig up{}, down{};  // the link's own, made worse
+  ImpairmentConfig up{}, down{};  // the settings of the link, made worse
   DirectionFaults wire_up{}, wire_down{};
   bool slave_skips_tick = false, master_skips_tick = false;
   double slave_ppm = 0.0, master_ppm = 0.0;  // of the clocks
@@ -30,7 +30,7 @@ class World : public FaultHooks {
   World(const Scenario& scenario, const Schedule& schedule,
         InjectedDefect injected_defect = InjectedDefect::kNone, const Clocks& clocks = {});
 
-  /// One tick; what happened in it.
+  /// Runs one tick; returns what happened.
   const Moment& step();
 
   // For the kinds of fault.
@@ -45,9 +45,9 @@ class World : public FaultHooks {
   [[nodiscard]] const Moment& moment() const { return moment_; }
   [[nodiscard]] const std::vector<Bytes>& past_life() const { return past_life_; }
   SentLog& sent_log() { return sent_log_; }
-  /// Both sides, or the slave alone, follow another session from now on.
+  /// Both sides, or only the slave, follow another session from now on.
   void lease(bool to_master);
-  /// A client asks a side for a change; the rules of the programs decide.
+  /// A client requests a change of a side; the rules of the programs decide.
   void set_slave(std::string_view path, const std::string& value);
   void set_master(std::string_view path, const std::string& value);
   [[nodiscard]] std::uint64_t refused_changes() const { return refused_changes_; }
@@ -75,7 +75,7 @@ class World : public FaultHooks {
   };
   void begin_faults(double now_s);
   void act();
-  /// The first of these is as it should not be, in this tick.
+  /// Marks these signals as affected in this tick.
   void mark_affected(unsigned first);
   void apply_levels();
   void end_faults();
@@ -100,7 +100,8 @@ class World : public FaultHooks {
   MemoryChannelPair* channels_ = nullptr;
   Random sessions_;
   std::uint64_t leases_ = 1;
-  std::map<std::pair<std::uint64_t, std::byte>, std::uint64_t> numbers_;  // greatest, by session and type
+  /// highest number by session and type
+  std::map<std::pair<std::uint64_t, std::byte>, std::uint64_t> numbers_;
   std::size_t next_fault_ = 0;
   std::vector<Running> running_;
   std::vector<std::uint64_t> injected_;
@@ -108,10 +109,10 @@ class World : public FaultHooks {
   Duration slave_ahead_, master_ahead_;
   ImpairmentConfig up_now_{}, down_now_{};
   Moment moment_{};
-  std::map<std::uint64_t, double> reports_s_;  // when the last of them left, by number
+  std::map<std::uint64_t, double> reports_s_;  // send time of the last reports, by number
   double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
   std::uint64_t refused_changes_ = 0;
-  bool slave_turn_ = true;  // the next who has spoken on the wire
+  bool slave_turn_ = true;  // the side whose datagrams are processed next
 };
 
 }  // namespace longreach

@@ -1,5 +1,6 @@
 #pragma once
-// What the fuzz targets share. A target takes any bytes and returns 0; it aborts when a rule is broken.
+// Common parts of the fuzz targets. A target accepts any bytes and returns 0; it aborts if a rule is
+// violated.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,8 @@ inline void require(bool holds, const char* rule) {
   std::abort();
 }
 
-/// An error that a person reads: it begins with the name of the text, is one line, and cannot steer a
-/// terminal.
+/// Requires that an error begins with the name of the text, is one line, and contains no control characters
+/// for a terminal.
 inline void require_readable(const ConfigError& error, std::string_view name) {
   const std::string_view what = error.what();
   require(what.starts_with(name), "an error names its file");
@@ -33,7 +34,8 @@ inline std::size_t length_of(std::span<const std::byte> bytes) {
   return std::to_integer<std::size_t>(bytes[0]) | std::to_integer<std::size_t>(bytes[1]) << 8;
 }
 
-/// What the text says, or nothing: then it was refused with a readable error and `message` is as before.
+/// Returns the parsed text, or nothing: then it was refused with a readable error, and `message` is
+/// unchanged.
 template <class Message>
 bool load(const std::string& text, Message& message) {
   try {

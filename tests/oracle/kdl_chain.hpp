@@ -1,5 +1,6 @@
 #pragma once
-// A robot's rows as a chain of KDL (Orocos), which knows both conventions of Denavit and Hartenberg itself.
+// The rows of a robot as a chain of KDL (Orocos), which implements both conventions of Denavit and
+// Hartenberg.
 
 #include <kdl/chain.hpp>
 #include <kdl/frames.hpp>
@@ -13,7 +14,7 @@ inline KDL::Chain kdl_chain(const RobotConfig& robot) {
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[i];
     if (robot.convention == DhConvention::kModified) {
-      // Its frame is before the joint turns: the fixed part of a row comes first.
+      // Its frame is before the rotation of the joint: the fixed part of a row comes first.
       chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None),
                                     KDL::Frame::DH_Craig1989(j.a_m, j.alpha_rad, j.d_m, j.theta_rad)));
       chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ)));

@@ -1,5 +1,5 @@
 #pragma once
-// Other people's libraries in the same run: their time over ours, for the same question.
+// Compares other libraries with longreach in the same run: ratio of their time to ours for the same problem.
 
 #include "deploy/lab/trade/trade.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The listening end of an adapter's socket, in the test itself. Nothing of the product's.
+// The listening end of an adapter socket, implemented in the test without code of the product.
 
 #include <filesystem>
 #include <optional>
@@ -10,14 +10,14 @@ namespace longreach {
 
 class AdapterListener {
  public:
-  /// In a folder of its own that goes with it. `anyone`: takes a program of any user.
+  /// Listens in a temporary folder of its own. `anyone`: accepts programs of any user.
   explicit AdapterListener(bool anyone = false);
   ~AdapterListener();
   AdapterListener(const AdapterListener&) = delete;
   AdapterListener& operator=(const AdapterListener&) = delete;
 
   [[nodiscard]] std::string address() const { return "unix:" + path_.string(); }
-  /// Of whoever has connected. Never waits.
+  /// Receives from any connected program, without waiting.
   std::optional<std::size_t> receive(std::span<std::byte> buffer);
   void send(std::span<const std::byte> datagram) const;
 

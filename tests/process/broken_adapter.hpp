@@ -1,5 +1,5 @@
 #pragma once
-// An adapter of a device that breaks one rule of common/link/adapter_datagram.hpp, in a thread of the test.
+// A device adapter that violates one rule of common/link/adapter_datagram.hpp, in a thread of the test.
 
 #include <atomic>
 #include <string>
@@ -10,19 +10,19 @@
 namespace longreach {
 
 enum class Flaw {
-  kNoWatchdog,  // goes on with the last wrench
-  kMute,        // sends nothing while nobody talks
+  kNoWatchdog,  // continues with the last wrench
+  kMute,        // sends nothing unless it receives
   kNoCount,     // every datagram has the number 1
   kNoEcho,
-  kNotFinite,      // sends a number that is none now and then
-  kShort,          // a byte too few, now and then
-  kSlow,           // 100 a second
-  kTakesAnything,  // of the right size
+  kNotFinite,      // sends NaN sometimes
+  kShort,          // sends one byte too few sometimes
+  kSlow,           // sends at 100 Hz
+  kTakesAnything,  // accepts any datagram of the right size
   kTakesOldNumbers,
   kTakesNoRestart,
-  kNoWrench,     // tells no wrench
-  kTakesAnyone,  // of whichever user
-  kFailed        // never says that it works
+  kNoWrench,     // does not report the wrench
+  kTakesAnyone,  // accepts any user
+  kFailed        // never reports that it works
 };
 
 class BrokenAdapter {

@@ -1,6 +1,6 @@
 #pragma once
-// One run of the client, with standard output and standard error kept apart, against sides that live in the
-// test.
+// One run of the client, with separate standard output and standard error, against sides that the test
+// simulates.
 
 #include <sys/types.h>
 
@@ -17,7 +17,7 @@ namespace longreach {
 
 class ClientRun {
  public:
-  /// `terminal`: standard output is one.
+  /// `terminal`: standard output is a terminal.
   explicit ClientRun(const std::vector<std::string>& arguments, bool terminal = false);
   ~ClientRun();
   ClientRun(const ClientRun&) = delete;
@@ -26,7 +26,7 @@ class ClientRun {
   void signal(int number) const;
   /// Reads until the client ends, or has written `until` (not empty) to standard output; at most 30 s.
   void read(const std::string& until = "");
-  /// After read(): exit status, 128 + signal, or -1 when it did not end.
+  /// After read(): exit status, 128 + signal, or -1 if it did not end.
   int status();
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::string& err() const { return err_; }
@@ -40,7 +40,7 @@ class ClientRun {
   std::optional<int> status_{};
 };
 
-/// A master and a slave that answer, and the client's options that lead to them.
+/// A simulated master and slave, and the options with which the client connects to them.
 struct FakeStation {
   FakeBackend master{"master"};
   FakeBackend slave{"slave"};

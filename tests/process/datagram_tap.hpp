@@ -1,7 +1,6 @@
 #pragma once
-// Stands between master and slave on loopback: passes every datagram on, keeps a copy, and plays to either
-// side what it is given, from the address that this side knows as the other one's. Bounded by what was
-// recorded.
+// A tap between master and slave on loopback: it forwards and records every datagram, and sends given
+// datagrams to either side from the address of the other. Recording is bounded.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -30,12 +29,12 @@ class DatagramTap {
   DatagramTap(const DatagramTap&) = delete;
   DatagramTap& operator=(const DatagramTap&) = delete;
 
-  /// Where the master sends to.
+  /// Address to which the master sends.
   [[nodiscard]] std::string address() const {
     return "127.0.0.1:" + std::to_string(near_.local_endpoint().port());
   }
 
-  /// Genuine ones so far.
+  /// The recorded genuine datagrams.
   [[nodiscard]] std::vector<Datagram> recorded(Toward way) const {
     const std::lock_guard lock(mutex_);
     return way == Toward::kSlave ? up_ : down_;

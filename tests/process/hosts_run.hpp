@@ -1,7 +1,7 @@
 #pragma once
-// deploy/hosts with the programs of this build: slave and master in two network namespaces, and what the
-// master's user sees of them. Without the right to make namespaces the script refuses, and so the test fails
-// with its sentence.
+// Runs deploy/hosts with the programs of this build: slave and master in two network namespaces, and the
+// output of the master. Without the right to create namespaces the script refuses, and the test fails with
+// its message.
 
 #include <chrono>
 #include <memory>
@@ -16,18 +16,18 @@ class HostsRun {
  public:
   explicit HostsRun(const std::vector<std::string>& options);
 
-  /// Waits until the hosts are up. False: they did not come up; output() says why.
+  /// Waits until the hosts are up. False: they failed to start; output() gives the reason.
   bool up();
-  /// Waits until the master's output, a line a second, contains this so many times.
+  /// Waits until the master's output, one line per second, contains the text `times` times.
   bool shows(const std::string& text, std::chrono::seconds timeout, int times = 1);
-  /// The client on the master's host; waits for an answer for two minutes.
+  /// Runs the client on the master's host, with a timeout of two minutes.
   [[nodiscard]] std::unique_ptr<RunningProgram> client(const std::vector<std::string>& command) const;
-  /// One of the processes that holds the network namespaces.
+  /// Process that holds one of the network namespaces.
   [[nodiscard]] int holder() const;
 
   RunningProgram& script() { return script_; }
   [[nodiscard]] std::string output() const { return script_.output(); }
-  /// Of the slave and of the link.
+  /// Log of the slave and of the link.
   [[nodiscard]] std::string log() const;
   [[nodiscard]] std::string all() const { return output() + log(); }
 

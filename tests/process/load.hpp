@@ -1,7 +1,7 @@
 #pragma once
-// Loads for a program on loopback, each bounded in count and time, each ended with its object: idle
-// connections, requests, forged datagrams; loops that do nothing, which tell a stall of the machine from one
-// of a program; and what a load may not do to both sides.
+// Loads on a program on loopback, each bounded in number and time and ended by its destructor: idle
+// connections, requests, forged datagrams. Empty loops distinguish a stall of the machine from one of a
+// program. Disturbance checks that a load does not affect the sides.
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace longreach {
 
-/// TCP connections to a port that say nothing.
+/// Idle TCP connections to a port.
 class IdleConnections {
  public:
   IdleConnections(int port, int count);
@@ -36,19 +36,19 @@ struct LoadCounts {
   [[nodiscard]] double rate_hz() const { return done > 0 ? static_cast<double>(done) / seconds : 0.0; }
 };
 
-/// GetStatus over mutual TLS from several channels, many calls under way at once, no more than `rate_hz`.
+/// Calls GetStatus over mutual TLS from several channels with many concurrent calls, at most `rate_hz`.
 LoadCounts request_status(RpcRole role, int port, double rate_hz, std::chrono::seconds time);
 
-/// Datagrams that are nobody's, `rate_hz` of them: three of four with a command's header, the session's
-/// number, and a number that is new, old or far ahead; their bodies are random, and so is the fourth.
+/// Sends forged datagrams at `rate_hz`: three of four have the header of a command, the number of the
+/// session, and a number that is new, old or far ahead, with random bodies; the fourth is entirely random.
 LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::seconds time);
 
-/// Loops of 1 kHz with real-time priority that do nothing, one on each processor, for as long as they live:
-/// where one of them is late, the machine stood still.
+/// Empty loops of 1 kHz with real-time priority, one per processor: if one of them is late, the machine was
+/// stalled.
 class BareLoops {
  public:
   struct Figures {
-    std::uint64_t stalls = 0;  // ticks late by over 33 ms
+    std::uint64_t stalls = 0;  // ticks that are more than 33 ms late
     Duration lateness_max{0};
   };
 
@@ -64,12 +64,12 @@ class BareLoops {
   std::vector<std::thread> threads_;
 };
 
-/// What a load may not do to both sides while this lives, beyond what the machine did to itself.
+/// Checks the effect of a load on both sides during its lifetime, without stalls of the machine.
 class Disturbance {
  public:
   Disturbance(StationSide& slave, StationSide& master) : slave_(slave), master_(master) {}
-  /// Ends it: no tick late by over 100 ms and no false hold but where the machine stood still, no violated
-  /// limit. Prints what was seen.
+  /// Ends the check. Expects no tick that is more than 100 ms late and no false hold, unless the machine was
+  /// stalled, and no violated limit. Prints the results.
   void expect_none(const std::string& load);
 
  private:

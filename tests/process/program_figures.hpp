@@ -1,6 +1,6 @@
 #pragma once
-// What the system says of a running program. For descriptors the program has to be started with --core-dumps,
-// or the test with the rights of root.
+// Figures of a running program from /proc. The number of descriptors requires that the program was started
+// with --core-dumps, or that the test runs as root.
 
 #include <sys/types.h>
 #include <unistd.h>

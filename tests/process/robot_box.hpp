@@ -1,7 +1,6 @@
 #pragma once
-// A robot behind an adapter's socket that writes down what it is sent: the black box. Six joints that follow
-// live setpoints by servos of 10 Hz, as deploy/robots/cartesian.txtpb, in free space, in a thread of the
-// test.
+// A simulated robot behind an adapter socket that records what it receives. Six joints follow live setpoints
+// through servos of 10 Hz, as in deploy/robots/cartesian.txtpb, in free space, in a thread of the test.
 
 #include <array>
 #include <atomic>
@@ -14,15 +13,15 @@
 
 namespace longreach {
 
-/// What a sensor may tell instead of the wrench along the axes of the tool.
+/// Faults of the force sensor.
 enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead };
 
-/// A setpoint as it came.
+/// A received setpoint.
 struct ReportedSetpoint {
   std::uint64_t sequence = 0;
   bool live = false;
   std::array<double, 3> joint{};
-  double off = 0.0;  // greatest distance from where the joints were
+  double off = 0.0;  // largest distance from the position of the joints
 };
 
 class RobotBox {
@@ -36,14 +35,14 @@ class RobotBox {
   RobotBox& operator=(const RobotBox&) = delete;
 
   [[nodiscard]] std::string address() const { return listener_.address(); }
-  /// Datagrams so far: all, and those that mean a motion.
+  /// Datagrams so far: all, and those that command a motion.
   [[nodiscard]] std::uint64_t reported() const { return reported_; }
   [[nodiscard]] std::uint64_t live() const { return live_; }
   [[nodiscard]] double joint(int i) {
     const std::lock_guard lock(mutex_);
     return joint_[static_cast<std::size_t>(i)];
   }
-  /// Greatest step from one live setpoint to the next on end, and of the first from where the joints were.
+  /// Largest step between consecutive live setpoints, and of the first one from the position of the joints.
   [[nodiscard]] double step() {
     const std::lock_guard lock(mutex_);
     return step_;
@@ -57,7 +56,7 @@ class RobotBox {
     const std::lock_guard lock(mutex_);
     return setpoints_;
   }
-  /// From now on there is a wall of 1 N/mm across its third joint.
+  /// Adds a wall of 1 N/mm across the third joint.
   void wall(double at_m) { wall_m_ = at_m; }
   /// A push at the tool, in W: force N, moment N m.
   void feel(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
@@ -65,14 +64,14 @@ class RobotBox {
     force_n_ = force_n;
     moment_nm_ = moment_nm;
   }
-  /// What its sensor makes of it, from now on.
+  /// Sets the fault of the sensor.
   void mark_affected(SensorFlaw flaw) {
     const std::lock_guard lock(mutex_);
     flaw_ = flaw;
   }
-  /// Somebody moves it: at this speed along its third joint from now on.
+  /// Moves the third joint at this speed from now on.
   void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
-  /// It says that its third joint is so far off from now on.
+  /// The reported position of the third joint has this error from now on.
   void sensor_fault(double m) { fault_m_ = m; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A real program under test: started with fork and exec, its output kept, ended with the object however the
-// test ends, and with the test program should that be killed.
+// A program under test: started with fork and exec; its output is stored. The destructor ends it, and it also
+// ends if the test program is killed.
 
 #include <sys/types.h>
 
@@ -12,16 +12,15 @@
 
 namespace longreach {
 
-/// Descriptors that a program gets; -1: nothing to read, and output that is kept.
+/// Descriptors for the program; -1: no input, and stored output.
 struct Streams {
-  static constexpr int kClosed = -2;  // of `in`: as by `<&-`
+  static constexpr int kClosed = -2;  // of `in`: as with `<&-`
   int in = -1, out = -1, err = -1;
 };
 
 class RunningProgram {
  public:
-  /// `name`: of one of the programs in the build's bin folder, or an absolute path. `streams` stay the
-  /// caller's.
+  /// `name`: one of the programs in the build's bin folder, or an absolute path. The caller owns `streams`.
   RunningProgram(const std::string& name, const std::vector<std::string>& arguments,
                  const Streams& streams = {});
   ~RunningProgram();
@@ -30,10 +29,10 @@ class RunningProgram {
 
   [[nodiscard]] pid_t pid() const { return pid_; }
   void signal(int number) const;
-  /// Exit status, or 128 + signal; none when it still runs after `timeout`.
+  /// Exit status, or 128 + signal; none if it still runs after `timeout`.
   std::optional<int> wait(std::chrono::milliseconds timeout);
   [[nodiscard]] bool running();
-  /// Standard output and standard error, as written so far.
+  /// Standard output and standard error so far.
   [[nodiscard]] std::string output() const;
 
  private:
@@ -42,7 +41,7 @@ class RunningProgram {
   std::filesystem::path file_;
 };
 
-/// Ports that nobody uses just now.
+/// Ports that are free at present.
 struct Ports {
   int link = 0;
   int slave_rpc = 0;

@@ -13,7 +13,7 @@
 
 namespace longreach {
 
-/// What a person sees and types, and the program's side of it.
+/// A pseudoterminal: the user's end and the program's end.
 struct Terminal {
   int outer = -1, inner = -1;
   Terminal() {
@@ -30,14 +30,14 @@ struct Terminal {
   void type(const std::string& keys) const {
     EXPECT_EQ(::write(outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
-  /// A write of the program would wait.
+  /// Returns whether a write of the program would block.
   [[nodiscard]] bool full() const {
     pollfd room{inner, POLLOUT, 0};
     return ::poll(&room, 1, 0) == 0;
   }
 };
 
-/// A key without a meaning of its own that is held down, so that in rate mode the hand stays where it is.
+/// Holds down a key without a function, so that in rate mode the hand stays in place.
 class HeldKey {
  public:
   explicit HeldKey(int fd) : fd_(fd) {}

@@ -1,8 +1,8 @@
 #pragma once
-// A robot whose force sensor lies, through the slave's node and the simulated arm: the gantry of
-// guard_touch.hpp goes towards a wall at a constant speed and on behind it, or rests in front of it; then the
-// lie begins, and the master goes on, falls silent or stops. What is judged is the plant: its place and the
-// true force.
+// A robot with a faulty force sensor, with the node of the slave and the simulated arm: the gantry of
+// guard_touch.hpp moves towards a wall at a constant speed and beyond it, or rests in front of it. Then the
+// fault begins, and the master continues, stops sending, or stops. The true position and the true force are
+// checked.
 
 #include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/robot/faulty_sensor.hpp"
@@ -12,17 +12,17 @@ namespace longreach::test {
 struct SensorFaultCase {
   SensorFault sensor_fault{};
   GuardCase guard{.guard_n = 20.0, .delay_s = 1e-3, .mass_kg = 0.0};
-  double behind_m = 0.05;  // the goal ends so far behind the wall; negative: in front of it
-  double fault_s = 0.0;    // when the lie begins
-  double silent_s = 1e9;   // when the master falls silent
+  double behind_m = 0.05;  // depth of the final goal behind the wall; negative: in front of it
+  double fault_s = 0.0;    // start of the fault
+  double silent_s = 1e9;   // time at which the master stops sending
   double end_s = 6.0;
-  double coming_m_per_s = 0.0;  // of the wall, against the robot
+  double coming_m_per_s = 0.0;  // speed of the wall towards the robot
 };
 
 struct SensorFaultRow {
   double t_s;
-  Vector3 tool_m;  // from where it starts
-  double force_n;  // true
+  Vector3 tool_m;  // its start position
+  double force_n;  // true force
   SafetyState state;
   HoldCause cause;
 };
@@ -30,12 +30,12 @@ struct SensorFaultRow {
 struct SensorFaultRun {
   std::vector<SensorFaultRow> rows{};
   double peak_n = 0.0;
-  double reported_s = -1.0;  // when the state first had a cause of the sensor
+  double reported_s = -1.0;  // when the state first had a cause that names the sensor
   HoldCause reported = HoldCause::kNone;
   std::uint64_t limit_violations = 0;
   std::uint32_t touches = 0;
 
-  /// Greatest distance from where the tool was at `from_s`, afterwards.
+  /// Largest distance from the position of the tool at `from_s`, afterwards.
   [[nodiscard]] double way_m(double from_s) const {
     double way = 0.0;
     const SensorFaultRow* at = nullptr;
@@ -52,8 +52,7 @@ inline bool of_the_sensor(HoldCause cause) {
          cause == HoldCause::kForcePersists;
 }
 
-/// `stalls(tick)`: the adapter, and the robot in it, stand still in this tick; what it said last is all there
-/// is.
+/// `stalls(tick)`: the adapter and the robot are stalled in this tick; the last report is repeated.
 template <class Stalls>
 SensorFaultRun sensor_fault_run(const SensorFaultCase& c, const SlaveConfig& config, Stalls&& stalls) {
   SlaveNode node(config);

@@ -1,7 +1,7 @@
 #pragma once
-// Seeded ways of a goal: from joints before a pose of the arm to that pose and on to joints behind it, along
-// straight lines. The pose in the middle is singular, right beside a singular one, out of reach or anywhere,
-// or the joints on both sides are far off.
+// Random paths of a goal: from joints before a pose of the arm to that pose and on to joints behind it, along
+// straight lines. The pose in the middle is singular, close to a singular one, out of reach or random, or the
+// joints on both sides are far from it.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -38,7 +38,7 @@ inline JointVector spread(Random& random, double size) {
   return q;
 }
 
-// From pose to pose along a straight line and about one axis, at a steady pace.
+// From pose to pose along a straight line and about one axis, at a constant speed.
 struct Leg {
   Pose from, to;
   double seconds;
@@ -66,7 +66,7 @@ struct Tour {
   bool jumps = false;
 };
 
-// Where the determinant of J has a zero between two joints of the range, of joint `i`.
+// Returns where the determinant of J has a zero between two positions of joint `i`.
 inline bool make_singular(const Kinematics& kinematics, const RobotConfig& robot, int i, JointVector& q) {
   const JointConfig& j = robot.joint[static_cast<std::size_t>(i)];
   const auto determinant = [&](double x) {

@@ -1,6 +1,6 @@
 #pragma once
-// Somebody on the wire who has heard everything and knows everything but the secret. Makes datagrams that no
-// side has ever sent to the other, or that it has sent before.
+// An attacker on the network who has received everything and knows everything but the secret. Generates
+// datagrams that neither side has ever sent to the other, or that were sent before.
 
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@ class Intruder {
 
   explicit Intruder(Random random) : random_(random) {}
 
-  /// What went to the side under attack, and what came from it.
+  /// Records what went to the attacked side, and what came from it.
   void receive_towards(std::span<const std::byte> datagram) {
     towards_.emplace_back(datagram.begin(), datagram.end());
   }
@@ -35,7 +35,7 @@ class Intruder {
     from_.emplace_back(datagram.begin(), datagram.end());
   }
 
-  /// A datagram for the side under attack. Something was heard of both ways.
+  /// Generates a datagram for the attacked side. Both directions must have been received before.
   Datagram make(Attack attack) {
     switch (attack) {
       case Attack::kForged:
@@ -62,7 +62,7 @@ class Intruder {
     for (auto& b : bytes) b = static_cast<std::byte>(random_.next());
   }
 
-  /// The present session, a number that is still to come, and noise behind them.
+  /// The present session, a future number, and random bytes.
   Datagram forged() {
     const Datagram& like = any(towards_);
     Header header = std::get<Header>(read_header(like));
@@ -74,7 +74,7 @@ class Intruder {
     return out;
   }
 
-  /// At least one bit differs; mostly the number is still to come, so that the tag has to tell.
+  /// At least one bit differs; usually the number is a future one, so that only the tag reveals the change.
   Datagram mutated(Datagram bytes) {
     if (random_.chance(0.8)) {
       Header header = std::get<Header>(read_header(bytes));
@@ -88,7 +88,7 @@ class Intruder {
     return bytes;
   }
 
-  /// What the side has sent itself, as it is or with another type and number over it.
+  /// A datagram that the side has sent itself, unchanged or with another type and number.
   Datagram reflected() {
     Datagram bytes = any(from_);
     const Header wanted = std::get<Header>(read_header(any(towards_)));

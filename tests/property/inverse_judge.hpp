@@ -1,5 +1,5 @@
 #pragma once
-// Judges the inverse of an arm: every solution is exact, and none is missed.
+// Checks the inverse of an arm: every solution is exact, and none is missing.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace longreach::test {
 
-/// Exact kinematics against a pose that was itself rounded: a little above Refinement::kExact.
+/// Tolerance of exact kinematics for a pose that is itself rounded: slightly above Refinement::kExact.
 constexpr double kError = 1.2e-14;
 
 struct Score {
@@ -15,15 +15,15 @@ struct Score {
   double worst = 0.0;  // rad, or share of the reach
 };
 
-/// The pose of `q`: each solution is one, one of them is `q` (regular) unless the pose leaves an angle free,
-/// and the one that is asked for from `near` is the nearest of them (regular). The first failures are shown.
+/// For the pose of `q`: each solution is exact, one of them is `q` (regular) unless the pose leaves an angle
+/// free, and the solution requested from `near` is the nearest of them (regular). Prints the first failures.
 void judge(const NamedArm& arm, const Inverse& inverse, const JointVector& q, const JointVector& near,
            bool regular, Score& score);
 
-/// Says the score, and expects that nothing failed.
+/// Prints the score, and expects no failure.
 void print(const std::string& name, const Score& score);
 
-/// Moves joint `i` on to the nearest place where the determinant of the Jacobian changes its sign. False:
+/// Moves joint `i` to the nearest position at which the determinant of the Jacobian changes its sign. False:
 /// there is none.
 bool make_singular(const Kinematics& kinematics, int i, JointVector& q);
 

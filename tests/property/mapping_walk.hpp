@@ -1,5 +1,6 @@
 #pragma once
-// A handle that wanders about its workspace, and configurations of the mapping, for properties over seeds.
+// A handle that moves randomly in its workspace, and configurations of the mapping, for properties over
+// seeds.
 
 #include "common/core/random.hpp"
 #include "master/mapping/mapping.hpp"
@@ -14,7 +15,8 @@ inline Vector3 normal_vector(Random& random, double sd) {
 
 inline double twentieths(Random& random) { return 0.05 * std::floor(random.uniform(1.0, 21.0)); }
 
-/// One tick at the velocity that the handle has at its begin; then another velocity, towards home far out.
+/// Runs one tick at the present velocity of the handle, then chooses another velocity, towards home if it is
+/// far out.
 inline void wander(HandleState& h, Random& random, double speed_m_per_s, double speed_rad_per_s) {
   h.p_MH += kTick_s * h.velocity_m_per_s;
   h.q_MH = (exp_rotation(kTick_s * h.angular_rad_per_s) * h.q_MH).normalized();

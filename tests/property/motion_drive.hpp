@@ -1,6 +1,6 @@
 #pragma once
-// A robot on a tour of its goal (goal_tours.hpp), judged from outside at every tick: by the differences of
-// its setpoints, by the tool's distance from its goal, and by what the robot says about that.
+// A robot whose goal follows a tour (goal_tours.hpp), checked from outside in every tick: differences of its
+// setpoints, distance of the tool from its goal, and what the robot reports about it.
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace longreach::test {
 
 constexpr double kDt = 1e-3;
 constexpr double kSettleS = 120.0;  // at most, after the goal has come to rest
-constexpr double kStuckS = 5.0;     // an arm that stands so long in its own way stays there
+constexpr double kStuckS = 5.0;     // an arm that blocks itself for so long stays there
 
 struct Worst {
   double position = 0.0;                               // rad beyond a limit
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;  // share of the limit
   double tool_m_per_s = 0.0, tool_rad_per_s = 0.0;
-  double singular = 0.0;  // least singular value of J over the reach where det J changed its sign
+  double singular = 0.0;  // smallest singular value of J over the reach where det J changed its sign
 };
 
 inline double least_singular_value(const Kinematics& arm, const JointVector& q) {
@@ -29,7 +29,7 @@ inline double least_singular_value(const Kinematics& arm, const JointVector& q) 
   return Eigen::JacobiSVD<Jacobian>(J).singularValues()[5];
 }
 
-// Differences of the setpoints against the limits of the joints, and the branch that the arm is in.
+// Compares differences of the setpoints with the limits of the joints; tracks the branch of the arm.
 class Judge {
  public:
   Judge(const RobotConfig& robot, const Kinematics& arm, const JointVector& q)
@@ -60,7 +60,7 @@ class Judge {
   bool left_;
 };
 
-// How long the arm needs from joints to joints, straight, with nothing but the speed limits in the way.
+// Time for a straight motion from joints to joints that only the speed limits restrict.
 inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const CommandConfig& command,
                          const JointVector& from, const JointVector& to) {
   constexpr int kParts = 100;
@@ -79,19 +79,19 @@ inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const 
   return std::max({joints_s, tool_m / command.speed_max_m_per_s, tool_rad / command.speed_max_rad_per_s});
 }
 
-// How long an arm took for a way, and the least that it could have.
+// Time that an arm took for a path, and the minimum.
 struct Arrival {
   double s = 0.0, swiftest_s = 0.0;
 };
 
 struct Outcome {
-  double off_m = 0.0;  // of the tool from the goal's way
+  double off_m = 0.0;  // of the tool from the path of the goal
   bool arrived = false;
   bool hindered =
-      false;  // at the end the arm stood in its own way, or its goal was out of reach, and it said so
+      false;  // at the end the arm blocked itself, or its goal was out of reach, and it was reported
   Arrival from_rest{};                      // since the goal came to rest
-  Arrival from_free{};                      // since the arm last said that it was in its own way
-  double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was told
+  Arrival from_free{};                      // since the arm last reported that it blocked itself
+  double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was reported
 };
 
 inline double off_the_way(const Tour& tour, const Vector3& p) {
@@ -104,7 +104,7 @@ inline double off_the_way(const Tour& tour, const Vector3& p) {
   return least;
 }
 
-// A robot on one tour, judged at every tick.
+// A robot on one tour, checked in every tick.
 struct Drive {
   Drive(const RobotConfig& of, const Kinematics& arm_of, const CommandConfig& with, const Tour& on)
       : robot(of), arm(arm_of), command(with), motion(with, of), tour(on), judge(of, arm_of, on.start) {
@@ -140,7 +140,7 @@ struct Drive {
     }
   }
 
-  // Until the tool is at its goal, or stands somewhere else and says why.
+  // Runs until the tool is at its goal, or stops elsewhere and reports the reason.
   void settle(const Pose& goal) {
     constexpr double kThere = 1e-9, kStillRad = 1e-3;
     const JointVector from = motion.joint_setpoint_rad();

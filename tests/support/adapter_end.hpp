@@ -26,7 +26,7 @@ struct AdapterEnd {
   void send_raw(const Any& out) {
     channel.send(std::as_bytes(std::span(&out, 1)));
   }
-  /// The newest that counts.
+  /// Returns the newest valid datagram.
   std::optional<In> receive(Time now) {
     std::optional<In> newest;
     std::array<std::byte, 512> bytes;

@@ -1,9 +1,9 @@
 #pragma once
-// Counts what operator new hands out while asked to.
+// Counts the calls of operator new.
 
 namespace longreach::test {
 
-void count_allocations(bool on);  // starts from zero when switched on
+void count_allocations(bool on);  // resets the count when switched on
 long allocations();
 
 }  // namespace longreach::test

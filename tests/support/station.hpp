@@ -1,5 +1,5 @@
 #pragma once
-// Master and slave on loopback with free ports, seen through their RPC service, as a client sees them.
+// Master and slave on loopback with free ports, as a client sees them through their RPC services.
 
 #include <gtest/gtest.h>
 
@@ -15,25 +15,25 @@
 
 namespace longreach {
 
-/// One side's RPC service, through a client of its own.
+/// The RPC service of one side, through a client.
 class StationSide {
  public:
-  /// Comes as a client of the test's site.
+  /// Connects as a client of the site of the tests.
   StationSide(RpcRole role, int port);
 
   std::optional<proto::Status> status();
-  /// Empty when it was carried out, else the server's sentence.
+  /// Returns an empty text on success, else the server's message.
   std::string engage();
   std::string stop();
   std::string set(const std::string& path, const std::string& value);
-  /// All of them or none.
+  /// Sets all of them or none.
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
-  /// The effective configuration or a part of it.
+  /// Returns the effective configuration or a part of it.
   std::string get(const std::string& path);
   std::string set_delay(double delay_s);
 
   std::string state();
-  /// By name; 0 when there is none.
+  /// By name; 0 if there is none.
   std::uint64_t counter(const std::string& name);
 
  private:
@@ -46,16 +46,15 @@ class Station : public ::testing::Test {
   void start_master(const std::vector<std::string>& more = {}, const Streams& streams = {});
   [[nodiscard]] std::string link_address() const { return "127.0.0.1:" + std::to_string(ports_.link); }
 
-  /// Asks until it holds; false when it did not within the time. Polls, and asserts nothing about how long it
-  /// took.
+  /// Polls until `holds` returns true; returns false after the timeout. The elapsed time is not checked.
   static bool eventually(const std::function<bool()>& holds,
                          std::chrono::seconds timeout = std::chrono::seconds(60));
   bool both_engaged(std::chrono::seconds timeout = std::chrono::seconds(60));
-  /// Engages as soon as that is not refused, and again when it comes to nothing.
+  /// Requests an engagement as soon as it is not refused, and repeats the request if it fails.
   bool engaged();
-  /// Waits for words in what a program prints; its log may come later than what its RPC service tells.
+  /// Waits for a text in the output of a program; its log may be later than its RPC service.
   static bool says(const RunningProgram& program, const std::string& words);
-  /// What both programs printed, for messages of failing tests.
+  /// Output of both programs, for messages of failing tests.
   std::string outputs() const;
 
   Ports ports_ = free_ports();

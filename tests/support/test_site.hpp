@@ -1,6 +1,6 @@
 #pragma once
-// The site that the programs under test make and share: a folder of its own for each test program, not the
-// user's.
+// The site that the programs under test create and share: one folder for each test program, separate from the
+// user's site.
 
 #include "common/site/rpc_security.hpp"
 

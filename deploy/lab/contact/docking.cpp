@@ -35,7 +35,7 @@ std::vector<Plot> docking_plots() {
                     ""},
                    {"tip to catch (mm)", {{"striker_m", "tip of the probe", 1e3}}, ""},
                    {"force on the tool (N)", {{"force_x_n", "along x"}, {"force_n", "magnitude"}}, ""},
-                   {"felt against the push (N)", {{"felt_n", "contact at the hand"}}, ""},
+                   {"force at the hand against the push (N)", {{"felt_n", "contact at the hand"}}, ""},
                    {"state",
                     {{"mode", "position mode"}, {"holds", "gripper holds", 0.9}, {"latched", "latched", 0.8}},
                     "set yrange [-0.1:1.3]"}},

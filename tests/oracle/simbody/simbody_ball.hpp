@@ -1,6 +1,6 @@
 #pragma once
-// A ball over the half space z < 0 in Simbody, with its Hunt-Crossley force. Simbody's headers are C++17, so
-// they stay behind this one.
+// A ball above the half space z < 0 in Simbody, with its Hunt-Crossley force. Simbody's headers are C++17, so
+// this header does not include them.
 
 #include <array>
 #include <memory>
@@ -13,7 +13,7 @@ class SimbodyBall {
   SimbodyBall(double radius_m, double modulus_pa, double dissipation_s_per_m);
   ~SimbodyBall();
 
-  /// On the ball with its centre at p, m, and the velocity v, m/s.
+  /// Force on the ball with its centre at p, m, and the velocity v, m/s.
   std::array<double, 3> force_n(const std::array<double, 3>& p, const std::array<double, 3>& v);
 
  private:

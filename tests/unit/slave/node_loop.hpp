@@ -12,7 +12,7 @@
 
 namespace longreach::test {
 
-// Slave node and simulated arm, with a master that is a few lines: 200 commands a second, 20 ms away.
+// Slave node and simulated arm with a minimal master: 200 commands per second, delayed by 20 ms.
 struct Loop {
   explicit Loop(const SlaveConfig& config) : node(config), arm(config, Random(9)) {
     command.request = Request::kHold;
@@ -29,7 +29,7 @@ struct Loop {
   bool echo = true;
   RobotState broken{};
   bool use_broken = false;
-  std::function<void(RobotState&)> sensor_fault{};  // of the robot about itself
+  std::function<void(RobotState&)> sensor_fault{};  // changes the robot's report of its state
   std::vector<Received<MotionCommand>> commands;
   std::optional<Time> last_heard;
   SlaveOutput out;

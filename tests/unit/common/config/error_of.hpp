@@ -8,7 +8,7 @@
 
 namespace longreach {
 
-/// What ConfigError says; "no error" if `call` throws none. Other exceptions pass.
+/// Returns the text of the ConfigError; "no error" if `call` throws none. Other exceptions pass.
 template <class Call>
 std::string error_of(Call&& call) {
   try {

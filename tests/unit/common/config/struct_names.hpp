@@ -1,6 +1,6 @@
 #pragma once
-// Field by field, by the names that the compiler knows: two members that are swapped pass the tests by
-// reflection. What master and slave have in common.
+// Compares fields by the names in the source: two exchanged members would pass the tests by reflection.
+// Common to the tests of master and slave.
 
 #include <gtest/gtest.h>
 

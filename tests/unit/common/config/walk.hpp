@@ -1,5 +1,5 @@
 #pragma once
-// Walks over whole messages by reflection, for tests that must not forget a field.
+// Visits all fields of messages by reflection, so that tests cannot omit a field.
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -12,8 +12,8 @@
 
 namespace longreach {
 
-/// Sets every leaf to a valid value that is not its default, and no two numbers alike. Lists get the number
-/// of elements that the schema asks for, two where it asks for none.
+/// Sets every leaf to a valid value that is not its default; all numbers differ. Lists have the number of
+/// elements that the schema requires, or two.
 class DistinctValues {
  public:
   void fill(google::protobuf::Message& message) {
@@ -101,7 +101,7 @@ inline void add_leaf_paths(const google::protobuf::Message& root, const google::
   }
 }
 
-/// Paths of every leaf of `message`, set or not.
+/// Paths of all leaves of `message`, set or not.
 inline std::vector<std::string> leaf_paths(const google::protobuf::Message& message) {
   FieldPath path;
   std::vector<std::string> paths;

@@ -1,5 +1,5 @@
 #pragma once
-// Sends numbered datagrams through an impairment in virtual time and notes what comes out when.
+// Sends numbered datagrams through an impairment in virtual time and records the output with its times.
 
 #include <cstring>
 #include <map>

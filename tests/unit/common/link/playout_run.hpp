@@ -15,7 +15,7 @@ struct PlayoutRun {
   double duration_s = 20.0;
   double period_s = 0.005;
   double tick_s = 0.001;
-  double clock_ratio = 1.0;      // seconds of the receiver for a second of the sender
+  double clock_ratio = 1.0;      // seconds of the receiver per second of the sender
   double clock_offset_s = -1e4;  // the sender's clock minus the receiver's
   /// One-way delay of the datagram sent at `sent_s` after the start; negative: lost.
   std::function<double(double sent_s)> delay_s;

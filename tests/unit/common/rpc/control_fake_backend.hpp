@@ -1,5 +1,5 @@
 #pragma once
-// A side that does what it is told and remembers what it was told.
+// A simulated side that accepts all requests and records them.
 
 #include <atomic>
 #include <chrono>
@@ -22,7 +22,7 @@ class FakeBackend : public ControlBackend {
     config_.mutable_estimator()->set_forgetting(0.99);
   }
 
-  /// The answer of every change from now on.
+  /// Sets the answer to all further changes.
   void refuse(std::optional<Refusal> refusal) {
     const std::lock_guard lock(mutex_);
     refusal_ = std::move(refusal);
@@ -39,14 +39,14 @@ class FakeBackend : public ControlBackend {
     const std::lock_guard lock(mutex_);
     link_ = link;
   }
-  /// A mesh of so many bytes in the configuration.
+  /// Adds a mesh of this size to the configuration.
   void put_mesh(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     config_.mutable_scene()->mutable_bodies()->add_file()->set_text(std::string(bytes, 'v'));
   }
-  /// Changes of the configuration stay inside until it is false again.
+  /// Changes of the configuration block until this is false again.
   void block_changes(bool block) { blocked_ = block; }
-  /// Most changes that were ever inside at once.
+  /// Highest number of concurrent changes so far.
   [[nodiscard]] int overlap() const { return overlap_; }
 
   proto::Status status() override {
@@ -131,7 +131,7 @@ class FakeBackend : public ControlBackend {
     if (auto refusal = change("stop_recording", [] {})) return *std::move(refusal);
     return "/recordings/x-" + side_ + ".mcap: 1.5 s, 0.2 MB";
   }
-  /// Of the session that it opens; a caller that has it keeps it.
+  /// Sets the session that it opens; a caller that has it keeps it.
   void put_session(std::uint64_t number) {
     const std::lock_guard lock(mutex_);
     present_session_ = number;
@@ -143,7 +143,7 @@ class FakeBackend : public ControlBackend {
     explicit Inside(FakeBackend& backend) : backend_(backend), lock_(backend.mutex_, std::defer_lock) {
       const int now = ++backend_.inside_;
       if (now > backend_.overlap_) backend_.overlap_ = now;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));  // time for another one to come in
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // time for a second call to enter
       lock_.lock();
     }
     ~Inside() { --backend_.inside_; }

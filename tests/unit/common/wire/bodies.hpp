@@ -1,5 +1,5 @@
 #pragma once
-// Bodies through the codec and back, and as the generated protobuf classes see them.
+// Encodes and decodes bodies with the codec, and with the generated protobuf classes.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The daemon of a SpaceMouse, played by the test.
+// The daemon of a SpaceMouse, simulated by the test.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -18,7 +18,7 @@
 namespace longreach {
 
 /// spacenavd: events of eight numbers over a socket of the file system. Answers the handshake of protocol 1
-/// and the question for the device's name.
+/// and the request for the name of the device.
 class FakeDaemon {
  public:
   explicit FakeDaemon(const std::string& path) : path_(path) {
@@ -63,8 +63,8 @@ class FakeDaemon {
     }
   }
 
-  // The greeting is one number, which is sent back; later questions are eight, answered with a status >= 0 in
-  // the last.
+  // The first request is one number, which is sent back; later ones are eight numbers, answered with a status
+  // >= 0 in the last number.
   void answer() {
     std::array<std::int32_t, 8> asked{};
     const ssize_t n = ::recv(client_, asked.data(), greeted_ ? sizeof asked : sizeof asked[0], 0);

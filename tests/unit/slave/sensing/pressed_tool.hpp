@@ -1,6 +1,6 @@
 #pragma once
-// A tool that goes where it is told on a wall of known stiffness, and a force sensor that may be turned: what
-// the watches of the force are given, tick by tick. The wall's law is F = k d n, d the depth of the tool.
+// A tool that moves as commanded on a wall of known stiffness, and a force sensor that may be rotated: the
+// inputs of the force checks, tick by tick. The law of the wall is F = k d n, with the depth d of the tool.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ struct PressedTool {
   static constexpr double kDt = 1e-3;
 
   double wall_n_per_m = 1e3;
-  Vector3 normal = -Vector3::UnitX();  // out of the wall
-  double wall_m = 0.0;                 // it begins so far from 0, into itself
+  Vector3 normal = -Vector3::UnitX();  // outward normal of the wall
+  double wall_m = 0.0;                 // position of its surface from 0, along -normal
   Matrix3 sensor = Matrix3::Identity();
   double noise_n = 0.0;
   double bandwidth_hz = 0.0;
@@ -27,14 +27,14 @@ struct PressedTool {
 
   explicit PressedTool(double stiffness_n_per_m) : wall_n_per_m(stiffness_n_per_m) {}
 
-  /// Of a sensor whose bandwidth the watch knows.
+  /// A sensor with a bandwidth that the check knows.
   void slow_sensor(double hz) {
     bandwidth_hz = hz;
     watch.configure({.bandwidth_hz = hz});
   }
   [[nodiscard]] double force_n() const { return wall_n_per_m * std::max(0.0, -normal.dot(p_m) - wall_m); }
 
-  /// A tick with the tool at this velocity.
+  /// Runs a tick with the tool at this velocity.
   void go(const Vector3& m_per_s) {
     p_m += kDt * m_per_s;
     const Vector3 true_n = sensor * (force_n() * normal);
@@ -43,7 +43,7 @@ struct PressedTool {
     const Vector3 noise(random.normal(), random.normal(), random.normal());
     report(reported_n + noise_n * noise);
   }
-  /// A tick in which the sensor says this, whatever the wall does.
+  /// Runs a tick in which the sensor reports this force, independent of the wall.
   void report(const Vector3& force_n) {
     watch.step({p_m, force_n, force_n.norm() > 0.1, kDt});
     suspected = suspected || !watch.direction().isZero(0.0);
