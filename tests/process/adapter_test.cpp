@@ -294,7 +294,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
 /// Does what the check asks for, until it ends. Its exit status and what it said.
 Tried pushed(SensorFlaw flaw) {
   RobotBox robot;
-  robot.mark_affected(flaw);
+  robot.set_flaw(flaw);
   RunningProgram check("longreach", {"adapter", "check", "--push", "--robot", robot.address(), "--robot-file",
                                      "robots/cartesian.txtpb", "--patience", "2"});
   std::optional<int> status;
@@ -312,7 +312,7 @@ Tried pushed(SensorFlaw flaw) {
       for (double& x : felt) x *= turns ? 2.0 : 20.0;
       felt[static_cast<std::size_t>(said[axis + 1] - 'x')] = turns ? 2.0 : 20.0;
     }
-    robot.feel(force_n, moment_nm);
+    robot.push_tool(force_n, moment_nm);
   }
   return {*status, check.output()};
 }

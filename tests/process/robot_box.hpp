@@ -59,13 +59,13 @@ class RobotBox {
   /// Adds a wall of 1 N/mm across the third joint.
   void wall(double at_m) { wall_m_ = at_m; }
   /// A push at the tool, in W: force N, moment N m.
-  void feel(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
+  void push_tool(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
     const std::lock_guard lock(mutex_);
     force_n_ = force_n;
     moment_nm_ = moment_nm;
   }
   /// Sets the fault of the sensor.
-  void mark_affected(SensorFlaw flaw) {
+  void set_flaw(SensorFlaw flaw) {
     const std::lock_guard lock(mutex_);
     flaw_ = flaw;
   }
