@@ -79,7 +79,7 @@ TEST_P(ContactAccuracy, SettlesWithinThreePercentAndFindsTheSurface) {
     for (int i = 0; i < 12000; ++i) tick(amplitude * w * std::cos(w * i * kDt));
 
     const double truth = bench.tangent_at(contact.foremost().reported_at_m());
-    EXPECT_NEAR(contact.foremost().known_answer().stiffness_n_per_m() / truth, 1.0, 0.03) << "seed " << seed;
+    EXPECT_NEAR(contact.foremost().reported().stiffness_n_per_m() / truth, 1.0, 0.03) << "seed " << seed;
     const double allowed = wall.stiffness < 2000.0 ? 1e-4 : 3e-5;
     EXPECT_LT(std::abs(surface_error), allowed) << "seed " << seed;
   }
@@ -150,13 +150,13 @@ TEST(SlaveContact, AStillQuantisedHoldWindsNothingUp) {
     bench.noise_n = 0.0;
     for (int i = 0; i < 4000; ++i) bench.step(contact, 0.0);
     const ContactEstimate before = contact.foremost().estimate();
-    const double reported = contact.foremost().known_answer().stiffness_n_per_m();
+    const double reported = contact.foremost().reported().stiffness_n_per_m();
     ASSERT_TRUE(before.valid);
     for (int i = 0; i < 600000; ++i) bench.step(contact, 0.0);
     const ContactEstimate after = contact.foremost().estimate();
     ASSERT_TRUE(std::isfinite(after.stiffness_n_per_m)) << forgetting;
     EXPECT_NEAR(after.stiffness_n_per_m / before.stiffness_n_per_m, 1.0, 0.01) << forgetting;
-    EXPECT_EQ(contact.foremost().known_answer().stiffness_n_per_m(), reported) << forgetting;
+    EXPECT_EQ(contact.foremost().reported().stiffness_n_per_m(), reported) << forgetting;
     EXPECT_TRUE(after.valid);
   }
 }
@@ -166,10 +166,10 @@ TEST(SlaveContact, ANoisyHoldKeepsTheReportedValue) {
   SlaveContact contact(SensingConfig{}, free_exponent());
   for (int i = 0; i < 3500; ++i) bench.step(contact, 1e-3);
   for (int i = 0; i < 8000; ++i) bench.step(contact, 3e-4 * std::cos(2 * test::kPi * 0.5 * i * kDt));
-  const double reported = contact.foremost().known_answer().stiffness_n_per_m();
+  const double reported = contact.foremost().reported().stiffness_n_per_m();
   ASSERT_GT(reported, 0.0);
   for (int i = 0; i < 300000; ++i) bench.step(contact, 0.0);
-  EXPECT_EQ(contact.foremost().known_answer().stiffness_n_per_m(), reported);
+  EXPECT_EQ(contact.foremost().reported().stiffness_n_per_m(), reported);
   EXPECT_NEAR(contact.foremost().estimate().stiffness_n_per_m, 1000.0, 30.0);
 }
 
@@ -231,9 +231,9 @@ TEST(SlaveContact, IsKnownSoonWhateverTheNoiseOfTheTouch) {
       Bench bench{500.0, n, 0.1, 0.05, Random(seed)};
       SlaveContact contact(SensingConfig{}, free_exponent());
       while (bench.force() < 3.0) bench.step(contact, 1.6e-3);
-      ASSERT_GT(contact.foremost().known_answer().stiffness_n_per_m(), 0.0) << "n " << n << " seed " << seed;
+      ASSERT_GT(contact.foremost().reported().stiffness_n_per_m(), 0.0) << "n " << n << " seed " << seed;
       const double truth = bench.tangent_at(contact.foremost().reported_at_m());
-      EXPECT_NEAR(contact.foremost().known_answer().stiffness_n_per_m() / truth, 1.0, 0.15)
+      EXPECT_NEAR(contact.foremost().reported().stiffness_n_per_m() / truth, 1.0, 0.15)
           << "n " << n << " seed " << seed;
     }
   }
@@ -248,7 +248,7 @@ void exchange(Bench& bench, SlaveContact& contact, double speed, double other, d
     }
   };
   probe(4.0);
-  EXPECT_NEAR(contact.foremost().known_answer().stiffness_n_per_m(), bench.stiffness_n_per_m,
+  EXPECT_NEAR(contact.foremost().reported().stiffness_n_per_m(), bench.stiffness_n_per_m,
               0.1 * bench.stiffness_n_per_m);
   bench.stiffness_n_per_m = other;
   probe(seconds);
@@ -263,7 +263,7 @@ TEST(SlaveContact, FindsAnotherObjectUnderTheTool) {
       config.kind = kind;
       SlaveContact contact(SensingConfig{}, config);
       exchange(bench, contact, 4e-4, other, 3.0);
-      EXPECT_NEAR(contact.foremost().known_answer().stiffness_n_per_m(), other, 0.2 * other) << name_of(kind);
+      EXPECT_NEAR(contact.foremost().reported().stiffness_n_per_m(), other, 0.2 * other) << name_of(kind);
       EXPECT_TRUE(contact.in_contact());
     }
   }
@@ -271,7 +271,7 @@ TEST(SlaveContact, FindsAnotherObjectUnderTheTool) {
 
 // Noise and a change of the material can leave a fit whose surface may be anywhere.
 TEST(SlaveContact, TellsNoSurfaceFartherThanTheToolHasGone) {
-  int known_answer = 0;
+  int reported = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Random random(seed);
     Bench bench{1000.0, random.uniform(1.0, 2.0), 0.1, std::pow(10.0, random.uniform(-2.0, 0.5)),
@@ -288,12 +288,12 @@ TEST(SlaveContact, TellsNoSurfaceFartherThanTheToolHasGone) {
       deepest_m = std::max(deepest_m, bench.x_m - 0.1);
       for (const ReportedSurface& s : contact.report(Vector3(0.1, 3.0, -1.0))) {
         if (s.stiffness <= 0.0) continue;
-        ++known_answer;
+        ++reported;
         ASSERT_LT(std::abs(s.offset), 6e-3 + 3.0 * deepest_m) << "seed " << seed << " at " << i;
       }
     }
   }
-  EXPECT_GT(known_answer, 30000);
+  EXPECT_GT(reported, 30000);
 }
 
 // Over a cylinder of 50 mm, 10 mm/s, for 40 mm: the mean direction of the force is off by 25 degrees then.
@@ -318,7 +318,7 @@ TEST(SlaveContact, ASlideOverACurvedSurfaceIsNoDepth) {
       const Vector3 force = std::max(kStiffness * depth_m, 0.0) * out + 0.05 * noise;
       contact.step({r * out, -inward * out + r * turning * along, force, 0.0, 1.0, kDt});
       if (t < 6.0) continue;
-      ASSERT_NEAR(contact.foremost().known_answer().stiffness_n_per_m(), kStiffness, 0.1 * kStiffness)
+      ASSERT_NEAR(contact.foremost().reported().stiffness_n_per_m(), kStiffness, 0.1 * kStiffness)
           << name_of(kind) << " at " << t;
     }
     EXPECT_NEAR(contact.foremost().depth_m(), depth_m, 2e-4) << name_of(kind);
@@ -331,12 +331,12 @@ TEST(SlaveContact, IdentifiesAnewWithAnotherEstimatorFromNowOn) {
     EstimatorConfig config = free_exponent();
     SlaveContact contact(SensingConfig{}, config);
     for (int i = 0; i < 2500; ++i) bench.step(contact, 1e-3);
-    const double reported = contact.foremost().known_answer().stiffness_n_per_m();
+    const double reported = contact.foremost().reported().stiffness_n_per_m();
     ASSERT_GT(reported, 0.0);
     config.kind = kind;
     contact.configure(SensingConfig{}, config);
     bench.step(contact, 1e-3);
-    EXPECT_EQ(contact.foremost().known_answer().stiffness_n_per_m(), reported) << name_of(kind);
+    EXPECT_EQ(contact.foremost().reported().stiffness_n_per_m(), reported) << name_of(kind);
     for (int i = 0; i < 8000; ++i) bench.step(contact, 4e-3 * std::cos(2 * test::kPi * 0.5 * i * kDt));
     ASSERT_TRUE(contact.foremost().estimate().valid) << name_of(kind);
     EXPECT_NEAR(contact.foremost().estimate().stiffness_n_per_m, 1000.0, 50.0) << name_of(kind);
