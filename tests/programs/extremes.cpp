@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
       "Every quantity at its extremes, from 1 N/m to 1e9, 1 g to 100 t, 1 mm to 20 m: stable, or refused?",
       "", run_extremes, extremes_plots};
   CLI::App app{std::string(extremes.summary) +
-               "\n\nExit status: 0 all as it must be, 1 not, 2 an option is wrong."};
+               "\n\nExit status: 0 every cell has the expected outcome, 1 a cell is bad, 2 invalid option."};
   app.name("extremes");
   VerificationOptions options;
   add_options(app, options);

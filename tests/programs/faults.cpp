@@ -69,7 +69,7 @@ void run_campaign(const Experiment& faults, const FaultOptions& o) {
   const std::vector<Metric> metrics = verify(faults, o);
   if (value_of(metrics, "violations") > 0.0) throw std::runtime_error(kViolated);
   if (full_size() && value_of(metrics, "never_seen") > 0.0)
-    throw std::runtime_error("something was never seen");
+    throw std::runtime_error("a kind, guard or invariant was never active");
 }
 
 }  // namespace
@@ -78,16 +78,16 @@ void run_campaign(const Experiment& faults, const FaultOptions& o) {
 int main(int argc, char** argv) {
   using namespace longreach;
   const Experiment faults{"faults",
-                          "Everything that can go wrong in virtual time, drawn at random and overlapping, "
-                          "under an oracle that trusts no "
-                          "node.",
+                          "Random, overlapping faults of all kinds in virtual time, checked by an "
+                          "independent oracle.",
                           "", run_fault_campaign, faults_plots};
   CLI::App app{
       std::string(faults.summary) +
-      "\n\nWithout --seed, --seeds and --schedule: half a virtual hour, or 400 with LONGREACH_FULL, in "
-      "blocks "
-      "that are kept in DIR; started again, it resumes.\n\nExit status: 0 every invariant holds, 1 one is "
-      "violated, 2 an option is wrong."};
+      "\n\nWithout --seed, --seeds and --schedule: half an hour of virtual time, or 400 hours with "
+      "LONGREACH_FULL, "
+      "in blocks that are stored in DIR; an interrupted campaign resumes.\n\nExit status: 0 every invariant "
+      "holds, "
+      "1 one is violated, 2 invalid option."};
   app.name("faults");
   FaultOptions options;
   add_options(app, options);

@@ -9,9 +9,9 @@
 int main(int argc, char** argv) {
   using namespace longreach;
   const Experiment peers{
-      "peers", "The time of KDL, Ceres Solver, Simbody and MuJoCo over ours, for the same question.", "",
+      "peers", "Ratio of the time of KDL, Ceres Solver, Simbody and MuJoCo to ours for the same problem.", "",
       run_peers, [] { return std::vector<Plot>{}; }};
-  CLI::App app{std::string(peers.summary) + "\n\nExit status: 0 done, 1 it failed, 2 an option is wrong."};
+  CLI::App app{std::string(peers.summary) + "\n\nExit status: 0 done, 1 failed, 2 invalid option."};
   app.name("peers");
   VerificationOptions options;
   add_options(app, options);

@@ -104,12 +104,12 @@ TEST(Site, OneThatOthersMayOpenIsRefusedWithWhatToDo) {
   const fs::path site = folder.path() / "longreach";
   ASSERT_EQ(refusal_of(site), "");
   ::chmod((site / "master.key").c_str(), 0640);
-  EXPECT_NE(refusal_of(site).find("master.key is open to other users; close it with chmod"),
+  EXPECT_NE(refusal_of(site).find("master.key is accessible to other users; close it with chmod"),
             std::string::npos)
       << refusal_of(site);
   ::chmod((site / "master.key").c_str(), 0600);
   ::chmod(site.c_str(), 0755);
-  EXPECT_NE(refusal_of(site).find("longreach is open to other users"), std::string::npos) << refusal_of(site);
+  EXPECT_NE(refusal_of(site).find("longreach is accessible to other users"), std::string::npos) << refusal_of(site);
 }
 
 TEST(Site, WhatIsMissingIsNamedAndNothingIsMadeInItsPlace) {
@@ -155,9 +155,9 @@ TEST(Site, RejectsForeignFilesAndFolders) {
     }
   };
   expect(folder.path() / "letter.txt", " is not a folder");
-  expect(folder.path(), " is no site");
+  expect(folder.path(), " is not a site");
   ::chmod(folder.path().c_str(), 0755);
-  expect(folder.path(), " is no site");
+  expect(folder.path(), " is not a site");
 }
 
 TEST(Site, APlaceThatCannotBeWrittenIsNamed) {
