@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace longreach;
   const Experiment peers{
-      "peers", "Ratio of the time of KDL, Ceres Solver, Simbody and MuJoCo to ours for the same problem.", "",
+      "peers", "The time of KDL, Ceres Solver, Simbody and MuJoCo relative to ours for the same problem.", "",
       run_peers, [] { return std::vector<Plot>{}; }};
   CLI::App app{std::string(peers.summary) + "\n\nExit status: 0 done, 1 failed, 2 invalid option."};
   app.name("peers");

@@ -109,7 +109,8 @@ TEST(Site, OneThatOthersMayOpenIsRefusedWithWhatToDo) {
       << refusal_of(site);
   ::chmod((site / "master.key").c_str(), 0600);
   ::chmod(site.c_str(), 0755);
-  EXPECT_NE(refusal_of(site).find("longreach is accessible to other users"), std::string::npos) << refusal_of(site);
+  EXPECT_NE(refusal_of(site).find("longreach is accessible to other users"), std::string::npos)
+      << refusal_of(site);
 }
 
 TEST(Site, WhatIsMissingIsNamedAndNothingIsMadeInItsPlace) {

@@ -263,9 +263,10 @@ TEST(Summary, NamesAWallThatIsStifferThanTheDeviceCanRender) {
   };
   const Summary summary = probing(config, cut).finish({});
   EXPECT_TRUE(summary.passed()) << summary.text();
-  EXPECT_NE(summary.text().find(
-                "warn  the wall is stiffer than this device can render: 5.000 N/mm were limited to 1.444 N/mm"),
-            std::string::npos)
+  EXPECT_NE(
+      summary.text().find(
+          "warn  the wall is stiffer than this device can render: 5.000 N/mm were limited to 1.444 N/mm"),
+      std::string::npos)
       << summary.text();
 }
 
