@@ -187,7 +187,7 @@ void World::hook(Hook FaultKind::*which, Value& value) {
 void World::robot_reported(RobotState& reported) {
   moment_.truth = reported;
   hook(&FaultKind::robot, reported);
-  defect_injector_.pass_on(reported);
+  defect_injector_.apply(reported);
   moment_.reported = reported;
 }
 
