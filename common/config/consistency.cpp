@@ -1,7 +1,6 @@
 // Fields that must agree with each other: all such rules of the configuration live here, one function a
 // message.
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,48 +12,14 @@
 #include "common/config/guarded.hpp"
 #include "common/config/host_and_port.hpp"
 #include "common/config/number_text.hpp"
-#include "common/config/violation.hpp"
-#include "common/spatial/spatial.hpp"
+#include "common/config/robot_rules.hpp"
+#include "common/config/rule.hpp"
 #include "proto/config.pb.h"
 
 namespace longreach {
 namespace {
 
 using google::protobuf::FieldDescriptor;
-using google::protobuf::Message;
-using Finding = std::optional<Violation>;
-
-// A violation within `message`: the path starts there.
-Violation at(const Message& message, const char* field, std::string text) {
-  return {{{message.GetDescriptor()->FindFieldByName(field), -1}}, std::move(text)};
-}
-
-Violation at_element(const Message& message, const char* list, int index, const char* field,
-                     std::string text) {
-  const PathStep element{message.GetDescriptor()->FindFieldByName(list), index};
-  return {{element, {element.field->message_type()->FindFieldByName(field), -1}}, std::move(text)};
-}
-
-struct Named {
-  const char* name;
-  double value;
-};
-
-// `low` < `high`, or a violation at the one that is set in the message.
-Finding in_order(const Message& message, const Named& low, const Named& high) {
-  if (low.value < high.value) return std::nullopt;
-  const auto* high_field = message.GetDescriptor()->FindFieldByName(high.name);
-  const auto* low_field = message.GetDescriptor()->FindFieldByName(low.name);
-  const auto* reflection = message.GetReflection();
-  if (!reflection->HasField(message, low_field) && reflection->HasField(message, high_field)) {
-    return at(
-        message, high.name,
-        " = " + format_number(high.value) + " is not above " + low.name + " = " + format_number(low.value));
-  }
-  return at(
-      message, low.name,
-      " = " + format_number(low.value) + " is not below " + high.name + " = " + format_number(high.value));
-}
 
 // A text that is an address by its form. Empty is what the default says: none, or one that is known.
 Finding is_address(const Message& message, const char* field, const std::string& text) {
@@ -88,70 +53,6 @@ Finding is_rotation(const Message& message, const google::protobuf::RepeatedFiel
   return at(message, "rotation_rad",
             " has the length " + format_number(std::sqrt(square)) +
                 ", more than one turn; the unit is rad, and this value seems to be in degrees");
-}
-
-Finding check_joint(const proto::Joint& joint) {
-  if (auto finding = in_order(joint, {"min_rad", joint.min_rad()}, {"max_rad", joint.max_rad()}))
-    return finding;
-  if (joint.start_rad() >= joint.min_rad() && joint.start_rad() <= joint.max_rad()) return std::nullopt;
-  return at(joint, "start_rad",
-            " = " + format_number(joint.start_rad()) + " is outside the joint's limits " +
-                format_number(joint.min_rad()) + " to " + format_number(joint.max_rad()));
-}
-
-// The direction of each joint's axis, base to tool.
-std::vector<Vector3> axes(const proto::Robot& robot) {
-  const bool modified = robot.convention() == proto::Robot::MODIFIED;
-  std::vector<Vector3> axes;
-  Matrix3 R = Matrix3::Identity();
-  for (const proto::Joint& joint : robot.joint()) {
-    const Matrix3 twist = Eigen::AngleAxisd(joint.alpha_rad(), Vector3::UnitX()).toRotationMatrix();
-    const Matrix3 turn = Eigen::AngleAxisd(joint.theta_rad(), Vector3::UnitZ()).toRotationMatrix();
-    axes.emplace_back(modified ? Vector3(R * twist.col(2)) : Vector3(R.col(2)));
-    R = modified ? Matrix3(R * twist * turn) : Matrix3(R * turn * twist);
-  }
-  return axes;
-}
-
-// Two neighbours that turn about one axis are one joint.
-Finding check_neighbours(const proto::Robot& robot) {
-  constexpr double kSameAxis = 1e-6;  // m and rad
-  const bool modified = robot.convention() == proto::Robot::MODIFIED;
-  for (int i = 0; i + 1 < robot.joint_size(); ++i) {
-    const proto::Joint &one = robot.joint(i), &two = robot.joint(i + 1);
-    const proto::Joint& between = modified ? two : one;
-    if (one.kind() != proto::Joint::REVOLUTE || two.kind() != proto::Joint::REVOLUTE) continue;
-    if (std::abs(between.a_m()) > kSameAxis || std::abs(std::sin(between.alpha_rad())) > kSameAxis) continue;
-    return at_element(robot, "joint", modified ? i + 1 : i, "alpha_rad",
-                      " = " + format_number(between.alpha_rad()) + " with a_m = " +
-                          format_number(between.a_m()) + " lets the joints " + std::to_string(i) + " and " +
-                          std::to_string(i + 1) + " rotate about the same axis; a degree of freedom is lost");
-  }
-  return std::nullopt;
-}
-
-// Six revolute joints, or three prismatic ones in three directions and the rest fixed.
-Finding check_robot(const proto::Robot& robot) {
-  std::vector<int> prismatic;
-  int fixed = 0;
-  for (int i = 0; i < robot.joint_size(); ++i) {
-    if (robot.joint(i).kind() == proto::Joint::PRISMATIC) prismatic.push_back(i);
-    if (robot.joint(i).kind() == proto::Joint::FIXED) ++fixed;
-  }
-  if (prismatic.empty() && fixed == 0) return check_neighbours(robot);
-  if (prismatic.size() != 3 || fixed + 3 != robot.joint_size()) {
-    return at(robot, "joint",
-              " has " + std::to_string(prismatic.size()) + " prismatic and " + std::to_string(fixed) +
-                  " fixed elements; a robot has six revolute ones, or three prismatic and three fixed ones");
-  }
-  const std::vector<Vector3> all = axes(robot);
-  Matrix3 ways;
-  for (int i = 0; i < 3; ++i)
-    ways.col(i) = all[static_cast<std::size_t>(prismatic[static_cast<std::size_t>(i)])];
-  if (std::abs(ways.determinant()) > 1e-3) return std::nullopt;
-  return at_element(robot, "joint", prismatic[1], "alpha_rad",
-                    " = " + format_number(robot.joint(prismatic[1]).alpha_rad()) +
-                        ": the three prismatic joints move the tool only in a plane");
 }
 
 // Names that a path can address: "material.wall.exponent".
@@ -325,8 +226,8 @@ Finding check_laboratory(const proto::LabConfig& lab) {
 Finding check_message(const Message& message) {
   if (const auto* joint = dynamic_cast<const proto::Joint*>(&message)) return check_joint(*joint);
   if (const auto* robot = dynamic_cast<const proto::Robot*>(&message)) return check_robot(*robot);
-  if (const auto* tool = dynamic_cast<const proto::Tool*>(&message))
-    return is_rotation(*tool, tool->rotation_rad());
+  if (const auto* placement = dynamic_cast<const proto::Placement*>(&message))
+    return is_rotation(*placement, placement->rotation_rad());
   if (const auto* box = dynamic_cast<const proto::Box*>(&message))
     return is_rotation(*box, box->rotation_rad());
   if (const auto* scene = dynamic_cast<const proto::Scene*>(&message)) return check_scene(*scene);

@@ -8,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "common/config/deploy_folder.hpp"
 #include "common/config/nearest_name.hpp"
+#include "common/config/urdf.hpp"
 
 namespace longreach {
 namespace {
@@ -28,7 +29,7 @@ std::string list(const std::vector<fs::path>& folders) {
   return text;
 }
 
-bool is_path(const std::string& name) { return name.ends_with(kExtension); }
+bool is_path(const std::string& name) { return name.ends_with(kExtension) || is_urdf(name); }
 
 bool is_plain(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.find_first_of("/\\") == std::string::npos &&
@@ -40,7 +41,7 @@ Names known_in(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
-      if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+      if (is_path(entry.path().string())) names.push_back(entry.path().stem().string());
     }
   }
   std::ranges::sort(names);
@@ -81,9 +82,12 @@ fs::path FileSearch::find_named(const std::string& what, const std::string& fold
   for (const fs::path& above : folders_) places.push_back(above / folder);
   if (!is_plain(name))
     throw ConfigError("\"" + name + "\" is not the name of a " + what + "; give a plain name, one of: " +
-                      list_names(known_in(places)) + ", or the path of a " + kExtension + " file");
+                      list_names(known_in(places)) + ", or the path of a " + kExtension +
+                      (folder == "robots" ? std::string(" or ") + kUrdfExtension : "") + " file");
   for (const fs::path& place : places) {
-    if (const fs::path file = place / (name + kExtension); is_there(file)) return file;
+    for (const char* extension : {kExtension, kUrdfExtension}) {
+      if (const fs::path file = place / (name + extension); is_there(file)) return file;
+    }
   }
   throw ConfigError("there is no " + what + " \"" + name + "\" in " + list(places) +
                     instead_of(name, known_in(places), "known"));

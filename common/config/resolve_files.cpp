@@ -4,6 +4,8 @@
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
 #include "common/config/scene_files.hpp"
+#include "common/config/urdf.hpp"
+#include "common/config/user_file.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -40,16 +42,40 @@ void require_joints(const proto::Robot& robot, const std::string& where) {
                     std::to_string(kJoints) + " are needed");
 }
 
+// Lists replace each other as a whole.
+void make_room(const proto::Placement& over, proto::Placement& placement) {
+  if (over.position_m_size() > 0) placement.clear_position_m();
+  if (over.rotation_rad_size() > 0) placement.clear_rotation_rad();
+}
+
+proto::Robot robot_of_file(const proto::SlaveConfig& config, const Reading& reading) {
+  proto::Robot robot;
+  fs::path path;
+  if (is_urdf(config.robot_file())) {
+    path = reading.find("robot_file", config.robot_file());
+    robot = read_urdf(path.string(), read_user_file(path), config.robot());
+  } else {
+    path = reading.load(config.robot_file(), "robot", robot);
+  }
+  require_joints(robot, path.string() + ": the robot");
+  if (config.robot().start_rad_size() > 0) robot.clear_start_rad();
+  if (config.robot().has_base()) make_room(config.robot().base(), *robot.mutable_base());
+  if (config.robot().has_tool()) make_room(config.robot().tool(), *robot.mutable_tool());
+  robot.MergeFrom(config.robot());
+  return robot;
+}
+
 // A robot in place that has joints is complete; else its fields go over those of the file.
 void resolve_robot(proto::SlaveConfig& config, const Reading& reading) {
   if (config.robot().joint_size() == 0) {
-    proto::Robot robot;
-    const fs::path path = reading.load(config.robot_file(), "robot", robot);
-    require_joints(robot, path.string() + ": the robot");
-    robot.MergeFrom(config.robot());
+    proto::Robot robot = robot_of_file(config, reading);
     config.mutable_robot()->Swap(&robot);
   }
-  require_joints(config.robot(), "robot");
+  proto::Robot& robot = *config.mutable_robot();
+  require_joints(robot, "robot");
+  if (robot.start_rad_size() != kJoints) return;  // a wrong count is said by validate()
+  for (int i = 0; i < kJoints; ++i) robot.mutable_joint(i)->set_start_rad(robot.start_rad(i));
+  robot.clear_start_rad();
 }
 
 }  // namespace

@@ -280,9 +280,11 @@ void visit_fields(Visitor& visit, S& s) {
   visit("damping_nm_s_per_rad", s.damping_nm_s_per_rad);
   visit("friction_nm", s.friction_nm);
   visit("inertia_kg_m2", s.inertia_kg_m2);
+  visit("beta_rad", s.beta_rad);
+  visit("name", s.name);
 }
 
-template <class Visitor, Is<ToolConfig> S>
+template <class Visitor, Is<PlacementConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("position_m", s.position_m);
   visit("rotation_rad", s.rotation_rad);
@@ -296,8 +298,14 @@ void visit_fields(Visitor& visit, S& s) {
   visit("servo_hz", s.servo_hz);
   visit("load_max_kg", s.load_max_kg);
   visit("convention", s.convention);
+  visit("base", s.base);
   visit("tool", s.tool);
   visit("prefer", s.prefer);
+  visit("start_rad", s.start_rad);
+  visit("base_link", s.base_link);
+  visit("tip_link", s.tip_link);
+  visit("acceleration_max_rad_per_s2", s.acceleration_max_rad_per_s2);
+  visit("jerk_max_rad_per_s3", s.jerk_max_rad_per_s3);
 }
 
 template <class Visitor, Is<ToolLoadConfig> S>

@@ -113,6 +113,12 @@ class Reader {
     if (reflection_.FieldSize(message_, field) != 3) return;
     for (int i = 0; i < 3; ++i) v[i] = reflection_.GetRepeatedDouble(message_, field, i);
   }
+  void operator()(const char* name, std::vector<double>& v) {
+    const FieldDescriptor* field = field_of(message_, name);
+    v.clear();
+    for (int i = 0; i < reflection_.FieldSize(message_, field); ++i)
+      v.push_back(reflection_.GetRepeatedDouble(message_, field, i));
+  }
   template <Section S, std::size_t N>
   void operator()(const char* name, std::array<S, N>& v) {
     const FieldDescriptor* field = field_of(message_, name);
@@ -164,6 +170,9 @@ class Writer {
   }
   void operator()(const char* name, const Vector3& v) {
     for (int i = 0; i < 3; ++i) reflection_.AddDouble(&message_, field_of(message_, name), v[i]);
+  }
+  void operator()(const char* name, const std::vector<double>& v) {
+    for (const double number : v) reflection_.AddDouble(&message_, field_of(message_, name), number);
   }
   template <Section S, std::size_t N>
   void operator()(const char* name, const std::array<S, N>& v) {

@@ -14,6 +14,7 @@
 #include "deploy/cli/argument_checks.hpp"
 #include "deploy/cli/help_text.hpp"
 #include "deploy/cli/record/record_words.hpp"
+#include "deploy/cli/robot/robot_words.hpp"
 
 namespace longreach {
 namespace {
@@ -63,6 +64,7 @@ class Grammar {
   CLI::App app_{kIntroduction, "longreach"};
   CLI::App* link_ = nullptr;
   RecordWords record_{};
+  RobotWords robot_{};
   CLI::App* adapter_ = nullptr;
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
@@ -93,6 +95,7 @@ Grammar::Grammar() {
   declare_link();
   declare_motion();
   record_.declare(app_);
+  robot_.declare(app_);
   declare_site();
   declare_adapter();
   refuse_empty_values(app_);
@@ -278,6 +281,7 @@ Command Grammar::command() const {
         bounded("scale", words_.scale, parse_number(words_.scale), 0.05, 1.0, ", up or down")};
   }
   if (parsed("record")) return record_.command();
+  if (parsed("robot")) return robot_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
   if (parsed("unpair")) return UnpairCommand{words_.names};

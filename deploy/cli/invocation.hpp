@@ -104,10 +104,19 @@ struct AdapterCheckCommand {
   double push_timeout_s = 30.0;  // for each push
 };
 
+/// A robot's file is shown, or written in the other form.
+struct RobotCommand {
+  enum class What { kShow, kDenavitHartenberg, kUrdf };
+  What what = What::kShow;
+  std::string file;
+  std::string base_link{}, tip_link{};  // of a URDF
+  std::string picture{};                // file for an SVG; empty: none
+};
+
 using Command =
     std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand, LinkShowCommand,
                  LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand,
-                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand>;
+                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand, RobotCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

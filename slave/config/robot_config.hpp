@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "slave/robot/robot.hpp"
 
@@ -45,10 +46,12 @@ struct JointConfig {
   double damping_nm_s_per_rad = 0.0;
   double friction_nm = 0.0;
   double inertia_kg_m2 = 1.0;
+  std::string name{};     // as its maker calls it
+  double beta_rad = 0.0;  // Ry behind Rx(alpha), of the standard convention alone (Hayati)
 };
 
-/// Pose of the tool E in the frame of the last row.
-struct ToolConfig {
+/// Where one frame is in another.
+struct PlacementConfig {
   Vector3 position_m = Vector3::Zero();
   Vector3 rotation_rad = Vector3::Zero();  // rotation vector
 };
@@ -58,10 +61,16 @@ struct RobotConfig {
   std::string basis;
   DhConvention convention = DhConvention::kStandard;
   std::array<JointConfig, kMaxJoints> joint{};
-  ToolConfig tool{};
+  PlacementConfig base{};  // where the first row begins, in W
+  PlacementConfig tool{};  // E in the frame of the last row
   BranchPreference prefer = BranchPreference::kNearest;
   double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
   double load_max_kg = 30.0;
+  std::vector<double> start_rad{};  // instead of that of the joints; once files are read it is theirs
+  // Of a URDF: what was read, and what it lacks.
+  std::string base_link{}, tip_link{};
+  double acceleration_max_rad_per_s2 = 5.0;
+  double jerk_max_rad_per_s3 = 2500.0;
 };
 
 }  // namespace longreach

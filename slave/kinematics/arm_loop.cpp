@@ -3,12 +3,15 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace longreach {
 namespace {
 
 constexpr int kSpecialPlaces = 4;  // 1-2-3, 2-3-4, 3-4-5, 4-5-6
-constexpr double kApart = 1e-9;    // of the length: parallel axes nearer to each other count as one
+constexpr double kNearMissMax = 0.02;
+constexpr double kApart = 1e-9;  // of the length: parallel axes nearer to each other count as one
 
 // Tz(before) Tx(a) Rx(α) Tz(behind)
 struct LinkRow {
@@ -34,6 +37,7 @@ struct Reading {
   ArmFamily family;
   int first_joint;
   bool backwards;
+  double tolerance;
 };
 
 // The links in loop order, before they are simplified. The one with the pose keeps its slides in a LinkRow,
@@ -57,7 +61,7 @@ OpenLoop unroll(const Kinematics& arm, const Reading& reading) {
       loop.pose = role;
       continue;
     }
-    const DhLink& l = links[static_cast<std::size_t>(behind)];
+    const JointRow& l = links[static_cast<std::size_t>(behind)];
     loop.row[role] = reading.backwards ? LinkRow{0.0, -l.a_m, -l.alpha_rad, -l.d_m}
                                        : LinkRow{l.d_m, l.a_m, l.alpha_rad, 0.0};
   }
@@ -87,19 +91,53 @@ void align(OpenLoop& loop, std::size_t role, bool& flip_next) {
   loop.joint[role + 1].sign *= -1.0;
 }
 
-bool near_zero(double x, double scale) { return std::abs(x) <= kRowTolerance * scale; }
+// Within the tolerance of a reading.
+struct NearZero {
+  double tolerance, length_m;
+  [[nodiscard]] bool angle(double sine) const { return std::abs(sine) <= tolerance; }
+  [[nodiscard]] bool length(double x_m) const { return std::abs(x_m) <= tolerance * length_m; }
+};
 
 bool applies(const Kinematics& arm, const Reading& reading) {
   const auto i = static_cast<std::size_t>(reading.first_joint);
-  const DhLink &one = arm.links()[i], &two = arm.links()[i + 1];
-  const bool parallel = near_zero(std::sin(one.alpha_rad), 1.0) && near_zero(std::sin(two.alpha_rad), 1.0);
+  const JointRow &one = arm.links()[i], &two = arm.links()[i + 1];
+  const NearZero zero{reading.tolerance, arm.motion_length_m()};
+  for (const JointRow& row : arm.links()) {
+    if (!zero.angle(row.beta_rad)) return false;
+  }
+  const bool parallel = zero.angle(std::sin(one.alpha_rad)) && zero.angle(std::sin(two.alpha_rad));
   const bool apart = std::abs(one.a_m) > kApart * arm.motion_length_m() &&
                      std::abs(two.a_m) > kApart * arm.motion_length_m();
   if (reading.family == ArmFamily::kParallel) return parallel && apart;
-  const bool meet = near_zero(one.a_m, arm.motion_length_m()) && near_zero(two.a_m, arm.motion_length_m()) &&
-                    near_zero(two.d_m, arm.motion_length_m());
-  const bool turned = !near_zero(std::sin(one.alpha_rad), 1.0) && !near_zero(std::sin(two.alpha_rad), 1.0);
+  const bool meet = zero.length(one.a_m) && zero.length(two.a_m) && zero.length(two.d_m);
+  const bool turned = !zero.angle(std::sin(one.alpha_rad)) && !zero.angle(std::sin(two.alpha_rad));
   return meet && turned;
+}
+
+// The last link ends in the tool, the first one begins at the base. `flip`: a half turn is left for L_f.
+void put_ends(const Kinematics& arm, const Reading& reading, const OpenLoop& open, bool flip, ArmLoop& loop) {
+  const JointRow& end = arm.links()[5];
+  const Rigid tip = to_rigid(LinkRow{end.d_m, end.a_m, end.alpha_rad, 0.0}) * arm.tool();
+  const LinkRow around = open.row[open.pose];
+  loop.before = shift(0.0, around.before_m) * (reading.backwards ? inverse(arm.base()) : tip);
+  loop.behind = (reading.backwards ? inverse(tip) : arm.base()) * shift(0.0, around.behind_m);
+  for (const std::size_t role : {ArmLoop::kB, ArmLoop::kC, ArmLoop::kF}) {
+    if (role != open.pose) loop.link[role] = to_rigid(open.row[role]);
+  }
+  if (flip) {
+    const Rigid half = rotation_x(std::numbers::pi);
+    if (open.pose == ArmLoop::kF) {
+      loop.before = half * loop.before;
+    } else {
+      loop.link[ArmLoop::kF] = half * loop.link[ArmLoop::kF];
+    }
+  }
+  loop.straight = loop.before.R == Matrix3::Identity() && loop.behind.R == Matrix3::Identity();
+  loop.family = reading.family;
+  loop.first_joint = reading.first_joint;
+  loop.joint = open.joint;
+  loop.pose_role = open.pose;
+  loop.backwards = reading.backwards;
 }
 
 // The loop of a reading that applies; nothing if L_a holds the pose, or its axes coincide.
@@ -129,36 +167,16 @@ std::optional<ArmLoop> close(const Kinematics& arm, const Reading& reading) {
   }
   slide_off(open, ArmLoop::kA);
   const LinkRow& a = open.row[ArmLoop::kA];
-  loop.a_m = near_zero(a.a_m, arm.motion_length_m()) ? 0.0 : a.a_m;
-  loop.sin_alpha = near_zero(std::sin(a.alpha_rad), 1.0) ? 0.0 : std::sin(a.alpha_rad);
+  const NearZero zero{reading.tolerance, arm.motion_length_m()};
+  loop.a_m = zero.length(a.a_m) ? 0.0 : a.a_m;
+  loop.sin_alpha = zero.angle(std::sin(a.alpha_rad)) ? 0.0 : std::sin(a.alpha_rad);
   loop.cos_alpha =
       loop.sin_alpha == 0.0 ? std::copysign(1.0, std::cos(a.alpha_rad)) : rotation_x(a.alpha_rad).R(2, 2);
   if (loop.a_m == 0.0 && loop.sin_alpha == 0.0) return std::nullopt;
   loop.triangular = loop.a_m == 0.0 || loop.sin_alpha == 0.0;
-
-  // The last link ends in the tool, the first one begins at the base.
-  const DhLink& end = arm.links()[5];
-  const Rigid tip = to_rigid(LinkRow{end.d_m, end.a_m, end.alpha_rad, 0.0}) * arm.tool();
-  const LinkRow around = open.row[open.pose];
-  loop.before = shift(0.0, around.before_m) * (reading.backwards ? inverse(arm.base()) : tip);
-  loop.behind = (reading.backwards ? inverse(tip) : arm.base()) * shift(0.0, around.behind_m);
-  for (const std::size_t role : {ArmLoop::kB, ArmLoop::kC, ArmLoop::kF}) {
-    if (role != open.pose) loop.link[role] = to_rigid(open.row[role]);
-  }
-  if (flip) {
-    const Rigid half = rotation_x(std::numbers::pi);
-    if (open.pose == ArmLoop::kF) {
-      loop.before = half * loop.before;
-    } else {
-      loop.link[ArmLoop::kF] = half * loop.link[ArmLoop::kF];
-    }
-  }
-  loop.straight = loop.before.R == Matrix3::Identity() && loop.behind.R == Matrix3::Identity();
-  loop.family = reading.family;
-  loop.first_joint = reading.first_joint;
-  loop.joint = open.joint;
-  loop.pose_role = open.pose;
-  loop.backwards = reading.backwards;
+  loop.nearly = reading.tolerance > kRowTolerance;
+  loop.miss_max = loop.nearly ? kNearMissMax : loop.miss_max;
+  put_ends(arm, reading, open, flip, loop);
   return loop;
 }
 
@@ -173,31 +191,42 @@ int rank(const ArmLoop& loop) {
 ArmLoop recognise(const Kinematics& arm) {
   ArmLoop best;
   if (!arm.all_revolute()) return best;
-  for (const ArmFamily family : {ArmFamily::kSpherical, ArmFamily::kParallel}) {
-    for (int first = 0; first < kSpecialPlaces; ++first) {
-      for (const bool backwards : {false, true}) {
-        const Reading reading{family, first, backwards};
-        if (!applies(arm, reading)) continue;
-        const auto loop = close(arm, reading);
-        if (loop && rank(*loop) > rank(best)) best = *loop;
+  for (const double tolerance : {kRowTolerance, kNearTolerance}) {
+    for (const ArmFamily family : {ArmFamily::kSpherical, ArmFamily::kParallel}) {
+      for (int first = 0; first < kSpecialPlaces; ++first) {
+        for (const bool backwards : {false, true}) {
+          const Reading reading{family, first, backwards, tolerance};
+          if (!applies(arm, reading)) continue;
+          const auto loop = close(arm, reading);
+          if (loop && rank(*loop) > rank(best)) best = *loop;
+        }
       }
     }
+    if (best.family != ArmFamily::kNone) break;
   }
   return best;
 }
 
 std::string_view words(const ArmLoop& loop) {
-  static constexpr std::string_view kWords[2][kSpecialPlaces][2] = {
-      {{"closed form, fourth degree: axes 1-2-3 meet", "closed form, quadratic: axes 1-2-3 meet"},
-       {"closed form, fourth degree: axes 2-3-4 meet", "closed form, quadratic: axes 2-3-4 meet"},
-       {"closed form, fourth degree: axes 3-4-5 meet", "closed form, quadratic: axes 3-4-5 meet"},
-       {"closed form, fourth degree: axes 4-5-6 meet", "closed form, quadratic: axes 4-5-6 meet"}},
-      {{"closed form, fourth degree: axes 1-2-3 parallel", "closed form, quadratic: axes 1-2-3 parallel"},
-       {"closed form, fourth degree: axes 2-3-4 parallel", "closed form, quadratic: axes 2-3-4 parallel"},
-       {"closed form, fourth degree: axes 3-4-5 parallel", "closed form, quadratic: axes 3-4-5 parallel"},
-       {"closed form, fourth degree: axes 4-5-6 parallel", "closed form, quadratic: axes 4-5-6 parallel"}}};
   if (loop.family == ArmFamily::kNone) return "no closed form: numeric";
-  return kWords[loop.family == ArmFamily::kSpherical ? 0 : 1][loop.first_joint][loop.triangular ? 1 : 0];
+  // "closed form, quadratic: axes 4-5-6 meet", and so on.
+  static const std::vector<std::string> kWords = [] {
+    std::vector<std::string> all;
+    for (const char* how : {"closed form, ", "closed form of a nearly equal arm, then Newton steps, "}) {
+      for (const char* degree : {"fourth degree: axes ", "quadratic: axes "}) {
+        for (const char* family : {" meet", " parallel"}) {
+          for (int first = 1; first <= kSpecialPlaces; ++first) {
+            const auto number = [first](int i) { return std::to_string(first + i); };
+            all.push_back(std::string(how) + degree + number(0) + "-" + number(1) + "-" + number(2) + family);
+          }
+        }
+      }
+    }
+    return all;
+  }();
+  const int row =
+      (loop.nearly ? 4 : 0) + (loop.triangular ? 2 : 0) + (loop.family == ArmFamily::kParallel ? 1 : 0);
+  return kWords[static_cast<std::size_t>(row * kSpecialPlaces + loop.first_joint)];
 }
 
 }  // namespace longreach

@@ -11,7 +11,8 @@
 // is preferred: the position then leads to quadratic equations, otherwise to one of fourth degree.
 //
 // Rows count as special within kRowTolerance: rad, and share of Kinematics::motion_length_m. The caller
-// corrects deviations within the tolerance with the exact kinematics.
+// corrects deviations within the tolerance with the exact kinematics. If no row is special, rows within kNearTolerance
+// are, as those of a calibrated arm; the loop is then marked `nearly`.
 
 #include <array>
 #include <string_view>
@@ -21,6 +22,7 @@
 namespace longreach {
 
 constexpr double kRowTolerance = 1e-6;
+constexpr double kNearTolerance = 5e-3;
 
 enum class ArmFamily : std::uint8_t { kNone, kSpherical, kParallel };
 
@@ -42,7 +44,9 @@ struct ArmLoop {
   std::size_t pose_role = kF;                          // which of them contains the pose, as
   Rigid before{}, behind{};  // `before` X_WE^-1 `behind`, or with X_WE in a loop that runs backwards
   bool backwards = false;
-  bool straight = false;  // neither of them rotates
+  bool straight = false;   // neither of them rotates
+  bool nearly = false;     // the solutions are near those of the arm
+  double miss_max = 1e-6;  // a branch with a larger miss has no solution near it
   // Spherical: sin and cos of α_d, α_e. Parallel: a_d, a_e in m (cos unused).
   double first = 0.0, first_cos = 0.0, second = 0.0, second_cos = 0.0;
 };

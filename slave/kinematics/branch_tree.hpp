@@ -20,7 +20,7 @@ class BranchTree {
   static constexpr double kFreeSquare = ClosedInverse::kFree * ClosedInverse::kFree;
 
   BranchTree(const ArmLoop& loop, const KnownJoints& before, Branches& out, bool nearest)
-      : joint_(loop.joint), before_(before), out_(out), nearest_(nearest) {
+      : joint_(loop.joint), before_(before), out_(out), miss_max_(loop.miss_max), nearest_(nearest) {
     out.count = 0;
   }
 
@@ -62,7 +62,7 @@ class BranchTree {
   void add(double miss) {
     least_miss_ = std::min(least_miss_, miss);
     if (probing_) return;
-    if (out_.count == Branches::kMax || (nearest_ && miss > ClosedInverse::kMissMax)) return;
+    if (out_.count == Branches::kMax || (nearest_ && miss > miss_max_)) return;
     double angle[6];
     angles(angle);
     if (nearest_) {
@@ -99,6 +99,7 @@ class BranchTree {
   const std::array<LoopJoint, 6>& joint_;
   const KnownJoints& before_;
   Branches& out_;
+  double miss_max_;
   bool nearest_, probing_ = false;
   double least_miss_ = std::numeric_limits<double>::infinity();
   double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest branch so far, rad²

@@ -82,7 +82,7 @@ class Solving : BranchTree {
       return c * Turn{t.c, t.s};
     };
     const auto miss_at = [&](double h) { return probe([&] { both_of_plane(turned_by(h), 0.0); }); };
-    const bool possible = miss <= ClosedInverse::kMissMax;
+    const bool possible = miss <= loop_.miss_max;
     both_of_plane(possible ? turned_by(least_aside(width, miss_at)) : c, miss);
   }
 

@@ -50,14 +50,13 @@ inline double nearest_turn(double x) {
 class ClosedInverse {
  public:
   static constexpr double kFree = 2e-15;
-  static constexpr double kMissMax = 1e-6;  // a branch with a larger miss has no solution near it
 
   explicit ClosedInverse(const Kinematics& arm);
 
   [[nodiscard]] bool applies() const { return loop_.family != ArmFamily::kNone; }
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
-  /// `X_WE` must be finite. `nearest`: of all branches that miss by at most kMissMax only the one nearest to
+  /// `X_WE` must be finite. `nearest`: of all branches that miss by at most ArmLoop::miss_max only the one nearest to
   /// `before` (minimum Σ Δq², each angle on the nearest turn). Others are skipped as soon as one angle alone
   /// is farther away: near known joints, all except their own branch.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;

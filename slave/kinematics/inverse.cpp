@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSlack = 1e-12;  // an angle at its limit comes out with rounding
+constexpr double kNearlySlack = 0.05;
 constexpr double kFollowMaxRad = 0.1;
 
 }  // namespace
@@ -34,18 +35,23 @@ Inverse::Inverse(const RobotConfig& robot)
   if (cartesian_) from_position_ = axes.inverse();
 }
 
+// Solutions of a nearly equal arm may be this much beyond a limit that the arm's own keep.
+double Inverse::slack_rad() const { return closed_.loop().nearly ? kNearlySlack : kSlack; }
+
 std::string_view Inverse::words() const {
   return cartesian_ ? "linear: three prismatic joints, rotation ignored" : longreach::words(closed_.loop());
 }
 
 // Each angle on the turn nearest to where it is that the limits allow. False: there is none.
 bool Inverse::place(const JointVector& solution, JointVector& placed) const {
+  const double slack = slack_rad();
   for (int i = 0; i < kMaxJoints; ++i) {
     const double low = numeric_.min_rad()[i], high = numeric_.max_rad()[i];
     double q = solution[i];
-    if (q > high + kSlack) q -= kTwoPi * std::ceil((q - high - kSlack) / kTwoPi);
-    if (q < low - kSlack) q += kTwoPi * std::ceil((low - kSlack - q) / kTwoPi);
-    if (!(q >= low - kSlack && q <= high + kSlack)) return false;
+    const bool turns = numeric_.turns(i);
+    if (turns && q > high + slack) q -= kTwoPi * std::ceil((q - high - slack) / kTwoPi);
+    if (turns && q < low - slack) q += kTwoPi * std::ceil((low - slack - q) / kTwoPi);
+    if (!(q >= low - slack && q <= high + slack)) return false;
     placed[i] = std::clamp(q, low, high);
   }
   return true;
@@ -80,6 +86,7 @@ Placed Inverse::limited(const Rigid& goal, const JointVector& joint_rad) const {
 bool Inverse::reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const {
   placed.joint_rad = joint_rad;
   if (!Refinement(kinematics(), goal).improve(placed)) return false;
+  if (closed_.loop().nearly && !inside(placed.joint_rad, kSlack)) return false;
   if (!inside(placed.joint_rad, 0.0)) placed = limited(goal, placed.joint_rad);
   return true;
 }
@@ -89,7 +96,7 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
   Branches branches;
   if (prefer_ == BranchPreference::kNearest) {
     closed_.solve(goal, near, branches, true);
-    if (branches.count == 1 && inside(branches.branch[0].joint_rad, kSlack) &&
+    if (branches.count == 1 && inside(branches.branch[0].joint_rad, slack_rad()) &&
         reach(goal, branches.branch[0].joint_rad, placed))
       return true;
   }
@@ -100,7 +107,7 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
     const auto n = static_cast<std::size_t>(i);
     Branch& b = branches.branch[n];
     JointVector allowed;
-    const bool possible = b.miss <= ClosedInverse::kMissMax && place(b.joint_rad, allowed);
+    const bool possible = b.miss <= closed_.loop().miss_max && place(b.joint_rad, allowed);
     costs[n] = possible ? cost(allowed, near_rad) : kNever;
     if (possible) b.joint_rad = allowed;
   }
@@ -114,13 +121,17 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
   return false;
 }
 
-// A singular pose has solutions without end, and the closed form gives some of them: one beside the joints
-// themselves is preferred. Elsewhere that is the one that is chosen already, but for rounding.
+// A singular pose has solutions without end, and the closed form gives some of them, in which joints may have
+// gone far although the tool has hardly moved: one beside the joints themselves is preferred. Elsewhere that
+// is the one that is chosen already, but for rounding.
 bool Inverse::stay(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
-  constexpr double kThere = 1e-6, kNearer = 0.25;
+  constexpr double kThere = 1e-6, kNear = 0.3, kNearer = 0.25;
+  constexpr double kLeap = 5.0;  // of the joints, over the tool's way in rad and shares of the reach
   const Refinement refinement(kinematics(), goal);
   Placed beside = refinement.at(near_rad);
-  if (beside.miss > kThere || !refinement.improve(beside) || !inside(beside.joint_rad, 0.0) ||
+  const double leap = (placed.joint_rad - near_rad).cwiseAbs().maxCoeff();
+  const bool leaps = beside.miss < kNear && leap > kLeap * beside.miss;
+  if ((beside.miss > kThere && !leaps) || !refinement.improve(beside) || !inside(beside.joint_rad, 0.0) ||
       !(cost(beside.joint_rad, near_rad) < kNearer * cost(placed.joint_rad, near_rad)))
     return false;
   placed = beside;
@@ -231,11 +242,14 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
   if (!is_finite(X_WE_goal)) return solutions;
   const Rigid goal{X_WE_goal.q.normalized().toRotationMatrix(), X_WE_goal.p};
   const auto add = [&](JointVector q) {
-    for (int i = 0; i < kMaxJoints; ++i) q[i] = near_rad[i] + nearest_turn(q[i] - near_rad[i]);
+    for (int i = 0; i < kMaxJoints; ++i) {
+      if (numeric_.turns(i)) q[i] = near_rad[i] + nearest_turn(q[i] - near_rad[i]);
+    }
     for (int n = 0; n < solutions.count; ++n) {
       const JointVector gap = q - solutions.joint_rad[static_cast<std::size_t>(n)];
       double largest = 0.0;
-      for (int i = 0; i < kMaxJoints; ++i) largest = std::max(largest, std::abs(nearest_turn(gap[i])));
+      for (int i = 0; i < kMaxJoints; ++i)
+        largest = std::max(largest, std::abs(numeric_.turns(i) ? nearest_turn(gap[i]) : gap[i]));
       if (largest <= kSame) return;
     }
     if (solutions.count < InverseSolutions::kMax)
@@ -249,7 +263,7 @@ InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad
     for (int i = 0; i < branches.count; ++i) {
       const Branch& b = branches.branch[static_cast<std::size_t>(i)];
       placed.joint_rad = b.joint_rad;
-      if (b.miss <= ClosedInverse::kMissMax && refinement.improve(placed)) add(placed.joint_rad);
+      if (b.miss <= closed_.loop().miss_max && refinement.improve(placed)) add(placed.joint_rad);
     }
     return solutions;
   }

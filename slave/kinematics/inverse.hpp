@@ -2,6 +2,8 @@
 // Joint angles for a tool pose: the inverse kinematics of the slave. Closed form if the arm has one
 // (closed_inverse.hpp), linear for a Cartesian robot, numeric search otherwise.
 //
+// An arm that is nearly one with a closed form, as calibrated rows describe it, is solved by that form, too:
+// its solutions are where the Newton steps begin.
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
 // the tool is within Refinement::kExact of the goal (rad, and share of the reach). Of those within the joint
 // limits, with each angle on the turn nearest to the measured joints, the preferred one is chosen. If there
@@ -83,6 +85,7 @@ class Inverse {
   [[nodiscard]] bool inside(const JointVector& joint_rad, double slack_rad) const;
   [[nodiscard]] Placed limited(const Rigid& goal, const JointVector& joint_rad) const;
   [[nodiscard]] bool reach(const Rigid& goal, const JointVector& joint_rad, Placed& placed) const;
+  [[nodiscard]] double slack_rad() const;
   [[nodiscard]] bool place(const JointVector& solution, JointVector& placed) const;
   [[nodiscard]] bool choose_exact(const Pose& X_WE_goal, const JointVector& near_rad,
                                   const InverseTolerance& tolerance, Placed& placed) const;

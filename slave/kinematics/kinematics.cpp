@@ -8,19 +8,24 @@
 namespace longreach {
 namespace {
 
-// Sine and cosine of a twist: right angles are meant exactly, and 1.5707963267948966 is how a file says them.
-SinCos twist(double alpha_rad) {
-  const SinCos t{std::sin(alpha_rad), std::cos(alpha_rad)};
-  constexpr double kRounding = 4e-16;
-  return {std::abs(t.s) < kRounding ? 0.0 : t.s, std::abs(t.c) < kRounding ? 0.0 : t.c};
+Rigid behind_joint(const JointRow& row) { return {rotation_behind(row), Vector3(row.a_m, 0.0, row.d_m)}; }
+
+Rigid to_rigid(const PlacementConfig& placement) {
+  return {exp_rotation(placement.rotation_rad).toRotationMatrix(), placement.position_m};
 }
 
-Rigid behind_joint(const DhLink& row) {
-  const SinCos t = twist(row.alpha_rad);
-  Rigid X;
-  X.R << 1, 0, 0, 0, t.c, -t.s, 0, t.s, t.c;
-  X.p = {row.a_m, 0.0, row.d_m};
-  return X;
+// Neighbours nearly parallel, and so their common normal far away?
+bool far_away(const std::array<JointRow, kMaxJoints>& rows) {
+  constexpr double kParallel = 0.1, kExact = 4e-16, kFar = 3.0;
+  double lengths_m = 0.0;
+  for (const JointRow& row : rows) lengths_m += std::abs(row.a_m);
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    const double sine = std::abs(std::sin(rows[i].alpha_rad));
+    const double along_m = std::max(std::abs(rows[i].d_m), std::abs(rows[i + 1].d_m));
+    if (rows[i].beta_rad == 0.0 && sine > kExact && sine < kParallel && along_m > kFar * lengths_m)
+      return true;
+  }
+  return false;
 }
 
 // Mean and mean square of the tool's place over all angles of the joints behind, seen from the link that they
@@ -63,39 +68,62 @@ JointVector start_joints(const RobotConfig& robot) {
 }
 
 Kinematics::Kinematics(const RobotConfig& robot) {
-  const bool modified = robot.convention == DhConvention::kModified;
+  read_rows(robot);
+  for (std::size_t i = 0; i < kMaxJoints; ++i) {
+    const JointRow& row = row_[i];
+    const JointConfig& j = robot.joint[i];
+    reach_m_ += std::abs(row.a_m) + std::abs(row.d_m);
+    if (j.kind == JointKind::kPrismatic) reach_m_ += std::max(std::abs(j.min_rad), std::abs(j.max_rad));
+    any_beta_ = any_beta_ || row.beta_rad != 0.0;
+    const Matrix3 twist = rotation_behind({0.0, row.alpha_rad, 0.0, 0.0, 0.0});
+    link_[i] = {j.kind == JointKind::kRevolute ? 1.0 : 0.0,
+                j.kind == JointKind::kPrismatic ? 1.0 : 0.0,
+                row.theta_rad,
+                row.d_m,
+                row.a_m,
+                twist(2, 2),
+                twist(2, 1),
+                std::cos(row.beta_rad),
+                std::sin(row.beta_rad)};
+  }
+  link_[kMaxJoints - 1].d_m = 0.0;
+  last_ = behind_joint(row_[kMaxJoints - 1]) * tool_;
+  constexpr double kLeast_m = 1e-3;
+  reach_m_ = std::max(reach_m_ + tool_.p.stableNorm(), kLeast_m);
+  motion_length_m_ = std::max(kMotion * motion_m(robot), kLeast_m);
+}
+
+void Kinematics::read_rows(const RobotConfig& robot) {
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[i];
-    row_[i] = {j.a_m, j.alpha_rad, j.d_m, j.theta_rad};
-    reach_m_ += std::abs(j.a_m) + std::abs(j.d_m);
-    if (j.kind == JointKind::kPrismatic) reach_m_ += std::max(std::abs(j.min_rad), std::abs(j.max_rad));
+    row_[i] = {j.a_m, j.alpha_rad, j.beta_rad, j.d_m, j.theta_rad};
     all_revolute_ = all_revolute_ && j.kind == JointKind::kRevolute;
   }
-  if (modified) {
-    base_ = behind_joint({row_[0].a_m, row_[0].alpha_rad, 0.0, 0.0});
+  base_ = to_rigid(robot.base);
+  tool_ = to_rigid(robot.tool);
+  if (robot.convention == DhConvention::kModified) {
+    base_ = base_ * behind_joint({row_[0].a_m, row_[0].alpha_rad, 0.0, 0.0, 0.0});
     for (std::size_t i = 0; i < kMaxJoints; ++i) {
       const bool last = i + 1 == kMaxJoints;
       row_[i].a_m = last ? 0.0 : row_[i + 1].a_m;
       row_[i].alpha_rad = last ? 0.0 : row_[i + 1].alpha_rad;
     }
   }
+  if (all_revolute_ && far_away(row_)) renew_rows();
+}
+
+void Kinematics::renew_rows() {
+  std::array<JointAxis, kMaxJoints> axes;
+  Rigid X = base_;
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
-    const SinCos t = twist(row_[i].alpha_rad);
-    const JointKind kind = robot.joint[i].kind;
-    link_[i] = {kind == JointKind::kRevolute ? 1.0 : 0.0,
-                kind == JointKind::kPrismatic ? 1.0 : 0.0,
-                row_[i].theta_rad,
-                row_[i].d_m,
-                row_[i].a_m,
-                t.c,
-                t.s};
+    axes[i] = {X.p, X.R.col(2), false};
+    X = X * Rigid{exp_rotation({0.0, 0.0, row_[i].theta_rad}).toRotationMatrix(), Vector3::Zero()} *
+        behind_joint(row_[i]);
   }
-  tool_ = {exp_rotation(robot.tool.rotation_rad).toRotationMatrix(), robot.tool.position_m};
-  link_[kMaxJoints - 1].d_m = 0.0;
-  last_ = behind_joint(row_[kMaxJoints - 1]) * tool_;
-  constexpr double kLeast_m = 1e-3;
-  reach_m_ = std::max(reach_m_ + robot.tool.position_m.stableNorm(), kLeast_m);
-  motion_length_m_ = std::max(kMotion * motion_m(robot), kLeast_m);
+  const JointRows rows = joint_rows(axes, to_pose(X * tool_));
+  std::ranges::copy(rows.row, row_.begin());
+  base_ = longreach::to_rigid(rows.base);
+  tool_ = longreach::to_rigid(rows.tool);
 }
 
 double Kinematics::motion_m(const RobotConfig& robot) const {
@@ -107,7 +135,7 @@ double Kinematics::motion_m(const RobotConfig& robot) const {
     if (j.kind == JointKind::kPrismatic) square += tool.slide(j.min_rad, j.max_rad);
     if (j.kind == JointKind::kRevolute) square += tool.turn();
     if (j.kind != JointKind::kRevolute)
-      tool.pass({exp_rotation({0.0, 0.0, j.theta_rad}).toRotationMatrix(), Vector3::Zero()});
+      tool.pass({exp_rotation({0.0, 0.0, row_[i].theta_rad}).toRotationMatrix(), Vector3::Zero()});
   }
   return std::sqrt(square);
 }
@@ -137,6 +165,12 @@ struct Kinematics::Frame {
     y = aside;
   }
 
+  void tilt(const Link& link) {
+    const Eigen::Vector4d ahead = link.cos_beta * x - link.sin_beta * z;
+    z = link.sin_beta * x + link.cos_beta * z;
+    x = ahead;
+  }
+
   [[nodiscard]] Rigid then(const Rigid& X) const {
     const auto along = [&](double a, double b, double c) -> Eigen::Vector4d { return a * x + b * y + c * z; };
     const Eigen::Vector4d ex = along(X.R(0, 0), X.R(1, 0), X.R(2, 0)),
@@ -162,7 +196,9 @@ inline Rigid Kinematics::walk(const JointVector& joint_rad, const Visit& visit) 
     visit(i, X);
     X.turn(turn[i]);
     X.p += (link.slides * joint_rad[static_cast<int>(i)] + link.d_m) * X.z;
-    if (i + 1 < kMaxJoints) X.leave(link);
+    if (i + 1 == kMaxJoints) break;
+    X.leave(link);
+    if (any_beta_) X.tilt(link);
   }
   return X.then(last_);
 }

@@ -1,13 +1,16 @@
 #pragma once
 // Pose and velocity of the tool of a chain of six joints.
-//   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α)     (Denavit, Hartenberg 1955)
+//   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
 //   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o, [0; z] of a prismatic joint
-// B = 1 in the standard convention. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved
-// to the previous joint, and that of the first row becomes B. E is the tool frame. The base S of the robot is
-// the world W. Limits, speeds and singularities are not considered.
+// β = 0 (Denavit, Hartenberg 1955) except between axes that are nearly parallel (Hayati 1983). B is the base,
+// E the tool frame. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved to the previous
+// joint, and that of the first row to B. Rows with a distant common normal, as calibration produces them, are
+// rewritten (joint_rows.hpp), because lengths much greater than the arm would cost digits. The base S of the
+// robot is the world W. Limits, speeds and singularities are not considered.
 
 #include <array>
 
+#include "common/spatial/joint_rows.hpp"
 #include "slave/config/robot_config.hpp"
 #include "slave/kinematics/rigid.hpp"
 
@@ -24,11 +27,6 @@ struct ToolKinematics {
 struct RigidKinematics {
   Rigid X_WE{};
   Jacobian J;
-};
-
-/// Row of a table in the standard convention, regardless of the file.
-struct DhLink {
-  double a_m = 0.0, alpha_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
 };
 
 /// Joint values at which the robot starts, rad or m.
@@ -51,29 +49,33 @@ class Kinematics {
   /// square of the tool motion per rad, over all joints and all their angles; for a slide, its travel. It
   /// depends only on the motion of the tool, not on the position of the base or the convention of the table.
   [[nodiscard]] double motion_length_m() const { return motion_length_m_; }
-  [[nodiscard]] const std::array<DhLink, kMaxJoints>& links() const { return row_; }
+  /// In the standard convention, whatever the file's.
+  [[nodiscard]] const std::array<JointRow, kMaxJoints>& links() const { return row_; }
   [[nodiscard]] const Rigid& base() const { return base_; }  // B
   [[nodiscard]] const Rigid& tool() const { return tool_; }  // E
   [[nodiscard]] bool all_revolute() const { return all_revolute_; }
 
  private:
-  // A = Rz(turns q + θ) Tz(slides q + d) Tx(a) Rx(α)
+  // A = Rz(turns q + θ) Tz(slides q + d) Tx(a) Rx(α) Ry(β)
   struct Link {
-    double turns, slides, theta_rad, d_m, a_m, cos_alpha, sin_alpha;
+    double turns, slides, theta_rad, d_m, a_m, cos_alpha, sin_alpha, cos_beta, sin_beta;
   };
   struct Frame;
   template <typename Visit>
   Rigid walk(const JointVector& joint_rad, const Visit& visit) const;
   Rigid forward_into(const JointVector& joint_rad, Jacobian& J) const;
+  void read_rows(const RobotConfig& robot);
+  void renew_rows();
   [[nodiscard]] double motion_m(const RobotConfig& robot) const;
 
   std::array<Link, kMaxJoints> link_{};
-  std::array<DhLink, kMaxJoints> row_{};
+  std::array<JointRow, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
   Rigid last_{};  // after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
   double motion_length_m_ = 0.0;
   bool all_revolute_ = true;
+  bool any_beta_ = false;
 };
 
 }  // namespace longreach

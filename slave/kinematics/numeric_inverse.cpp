@@ -54,6 +54,8 @@ NumericInverse::NumericInverse(const RobotConfig& robot) : kinematics_(robot) {
   for (int i = 0; i < kMaxJoints; ++i) {
     min_rad_[i] = robot.joint[static_cast<std::size_t>(i)].min_rad;
     max_rad_[i] = robot.joint[static_cast<std::size_t>(i)].max_rad;
+    turns_[static_cast<std::size_t>(i)] =
+        robot.joint[static_cast<std::size_t>(i)].kind == JointKind::kRevolute;
   }
   for (std::uint32_t n = 1; n <= kKnownStarts; ++n) {
     const Place place = place_m(kinematics_.rigid_forward(start(n)));
@@ -71,7 +73,7 @@ NumericInverse::Place NumericInverse::place_m(const Rigid& X_WE) const {
 }
 
 // Evenly spread without randomness: multiples of the powers of 1/φ₆, φ₆ the root of x^7 = x + 1 (Roberts
-// 2018), over one turn of each joint about the middle of its range.
+// 2018), over one turn of each joint about the middle of its range, and the whole range of a slide.
 JointVector NumericInverse::start(std::uint32_t number) const {
   constexpr double kPhi = 1.1127756842787055;
   JointVector q;
@@ -79,7 +81,8 @@ JointVector NumericInverse::start(std::uint32_t number) const {
   for (int i = 0; i < kMaxJoints; ++i) {
     share /= kPhi;
     const double place = 0.5 + share * number;
-    const double width = std::min(max_rad_[i] - min_rad_[i], 2.0 * std::numbers::pi);
+    const double range = max_rad_[i] - min_rad_[i];
+    const double width = turns(i) ? std::min(range, 2.0 * std::numbers::pi) : range;
     q[i] = 0.5 * (min_rad_[i] + max_rad_[i]) + width * (place - std::floor(place) - 0.5);
   }
   return q;
@@ -94,7 +97,7 @@ struct NumericInverse::Run {
 
   [[nodiscard]] bool turns(int i) const {
     constexpr double kTurn = 2.0 * std::numbers::pi - 1e-4;  // limits of 3.14159 mean a whole turn
-    return temper.turns_freely && inverse.max_rad_[i] - inverse.min_rad_[i] >= kTurn;
+    return temper.turns_freely && inverse.turns(i) && inverse.max_rad_[i] - inverse.min_rad_[i] >= kTurn;
   }
 
   // Within the limits, but for joints that turn freely.

@@ -7,6 +7,7 @@
 // its own branch; a search restarts from a fixed sequence of starts until it has found a solution, first from
 // those whose tools are nearest to the goal.
 
+#include <array>
 #include <cstdint>
 
 #include "slave/kinematics/kinematics.hpp"
@@ -46,6 +47,8 @@ class NumericInverse {
   [[nodiscard]] const Kinematics& kinematics() const { return kinematics_; }
   [[nodiscard]] const JointVector& min_rad() const { return min_rad_; }
   [[nodiscard]] const JointVector& max_rad() const { return max_rad_; }
+  /// An angle: a whole turn makes no difference.
+  [[nodiscard]] bool turns(int joint) const { return turns_[static_cast<std::size_t>(joint)]; }
 
  private:
   struct Run;
@@ -57,6 +60,7 @@ class NumericInverse {
   Kinematics kinematics_;
   JointVector min_rad_;
   JointVector max_rad_;
+  std::array<bool, kMaxJoints> turns_{};
   Eigen::Matrix<double, kKnownStarts, 12> start_place_m_;
   Eigen::Array<double, kKnownStarts, 1> start_square_m2_;
 };

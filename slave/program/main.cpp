@@ -92,6 +92,19 @@ void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& 
         config.robot().name());
 }
 
+// What a URDF does not say, and what was taken instead.
+void log_description(const proto::Robot& robot) {
+  if (robot.base_link().empty()) return;
+  std::string start;
+  for (const proto::Joint& joint : robot.joint())
+    start += (start.empty() ? "" : " ") + format_number(joint.start_rad());
+  spdlog::info(
+      "robot description base_link={} tip_link={} acceleration_max_rad_per_s2={} jerk_max_rad_per_s3={} "
+      "servo_hz={} start_rad=\"{}\" because=\"a URDF says nothing of the last four: set them in robot\"",
+      robot.base_link(), robot.tip_link(), robot.acceleration_max_rad_per_s2(), robot.jerk_max_rad_per_s3(),
+      robot.servo_hz(), start);
+}
+
 void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
                const RpcServer& rpc) {
   spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
@@ -99,6 +112,7 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
                config.scene().surface_size(), files_text(files, " ", ""));
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
+  log_description(config.robot());
   log_adapter(config, files);
   warn_of_singular_start(to_struct(config));
   const NeedsConfig needed = needs(to_struct(config).scene);

@@ -29,9 +29,10 @@ std::vector<std::string> places(Random& random) {
   const bool cartesian = random.chance(0.15);
   const std::string robot =
       cartesian ? "cartesian"
-                : one_of<6>(random, {"space_arm", "space_arm", "space_arm", "ur10", "puma560", "puma560"});
+                : one_of<10>(random, {"space_arm", "space_arm", "space_arm", "ur10", "puma560", "puma560",
+                                      "ur5e", "kr6", "irb120", "gantry"});
   const std::string scene = one_of<6>(random, {"wall", "wall", "wall", "free", "layers", "hinge"});
-  return {"robot_file=robots/" + robot + ".txtpb",
+  return {"robot_file=robots/" + robot + (robot == "gantry" ? ".urdf" : ".txtpb"),
           "scene_file=scenes/" + (cartesian && scene == "hinge" ? "wall" : scene) + ".txtpb",
           "device_file=devices/" + one_of<4>(random, {"desktop", "desktop", "falcon", "paper"}) + ".txtpb",
           "profile=" +

@@ -143,7 +143,7 @@ TEST(RobotInverse, FindsTheBranchOfKnownJoints) {
         double least = square(q, from) + 1e-6, apart = 1.0;
         for (int i = 0; i < all.count; ++i) {
           const Branch& b = all.branch[static_cast<std::size_t>(i)];
-          if (b.miss > ClosedInverse::kMissMax) continue;
+          if (b.miss > closed.loop().miss_max) continue;
           least = std::min(least, square(b.joint_rad, from));
           apart = std::min(apart, test::apart(b.joint_rad, found));
         }

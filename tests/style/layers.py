@@ -38,6 +38,7 @@ LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in f
 PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clock, thread, output, luck
 BOTH_SIDES = {'deploy/lab', 'tests'}             # see master and slave
 SHARED = {'master/config', 'slave/config'}       # what common/config sees of the sides
+DESCRIBED = {'slave/config', 'slave/kinematics'}  # what the client sees of the slave: robots that it describes
 ADAPTER = 'common/link/adapter_datagram.hpp'
 
 
@@ -77,7 +78,8 @@ def refused(path, included):
         return f'includes {included}, whose folder has no layer'
     other_side = side(included)
     if other_side and side(path) != other_side and room(path) not in BOTH_SIDES:
-        if not (room(path) == 'common/config' and room(included) in SHARED):
+        if not (room(path) == 'common/config' and room(included) in SHARED
+                or room(path) == 'deploy/cli' and room(included) in DESCRIBED):
             return f'includes {included} of the {other_side}, which only that side, the laboratory and tests/ may see'
     if room(included) == room(path) or layer(included) < layer(path):
         return None

@@ -65,7 +65,7 @@ struct Rest {
 class Hand {
  public:
   Hand(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed) : lab_(master, slave, seed) {
-    to({});
+    to(Vector3::Zero());
     stay(2.0);
     for (int i = 0; i < 60 && lab_.master().state != SafetyState::kEngaged; ++i) stay(1.0);
     rtt_s_ = lab_.link().rtt_s.value_or(0.0);

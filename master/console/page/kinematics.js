@@ -14,25 +14,26 @@ export function rotation(numbers) {
 const turn = (axis, angle) => new Matrix4().makeRotationAxis(axis, angle);
 const shift = (x, z) => new Matrix4().makeTranslation(x, 0, z);
 const X = new Vector3(1, 0, 0);
+const Y = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
+const placed = (placement) => new Matrix4().compose(vector(placement?.position_m), rotation(placement?.rotation_rad),
+  new Vector3(1, 1, 1));
 
 function row(joint, q, modified) {
   const theta = joint.theta_rad + (joint.kind === 'REVOLUTE' ? q : 0);
   const d = joint.d_m + (joint.kind === 'PRISMATIC' ? q : 0);
   const about_z = turn(Z, theta).multiply(shift(0, d));
-  const about_x = shift(joint.a_m, 0).multiply(turn(X, joint.alpha_rad));
+  const about_x = shift(joint.a_m, 0).multiply(turn(X, joint.alpha_rad)).multiply(turn(Y, joint.beta_rad ?? 0));
   return modified ? about_x.multiply(about_z) : about_z.multiply(about_x);
 }
 
 /** Frames of the base, behind each row, and of the tool. */
 export function frames(robot, q) {
-  const all = [new Matrix4()];
+  const all = [placed(robot.base)];
   robot.joint.forEach((joint, i) => {
     all.push(all.at(-1).clone().multiply(row(joint, q[i] ?? 0, robot.convention === 'MODIFIED')));
   });
-  const tool = new Matrix4().compose(vector(robot.tool?.position_m), rotation(robot.tool?.rotation_rad),
-    new Vector3(1, 1, 1));
-  all.push(all.at(-1).clone().multiply(tool));
+  all.push(all.at(-1).clone().multiply(placed(robot.tool)));
   return all;
 }
 

@@ -227,10 +227,16 @@ TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
             "3:16: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 rotate about the same axis; a "
             "degree of freedom is lost");
   EXPECT_EQ(refused("a_m: 1", "joint {}"), "1:1: joint has 7 elements; 6 are needed");
-  EXPECT_EQ(refused("a_m: 1 kind: PRISMATIC"),
-            "1:1: joint has 1 prismatic and 0 fixed elements; a robot has six revolute ones, or three "
-            "prismatic and "
-            "three fixed ones");
+  EXPECT_EQ(
+      refused("a_m: 1 kind: FIXED"),
+      "1:1: joint has 0 prismatic and 1 fixed elements; a robot has six that are revolute or prismatic, at "
+      "most three prismatic, or three prismatic and three fixed ones");
+  EXPECT_EQ(
+      refused("a_m: 1 d_m: 400"),
+      "3:16: joint.2.d_m = 400 is outside -100 to 100, which only rows beside nearly parallel axes may be; "
+      "lengths are in m, and this value seems to be in mm");
+  EXPECT_EQ(refused("a_m: 1 beta_rad: 0.01", "convention: MODIFIED"),
+            "3:16: joint.2.beta_rad = 0.01 is for convention: STANDARD alone");
   EXPECT_EQ(refused("a_m: 1 speed_max_rad_per_s: 0"),
             "3:16: joint.2.speed_max_rad_per_s = 0 is outside 0 (excluded) to 100");
 }

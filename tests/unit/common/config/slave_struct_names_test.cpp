@@ -44,6 +44,8 @@ void expect_same(const JointConfig& s, const proto::Joint& m) {
   EXPECT_EQ(s.damping_nm_s_per_rad, m.damping_nm_s_per_rad());
   EXPECT_EQ(s.friction_nm, m.friction_nm());
   EXPECT_EQ(s.inertia_kg_m2, m.inertia_kg_m2());
+  EXPECT_EQ(s.beta_rad, m.beta_rad());
+  EXPECT_EQ(s.name, m.name());
 }
 
 void expect_same(const MaterialConfig& s, const proto::Material& m) {
@@ -164,7 +166,7 @@ void expect_same(const NeedsConfig& s, const proto::Needs& m) {
 
 void expect_same(const WaypointConfig& s, const proto::Waypoint& m) { expect_same(s.point_m, m.point_m()); }
 
-void expect_same(const ToolConfig& s, const proto::Tool& m) {
+void expect_same(const PlacementConfig& s, const proto::Placement& m) {
   expect_same(s.position_m, m.position_m());
   expect_same(s.rotation_rad, m.rotation_rad());
 }
@@ -175,7 +177,13 @@ void expect_same(const RobotConfig& s, const proto::Robot& m) {
   EXPECT_EQ(s.servo_hz, m.servo_hz());
   EXPECT_EQ(static_cast<int>(s.convention), m.convention());
   EXPECT_EQ(static_cast<int>(s.prefer), m.prefer());
+  expect_same(s.base, m.base());
   expect_same(s.tool, m.tool());
+  EXPECT_EQ(s.start_rad, std::vector<double>(m.start_rad().begin(), m.start_rad().end()));
+  EXPECT_EQ(s.base_link, m.base_link());
+  EXPECT_EQ(s.tip_link, m.tip_link());
+  EXPECT_EQ(s.acceleration_max_rad_per_s2, m.acceleration_max_rad_per_s2());
+  EXPECT_EQ(s.jerk_max_rad_per_s3, m.jerk_max_rad_per_s3());
   ASSERT_EQ(m.joint_size(), 6);
   for (int i = 0; i < 6; ++i) expect_same(s.joint[static_cast<std::size_t>(i)], m.joint(i));
 }

@@ -1,0 +1,48 @@
+#pragma once
+// What the rules of consistency.cpp and robot_rules.cpp are written with.
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/config/number_text.hpp"
+#include "common/config/violation.hpp"
+
+namespace longreach {
+
+using Finding = std::optional<Violation>;
+using google::protobuf::Message;
+
+// A violation within `message`: the path starts there.
+inline Violation at(const Message& message, const char* field, std::string text) {
+  return {{{message.GetDescriptor()->FindFieldByName(field), -1}}, std::move(text)};
+}
+
+inline Violation at_element(const Message& message, const char* list, int index, const char* field,
+                            std::string text) {
+  const PathStep element{message.GetDescriptor()->FindFieldByName(list), index};
+  return {{element, {element.field->message_type()->FindFieldByName(field), -1}}, std::move(text)};
+}
+
+struct Named {
+  const char* name;
+  double value;
+};
+
+// `low` < `high`, or a violation at the one that is set in the message.
+inline Finding in_order(const Message& message, const Named& low, const Named& high) {
+  if (low.value < high.value) return std::nullopt;
+  const auto* high_field = message.GetDescriptor()->FindFieldByName(high.name);
+  const auto* low_field = message.GetDescriptor()->FindFieldByName(low.name);
+  const auto* reflection = message.GetReflection();
+  if (!reflection->HasField(message, low_field) && reflection->HasField(message, high_field)) {
+    return at(
+        message, high.name,
+        " = " + format_number(high.value) + " is not above " + low.name + " = " + format_number(low.value));
+  }
+  return at(
+      message, low.name,
+      " = " + format_number(low.value) + " is not below " + high.name + " = " + format_number(high.value));
+}
+
+}  // namespace longreach

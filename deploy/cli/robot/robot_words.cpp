@@ -1,0 +1,66 @@
+#include "deploy/cli/robot/robot_words.hpp"
+
+#include "common/config/urdf.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr const char* kMore =
+    R"(FILE is a .urdf or .txtpb file, or the name of a robot in deploy/robots. No side needs to run.
+Example: longreach robot show ur10)";
+
+constexpr const char* kShowMore =
+    R"(Prints the joints with their limits, which inverse applies, how far the tool reaches, and the poses in which the arm
+loses a direction.
+Examples:
+  longreach robot show ur10
+  longreach robot show mine.urdf --tip-link tool0 --picture mine.svg)";
+
+constexpr const char* kConvertMore =
+    R"(Prints the robot in the other form. Rows hold what a URDF cannot: accelerations, jerks, where the robot starts.
+Examples:
+  longreach robot convert mine.urdf > mine.txtpb
+  longreach robot convert puma560 > puma560.urdf)";
+
+CLI::App* declare_below(CLI::App& parent, const char* name, const char* help, const char* more) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->footer(more);
+  command->fallthrough();
+  return command;
+}
+
+}  // namespace
+
+void RobotWords::declare(CLI::App& app) {
+  robot_ = declare_below(app, "robot", "look at a robot's file, or convert it", kMore);
+  robot_->require_subcommand(1);
+  CLI::App* show =
+      declare_below(*robot_, "show", "joints, limits, inverse, reach, singular poses", kShowMore);
+  CLI::App* convert = declare_below(*robot_, "convert",
+                                    "write Denavit-Hartenberg rows as URDF, or a URDF as rows", kConvertMore);
+  for (CLI::App* command : {show, convert}) {
+    command->add_option("FILE", file_, "a .urdf or .txtpb file, or the name of a robot")->required();
+    command->add_option("--base-link", base_link_, "of a URDF: the link where the arm begins [its root]")
+        ->type_name("LINK");
+    command
+        ->add_option("--tip-link", tip_link_,
+                     "of a URDF: the link of the tool [the only end with six moving joints before it]")
+        ->type_name("LINK");
+  }
+  show->add_option("--picture", picture_, "write a picture of the arm where it starts, an SVG")
+      ->type_name("FILE");
+  convert->add_option("--to", form_, "urdf or rows [the form that FILE does not have]")
+      ->transform(CLI::IsMember({"urdf", "rows"}, CLI::ignore_case))
+      ->type_name("FORM");
+}
+
+RobotCommand RobotWords::command() const {
+  using What = RobotCommand::What;
+  RobotCommand command{What::kShow, file_, base_link_, tip_link_, picture_};
+  if (robot_->got_subcommand("show")) return command;
+  const bool to_urdf = form_.empty() ? !is_urdf(file_) : form_ == "urdf";
+  command.what = to_urdf ? What::kUrdf : What::kDenavitHartenberg;
+  return command;
+}
+
+}  // namespace longreach
