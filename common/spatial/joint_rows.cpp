@@ -33,10 +33,10 @@ class Walk {
   [[nodiscard]] double length(double x_m) const { return std::abs(x_m) < kRounding * size_m_ ? 0.0 : x_m; }
   [[nodiscard]] const Frame& frame() const { return frame_; }
 
-  /// Onto the first axis, where it is nearest to the origin of W.
+  /// Onto the first axis, where it is nearest to the origin of W; of a slide, where it is drawn.
   void begin(const JointAxis& first) {
     const Vector3& z = first.direction;
-    if (!first.slides) frame_.p_m = first.point_m - first.point_m.dot(z) * z;
+    frame_.p_m = first.slides ? first.point_m : Vector3(first.point_m - first.point_m.dot(z) * z);
     for (double& x : frame_.p_m) x = length(x);
     frame_.R = Quaternion::FromTwoVectors(Vector3::UnitZ(), z).normalized().toRotationMatrix();
     if (z.x() == 0.0 && z.y() == 0.0 && z.z() > 0.0) frame_.R.setIdentity();
@@ -45,7 +45,7 @@ class Walk {
   /// From the axis that the frame is on to the next one.
   JointRow to(const JointAxis& next) {
     const Vector3 z = frame_.R.col(2), &onto = next.direction;
-    const Vector3 point_m = next.slides ? frame_.p_m : next.point_m;
+    const Vector3& point_m = next.point_m;
     const Vector3 normal = z.cross(onto);
     const double sine = normal.stableNorm();
     JointRow row;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "common/spatial/arc_tangent.hpp"
@@ -78,6 +79,24 @@ class BranchTree {
       branch.joint_rad[j.joint] = before_.joint_rad[j.joint] + j.sign * angle[role];
     }
     branch.miss = miss;
+    ++out_.count;
+  }
+
+  /// Every branch is wanted, and kept.
+  [[nodiscard]] bool all() const { return !nearest_ && !probing_; }
+
+  /// The last branch with its wrist the other way round, d + π, -e and f + π: what a wrist of right angles can
+  /// do too.
+  void add_flipped() {
+    if (out_.count == 0 || out_.count == Branches::kMax) return;
+    Branch& flipped = out_.branch[static_cast<std::size_t>(out_.count)];
+    flipped = out_.branch[static_cast<std::size_t>(out_.count - 1)];
+    for (const Role role : {Role::kD, Role::kE, Role::kF}) {
+      const LoopJoint& j = joint_[role];
+      double& q = flipped.joint_rad[j.joint];
+      const double turned = role == Role::kE ? -q - 2.0 * j.theta_rad : q + std::numbers::pi;
+      q = before_.joint_rad[j.joint] + nearest_turn(turned - before_.joint_rad[j.joint]);
+    }
     ++out_.count;
   }
 

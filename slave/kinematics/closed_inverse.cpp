@@ -176,7 +176,7 @@ class Solving : BranchTree {
     const double square = level - cd * cd - ce * ce + 2.0 * cd * ce * m.z();
     miss = std::max(miss, -square);
     const double cos_e = (cd * ce - m.z()) / product, sin_e = sqrt(std::max(square, 0.0)) / std::abs(product);
-    fork(before(Role::kE), unit({cos_e, sin_e}), [&](const Turn& e) {
+    const auto place = [&](const Turn& e) {
       const double kx = se * e.s, ky = -cd * se * e.c - sd * ce;
       const Turn d = direction({kx, ky}, flat(m), Role::kD);
       const Vector3 first = turned(d, {e.c, cd * e.s, sd * e.s});
@@ -185,7 +185,11 @@ class Solving : BranchTree {
       set(Role::kE, e);
       set(Role::kF, {first.dot(x_column), second.dot(x_column)});
       add(miss);
-    });
+    };
+    const Turn e = unit({cos_e, sin_e});
+    if (cd != 0.0 || ce != 0.0 || !all()) return fork(before(Role::kE), e, place);
+    place(e);
+    add_flipped();
   }
 
   // Rz(φ_a) (A_a v + l_a), without l_a for a direction.

@@ -126,12 +126,16 @@ bool Inverse::choose(const Rigid& goal, const JointVector& near_rad, Placed& pla
 // is the one that is chosen already, but for rounding.
 bool Inverse::stay(const Rigid& goal, const JointVector& near_rad, Placed& placed) const {
   constexpr double kThere = 1e-6, kNear = 0.3, kNearer = 0.25;
-  constexpr double kLeap = 5.0;  // of the joints, over the tool's way in rad and shares of the reach
+  constexpr InverseTolerance kBeside{1e-10, 20, 0};
+  constexpr double kLeap = 2.5;  // of the joints, over the tool's way in rad and shares of the reach
   const Refinement refinement(kinematics(), goal);
   Placed beside = refinement.at(near_rad);
   const double leap = (placed.joint_rad - near_rad).cwiseAbs().maxCoeff();
   const bool leaps = beside.miss < kNear && leap > kLeap * beside.miss;
-  if ((beside.miss > kThere && !leaps) || !refinement.improve(beside) || !inside(beside.joint_rad, 0.0) ||
+  if (beside.miss > kThere && !leaps) return false;
+  // Damped, since beside a singular pose an undamped step goes far.
+  if (leaps) beside.joint_rad = numeric_.solve(goal, near_rad, kBeside).joint_rad;
+  if (!refinement.improve(beside) || !inside(beside.joint_rad, 0.0) ||
       !(cost(beside.joint_rad, near_rad) < kNearer * cost(placed.joint_rad, near_rad)))
     return false;
   placed = beside;

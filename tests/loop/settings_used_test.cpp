@@ -153,15 +153,18 @@ class SettingsUsed : public testing::Test {
 
 TEST_F(SettingsUsed, EveryUsedFieldReachesTheRuns) {
   const proto::LabConfig config = whole_config();
+  int first = 0;
   for (const Experiment& experiment : experiments()) {
     const std::string name(experiment.name);
+    ++first;
     if (experiment.uses.empty() || kWithoutLaboratory.contains(name) || kTooLong.contains(name)) continue;
     const Begun usual = begin(experiment, config);
     FieldPath path;
     int used = 0;
     visit_fields(config, config, path, [&](const std::string& field, const proto::LabConfig& changed) {
       if (!uses_setting(experiment, field) || field.find('.') == std::string::npos) return;
-      ++used;
+      // Every third field, another third in each experiment; all at full size.
+      if ((used++ + first) % campaign(1, 3) != 0) return;
       EXPECT_TRUE(begin(experiment, changed).configs != usual.configs)
           << name << " sets " << field << " itself, so it does not use it";
       EXPECT_FALSE(usual.driven && field.starts_with("master.operator"))

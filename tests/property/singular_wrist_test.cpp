@@ -17,17 +17,21 @@ struct Counted {
   int leaps = 0, missed = 0;
 };
 
-/// A path in joint space that passes joint 5 through zero, in 200 steps of which one is exactly there.
+/// A path in joint space that passes joint 5 through zero, in 200 steps of which one is exactly there. A leap:
+/// joints move more than five times as far as on the path in a step, and thrice as far as in the step before.
 Counted through(const Inverse& inverse, const JointVector& middle, const JointVector& along) {
   constexpr int kSteps = 100;
   Counted counted;
   JointVector before = middle - along;
+  const double step = along.cwiseAbs().maxCoeff() / kSteps;
+  double last = step;
   for (int n = -kSteps; n <= kSteps; ++n) {
     const JointVector q = middle + (static_cast<double>(n) / kSteps) * along;
     const InverseResult result = inverse.solve(inverse.kinematics().forward(q), before, {});
     counted.missed += result.status == InverseStatus::kNearest;
-    const double step = along.cwiseAbs().maxCoeff() / kSteps;
-    counted.leaps += (result.joint_rad - before).cwiseAbs().maxCoeff() > 4.0 * step + 1e-6;
+    const double moved = (result.joint_rad - before).cwiseAbs().maxCoeff();
+    counted.leaps += moved > 5.0 * step && moved > 3.0 * last;
+    last = moved;
     before = result.joint_rad;
   }
   return counted;

@@ -83,6 +83,26 @@ class Sheet {
   double size_m_;
 };
 
+/// Numbers of the joints; those of one place beside each other.
+std::string labels(const Drawn& d, const Sheet& sheet) {
+  constexpr double kOnePlace = 12.0;  // px
+  std::string text;
+  std::vector<bool> done(d.joint_m.size(), false);
+  for (std::size_t i = 0; i < d.joint_m.size(); ++i) {
+    if (done[i]) continue;
+    const double x = sheet.x(d.joint_m[i]), y = sheet.y(d.joint_m[i]);
+    std::string numbers;
+    for (std::size_t k = i; k < d.joint_m.size(); ++k) {
+      if (std::hypot(sheet.x(d.joint_m[k]) - x, sheet.y(d.joint_m[k]) - y) > kOnePlace) continue;
+      numbers += (numbers.empty() ? "" : " ") + std::to_string(k + 1);
+      done[k] = true;
+    }
+    text += "<text x=\"" + number(x + 11.0) + "\" y=\"" + number(y - 9.0) + "\" font-size=\"12\">" + numbers +
+            "</text>\n";
+  }
+  return text;
+}
+
 std::string view_of(const Drawn& d, const View& view, double left) {
   const Sheet sheet(d, view, left);
   std::string text = "<text x=\"" + number(left + 0.5 * kSide) + "\" y=\"24\" text-anchor=\"middle\">" +
@@ -99,9 +119,8 @@ std::string view_of(const Drawn& d, const View& view, double left) {
                               "\" width=\"12\" height=\"12\" fill=\"#f4a259\" stroke=\"#7a3b10\"/>\n"
                         : "<circle cx=\"" + number(sheet.x(p)) + "\" cy=\"" + number(sheet.y(p)) +
                               "\" r=\"7\" fill=\"#f4a259\" stroke=\"#7a3b10\"/>\n";
-    text += "<text x=\"" + number(sheet.x(p) + 10.0) + "\" y=\"" + number(sheet.y(p) - 8.0) +
-            "\" font-size=\"12\">" + std::to_string(i + 1) + "</text>\n";
   }
+  text += labels(d, sheet);
   constexpr std::array<const char*, 3> kColours{"#c62828", "#2e7d32", "#1565c0"};
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 tip = d.tool.p + 0.1 * sheet.size_m() * (d.tool.q * Vector3(Vector3::Unit(axis)));
@@ -110,6 +129,7 @@ std::string view_of(const Drawn& d, const View& view, double left) {
         std::string("stroke=\"") + kColours[static_cast<std::size_t>(axis)] + "\" stroke-width=\"3\"");
   }
   const Vector3& base = d.corner_m.front();
+  if (view.up != 2) return text;  // the floor is seen from the side
   return text + "<rect x=\"" + number(sheet.x(base) - 14.0) + "\" y=\"" + number(sheet.y(base)) +
          "\" width=\"28\" height=\"6\" fill=\"#37474f\"/>\n";
 }
