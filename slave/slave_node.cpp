@@ -295,6 +295,7 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.refusal = safety.refusal();
   view.engagement = safety.engagement();
   view.gripper = gripper.state(sensing.load());
+  view.sensor_zero = sensing.sensor_zero();
   view.X_WE_anchor = X_WE_anchor;
   view.in_contact = !sensing.free();
   const SlaveContact& contact = sensing.contact();

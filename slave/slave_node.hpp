@@ -15,6 +15,7 @@
 #include "slave/command/limit_violations.hpp"
 #include "slave/config/slave_config.hpp"
 #include "slave/robot/robot.hpp"
+#include "slave/sensing/bias_tracker.hpp"
 
 namespace longreach {
 
@@ -56,6 +57,7 @@ struct SlaveView {
   double playout_delay_s = 0.0;
   Clamps clamps{};  // in this tick
   GripperState gripper{};
+  SensorZero sensor_zero{};
   bool robot_seen = false;    // it has worked once
   Reason unready{};           // why no engagement could start with it or its sensor
   std::uint32_t refused = 0;  // engagement that is requested but not granted, and the reason; 0: none

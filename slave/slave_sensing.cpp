@@ -6,10 +6,12 @@ namespace longreach {
 
 SlaveSensing::SlaveSensing(const SlaveConfig& config)
     : loop_hz_(config.loop.rate_hz),
+      touch_bound_n_(configured_touch_n(config.sensing)),
       needs_(needs(config.scene)),
       watch_(config.sensing, config.command),
       plausibility_(config.sensing, config.command),
       load_(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
+      threshold_(config.sensing),
       contact_(config.sensing, config.estimator),
       turn_contact_(rotational(config.sensing), config.estimator) {}
 
@@ -17,6 +19,8 @@ void SlaveSensing::configure(const SlaveConfig& config) {
   watch_.configure(config.sensing, config.command);
   plausibility_.configure(config.sensing, config.command);
   load_.configure(config.sensing, CompensationLimits::of(config.command));
+  threshold_.configure(config.sensing);
+  touch_bound_n_ = configured_touch_n(config.sensing);
   contact_.configure(config.sensing, config.estimator);
   turn_contact_.configure(rotational(config.sensing), config.estimator);
 }
@@ -55,8 +59,34 @@ bool SlaveSensing::plausible(const RobotState& robot, bool may_hold, double elap
   const SensorWatch::Motion moved{tool_.X_WE.p, V_WE_.linear.norm(), elapsed_s};
   if (!watch_.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
   load_.grip(may_hold);
-  F_E_W_ = load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s, {free(), tool_.X_WE});
+  F_E_W_ =
+      load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s, {free(), tool_.X_WE, threshold_.touch_n()});
+  if (threshold_.derived()) derive(elapsed_s);
   return watch_.felt(F_E_W_.force, moved, load_.uncertainty_n());
+}
+
+void SlaveSensing::derive(double elapsed_s) {
+  if (load_.tracker().known() && !zeroed_) {
+    const Vector3 zeroed_n = tool_.X_WE.q * load_.tracker().bias_n();
+    contact_.subtract(zeroed_n);
+    zeroed_ = true;
+  }
+  threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && load_.load_known(), elapsed_s);
+  contact_.set_thresholds(threshold_.touch_n(), threshold_.release_n());
+}
+
+SensorZero SlaveSensing::sensor_zero() const {
+  const BiasTracker& tracker = load_.tracker();
+  const double touch_n = threshold_.touch_n();
+  return {.count = tracker.zeros(),
+          .bias_n = tracker.logged_n(),
+          .refused_n = tracker.refused_n(),
+          .missing_m = tracker.missing_m(),
+          .drift_n = tracker.uncertainty_n(),
+          .touch_n = touch_n,
+          .noise_n = threshold_.noise_n(),
+          .derived = threshold_.derived() && (needs_.contact || needs_.rotation),
+          .noisy = threshold_.derived() && touch_n > touch_bound_n_};
 }
 
 // A wrong sign still presses on the guard; what is wrong in itself may be believed anew when it is right.
@@ -68,10 +98,12 @@ void SlaveSensing::forget_lies() {
 }
 
 void SlaveSensing::step(const SensingInput& in) {
-  if (!ok_ || (!needs_.contact && !needs_.rotation) || !load_.ready()) return;
+  const bool starting = threshold_.derived() && load_.tracker().starting();
+  if (!ok_ || (!needs_.contact && !needs_.rotation) || !load_.ready() || starting) return;
   if (needs_.contact) {
     contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
-                   in.clamps.force_guard, load_.uncertainty_n(), in.news_age_s});
+                   in.clamps.force_guard, load_.uncertainty_n(), tool_.X_WE.q * load_.tracker().possible_n(),
+                   in.news_age_s});
     plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt}, contact_.force(),
                        {in.state, in.let_go, in.still});
   }
@@ -79,7 +111,7 @@ void SlaveSensing::step(const SensingInput& in) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
     const Vector3 moment_nm = needs_.contact ? free_moment_nm(F_E_W_) : F_E_W_.moment;
     turn_contact_.step({turn, V_WE_.angular, moment_nm, in.played_turn_sequence, in.scale, in.dt,
-                        in.clamps.moment_guard, load_.uncertainty_nm(), in.news_age_s});
+                        in.clamps.moment_guard, load_.uncertainty_nm(), Vector3::Zero(), in.news_age_s});
   }
   // Between engagements the zero is renewed.
   if (in.state == SafetyState::kEngaged || !free()) return load_.abandon();

@@ -13,6 +13,7 @@
 #include "slave/kinematics/kinematics.hpp"
 #include "slave/sensing/sensor_watch.hpp"
 #include "slave/sensing/tool_load.hpp"
+#include "slave/sensing/touch_threshold.hpp"
 
 namespace longreach {
 
@@ -41,6 +42,8 @@ class SlaveSensing {
   /// Starts an engagement; `q_before` is the previous reference of rotations.
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
   void zero() { load_.zero(); }
+  /// Zeros and thresholds, for status and log.
+  [[nodiscard]] SensorZero sensor_zero() const;
 
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] bool ready() const { return load_.ready(); }
@@ -61,12 +64,15 @@ class SlaveSensing {
  private:
   [[nodiscard]] bool plausible(const RobotState& robot, bool may_hold, double elapsed_s);
   void forget_lies();
+  void derive(double elapsed_s);
 
   double loop_hz_;
-  NeedsConfig needs_;  // components of contact, sensor and estimator that are not needed are absent
+  double touch_bound_n_;  // that the checks of the guards use
+  NeedsConfig needs_;     // components of contact, sensor and estimator that are not needed are absent
   SensorWatch watch_;
   ForcePlausibility plausibility_;
   ToolCompensation load_;
+  TouchThreshold threshold_;
   SlaveContact contact_;
   SlaveContact turn_contact_;
 
@@ -76,6 +82,7 @@ class SlaveSensing {
   Twist V_WE_{};
   Wrench F_E_W_{};
   bool ok_ = true;
+  bool zeroed_ = false;  // the contact knows of the first zero
 };
 
 }  // namespace longreach

@@ -196,11 +196,11 @@ Finding check_guarded(const proto::SlaveConfig& config) {
   if (const std::string why = unmeasured_moment(config); !why.empty())
     return within(sensing, at(config.sensing(), "moment_range_nm", why));
   const PathStep section{config.GetDescriptor()->FindFieldByName("command"), -1};
-  const double hold_n = config.command().hold_force_n(), touch_n = config.sensing().touch_n();
-  if (hold_n > 0.0 && hold_n <= touch_n) {
+  const double hold_n = config.command().hold_force_n();
+  if (hold_n > 0.0 && hold_n <= guarded_touch_n(config.sensing())) {
     return within(section, at(config.command(), "hold_force_n",
-                              " = " + format_number(hold_n) + " is not above sensing.touch_n = " +
-                                  format_number(touch_n) + ": the contact would be lost in a hold"));
+                              " = " + format_number(hold_n) + " is not above " +
+                                  touch_text(config.sensing()) + ": a hold would lose the contact"));
   }
   const std::string why = unguarded(config);
   if (why.empty()) return std::nullopt;
@@ -256,9 +256,8 @@ Finding check_message(const Message& message) {
   if (const auto* lab = dynamic_cast<const proto::LabConfig*>(&message)) return check_laboratory(*lab);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
     auto wrong = in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
-    return wrong
-               ? wrong
-               : in_order(*sensing, {"release_nm", sensing->release_nm()}, {"touch_nm", sensing->touch_nm()});
+    if (sensing->touch_n() > 0.0 && wrong) return wrong;
+    return in_order(*sensing, {"release_nm", sensing->release_nm()}, {"touch_nm", sensing->touch_nm()});
   }
   return std::nullopt;
 }

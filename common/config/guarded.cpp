@@ -6,6 +6,7 @@
 
 #include "common/config/number_text.hpp"
 #include "slave/config/guard_config.hpp"
+#include "slave/config/sensing_config.hpp"
 
 namespace longreach {
 namespace {
@@ -26,7 +27,7 @@ FirstTouch first_touch(const proto::SlaveConfig& config) {
   }
   touch.lag_s = 1.0 / config.loop().rate_hz() + jerk_s + first_order_s(config.sensing().bandwidth_hz());
   touch.servo_s = first_order_s(config.robot().servo_hz());
-  touch.touch_n = config.sensing().touch_n();
+  touch.touch_n = guarded_touch_n(config.sensing());
   touch.filter_s = config.sensing().filter_s();
   return touch;
 }
@@ -59,6 +60,21 @@ std::string not_above(double range, const std::string& guard, double value) {
 }
 
 }  // namespace
+
+double guarded_touch_n(const proto::Sensing& sensing) {
+  SensingConfig c;
+  c.touch_n = sensing.touch_n();
+  c.filter_s = sensing.filter_s();
+  c.force_noise_n = sensing.force_noise_n();
+  c.force_resolution_n = sensing.force_resolution_n();
+  c.force_drift_n = sensing.force_drift_n();
+  return configured_touch_n(c);
+}
+
+std::string touch_text(const proto::Sensing& sensing) {
+  const std::string value = format_number(guarded_touch_n(sensing));
+  return (sensing.touch_n() > 0.0 ? "sensing.touch_n = " : "the derived touch threshold, ") + value;
+}
 
 std::string unguarded(const proto::SlaveConfig& config) {
   if (!config.scene().needs().contact()) return "";

@@ -13,6 +13,12 @@ namespace longreach {
 /// or if the scene has no surfaces.
 std::string unguarded(const proto::SlaveConfig& config);
 
+/// Returns the touch threshold that the checks of the guards use, N: as configured, or the upper bound of a
+/// derived one.
+double guarded_touch_n(const proto::Sensing& sensing);
+/// Returns a description of it with its value.
+std::string touch_text(const proto::Sensing& sensing);
+
 /// The same for sensing.force_range_n and sensing.moment_range_nm: a force beyond the range of the sensor is
 /// not guarded. Empty for a moment if nothing rotates the tool.
 std::string unmeasured_force(const proto::SlaveConfig& config);

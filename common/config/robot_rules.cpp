@@ -9,19 +9,16 @@
 namespace longreach {
 namespace {
 
-using proto::Joint;
-using proto::Robot;
-
-JointRow row_of(const Joint& joint) {
+JointRow row_of(const proto::Joint& joint) {
   return {joint.a_m(), joint.alpha_rad(), joint.beta_rad(), joint.d_m(), joint.theta_rad()};
 }
 
 // The direction of each joint's axis, base to tool.
-std::vector<Vector3> axes(const Robot& robot) {
-  const bool modified = robot.convention() == Robot::MODIFIED;
+std::vector<Vector3> axes(const proto::Robot& robot) {
+  const bool modified = robot.convention() == proto::Robot::MODIFIED;
   std::vector<Vector3> axes;
   Matrix3 R = Matrix3::Identity();
-  for (const Joint& joint : robot.joint()) {
+  for (const proto::Joint& joint : robot.joint()) {
     const Matrix3 behind = rotation_behind(row_of(joint));
     const Matrix3 turn = Eigen::AngleAxisd(joint.theta_rad(), Vector3::UnitZ()).toRotationMatrix();
     axes.emplace_back(modified ? Vector3(R * behind.col(2)) : Vector3(R.col(2)));
@@ -31,16 +28,18 @@ std::vector<Vector3> axes(const Robot& robot) {
 }
 
 // What is between joint i and the next one stands in this row.
-int row_between(const Robot& robot, int i) { return robot.convention() == Robot::MODIFIED ? i + 1 : i; }
+int row_between(const proto::Robot& robot, int i) {
+  return robot.convention() == proto::Robot::MODIFIED ? i + 1 : i;
+}
 
 // Two neighbours that turn about one axis, or slide along one, are one joint.
-Finding check_neighbours(const Robot& robot) {
+Finding check_neighbours(const proto::Robot& robot) {
   constexpr double kSameAxis = 1e-6;  // m and rad
   for (int i = 0; i + 1 < robot.joint_size(); ++i) {
-    const Joint &one = robot.joint(i), &two = robot.joint(i + 1);
-    const Joint& between = robot.joint(row_between(robot, i));
-    const bool slide = one.kind() == Joint::PRISMATIC;
-    if (one.kind() != two.kind() || one.kind() == Joint::FIXED) continue;
+    const proto::Joint &one = robot.joint(i), &two = robot.joint(i + 1);
+    const proto::Joint& between = robot.joint(row_between(robot, i));
+    const bool slide = one.kind() == proto::Joint::PRISMATIC;
+    if (one.kind() != two.kind() || one.kind() == proto::Joint::FIXED) continue;
     if (std::hypot(std::sin(between.alpha_rad()), between.beta_rad()) > kSameAxis) continue;
     if (!slide && std::abs(between.a_m()) > kSameAxis) continue;
     return at_element(robot, "joint", row_between(robot, i), "alpha_rad",
@@ -54,7 +53,7 @@ Finding check_neighbours(const Robot& robot) {
 }
 
 // Calibration writes such lengths beside axes that are nearly parallel; elsewhere they are in mm.
-Finding check_lengths(const Robot& robot) {
+Finding check_lengths(const proto::Robot& robot) {
   constexpr double kLong_m = 100.0, kNearlyParallel = 0.02;
   const auto parallel = [&](int row) {
     const double sine = row < 0 || row >= robot.joint_size() ? 1.0 : std::sin(robot.joint(row).alpha_rad());
@@ -73,8 +72,8 @@ Finding check_lengths(const Robot& robot) {
   return std::nullopt;
 }
 
-Finding check_beta(const Robot& robot) {
-  if (robot.convention() == Robot::STANDARD) return std::nullopt;
+Finding check_beta(const proto::Robot& robot) {
+  if (robot.convention() == proto::Robot::STANDARD) return std::nullopt;
   for (int i = 0; i < robot.joint_size(); ++i) {
     const double beta_rad = robot.joint(i).beta_rad();
     if (beta_rad != 0.0)
@@ -85,7 +84,7 @@ Finding check_beta(const Robot& robot) {
 }
 
 // Three slides in three directions, and the rest fixed.
-Finding check_cartesian(const Robot& robot, const std::vector<int>& slides) {
+Finding check_cartesian(const proto::Robot& robot, const std::vector<int>& slides) {
   const std::vector<Vector3> all = axes(robot);
   Matrix3 directions;
   for (int i = 0; i < 3; ++i)
@@ -98,7 +97,7 @@ Finding check_cartesian(const Robot& robot, const std::vector<int>& slides) {
 
 }  // namespace
 
-Finding check_joint(const Joint& joint) {
+Finding check_joint(const proto::Joint& joint) {
   if (auto finding = in_order(joint, {"min_rad", joint.min_rad()}, {"max_rad", joint.max_rad()}))
     return finding;
   if (joint.start_rad() >= joint.min_rad() && joint.start_rad() <= joint.max_rad()) return std::nullopt;
@@ -108,12 +107,12 @@ Finding check_joint(const Joint& joint) {
 }
 
 // Six joints that move, at most three of them slides; or three slides and three that are fixed.
-Finding check_robot(const Robot& robot) {
+Finding check_robot(const proto::Robot& robot) {
   std::vector<int> slides;
   int fixed = 0;
   for (int i = 0; i < robot.joint_size(); ++i) {
-    if (robot.joint(i).kind() == Joint::PRISMATIC) slides.push_back(i);
-    if (robot.joint(i).kind() == Joint::FIXED) ++fixed;
+    if (robot.joint(i).kind() == proto::Joint::PRISMATIC) slides.push_back(i);
+    if (robot.joint(i).kind() == proto::Joint::FIXED) ++fixed;
   }
   const bool cartesian = slides.size() == 3 && fixed > 0 && fixed + 3 == robot.joint_size();
   if ((fixed > 0 && !cartesian) || slides.size() > 3) {

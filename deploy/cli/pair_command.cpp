@@ -56,7 +56,8 @@ std::string read_token_file(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) throw UsageError("--token-file " + file + " cannot be read");
   if (S_ISREG(status.st_mode) && (status.st_mode & 077U) != 0)
-    throw UsageError("--token-file " + file + " is open to other users; close it with chmod go= " + file);
+    throw UsageError("--token-file " + file +
+                     " is accessible to other users; close it with chmod go= " + file);
   std::ifstream in(file);
   return first_line(in);
 }

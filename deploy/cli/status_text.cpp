@@ -112,6 +112,8 @@ constexpr auto kRows = std::to_array<Row>({
      }},
     {"contact estimate", [](const Status& s) { return s.estimate(); }},
     {"gripper", [](const Status& s) { return s.gripper(); }},
+    {"force sensor", [](const Status& s) { return s.sensor(); }},
+    {"force sensor, warning", [](const Status& s) { return s.sensor_warning(); }},
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
     {"by the contact",
      [](const Status& s) { return s.has_contact_n() ? print("%.3g N", s.contact_n()) : std::string(); }},

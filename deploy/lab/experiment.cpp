@@ -225,6 +225,12 @@ const std::vector<Experiment> kExperiments = {
      "within 5 % in {mass_within_5_percent} of {mass_above_noise} whose inertia is above 20 times the "
      "noise, within 3 sd in {mass_within_3_sd} of {mass_told}; a wall that the load touches is found "
      "within {wall_found_max_s} s"},
+    {"free-motion",
+     "Unknown force sensors in free motion: do noise, bias and drift cause false contacts, are real contacts found?",
+     "", run_free_motion_study, free_motion_plots, "",
+     "{false_contacts} false contacts in {moved_s} s of motion with {sensors} sensors; {walls_found} of {walls} walls "
+     "found within 50 ms of twice the threshold, {slow_walls_found} of {slow_walls} at 0.1 mm/s; with a fixed "
+     "threshold of 0.3 N {fixed_false_contacts} false contacts"},
     {"docking", "A free-floating spacecraft is grasped, dragged and docked across the link; three mistakes.",
      "master slave -operator -hand -mapping.mode -mapping.scale -rendering.ke "
      "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "

@@ -145,6 +145,8 @@ std::vector<Metric> run_trade(const ExperimentRun& run);
 std::vector<Plot> trade_plots();
 std::vector<Metric> run_drag_study(const ExperimentRun& run);
 std::vector<Plot> drag_plots();
+std::vector<Metric> run_free_motion_study(const ExperimentRun& run);
+std::vector<Plot> free_motion_plots();
 std::vector<Metric> run_docking(const ExperimentRun& run);
 std::vector<Plot> docking_plots();
 

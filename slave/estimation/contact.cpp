@@ -28,19 +28,29 @@ SensingConfig rotational(SensingConfig s) {
 }
 
 SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& estimator)
-    : sensing_(sensing),
+    : sensing_(with_thresholds(sensing)),
       detector_(sensing),
-      surfaces_{Surface(sensing, estimator), Surface(sensing, estimator), Surface(sensing, estimator)},
+      surfaces_{Surface(sensing_, estimator), Surface(sensing_, estimator), Surface(sensing_, estimator)},
       before_(kBefore) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
-  sensing_ = sensing;
-  detector_.configure(sensing);
-  for (Surface& s : surfaces_) s.configure(sensing, estimator);
+  const double touch_n = sensing_.touch_n, release_n = sensing_.release_n;
+  sensing_ = with_thresholds(sensing);
+  for (Surface& s : surfaces_) s.configure(sensing_, estimator);
+  if (!(sensing.touch_n > 0.0)) sensing_.touch_n = touch_n, sensing_.release_n = release_n;
+  detector_.configure(sensing_);
+}
+
+void SlaveContact::set_thresholds(double touch_n, double release_n) {
+  if (reading_.in_contact) return;
+  sensing_.touch_n = touch_n;
+  sensing_.release_n = release_n;
+  detector_.set_thresholds(touch_n, release_n);
+  for (Surface& s : surfaces_) s.set_touch(touch_n);
 }
 
 void SlaveContact::step(const ContactInput& input) {
-  reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n);
+  reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n, input.bias_n);
   force_ = {};
   if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
   if (reading_.in_contact) {

@@ -27,6 +27,8 @@ struct ContactInput {
   double dt = 0.0;                    // s
   bool guarded = false;               // the force guard held the tool in the last step
   double uncertainty_n = 0.0;         // uncertain part of the force
+  Vector3 bias_n =
+      Vector3::Zero();      // part of the force that may be the bias of a sensor before its first zero
   double news_age_s = 0.0;  // age of the operator's information about this side when the goal was commanded
 };
 
@@ -39,6 +41,10 @@ class SlaveContact {
 
   void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
   void step(const ContactInput& input);
+  /// As derived from the noise. Not while something is touched: then they stay.
+  void set_thresholds(double touch_n, double release_n);
+  /// The sensor has been zeroed: its force is smaller by this from now on.
+  void subtract(const Vector3& force_n) { detector_.subtract(force_n); }
 
   /// Finds the followed goals that are at the surfaces.
   void locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence);

@@ -30,16 +30,18 @@ WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sens
 }  // namespace
 
 Surface::Surface(const SensingConfig& sensing, const EstimatorConfig& estimator)
-    : sensing_(sensing),
+    : sensing_(with_thresholds(sensing)),
       estimator_(estimator),
       identifier_(identifier(estimator, sensing)),
-      reported_(estimator) {}
+      reported_(estimator),
+      touch_n_(sensing_.touch_n) {}
 
 void Surface::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   const bool other = estimator.kind != estimator_.kind || estimator.exponent != estimator_.exponent ||
                      estimator.forgetting != estimator_.forgetting;
   if (other) identifier_ = identifier(estimator, sensing);
-  sensing_ = sensing;
+  sensing_ = with_thresholds(sensing);
+  if (sensing.touch_n > 0.0) touch_n_ = sensing.touch_n;
   estimator_ = estimator;
   reported_.configure(estimator);
 }
@@ -148,7 +150,7 @@ void Surface::identify(const Press& press) {
       across_m(placed_at_m_) > kSlideM)
     place();
   constexpr double kTwice = 2.0, kMost = 0.1, kRounding = 1.05, kSd = 3.0;
-  const double twice_m = std::pow(kTwice * sensing_.touch_n / answer_.k.value, 1.0 / answer_.n.value);
+  const double twice_m = std::pow(kTwice * touch_n_ / answer_.k.value, 1.0 / answer_.n.value);
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
 }
 

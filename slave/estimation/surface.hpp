@@ -59,6 +59,8 @@ class Surface {
   /// `again`: its values are still valid. `before`: the samples before the touch.
   void begin(const Touch& touch, bool again, const Ring<TouchSample>& before);
   void press(const Press& press);
+  /// Sets the touch threshold, N.
+  void set_touch(double touch_n) { touch_n_ = touch_n; }
   /// Updates the normal: the mean direction, over the last 2 s, of the part of the force on this surface.
   void turn(const Vector3& force_n, double dt);
   /// From here on another surface may press as well, which turns the force.
@@ -131,6 +133,7 @@ class Surface {
   std::uint32_t reported_changes_ = 0;  // likewise, at the last report
   bool settled_ = true;                 // the requested depth belongs to the contact since then
   ReportedTangent reported_;
+  double touch_n_;  // threshold, as derived: what a tool behind the surface does not feel
   Vector3 reported_at_m_ = Vector3::Zero();
   ContactAnswer answer_{};
   double speed_m_per_s_ = 0.0;  // inwards

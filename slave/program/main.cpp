@@ -20,6 +20,7 @@
 #include "slave/command/motion.hpp"
 #include "slave/kinematics/inverse.hpp"
 #include "slave/program/slave_service.hpp"
+#include "slave/sensing/sensor_words.hpp"
 
 namespace longreach {
 namespace {
@@ -52,14 +53,27 @@ class StateLog {
     if (now.refused != 0 && now.refusal != last_.view.refusal)
       spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.refused, to_string(now.refusal),
                    with_remedy(now.refusal));
+    write_zero(now.sensor_zero);
     trouble_ = trouble;
     last_ = s;
   }
 
  private:
+  /// Each zero with its size; what is wrong with the sensor, when that changes.
+  void write_zero(const SensorZero& zero) {
+    if (zero.derived && zero.count != last_.view.sensor_zero.count)
+      spdlog::info("force sensor zero={} bias_n={:.3f} touch_n={:.3f}", zero.count, zero.bias_n,
+                   zero.touch_n);
+    // Figures in it change each tick; it is logged when it begins, and when another one begins.
+    const std::string warning = sensor_warning(zero);
+    const std::string kind = warning.substr(0, warning.find_first_of("0123456789"));
+    if (kind != sensor_warning_ && !kind.empty()) spdlog::warn("force sensor warning=\"{}\"", warning);
+    sensor_warning_ = kind;
+  }
+
   std::string adapter_;  // its address
   SlaveSnapshot last_{};
-  std::string trouble_;
+  std::string trouble_, sensor_warning_;
 };
 
 /// A real robot begins where it is.

@@ -12,6 +12,7 @@
 #include "common/link/estimate_words.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "common/rpc/status_fields.hpp"
+#include "slave/sensing/sensor_words.hpp"
 
 namespace longreach {
 namespace {
@@ -87,6 +88,8 @@ proto::Status SlaveService::status() {
   }
   out.set_force_n(view.F_E_W.force.norm());
   out.set_gripper(in_words(view.gripper));
+  out.set_sensor(in_words(view.sensor_zero));
+  out.set_sensor_warning(sensor_warning(view.sensor_zero));
   add_clamps(*out.mutable_clamped(), view.clamps);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);

@@ -15,7 +15,10 @@ constexpr double kClear = 10.0;  // touch thresholds: the direction of a greater
 
 }  // namespace
 
-ContactReading ContactDetector::step(const Vector3& force_n, double dt, double uncertainty_n) {
+ContactReading ContactDetector::step(const Vector3& force_n, double dt, double uncertainty_n,
+                                     const Vector3& bias_n) {
+  if (!begun_) filtered_n_ = bias_n;
+  begun_ = true;
   const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
   const double noise_n = this->noise_n(force_n, dt);
   const Vector3 next = filtered_n_ + share * (force_n - filtered_n_);
@@ -26,7 +29,7 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double u
   }
   ContactReading reading;
   reading.filtered_n = filtered_n_;
-  const double force = filtered_n_.stableNorm();
+  const double force = std::min(filtered_n_.stableNorm(), (filtered_n_ - bias_n).stableNorm());
   const bool before = in_contact_;
   // Released below the touch threshold even if the configuration has them the wrong way round.
   reading.touch_n = std::max(config_.touch_n + uncertainty_n, kTouchSds * noise_n);
@@ -37,11 +40,16 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double u
   reading.ended = before && !in_contact_;
   if (reading.began) sum_n_.setZero();
   if (in_contact_) {
-    const double weight = std::min(1.0, kClear * config_.touch_n / force);
+    const double weight = std::min(1.0, kClear * config_.touch_n / filtered_n_.stableNorm());
     sum_n_ = std::exp(-dt / kNormalMemoryS) * sum_n_ + weight * filtered_n_;
     reading.normal = sum_n_.stableNormalized();
   }
   return reading;
+}
+
+void ContactDetector::subtract(const Vector3& force_n) {
+  filtered_n_ -= force_n;
+  for (Vector3& last_n : last_n_) last_n -= force_n;
 }
 
 // E[|Δ³f|²] = 60 σ² of white noise σ an axis; the filter leaves its share a / (2 - a) of the variance.

@@ -7,6 +7,8 @@
 //   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact: the direction of the force on the tool (outward
 //   normal of a frictionless wall); above ten times the touch threshold w falls as 1/|f̄|, so that an earlier
 //   large force does not hide the present one
+// Before the first zero a part u of the force may be the bias of the sensor: a contact is then a force that
+// is a contact with and without it, |f̄ - u| and |f̄|.
 // A sample that is not finite is skipped and counted.
 
 #include <array>
@@ -28,12 +30,20 @@ struct ContactReading {
 
 class ContactDetector {
  public:
-  explicit ContactDetector(const SensingConfig& config) : config_(config) {}
+  explicit ContactDetector(const SensingConfig& config) : config_(with_thresholds(config)) {}
 
-  void configure(const SensingConfig& config) { config_ = config; }
+  void configure(const SensingConfig& config) { config_ = with_thresholds(config); }
+  /// As derived.
+  void set_thresholds(double touch_n, double release_n) {
+    config_.touch_n = touch_n;
+    config_.release_n = release_n;
+  }
 
-  /// `uncertainty_n`: uncertain part of the force, which is added to the threshold.
-  ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0);
+  /// `uncertainty_n`: uncertain part of the force, which is added to the threshold. `bias_n`: u.
+  ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0,
+                      const Vector3& bias_n = Vector3::Zero());
+  /// Subtracts `force_n` from the filtered force: the sensor has been zeroed.
+  void subtract(const Vector3& force_n);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
@@ -44,6 +54,7 @@ class ContactDetector {
   SensingConfig config_;
   std::array<Vector3, 3> last_n_{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   int samples_ = 0;
+  bool begun_ = false;
   double variance_n2_ = 0.0;  // of f along an axis
   Vector3 filtered_n_ = Vector3::Zero();
   Vector3 sum_n_ = Vector3::Zero();

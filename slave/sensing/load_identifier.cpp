@@ -52,24 +52,29 @@ void LoadIdentifier::step(const Wrench& left, const SensorMotion& motion, bool f
   second_ += share * (first_ - second_);
   free_s_ = free ? free_s_ + dt : 0.0;
   since_s_ += dt;
+  ++samples_;
   if (since_s_ < kLoadUpdate_s) return;
+  const double between_s = since_s_ / samples_;
   since_s_ = 0.0;
+  samples_ = 0;
   const auto drift = [](double reported) {
     return (reported * reported + kBiasDrift * kBiasDrift) * kLoadUpdate_s;
   };
   covariance_.diagonal().segment<3>(4).array() += drift(sensing_.force_drift_n);
   covariance_.diagonal().tail<3>().array() += drift(sensing_.moment_drift_nm);
-  if (free_s_ > kLoadSettled_s) update(second_, (first_ - second_) / kLoadBand_s, motion.gravity);
+  if (free_s_ > kLoadSettled_s)
+    update({second_, (first_ - second_) / kLoadBand_s, motion.gravity, between_s});
 }
 
-void LoadIdentifier::update(const Signals& smooth, const Signals& change, const Vector3& gravity) {
+void LoadIdentifier::update(const Smoothed& at) {
+  const Signals &smooth = at.signals, &change = at.change;
   const Vector3 push = smooth.segment<3>(6),
                 lever[] = {smooth.segment<3>(9), smooth.segment<3>(12), smooth.segment<3>(15)};
   // Mass that may be there: what a bond makes of its force is in proportion.
   const double most_kg = std::min(load_max_kg_, std::max(state_[0], 0.0) + sd_kg());
-  const double unlike = kUnlike * (push - gravity).norm() + kBondLag_s * change.segment<3>(6).norm();
+  const double unlike = kUnlike * (push - at.gravity).norm() + kBondLag_s * change.segment<3>(6).norm();
   const auto variance = [&](double noise, double by_bond) {
-    return noise * noise * 1e-3 / kLoadUpdate_s + by_bond * by_bond;
+    return noise * noise * std::min(at.between_s / kLoadUpdate_s, 1.0) + by_bond * by_bond;
   };
   const double force_n2 = variance(sensing_.force_noise_n + sensing_.force_resolution_n, most_kg * unlike);
   // Moments of inertia are not identified: they count as noise.

@@ -54,7 +54,12 @@ class LoadIdentifier {
   /// Filtered signals: f, τ, g - a, and α× + ω×ω× by columns.
   using Signals = Eigen::Matrix<double, 18, 1>;
 
-  void update(const Signals& smooth, const Signals& change, const Vector3& gravity);
+  struct Smoothed {
+    Signals signals, change;  // and its rate
+    Vector3 gravity;
+    double between_s;  // samples
+  };
+  void update(const Smoothed& at);
   /// Processes one equation: `row` . state = `value`, of variance `variance`.
   void take(const Row& row, double value, double variance);
 
@@ -63,6 +68,7 @@ class LoadIdentifier {
   bool closed_ = false;
   bool begun_ = false;
   double since_s_ = 0.0, free_s_ = 0.0;
+  int samples_ = 0;  // since the last update
   Signals first_ = Signals::Zero(), second_ = Signals::Zero();
   Row state_ = Row::Zero();
   Eigen::Matrix<double, kStates, kStates> covariance_ = Eigen::Matrix<double, kStates, kStates>::Zero();

@@ -14,6 +14,7 @@ constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what
 constexpr double kUncertain_s = 0.02;  // longer than the filter that decides on a touch
 constexpr double kBond_s = 0.01;       // of a bond between gripper and load
 constexpr double kQuick_s = 0.003;     // of the stiffest
+constexpr double kToolUnknown = 0.15;  // of the mass of the tool
 constexpr double kReach_m = 0.5;       // of a load's centre
 
 }  // namespace
@@ -86,7 +87,15 @@ double ToolCompensation::tool_uncertainty_n() const {
 }
 
 double ToolCompensation::uncertainty_n() const {
-  return tool_uncertainty_n() + std::min(load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
+  const double tool_n = tracks() ? kToolUnknown * config_.tool.mass_kg * tool_push_.m_per_s2() : 0.0;
+  return tool_uncertainty_n() + std::min(tool_n + load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
+}
+
+void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
+  const Vector3 &c = config_.tool.com_m, &w = motion.angular;
+  const Vector3 at_com = motion.acceleration + motion.angular_acceleration.cross(c) + w.cross(w.cross(c));
+  tool_m_per_s2_ -= std::expm1(-dt / kQuick_s) * (at_com.norm() - tool_m_per_s2_);
+  tool_push_.step(tool_m_per_s2_, dt);
 }
 
 double ToolCompensation::uncertainty_nm() const {
@@ -122,16 +131,22 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
 Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
                               const LoadSample& load) {
   const bool as_read = !(config_.tool.mass_kg > 0.0) && !(config_.zero_s > 0.0);
-  if (as_read && !loads_) return reading;
+  if (as_read && !loads_ && !tracks()) return reading;
   plausibility_.step(V_WF, dt);
   const Quaternion q_FW = q_WF.conjugate();
   const SensorMotion motion = motion_.step(q_WF, V_WF, config_.gravity_m_per_s2, config_.bandwidth_hz, dt);
   const Wrench tool = tool_wrench(config_.tool, motion);
   Wrench left{q_FW * reading.moment - tool.moment, q_FW * reading.force - tool.force};
   if (loads_ && dt > 0.0) left = without_load(left, load, dt);
-  if (as_read && !(load_.load().mass_kg > 0.0)) return reading;
+  if (tracks() && dt > 0.0) {
+    follow_tool(motion, dt);
+    tracker_.step({left.force - bias_.force, V_WF.linear.norm(), load.free, !closed_, uncertainty_n(),
+                   load.touch_n, dt});
+  }
+  const Vector3 bias_n = bias_.force + tracker_.bias_n();
+  if (as_read && !(load_.load().mass_kg > 0.0) && bias_n.isZero(0.0)) return reading;
   if (zeroing_) average(left, dt);
-  return {q_WF * (left.moment - bias_.moment), q_WF * (left.force - bias_.force)};
+  return {q_WF * (left.moment - bias_.moment), q_WF * (left.force - bias_n)};
 }
 
 }  // namespace longreach

@@ -10,7 +10,8 @@
 // acceleration is uncertain by its changes between them, and the uncertainty is its effect on the tool. The
 // load of the gripper is compensated likewise, as far as it is known (load_identifier.hpp), by an
 // acceleration filtered like the bond; its unknown part counts as uncertainty while the tool accelerates, and
-// 0.3 s longer.
+// 0.3 s longer. Where the touch threshold is derived, the bias is also tracked in free motion
+// while the gripper is open (bias_tracker.hpp), and the mass of the tool counts as known to 15 %.
 
 #include <limits>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "common/spatial/spatial.hpp"
 #include "slave/config/command_config.hpp"
 #include "slave/config/sensing_config.hpp"
+#include "slave/sensing/bias_tracker.hpp"
 #include "slave/sensing/load_identifier.hpp"
 
 namespace longreach {
@@ -77,18 +79,20 @@ struct LoadSample {
   // servo that stops between two setpoints.
   // comes to rest between two setpoints.
   Pose X_WF{};
+  double touch_n = 0.3;  // threshold
 };
 
 /// Upper bounds of a force that may be treated as bias, and of the effect of an unknown load that is not
 /// treated as a contact, so that the guards receive every larger force.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
+  double guard_n = kNone;  // bounds the bias that is followed
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
   /// From the guards of force and moment.
   static CompensationLimits of(const CommandConfig& c) {
-    return {0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
+    return {c.force_guard_n, 0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
   }
 };
 
@@ -100,6 +104,7 @@ class ToolCompensation {
       : config_(config),
         limits_(limits),
         load_(config, load_max_kg),
+        tracker_(expected_drift_n(config), limits.guard_n),
         zeroing_(config.zero_s > 0.0),
         first_(zeroing_),
         loads_(load_max_kg > 0.0) {}
@@ -107,6 +112,7 @@ class ToolCompensation {
     config_ = config;
     limits_ = limits;
     load_.configure(config);
+    tracker_.configure(expected_drift_n(config), limits.guard_n);
     if (!(config.zero_s > 0.0)) abandon();
   }
 
@@ -122,7 +128,13 @@ class ToolCompensation {
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
               const LoadSample& load = {});
   /// State of the gripper: closed.
-  void grip(bool closed) { load_.grip(closed); }
+  void grip(bool closed) {
+    load_.grip(closed);
+    closed_ = closed;
+  }
+  /// Returns whether the load of the gripper is known, or there is none.
+  [[nodiscard]] bool load_known() const { return !closed_ || !loads_ || load_.known(); }
+  [[nodiscard]] const BiasTracker& tracker() const { return tracker_; }
 
   /// Returns false during the first zeroing: the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
@@ -136,6 +148,8 @@ class ToolCompensation {
  private:
   void average(const Wrench& left, double dt);
   [[nodiscard]] double tool_uncertainty_n() const;
+  [[nodiscard]] bool tracks() const { return !(config_.touch_n > 0.0); }
+  void follow_tool(const SensorMotion& motion, double dt);
   Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
@@ -145,12 +159,15 @@ class ToolCompensation {
   LoadIdentifier load_;
   std::optional<Pose> X_WF_{};        // at the last sample of a load
   AccelerationPeak push_{}, turn_{};  // of a load
-  SensorMotion slow_{}, quick_{};     // as a bond transmits it; the fastest possible
+  BiasTracker tracker_;
+  AccelerationPeak tool_push_{};
+  double tool_m_per_s2_ = 0.0;     // filtered acceleration of the tool's centre
+  SensorMotion slow_{}, quick_{};  // as a bond transmits it; the fastest possible
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
   double time_s_ = 0.0;
   int samples_ = 0;
-  bool zeroing_, first_, loads_, zeroed_ = false;
+  bool zeroing_, first_, loads_, zeroed_ = false, closed_ = false;
 };
 
 }  // namespace longreach

@@ -265,8 +265,8 @@ TEST(SolveIdentify, DetectsWrongUnitsOfTimeAndWrongSigns) {
   const std::pair<std::string, const char*> cases[] = {
       {scaled(1e3, 1, 1),
        "line 6: \"t\" grows by 1 per line and has the unit s, but seems to be in ms; name it \"t [ms]\""},
-      {scaled(1e6, 1, 1), "looks like us"},
-      {scaled(1e9, 1, 1), "looks like ns"},
+      {scaled(1e6, 1, 1), "seems to be in us"},
+      {scaled(1e9, 1, 1), "seems to be in ns"},
       {scaled(1, -1, -1), "negative signs: x and f are below 0"},
       {scaled(1, -1, 1), "a negative sign: the force grows where x is below 0"},
       {scaled(1, 1, -1), "a negative sign: f falls while x grows"}};

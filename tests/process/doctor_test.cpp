@@ -105,7 +105,7 @@ TEST_F(Doctor, ReadableSiteFailsAndReportsChmodCommand) {
   ::chmod((site / "master.key").c_str(), 0644);
   const Visit visit = this->visit({"--site", site.string()});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("master.key is open to other users")) << visit.text;
+  EXPECT_TRUE(visit.says("master.key is accessible to other users")) << visit.text;
   EXPECT_TRUE(visit.says("chmod -R go= " + site.string())) << visit.text;
 }
 

@@ -176,7 +176,7 @@ TEST_F(Sweep, MistakesExitWithStatus2BeforeAnythingRuns) {
       "unused.txtpb",
       "experiment: ['touch', 'first-touch']\nsetting { path: 'profile' value: ['lab', 'moon'] }\n");
   expect({"sweep", unused, "--out", path("a")},
-         "unused.txtpb:2:11: first-touch does not use profile, so nothing");
+         "unused.txtpb:2:11: first-touch does not use profile; it uses: ");
   expect({"sweep", path("none.txtpb"), "--out", path("a")}, "none.txtpb: there is no such file");
   for (const char* shard : {"0/2", "3/2", "half"})
     expect({"sweep", good, "--out", path("a"), "--shard", shard}, std::string("--shard ") + shard);

@@ -123,7 +123,7 @@ TEST(Usage, ARobotFileWithABadRowIsNamedWithLineFieldAndReason) {
                         file.string() + ":" + about, third_row);
   };
   expect("joint { a_m: nan }", "3:9: joint.2.a_m = nan is not a finite number");
-  expect("joint { alpha_rad: 0 }", "3:9: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 turn");
+  expect("joint { alpha_rad: 0 }", "3:9: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 rotate");
   expect("joint { a_m: 1 min_rad: 2 max_rad: 1 }", "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
   expect("joint { a_m: 1 } joint { a_m: 1 }", "1:1: joint has 7 elements; 6 are needed");
   std::filesystem::remove(file);
@@ -209,7 +209,8 @@ TEST(Usage, ASiteThatOthersMayOpenEndsTheProgramWithStatus1) {
   const TemporaryFolder folder;
   std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
   for (const std::string name : {"longreach-slave", "longreach-master"})
-    expect_one_sentence(run(name, {"--site", folder.path().string()}), 1, "is open to other users", name);
+    expect_one_sentence(run(name, {"--site", folder.path().string()}), 1, "is accessible to other users",
+                        name);
 }
 
 TEST(Usage, ARunOfGivenLengthEndsByItself) {

@@ -67,7 +67,7 @@ TEST(ForceGuard, HoldsWhereverTheRuleAcceptsAndTheRuleIsNotStrict) {
                                           .deceleration_m_per_s2 = c.deceleration_m_per_s2,
                                           .lag_s = c.delay_s + jerk_s,
                                           .servo_s = 0.5 / (std::numbers::pi * c.servo_hz),
-                                          .touch_n = config.sensing.touch_n,
+                                          .touch_n = configured_touch_n(config.sensing),
                                           .filter_s = config.sensing.filter_s});
     const GuardTouch touch = guard_touch(c);
     EXPECT_EQ(touch.view.limit_violations, 0U) << c;

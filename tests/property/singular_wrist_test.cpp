@@ -1,4 +1,4 @@
-// Straight through exactly singular wrists: the inverse goes on where the joints are, and leaps nowhere.
+// Straight through exactly singular wrists: the inverse continues from the joints, without a jump.
 
 #include <gtest/gtest.h>
 

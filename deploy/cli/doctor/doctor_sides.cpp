@@ -111,6 +111,14 @@ Finding state_finding(const proto::Status& status) {
   return {FindingVerdict::kOk, "state", text};
 }
 
+/// Of a slave whose touch threshold is derived.
+Finding sensor_finding(const proto::Status& status) {
+  const std::string& warning = status.sensor_warning();
+  if (warning.empty()) return {FindingVerdict::kOk, "force sensor", status.sensor()};
+  const auto advice = warning.rfind("; ");
+  return {FindingVerdict::kWarning, "force sensor", warning.substr(0, advice), warning.substr(advice + 2)};
+}
+
 Finding loop_finding(const Watched& seen, double wanted_hz) {
   const proto::Status& status = seen.last;
   const auto ticks = static_cast<double>(counter(status, "ticks") - counter(seen.first, "ticks"));
@@ -228,6 +236,8 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
   out.findings.push_back(rpc_finding(seen, insecure));
   out.findings.push_back(version_finding(seen.last));
   out.findings.push_back(state_finding(seen.last));
+  if (seen.last.has_sensor() && !seen.last.sensor().empty())
+    out.findings.push_back(sensor_finding(seen.last));
   out.findings.push_back(loop_finding(seen, wanted_hz));
   out.findings.push_back(link_finding(seen, side));
   if (const std::string address = link_address(client, rpc); !address.empty())

@@ -85,7 +85,7 @@ std::string short_number(double x) {
   return number == "-0" ? "0" : number;
 }
 
-std::string padded(std::string text, std::size_t width) {
+std::string in_column(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');
   return text;
 }
@@ -138,14 +138,16 @@ std::string report_text(const RobotReport& report) {
   std::string text = robot.name + (robot.basis.empty() ? "" : ": " + robot.basis) + "\n\n";
   std::size_t width = 7;
   for (std::size_t i = 0; i < kMaxJoints; ++i) width = std::max(width, joint_name(robot, i).size() + 2);
-  text += padded("joint", width) + "kind       from      to        start     speed     acceleration  jerk\n";
+  text +=
+      in_column("joint", width) + "kind       from      to        start     speed     acceleration  jerk\n";
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[i];
-    text += padded(joint_name(robot, i), width) + padded(kind_text(j.kind), 11);
+    text += in_column(joint_name(robot, i), width) + in_column(kind_text(j.kind), 11);
     if (j.kind != JointKind::kFixed)
-      text += padded(short_number(j.min_rad), 10) + padded(short_number(j.max_rad), 10) +
-              padded(short_number(j.start_rad), 10) + padded(short_number(j.speed_max_rad_per_s), 10) +
-              padded(short_number(j.acceleration_max_rad_per_s2), 14) + short_number(j.jerk_max_rad_per_s3);
+      text += in_column(short_number(j.min_rad), 10) + in_column(short_number(j.max_rad), 10) +
+              in_column(short_number(j.start_rad), 10) + in_column(short_number(j.speed_max_rad_per_s), 10) +
+              in_column(short_number(j.acceleration_max_rad_per_s2), 14) +
+              short_number(j.jerk_max_rad_per_s3);
     text += "\n";
   }
   const Vector3& p = report.X_WE.p;

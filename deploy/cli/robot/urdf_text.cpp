@@ -9,7 +9,7 @@
 namespace longreach {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&')
@@ -51,7 +51,7 @@ Rigid turned(double angle_rad) {
 
 std::string joint_text(const std::string& name, const std::string& type, const std::string& parent,
                        const std::string& child, const Rigid& X, const std::string& more) {
-  return "  <joint name=\"" + escaped(name) + "\" type=\"" + type + "\">\n    <parent link=\"" + parent +
+  return "  <joint name=\"" + xml_text(name) + "\" type=\"" + type + "\">\n    <parent link=\"" + parent +
          "\"/>\n    <child link=\"" + child + "\"/>\n    " + origin(X) + "\n" + more + "  </joint>\n";
 }
 
@@ -60,7 +60,7 @@ std::string joint_text(const std::string& name, const std::string& type, const s
 std::string urdf_text(const RobotConfig& robot) {
   const Kinematics kinematics(robot);
   std::string text =
-      "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(robot.name) + "\">\n  <link name=\"base\"/>\n";
+      "<?xml version=\"1.0\"?>\n<robot name=\"" + xml_text(robot.name) + "\">\n  <link name=\"base\"/>\n";
   Rigid X = kinematics.base();  // from the frame of the parent link to that of the row
   std::string parent = "base";
   for (std::size_t i = 0; i < kMaxJoints; ++i) {

@@ -41,8 +41,8 @@ double mass_error(const DragCell& c, const DragResult& r) {
 }
 bool well(const DragCell& c, const DragResult& r) { return r.push_n >= kWell * c.noise_n; }
 
-void write(const ExperimentRun& run, const Loads& loads) {
-  Trace trace(run.out, "loads",
+void write(const ExperimentRun& run, const std::string& name, const Loads& loads) {
+  Trace trace(run.out, name,
               {"mass_kg", "speed_m_per_s", "acceleration_m_per_s2", "noise_n", "rate_mode", "held", "moved",
                "phantoms", "holds", "overrun_m", "push_n", "told_kg", "told_sd_kg", "told_s", "found_s",
                "mass_error_percent"});
@@ -150,7 +150,8 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run) {
         },
         all == &loads ? run.progress : nullptr);
   }
-  write(run, loads);
+  write(run, "loads", loads);
+  write(run, "walls", met);
   std::vector<Metric> metrics = of_loads(loads);
   for (Metric& m : of_others(met, nothing)) metrics.push_back(std::move(m));
   return metrics;

@@ -26,7 +26,7 @@ constexpr double kWall_m = 0.105;  // from the tool's start, along x
 constexpr double kCycles = 4.0;
 constexpr double kEngagesAnew_s = 30.0;
 constexpr double kLeft_m = 5e-4;  // in front of the surface: the press is over
-constexpr double kStillWatched_s = 1.0;
+constexpr double kStillWatched_s = 1.0, kStillTries = 5.0;
 
 /// Least variance of a tangent from everything that was measured so far in a touch.
 class Bound {
@@ -193,17 +193,24 @@ class Press {
     result_.bound_sd = bound_.sd(depth(lab_.arm().true_pose().p));
   }
 
-  /// Where it is, without a movement of its own: a handle that still moves is in a limit cycle.
+  /// Where it is, without a movement of its own: a handle that still moves is in a limit cycle. One that is held
+  /// meanwhile, because the link was silent, is observed again.
   void hold_still() {
     HandTarget target{.grip = cell_.grip};
     const double stiffness = hand_model(cell_.grip).stiffness_n_per_m;
     target.position_m = lab_.master().p_MH - lab_.master().F_H_M.force / stiffness;
     lab_.drive(target);
-    const double rest_s = lab_.now_s() + 3.0 + 2.0 * lab_.link().rtt_s.value_or(0.0);
+    const double settles_s = 3.0 + 2.0 * lab_.link().rtt_s.value_or(0.0);
+    const double last_s = lab_.now_s() + kStillTries * settles_s;
+    double rest_s = lab_.now_s() + settles_s;
     double low_m = INFINITY, high_m = -INFINITY;
     while (lab_.now_s() < rest_s + kStillWatched_s) {
       lab_.step();
       watch();
+      if (lab_.master().state != SafetyState::kEngaged && lab_.now_s() < last_s) {
+        rest_s = lab_.now_s() + settles_s;
+        low_m = INFINITY, high_m = -INFINITY;
+      }
       if (lab_.now_s() < rest_s) continue;
       low_m = std::min(low_m, lab_.master().p_MH.x());
       high_m = std::max(high_m, lab_.master().p_MH.x());

@@ -110,7 +110,7 @@ void two_faces(PersonScenario& s) {
 // Less deep than twice the touch threshold nothing proves that the nearer face is not there.
 PersonChecks judge_two_faces(const PersonScenario& s, const PersonSeen& seen) {
   return {{"contact force of a possible face, N", seen.move.back().felt_max_n,
-           1.1 * 2.0 * s.slave.sensing.touch_n / s.master.mapping.scale}};
+           1.1 * 2.0 * configured_touch_n(s.slave.sensing) / s.master.mapping.scale}};
 }
 
 // L: the clutch in contact; then the hand presses again.

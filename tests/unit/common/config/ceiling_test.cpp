@@ -81,7 +81,7 @@ const std::vector<Fixed>& slave_fixed() {
       {"command.iterations_max", "20", "1", "1000"},
       {"sensing.force_noise_n", "0.05", "0", "10"},
       {"sensing.moment_noise_nm", "0.005", "0", "1"},
-      {"sensing.touch_n", "0.3", "0.2", "90"},
+      {"sensing.touch_n", "0.3", "0.2", "0"},
       {"sensing.release_n", "0.12", "0.01", "0.2"},
       {"sensing.touch_nm", "0.03", "0.02", "90"},
       {"sensing.release_nm", "0.012", "0.001", "0.02"},

@@ -49,8 +49,8 @@ TEST(TextFile, NamesLineAndColumnOfARangeViolation) {
   EXPECT_EQ(load_error("# c\nmapping {\n  scale: 7\n}\n"), ":3:3: mapping.scale = 7 is outside 0.05 to 1");
   EXPECT_EQ(load_error("mapping {\n\tscale: 0 }\n"), ":2:9: mapping.scale = 0 is outside 0.05 to 1");
   EXPECT_EQ(load_error("loop { priority: 99 }"), ":1:8: loop.priority = 99 is outside 0 to 98");
-  EXPECT_EQ(load_error<proto::SlaveConfig>("sensing {\n touch_n: 0\n}"),
-            ":2:2: sensing.touch_n = 0 is outside 0 (excluded) to 100");
+  EXPECT_EQ(load_error<proto::SlaveConfig>("sensing {\n touch_nm: 0\n}"),
+            ":2:2: sensing.touch_nm = 0 is outside 0 (excluded) to 100");
 }
 
 TEST(TextFile, RefusesNumbersThatAreNotFinite) {
@@ -89,8 +89,17 @@ TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
             "0.02 and 2");
   EXPECT_EQ(
       load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
-      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: the contact would be lost in a "
-      "hold");
+      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");
+}
+
+TEST(TextFile, ReckonsWithTheBoundOfADerivedTouchThreshold) {
+  EXPECT_EQ(load_error<proto::SlaveConfig>("sensing { touch_n: 0 }"), "no error");
+  EXPECT_EQ(load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 } sensing { touch_n: 0 }"),
+            ":1:11: command.hold_force_n = 0.3 is not above the derived touch threshold, 0.3: a hold would "
+            "lose the contact");
+  EXPECT_NE(
+      load_error<proto::SlaveConfig>("command { hold_force_n: 1 } sensing { touch_n: 0 force_noise_n: 0.5 }"),
+      "no error");
 }
 
 TEST(TextFile, ListsTheValuesOfAnEnum) {

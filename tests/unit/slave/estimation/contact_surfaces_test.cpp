@@ -187,7 +187,7 @@ TEST(Surfaces, FreeSpaceDisprovesASurfaceAndOnlyThat) {
   b.go(0.005 * kX);
   EXPECT_EQ(b.there(), 1);
   b.planes.clear();  // twice the threshold
-  const double proof_m = 2.0 * SensingConfig{}.touch_n / 1000.0;
+  const double proof_m = 2.0 * configured_touch_n({}) / 1000.0;
   b.go((0.01 + 0.8 * proof_m) * kX);
   EXPECT_EQ(b.there(), 1);
   b.go((0.01 + 1.3 * proof_m) * kX);

@@ -38,6 +38,30 @@ TEST(ContactDetector, WhatMayBeNoForceMakesNoContactButEndsNoneEither) {
     ASSERT_TRUE(detector.step(Vector3(-1.0, 0, 0), kDt, kUncertainty_n).in_contact);
 }
 
+TEST(ContactDetector, WhatMayBeTheBiasIsNoContactUntilItChanges) {
+  const Vector3 bias_n(6.0, 0, 0);
+  const auto step = [&](ContactDetector& detector, const Vector3& force_n) {
+    ContactReading reading;
+    for (int i = 0; i < 200; ++i) reading = detector.step(force_n, kDt, 0.0, bias_n);
+    return reading;
+  };
+  ContactDetector biased(SensingConfig{});
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(biased.step(bias_n, kDt, 0.0, bias_n).in_contact) << i;
+  EXPECT_TRUE(step(biased, bias_n - Vector3(0.4, 0, 0)).in_contact);
+  ContactDetector pressed(SensingConfig{});
+  (void)step(pressed, bias_n);
+  EXPECT_TRUE(step(pressed, 1.5 * bias_n).in_contact);
+  EXPECT_FALSE(step(pressed, Vector3::Zero()).in_contact) << "what pressed at the start is gone";
+}
+
+TEST(ContactDetector, AZeroMakesNoContact) {
+  const Vector3 bias_n(6.0, 0, 0);
+  ContactDetector detector(SensingConfig{});
+  for (int i = 0; i < 200; ++i) (void)detector.step(bias_n, kDt, 0.0, bias_n);
+  detector.subtract(bias_n);
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(detector.step(Vector3::Zero(), kDt).in_contact) << i;
+}
+
 TEST(ContactDetector, AGreatForceThatWasThereDoesNotHideWhatPressesNow) {
   ContactDetector detector(SensingConfig{});
   settle(detector, Vector3(60, -180, 40), 2000);
@@ -116,7 +140,7 @@ TEST(ContactDetector, ASpikeDoesNotDeafenIt) {
     for (int i = 0; i < 500; ++i) (void)detector.step(drawn(random, 0.05), kDt);
     (void)detector.step(Vector3(spike, 0, 0), kDt);
     for (int i = 0; i < 5; ++i) (void)detector.step(Vector3::Zero(), kDt);
-    EXPECT_LT(detector.step(Vector3::Zero(), kDt).touch_n, 2.0 * SensingConfig{}.touch_n) << spike;
+    EXPECT_LT(detector.step(Vector3::Zero(), kDt).touch_n, 2.0 * configured_touch_n({})) << spike;
   }
 }
 

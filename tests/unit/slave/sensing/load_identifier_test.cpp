@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/core/random.hpp"
+#include "slave/sensing/tool_load.hpp"
 
 namespace longreach {
 namespace {
@@ -112,6 +113,63 @@ TEST(LoadIdentifier, AWeightIsKnownAtRest) {
   carried.go(load, 5.0, 0.0);
   ASSERT_TRUE(load.known());
   EXPECT_NEAR(load.load().mass_kg, 5.0, 0.25);
+}
+
+// A weight of 49 N that hangs beside the sensor, turned about two of its axes. What is left when it is taken
+// out is what the environment would do.
+TEST(LoadIdentifier, AWeightThatIsTurnedIsFoundWithItsCentre) {
+  const ToolLoadConfig truth{5.0, {0.06, 0.02, -0.03}, Vector3::Constant(0.01)};
+  const Vector3 bias_n(0.4, -1.1, 0.7), gravity(0.0, 0.0, -9.81);
+  SensingConfig sensing;
+  LoadIdentifier load(sensing, kMost_kg);
+  Random random(11);
+  double left_n = 0.0, left_nm = 0.0;
+  for (const bool closed : {false, true}) {
+    load.grip(closed);
+    for (int i = 0; i < 20000; ++i) {
+      const double t = kDt * i, rate = 0.8, most = 0.6;
+      const Vector3 axis = std::sin(0.5 * rate * t) < 0.0 ? Vector3::UnitX() : Vector3::UnitY();
+      SensorMotion motion;
+      motion.gravity = exp_rotation(-most * std::sin(rate * t) * axis) * gravity;
+      motion.angular = most * rate * std::cos(rate * t) * axis;
+      motion.angular_acceleration = -most * rate * rate * std::sin(rate * t) * axis;
+      const Wrench carried = closed ? tool_wrench(truth, motion) : Wrench{};
+      Wrench read = carried;
+      for (int k = 0; k < 3; ++k) {
+        read.force[k] += bias_n[k] + 0.05 * random.normal();
+        read.moment[k] += 0.005 * random.normal();
+      }
+      load.step(read, motion, true, kDt);
+      if (!closed || i < 10000) continue;
+      const Wrench found = tool_wrench(load.load(), motion);
+      left_n = std::max(left_n, (found.force - carried.force).norm());
+      left_nm = std::max(left_nm, (found.moment - carried.moment).norm());
+    }
+  }
+  ASSERT_TRUE(load.known());
+  EXPECT_NEAR(load.load().mass_kg, 5.0, 3.0 * load.sd_kg());
+  EXPECT_NEAR(load.load().mass_kg, 5.0, 0.05);
+  EXPECT_LT((load.load().com_m - truth.com_m).norm(), 2e-3);
+  EXPECT_LT(left_n, 0.3);
+  EXPECT_LT(left_nm, 0.05);
+}
+
+// As much noise in an eighth of the samples is 2.8 times the deviation.
+TEST(LoadIdentifier, ReckonsWithTheTimeBetweenSamples) {
+  const auto sd_kg = [](double dt) {
+    SensingConfig sensing;
+    sensing.force_noise_n = 20.0;  // so that nothing else counts
+    sensing.moment_noise_nm = 2.0;
+    LoadIdentifier load(sensing, kMost_kg);
+    load.grip(true);
+    for (int i = 0; i * dt < 6.0; ++i) {
+      SensorMotion motion;
+      motion.acceleration.x() = 0.5 * std::sin(3.0 * i * dt);
+      load.step({Vector3::Zero(), -0.5 * motion.acceleration}, motion, true, dt);
+    }
+    return load.sd_kg();
+  };
+  EXPECT_NEAR(sd_kg(8e-3) / sd_kg(1e-3), std::sqrt(8.0), 0.5);
 }
 
 TEST(LoadIdentifier, ForgetsWhatItLetsGo) {

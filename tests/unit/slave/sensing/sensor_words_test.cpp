@@ -1,0 +1,44 @@
+#include "slave/sensing/sensor_words.hpp"
+
+#include <gtest/gtest.h>
+
+namespace longreach {
+namespace {
+
+SensorZero usual() {
+  return {.count = 1, .bias_n = 3.21, .touch_n = 0.25, .noise_n = 0.0112, .derived = true};
+}
+
+TEST(SensorWords, SayThresholdNoiseAndBiasOrWhatIsMissing) {
+  EXPECT_EQ(in_words(usual()), "touch above 0.25 N, noise 0.011 N, bias 3.2 N");
+  SensorZero zero = usual();
+  zero.noise_n = 0.0;
+  zero.missing_m = 0.0071;
+  EXPECT_EQ(in_words(zero),
+            "touch above 0.25 N, not zeroed: needs 8 mm of motion over 5 mm/s without contact");
+  EXPECT_EQ(in_words(SensorZero{}), "") << "as configured";
+}
+
+TEST(SensorWords, WarnOfWhatHidesOrInventsContacts) {
+  EXPECT_EQ(sensor_warning(usual()), "");
+  SensorZero zero = usual();
+  zero.drift_n = 0.4;
+  EXPECT_EQ(sensor_warning(zero),
+            "the force sensor may have drifted by 0.4 N since the last free motion and hide a light contact; "
+            "move 10 mm without contact");
+  zero.noisy = true;
+  zero.touch_n = 1.05;
+  EXPECT_EQ(
+      sensor_warning(zero),
+      "the force sensor is noisier than sensing.force_noise_n: contacts below 1.1 N are not found; shield "
+      "the sensor, or set sensing.force_noise_n to its noise");
+  zero.refused_n = 14.7;
+  EXPECT_EQ(sensor_warning(zero),
+            "a zero of 15 N is refused, it is too much of command.force_guard_n; press nothing, or configure "
+            "sensing.tool");
+  zero.derived = false;
+  EXPECT_EQ(sensor_warning(zero), "");
+}
+
+}  // namespace
+}  // namespace longreach
