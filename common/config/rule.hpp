@@ -1,5 +1,5 @@
 #pragma once
-// What the rules of consistency.cpp and robot_rules.cpp are written with.
+// Helpers for the rules in consistency.cpp and robot_rules.cpp.
 
 #include <optional>
 #include <string>

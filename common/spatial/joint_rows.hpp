@@ -1,7 +1,7 @@
 #pragma once
 // Rows of Denavit and Hartenberg for a chain of joint axes, whatever frames it was described in:
 //   X_WE = B A₁(q₁) ... Aₙ(qₙ) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
-// Between axes that are well apart in direction a row goes along the common normal, β = 0 (Denavit,
+// Between axes that are far from parallel a row follows the common normal, β = 0 (Denavit,
 // Hartenberg 1955). The common normal of parallel axes is anywhere, that of nearly parallel ones far away:
 // there the next frame is where the plane through this origin, normal to this axis, cuts the next axis;
 // d = 0, and β takes what α leaves of the direction (Hayati 1983). So no length of a row is much greater
@@ -16,7 +16,7 @@ namespace longreach {
 
 /// Axis of a joint, where all joints are at zero. In W.
 struct JointAxis {
-  Vector3 point_m = Vector3::Zero();     // of a joint that turns: on the axis
+  Vector3 point_m = Vector3::Zero();     // of a revolute joint: a point on the axis
   Vector3 direction = Vector3::UnitZ();  // unit
   bool slides = false;
 };
