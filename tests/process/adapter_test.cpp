@@ -300,7 +300,7 @@ Tried pushed(SensorFlaw flaw) {
   std::optional<int> status;
   while (!(status = check.wait(std::chrono::milliseconds(10)))) {
     const std::string said = check.output();
-    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("let go");
+    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("release it");
     const bool turns = turn != std::string::npos;
     const auto asked = turns ? turn : push;
     std::array<double, 3> force_n{}, moment_nm{};
