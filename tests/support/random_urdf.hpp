@@ -1,6 +1,6 @@
 #pragma once
-// URDF files drawn at random: six joints that move, of every kind, in rotated and offset frames, with fixed
-// joints between them, side branches, a joint that follows another one, and what else such files hold.
+// Random URDF files: six moving joints of every kind in rotated and offset frames, fixed joints between them,
+// a side branch, inertias, and an element for another program.
 
 #include <cmath>
 #include <string>
@@ -16,7 +16,7 @@ class RandomUrdf {
  public:
   explicit RandomUrdf(std::uint64_t seed) : random_(seed) {}
 
-  /// Base to tip: "base" to "tip". `right_angles`: of the frames, as people write them.
+  /// Returns the text; the arm is between "base" and "tip". `right_angles`: of the frames, as is common.
   std::string text(bool right_angles) {
     text_ =
         "<?xml version=\"1.0\"?>\n<robot name=\"drawn\">\n"
@@ -34,7 +34,7 @@ class RandomUrdf {
     }
     link("tip");
     joint("mount", "fixed", parent, "tip", right_angles);
-    // A finger beside, which follows another one.
+    // A side branch at the last moving link.
     link("finger");
     joint("finger_joint", "fixed", parent, "finger", right_angles);
     return text_ + "</robot>\n";
