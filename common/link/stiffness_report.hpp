@@ -15,6 +15,10 @@ namespace longreach {
 /// States of the safety state machine of either side.
 enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
 
+/// Stiffness of a report at most, N/m or N m/rad: beyond it the force changes without a motion, and a
+/// stiffness is not identifiable.
+inline constexpr double kStiffnessMaxNPerM = 1e12;
+
 /// A surface that the tool presses on or has pressed on: the tangent of its force law at the working depth.
 /// Lengths in m and forces in N, or rad and N m.
 struct ReportedSurface {
@@ -24,7 +28,6 @@ struct ReportedSurface {
   // Sequence number of the command whose goal is at the surface, may be fractional; refined while pressed. 0:
   // no longer stored because it is too old; the surface is then at `offset` along the normal from the
   // engagement's anchor.
-  // remembered, as it is older; it lies at `offset` along the normal from the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
   std::uint32_t touch = 0;  // number of the touch, from 1, in which it is or was last pressed; 0: no surface
@@ -36,11 +39,9 @@ inline constexpr std::size_t kSurfaces = 3;
 /// Contact in translation or in rotation.
 struct ContactReport {
   // All known surfaces; their normals differ by at least 26 degrees. Unused entries are last.
-  // there come last.
   std::array<ReportedSurface, kSurfaces> surfaces{};
   // Position of the tool where a limit holds it back, from the engagement's anchor, in W: a displacement (m)
   // or a rotation vector (rad).
-  // rotation vector (rad).
   Vector3 place = Vector3::Zero();
   // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: no limit is active.
   Vector3 held_back = Vector3::Zero();

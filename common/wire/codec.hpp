@@ -18,9 +18,8 @@
 namespace longreach {
 
 constexpr std::size_t kBodyMaxBytes = kDatagramMaxBytes - kOverheadBytes;
-constexpr double kGoalMaxM = 1e3;            // displacement from the anchor, each component
-constexpr double kGoalMaxRad = 1e2;          // rotation vector from the anchor, each component
-constexpr double kStiffnessMaxNPerM = 1e12;  // each entry, N/m or N m/rad
+constexpr double kGoalMaxM = 1e3;    // displacement from the anchor, each component
+constexpr double kGoalMaxRad = 1e2;  // rotation vector from the anchor, each component
 constexpr double kScaleMin = 0.05;
 constexpr double kScaleMax = 1.0;
 constexpr std::int64_t kInstantMaxNs = 4'000'000'000'000'000'000;  // 126 years: differences cannot overflow

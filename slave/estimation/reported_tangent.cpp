@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/link/stiffness_report.hpp"
+
 namespace longreach {
 namespace {
 
@@ -29,6 +31,7 @@ bool ReportedTangent::surely_wrong(const ContactAnswer& a) const {
 bool ReportedTangent::step(const ContactAnswer& a, const Vector3& normal, double asked_m, bool elsewhere) {
   if (!a.valid) return false;
   const double value = a.stiffness.value;
+  if (!(value > 0.0 && value <= kStiffnessMaxNPerM)) return false;
   const double sd = a.stiffness.sd / value;
   const bool farther =
       stiffness_n_per_m_ > 0.0 && std::abs(a.depth_m - asked_m) > std::abs(depth_m_ - asked_m);

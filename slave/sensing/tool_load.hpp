@@ -77,7 +77,6 @@ struct LoadSample {
   bool free = false;  // there is no contact
   // Motion of the sensor from displacements, because a reported speed may be an instantaneous value of a
   // servo that stops between two setpoints.
-  // comes to rest between two setpoints.
   Pose X_WF{};
   double touch_n = 0.3;  // threshold
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "common/config/number_text.hpp"
@@ -57,11 +58,13 @@ void run_seeds(const FaultOptions& o) {
   });
   line.clear();
   say_failures(tally);
+  std::set<std::uint64_t> failing;
+  for (const Failure& failure : tally.failures) failing.insert(failure.seed);
   if (!o.quiet)
     std::printf("%llu seeds from %llu, %.2f virtual hours, %.0f %% engaged: %zu failing seeds\n",
                 static_cast<unsigned long long>(tally.seeds), static_cast<unsigned long long>(*first),
                 tally.virtual_s / 3600.0, 100.0 * tally.engaged_s / std::max(1.0, tally.virtual_s),
-                tally.failures.size());
+                failing.size());
   if (!tally.failures.empty()) throw std::runtime_error(kViolated);
 }
 

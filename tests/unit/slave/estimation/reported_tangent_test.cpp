@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/link/stiffness_report.hpp"
+
 namespace longreach {
 namespace {
 
@@ -36,6 +38,20 @@ TEST(ReportedTangent, AppearsWhenKnownHoldsAndIsRenewedWhenItsSdHasHalved) {
   EXPECT_TRUE(step(1150, 0.004));  // 2.8 %
   reported.begin(false);
   EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
+}
+
+// A force that changes while the tool does not move gives such values; a report with one would be refused as a
+// whole, and the master would receive none.
+TEST(ReportedTangent, ReportsNoStiffnessBeyondTheRangeOfAReport) {
+  ReportedTangent reported(EstimatorConfig{});
+  ContactAnswer answer;
+  answer.valid = true;
+  answer.depth_m = 1e-14;
+  answer.stiffness = {2.8e15, 1e13};
+  EXPECT_FALSE(reported.step(answer, Vector3::UnitX(), 1e-14, false));
+  EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
+  answer.stiffness = {kStiffnessMaxNPerM, 1e9};
+  EXPECT_TRUE(reported.step(answer, Vector3::UnitX(), 1e-14, false));
 }
 
 TEST(ReportedTangent, KeepsTangentUnlessNoLawFitsBothSlopes) {
