@@ -46,8 +46,9 @@ TEST_F(Answers, RobotBeyondLimitIsNotEngagedAndErrorNamesJoint) {
   };
   carry(0.4, [&] { return robot.joint(2) > 1.003; });
   start_with(robot);
-  const std::string where = "at the slave: joint 3 of the robot is at 1.0",
-                    advice = "beyond its limit of 1; move it back with the robot's own controls, then engage";
+  const std::string
+      where = "at the slave: joint 3 of the robot is at 1.0",
+      advice = "beyond its limit of 1; move the joint back with the robot's own controls, then engage";
   const Said said = client({"engage"});
   EXPECT_EQ(said.status, 1) << said.text;
   EXPECT_TRUE(said.has("not engaged: " + where) && said.has(advice)) << said.text << outputs();

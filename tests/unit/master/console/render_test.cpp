@@ -287,7 +287,7 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   EXPECT_EQ(happening(s), "engaging, not yet granted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
-  EXPECT_TRUE(contains(happening(s), "the slave has not answered; check")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "the slave did not respond; check")) << happening(s);
   s.view.far_state = SafetyState::kIdle;
   EXPECT_TRUE(contains(happening(s), "the slave does not receive what this master sends")) << happening(s);
 }
