@@ -17,7 +17,7 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      "wait until the link has recovered, or start the slave with a larger safety.age_max_s; then engage",
      By::kOutage},
     {"peer restarted", "the other side has restarted", "engage", By::kSystem},
-    {"peer holds", "the other side holds", "check the other side, then engage", By::kSystem},
+    {"peer holds", "the other side is holding", "check the other side, then engage", By::kSystem},
     {"robot fault", "the robot reports a fault", "clear the fault or restart its adapter, then engage",
      By::kSystem},
     {"device fault", "the haptic device reports a fault",
@@ -64,7 +64,7 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      By::kSystem},
     {"sensor zeroing", "the force sensor is being zeroed",
      "keep the tool free of contact for sensing.zero_s, then engage", By::kSystem},
-    {"surface approaching", "a surface is moving towards the robot", "engage and retreat from it",
+    {"surface approaching", "a surface is moving towards the robot", "engage, then retreat from the surface",
      By::kSystem},
 }};
 
