@@ -112,17 +112,18 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
   const Twist mean{log_rotation(X_WF.q * before.q.conjugate()) / dt, (X_WF.p - before.p) / dt};
   const SensorMotion motion = load_motion_.step(X_WF.q, mean, config_.gravity_m_per_s2, 0.0, dt);
   load_.step(left, motion, sample.free, dt);
-  const auto follow = [&](SensorMotion& lag, double time_s) {
-    const double share = -std::expm1(-dt / time_s);
-    lag.gravity = motion.gravity;
-    lag.acceleration += share * (motion.acceleration - lag.acceleration);
-    lag.angular = motion.angular;
-    lag.angular_acceleration += share * (motion.angular_acceleration - lag.angular_acceleration);
+  const auto follow = [&](SensorMotion& lag, const SensorMotion& in, double time_s) {
+    const double share = time_s > 0.0 ? -std::expm1(-dt / time_s) : 1.0;
+    lag.gravity = in.gravity;
+    lag.acceleration += share * (in.acceleration - lag.acceleration);
+    lag.angular = in.angular;
+    lag.angular_acceleration += share * (in.angular_acceleration - lag.angular_acceleration);
   };
-  follow(slow_, kBond_s);
-  follow(quick_, kQuick_s);
-  const double turned = quick_.angular_acceleration.norm() + quick_.angular.squaredNorm();
-  push_.step((quick_.gravity - quick_.acceleration).norm() + kReach_m * turned, dt);
+  follow(slow_, motion, kBond_s);
+  follow(quick_, motion, kQuick_s);
+  follow(decided_, quick_, config_.filter_s);
+  const double turned = decided_.angular_acceleration.norm() + decided_.angular.squaredNorm();
+  push_.step((decided_.gravity - decided_.acceleration).norm() + kReach_m * turned, dt);
   turn_.step(turned, dt);
   const Wrench load = tool_wrench(load_.load(), slow_);
   return {left.moment - load.moment, left.force - load.force};

@@ -161,7 +161,8 @@ class ToolCompensation {
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;     // filtered acceleration of the tool's centre
-  SensorMotion slow_{}, quick_{};  // as a bond transmits it; the fastest possible
+  // As a bond transmits it; as the stiffest bond does; and that, filtered like the force that decides on a touch.
+  SensorMotion slow_{}, quick_{}, decided_{};
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
   double time_s_ = 0.0;

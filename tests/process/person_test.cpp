@@ -175,5 +175,24 @@ TEST_F(Person, ANewMasterFeelsWhatTheRobotPressesOn) {
   EXPECT_TRUE(detects_contact(0.3)) << outputs();  // it drives a light hand back from home
 }
 
+// Free motion zeroes a force sensor whose threshold is derived; status asks for it, and the log keeps it.
+TEST_F(Person, ZeroesTheForceSensorByMovingAndTheLogShowsTheZero) {
+  start({"--set", "scene.surface.wall.plane.point_m=1,0,0", "--set", "sensing.touch_n=0"}, "rate");
+  ASSERT_TRUE(eventually([this] {
+    const auto now = slave_.status();
+    return now && now->sensor().find("of motion over 5 mm/s without contact") != std::string::npos;
+  })) << outputs();
+  EXPECT_EQ(outputs().find("force sensor zero="), std::string::npos) << outputs();
+  const HeldKey held(terminal_.outer);
+  terminal_.type("WWWWWW");
+  ASSERT_TRUE(eventually([this] {
+    const auto now = slave_.status();
+    return now && now->sensor().find("bias") != std::string::npos;
+  })) << outputs();
+  EXPECT_TRUE(eventually([this] {
+    return outputs().find("force sensor zero=1 bias_n=") != std::string::npos;
+  })) << outputs();
+}
+
 }  // namespace
 }  // namespace longreach
