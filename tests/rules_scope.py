@@ -1,4 +1,4 @@
-"""Where a rule of tests/rules stands: a token, unique within a function, whatever the layout of the source."""
+"""Finds the place of a rule of tests/rules: a token that is unique in a function, regardless of the source layout."""
 
 import bisect
 import pathlib
@@ -16,12 +16,12 @@ NOT_NAMES = {"nodiscard", "noexcept", "requires", "decltype", "alignas", "explic
 
 
 def lexemes(text):
-    """(text, begin, end) of each."""
+    """(text, begin, end) of each lexeme."""
     return [(m.group(), m.start(), m.end()) for m in LEXEME.finditer(text)]
 
 
 def spans(text):
-    """(name, begin, end) of each function and of each variable with a value outside of functions."""
+    """(name, begin, end) of each function and of each initialised variable outside of functions."""
     code = source.code_only(text)
     starts = [0] + [m.end() for m in re.finditer("\n", text)]
     found, outside, at = [], [], 0
@@ -52,7 +52,7 @@ def statement_end(code, at):
 
 
 def places(text, function, token):
-    """(begin, end) of each place where the token stands in a function of this name. Comments do not count."""
+    """(begin, end) of each occurrence of the token in a function of this name. Comments are ignored."""
     needle = [l[0] for l in lexemes(token)]
     within = [(b, e) for name, b, e in spans(text) if name == function]
     words = lexemes(re.sub(r"//[^\n]*", lambda m: source.blank(m.group()), text))

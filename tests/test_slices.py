@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tests/slices, on a build of a few tests that say when they ran: killed it goes on, and a slice that failed is tried again."""
+"""Checks that tests/slices resumes after being killed and runs a failed slice again, with tests that record their runs."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ SLICES = pathlib.Path(__file__).resolve().parent / "slices"
 
 
 def build_of(folder, script):
-    """A build with 42 quick tests and two studies, each of which runs `script NAME`."""
+    """A build with 42 quick tests and two studies. Each test runs `script NAME`."""
     names = [f"quick_{i}" for i in range(42)] + ["study_a", "study_b"]
     lines = [f'add_test({name} "/bin/sh" "{script}" "{name}")' for name in names]
     lines += [f"set_tests_properties({name} PROPERTIES LABELS study)" for name in names[-2:]]
@@ -34,22 +34,22 @@ def main():
                                  start_new_session=True)
         while not ran.exists() or "study_b" not in ran.read_text():
             time.sleep(0.05)
-        assert os.getpgid(first.pid) == first.pid, "a group of its own"
+        assert os.getpgid(first.pid) == first.pid, "tests/slices has no process group of its own"
         os.killpg(first.pid, signal.SIGKILL)
         first.wait()
         assert ran.read_text().split() == ["study_a", "study_b"], ran.read_text()
         wait.unlink()
         assert subprocess.run(command, capture_output=True, check=False).returncode == 1
         names = ran.read_text().split()
-        assert names.count("study_a") == 1 and names.count("study_b") == 2, "a slice that had passed was run again"
+        assert names.count("study_a") == 1 and names.count("study_b") == 2, "a passed slice was run again"
         assert names.count("quick_0") == 1 and names.count("quick_41") == 1, names
         (folder / "broken").unlink()
         assert subprocess.run(command, capture_output=True, check=False).returncode == 0
         names = ran.read_text().split()
         assert names.count("quick_0") == 1 and names.count("quick_41") == 2, names
         assert subprocess.run(command, capture_output=True, check=False).returncode == 0
-        assert ran.read_text().split() == names, "all had passed"
-    print("slices go on")
+        assert ran.read_text().split() == names, "passed slices were run again"
+    print("tests/slices resumes")
 
 
 if __name__ == "__main__":

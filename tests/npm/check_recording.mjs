@@ -1,7 +1,7 @@
-// Reads a recording with the library of its format's authors, decodes every message by the schemas in the file, and
-// prints what was found as one JSON object. Exit status 1 when anything is wrong.
-//   node check_recording.mjs indexed FILE   by its summary and indexes, all CRCs checked
-//   node check_recording.mjs stream FILE    from the start, as far as it goes: a file that was cut
+// Reads a recording with the MCAP reference library, decodes every message with the schemas in the file, and prints a
+// summary as one JSON object. Exit status 1 if an error is found.
+//   node check_recording.mjs indexed FILE   reads by summary and indexes, and checks all CRCs
+//   node check_recording.mjs stream FILE    reads from the start as far as possible, for truncated files
 import { open, readFile } from 'node:fs/promises';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import protobuf from 'protobufjs';

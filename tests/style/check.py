@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks what the compiler does not: layers, purity of the stages, names, one definition, sizes, layout and form.
+"""Checks rules that the compiler does not check: layers, purity of the stages, names, single definitions, sizes and layout.
 
 Usage: check.py [ROOT]. Prints PATH:LINE: MESSAGE for each finding; exit status 1 if one of them is an error.
 """
@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import sys
 
-sys.dont_write_bytecode = True   # the source tree stays as it is
+sys.dont_write_bytecode = True   # do not write into the source tree
 import layers  # noqa: E402
 import source  # noqa: E402
 import words  # noqa: E402
@@ -19,7 +19,7 @@ import words  # noqa: E402
 TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
 TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CONTRIBUTING.md', 'LICENSE', 'NOTICE',
              '.clang-format', '.clang-tidy', '.gitignore', '.gitattributes'}
-IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # what builds, runs and fuzzers leave behind
+IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # written by builds, runs and fuzzers
 GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build
 CPP = ('.hpp', '.cpp')
 FUNCTION_LINES, FILE_LINES, FILE_LINES_WISHED = 60, 400, 300
@@ -33,7 +33,7 @@ TYPE = re.compile(r'\b(?:class|struct|union|enum(?:\s+class|\s+struct)?|concept|
                   r'|\busing\s+([A-Za-z_]\w*)\s*=|\btypedef\b[^;]*?\b(\w+)\s*;')
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
-# Stages and nodes compute; clocks, threads, output and luck belong to the layers above.
+# Stages and nodes only compute. Clocks, threads, output and random numbers belong to higher layers.
 IMPURE_HEADERS = re.compile(r'(?:thread|mutex|shared_mutex|atomic|condition_variable|future|stop_token|semaphore|latch|'
                             r'barrier|iostream|fstream|sstream|cstdio|stdio\.h|random|ctime|time\.h|filesystem|'
                             r'spdlog/.*|fmt/.*|google/protobuf/.*|grpc.*|asio.*|.*\.pb\.h)$')
@@ -45,9 +45,9 @@ IMPURE_CODE = [
     (re.compile(r'\bs?rand\s*\(|\bstd::(?:mt19937\w*|random_device|default_random_engine)\b'),
      'draws numbers outside of common/core/random'),
 ]
-ALLOWED_IMPURE = {'common/core/check.hpp'}   # prints once, then ends the program
+ALLOWED_IMPURE = {'common/core/check.hpp'}   # prints only before it ends the program
 
-# Written so that this file does not contain them.
+# Split, so that this file does not match its own patterns.
 UNFINISHED = re.compile(r'\b(?:TO' r'DO|FIX' r'ME|X' r'XX)\b')
 SWITCHED_OFF = re.compile(r'\bGTEST_' r'SKIP\b|\bDIS' r'ABLED_')
 MACHINE_PATH = re.compile(r'(?<![\w.}/-])/(?:home|root|work|Users|mnt|tmp)' r'/')
@@ -66,7 +66,7 @@ class Findings:
 
 
 def tree(root):
-    """Paths of all files below the root, sorted, with '/'."""
+    """Sorted paths of all files below the root, separated by '/'."""
     paths = []
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(name for name in folders if name not in IGNORED)
@@ -76,7 +76,7 @@ def tree(root):
 
 
 def read(root, path):
-    """The text of a file; none if it is not text."""
+    """The text of a file; None if it is not a text file."""
     with open(os.path.join(root, path), 'rb') as file:
         content = file.read()
     try:
@@ -119,7 +119,7 @@ def check_name(path, found):
 
 
 def check_folders(paths, found):
-    """Products only: a folder that nobody can look through has an idea without a name."""
+    """Limits the number of files per folder of the product, because a large folder needs subfolders."""
     count = {}
     for path in paths:
         if path.split('/')[0] in PRODUCT:
@@ -131,7 +131,7 @@ def check_folders(paths, found):
 
 
 def check_definitions(codes, found):
-    """`codes`: path -> code without comments. A type of the namespace is defined once: the linker sees no second one."""
+    """`codes`: path -> code without comments. A type must be defined once, because the linker detects no second definition."""
     first = {}
     for path in sorted(codes):
         for scope, name, line in source.types(codes[path]):
@@ -141,7 +141,7 @@ def check_definitions(codes, found):
 
 
 def check_paths(path, text, paths, found):
-    """A document that says where something is: each path in it is a file, a header and its source, or a folder."""
+    """Each path in a document must be a file, a pair of header and source, or a folder."""
     known = set(paths)
     for name in paths:
         known.add(name.rsplit('.', 1)[0])
@@ -151,7 +151,7 @@ def check_paths(path, text, paths, found):
     for number, line in enumerate(text.split('\n'), 1):
         for name in re.findall(r'`([\w./-]+/[\w./-]+)`', line):
             if name.split('/')[0] in TOP_FOLDERS and name.rstrip('/') not in known:
-                found.error(path, number, f'{name} is not there')
+                found.error(path, number, f'{name} does not exist')
 
 
 def check_lines(path, text, found):
@@ -232,7 +232,7 @@ def check_python(path, text, found):
 
 
 def formatter():
-    """The clang-format of Debian 12, if it is there; other versions format differently."""
+    """The clang-format of Debian 12 if it is installed; other versions format differently."""
     for tool in ('clang-format-14', 'clang-format'):
         if shutil.which(tool):
             version = subprocess.run([tool, '--version'], capture_output=True, text=True, check=False).stdout
@@ -267,7 +267,7 @@ def check(root, form=True):
         text = read(root, path)
         if text is None:
             continue
-        if path != 'CHANGELOG.md':   # it names what was renamed
+        if path != 'CHANGELOG.md':   # it contains former names
             texts[path] = text
         check_lines(path, text, found)
         if path in PLACES:

@@ -1,8 +1,8 @@
-"""The layers: which folder may include which. A file includes its own folder and folders of lower layers only.
+"""The layers, which define the folders that a file may include: its own folder and the folders of lower layers.
 
-A folder of the table stands for what lies in it, subfolders included unless they have a row of their own. Folders of one
-layer do not see each other. Within a side the stages are in the order of the flow: a stage sees those whose output it takes
-and none of those that it feeds.
+A folder of the table includes its subfolders, unless they are in the table themselves. Folders of the same layer may not
+include each other. The stages of a side are in the order of the data flow: a stage may include those whose output it uses,
+but not those that use its output.
 """
 
 import posixpath
@@ -13,7 +13,7 @@ LAYERS = [
     ['common/safety', 'common/crypto'],
     ['slave/robot'],
     ['master/config', 'slave/config'],
-    # Stages, and the node that strings them together.
+    # Stages, and the node that connects them.
     ['master/devices/drive', 'slave/scene', 'slave/kinematics', 'slave/comparison', 'master/safety', 'slave/safety'],
     ['master/devices/delta', 'master/devices/spherical', 'slave/sensing'],
     ['master/devices', 'slave/command', 'slave/simulation'],
@@ -35,15 +35,15 @@ LAYERS = [
     ['tests'],
 ]
 LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in folders}
-PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clock, thread, output, luck
-BOTH_SIDES = {'deploy/lab', 'tests'}             # see master and slave
-SHARED = {'master/config', 'slave/config'}       # what common/config sees of the sides
-DESCRIBED = {'slave/config', 'slave/kinematics'}  # what the client sees of the slave: robots that it describes
+PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clocks, threads, output or random numbers
+BOTH_SIDES = {'deploy/lab', 'tests'}             # may include master and slave
+SHARED = {'master/config', 'slave/config'}       # folders of the sides that common/config may include
+DESCRIBED = {'slave/config', 'slave/kinematics'}  # folders of the slave that the client may include, to describe robots
 ADAPTER = 'common/link/adapter_datagram.hpp'
 
 
 def room(path):
-    """The folder of the table in which a file or an included path lies; none where the table has none."""
+    """The folder of the table that contains a file or an included path; None if there is none."""
     folder = posixpath.dirname(path)
     while folder and folder not in LAYER:
         folder = posixpath.dirname(folder)
@@ -51,7 +51,7 @@ def room(path):
 
 
 def layer(path):
-    """None where the table has no folder for it."""
+    """The layer of a path; None if the table has no folder for it."""
     return LAYER.get(room(path))
 
 
@@ -65,7 +65,7 @@ def side(path):
 
 
 def refused(path, included):
-    """Why `path` may not include `included`; none if it may."""
+    """Why `path` may not include `included`; None if it may."""
     if included == 'commit.hpp':   # written by the build
         return None
     if path.startswith('deploy/adapters/') and included != ADAPTER:

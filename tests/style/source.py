@@ -1,4 +1,4 @@
-"""C++ text for the style check: code without comments and strings, and where its functions begin and end."""
+"""Analysis of C++ text for the style check: code without comments and strings, and the extent of its functions."""
 
 import bisect
 import re
@@ -10,21 +10,21 @@ TOKEN = re.compile(
     r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'",           # characters, not digit separators
     re.DOTALL)
 SCOPE = re.compile(r'(?:inline\s+)?(?:namespace|class|struct|union|enum|extern)\b')
-INITIALIZER = re.compile(r'\)[^;]*:[^:]')              # a constructor's list has begun
+INITIALIZER = re.compile(r'\)[^;]*:[^:]')              # in the initialiser list of a constructor
 
 
 def blank(text):
-    """Spaces of the same shape."""
+    """Replaces all characters except line ends by spaces."""
     return re.sub(r'[^\n]', ' ', text)
 
 
 def code_only(text):
-    """The text with comments, strings and characters blanked; lines stay where they are."""
+    """The text with comments, strings and characters replaced by spaces. Line numbers do not change."""
     return TOKEN.sub(lambda match: blank(match.group()), text)
 
 
 def closing(code, at):
-    """Index of the brace that closes the one at `at`; the end of the text if none does."""
+    """Index of the brace that closes the one at `at`; the end of the text if there is none."""
     depth = 0
     for brace in re.compile(r'[{}]').finditer(code, at):
         depth += 1 if brace.group() == '{' else -1
@@ -34,7 +34,7 @@ def closing(code, at):
 
 
 def without_template(head):
-    """The head of a declaration after its template parameters."""
+    """The declaration without its template parameters."""
     match = re.match(r'\s*template\s*<', head)
     if not match:
         return head.lstrip()
@@ -47,7 +47,7 @@ def without_template(head):
 
 
 def functions(text):
-    """(first line, last line) of every function, counted from 1. What is nested in one belongs to it."""
+    """(first line, last line) of every function, counted from 1. Nested functions belong to the outer one."""
     code = code_only(text)
     code = re.sub(r'^[ \t]*#(?:\\\n|[^\n])*', lambda match: blank(match.group()), code, flags=re.MULTILINE)
     breaks = [match.start() for match in re.finditer('\n', code)]
@@ -67,7 +67,7 @@ def functions(text):
             continue
         end = closing(code, match.start())
         at = end + 1
-        # `member_{value}` in a constructor's list is not the body yet.
+        # `member_{value}` in an initialiser list is not the body.
         if re.search(r'[\w>]$', head) and INITIALIZER.search(head):
             continue
         if '(' in head:
@@ -81,7 +81,7 @@ NAMESPACE_HEAD = re.compile(r'namespace(?:\s+([\w:]+))?\s*$')
 
 
 def types(code):
-    """(namespace, name, line) of each type that is defined in a named namespace, in code without comments and strings."""
+    """(namespace, name, line) of each type defined in a named namespace. `code` has no comments and strings."""
     found, scopes, since = [], [], 0
     for brace in re.compile(r'[{};]').finditer(code):
         at = brace.start()
@@ -100,5 +100,5 @@ def types(code):
         kind = TYPE_HEAD.search(head)
         if kind and all(scopes):
             found.append(('::'.join(scopes), kind.group(1), code.count('\n', 0, at) + 1))
-        scopes.append(None)   # what is inside belongs to it
+        scopes.append(None)   # nested types are not listed
     return found

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The style check must find what it looks for: each test plants one violation in a sound tree and sees it found."""
+"""Tests of the style check. Each test adds one violation to a correct tree and checks that it is reported."""
 
 import os
 import sys
@@ -131,7 +131,7 @@ class Planted(unittest.TestCase):
         for place in ('common/core/a.hpp', 'common/core/a', 'common/core', 'proto/config.proto', 'build/x', 'a/b'):
             self.sound('ARCHITECTURE.md', f'see `{place}`\n')
         for place in ('common/core/b', 'common/link/a.hpp', 'slave/gone'):
-            self.found('ARCHITECTURE.md', f'see\n`{place}`\n', 'is not there')
+            self.found('ARCHITECTURE.md', f'see\n`{place}`\n', 'does not exist')
 
     def test_folders_stay_small(self):
         many = {f'master/devices/m{i}.cpp': '' for i in range(40)}

@@ -1,6 +1,6 @@
-"""Banned words and phrases, and the length of the names of tests.
+"""Checks banned words and phrases, and the length of test names.
 
-Usage: words.py ROOT writes the present numbers into the list, after a merge of branches that each lowered them.
+Usage: words.py ROOT writes the current counts into the list, after a merge of branches that lowered them.
 """
 
 import pathlib
@@ -15,7 +15,7 @@ EXEMPT = ('tests/style/', 'tests/fuzz/corpus/')
 
 
 def parse(text):
-    """(word, allowed, replacement) of each line `word | allowed | replacement`; `#` begins a comment."""
+    """(word, allowed, replacement) of each line `word | allowed | replacement`; `#` starts a comment."""
     rows = []
     for line in text.split('\n'):
         if line and not line.startswith('#'):
@@ -25,12 +25,12 @@ def parse(text):
 
 
 def pattern_of(word):
-    """A phrase may go over lines, also those of a comment."""
+    """Pattern of a phrase, which may span several lines, even of a comment."""
     return re.compile(r'(?<!\w)' + r'\s+(?://+\s*)?'.join(map(re.escape, word.split())) + r'(?!\w)')
 
 
 def check_words(rows, texts, found):
-    """`texts`: path -> text. A word may occur at most as often as its row allows, in all files together."""
+    """`texts`: path -> text. In all files together, a word may occur at most as often as its row allows."""
     texts = {path: text for path, text in texts.items() if not path.startswith(EXEMPT)}
     for word, allowed, instead in rows:
         pattern = pattern_of(word)

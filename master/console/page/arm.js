@@ -1,4 +1,4 @@
-// The arm as the slave last reported it, and the ghost of its tool where the operator's commands put it now.
+// The arm as last reported by the slave, and the ghost, a copy of its tool at the operator's current goal.
 
 import { CylinderBufferGeometry, Group, Matrix4, Mesh, MeshStandardMaterial, Quaternion, SphereBufferGeometry,
   TorusBufferGeometry, Vector3 } from 'three';
@@ -7,9 +7,9 @@ import { at_limit, frames } from './kinematics.js';
 
 const UP = new Vector3(0, 1, 0);
 const QUILL_M = 0.12;
-const TIP_M = 0.3;     // of the last link, that the ghost repeats
+const TIP_M = 0.3;     // part of the last link that the ghost shows
 
-/** A tapered cylinder along y, from its first end. */
+/** A tapered cylinder along y that starts at the origin. */
 function cone(length, from, to, material) {
   const geometry = new CylinderBufferGeometry(to, from, length, 24, 1);
   geometry.translate(0, length / 2, 0);
@@ -36,7 +36,7 @@ export class Arm {
     const start = frames(robot, robot.joint.map((joint) => joint.start_rad));
     const places = start.map(origin);
     const reach = places.slice(1).reduce((sum, p, i) => sum + p.distanceTo(places[i]), 0);
-    // Three slides that start at their zero have no length: a quill from above stands for them.
+    // Three prismatic joints that start at zero have no length. A quill from above represents them.
     this.quill = reach < 0.05;
     this.radius = Math.max(0.011 * reach, 0.006);
     this.tip_radius_m = tip_radius_m;
@@ -68,7 +68,7 @@ export class Arm {
     this.links.push({ mesh: link, row: i, last });
   }
 
-  /** Nothing but the tool's tip behind this row. */
+  /** Returns true if only the tip of the tool follows this row. */
   rest_is_short(i, places) {
     return places.slice(i).every((p) => p.distanceTo(places.at(-1)) < 1e-6);
   }
@@ -77,7 +77,7 @@ export class Arm {
 
   tip_base() { return Math.min(0.2 * this.radius, 0.022); }
 
-  /** A slender tip along the last link's way, its end in the origin. */
+  /** A slender tip along the direction of the last link, which ends in the origin. */
   make_tip(material) {
     const tip = new Group();
     const length = this.tip_length();
@@ -87,12 +87,12 @@ export class Arm {
     return tip;
   }
 
-  /** Joint values as measured. */
+  /** Sets the measured joint positions. */
   set(q) {
     const now = frames(this.robot, q);
     const places = now.map(origin);
     for (const { mesh, row, last } of this.links) {
-      // The last link leaves room for its tip.
+      // The last link is shorter by the length of its tip.
       const length = places[row].distanceTo(places[row - 1]) - (last ? this.tip_length() : 0);
       mesh.visible = length > 1e-6;
       if (!mesh.visible) continue;
@@ -115,7 +115,7 @@ export class Arm {
     this.tip.quaternion.setFromUnitVectors(UP, this.approach);
   }
 
-  /** Where the commands put the tool; none: nowhere. */
+  /** Sets the goal of the tool; null hides the ghost. */
   set_ghost(pose) {
     this.ghost.visible = Boolean(pose);
     if (!pose) return;
@@ -124,7 +124,7 @@ export class Arm {
   }
 }
 
-/** A ring that faces the tool's way: where the robot was told to be, as last heard. */
+/** A ring perpendicular to the approach direction of the tool: the last reported goal of the robot. */
 export function ring(radius, color) {
   return new Mesh(new TorusBufferGeometry(radius, 0.06 * radius, 10, 40),
     new MeshStandardMaterial({ color, roughness: 1, metalness: 0 }));

@@ -1,12 +1,12 @@
-// A force as an arrow: it points where the force points, its tail where it acts. Seen through everything, since it mostly
-// lies within the tool.
+// An arrow in the direction of a force that starts at its point of application. It is drawn in front of all other
+// objects, because it is mostly inside the tool.
 
 import { ConeBufferGeometry, CylinderBufferGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from 'three';
 
 const M_PER_N = 0.02;
 const LEAST_M = 0.035;
 const MOST_M = 0.3;
-const SHOWN_N = 0.15;     // the sensor's noise stays below
+const SHOWN_N = 0.15;     // forces below this value may be noise
 const UP = new Vector3(0, 1, 0);
 
 export class Arrow {
@@ -20,13 +20,13 @@ export class Arrow {
     this.group.visible = false;
   }
 
-  /** `old`: of what is no longer so, perhaps. */
+  /** `old`: the force may be outdated. */
   show(at, force_n, old = false) {
     const n = force_n.length();
     this.group.visible = n > SHOWN_N;
     if (!this.group.visible) return;
     const length = Math.min(LEAST_M + M_PER_N * n, MOST_M);
-    this.shaft.material.opacity = old ? 0.25 : 0.95;     // one material for both
+    this.shaft.material.opacity = old ? 0.25 : 0.95;     // shaft and head share one material
     this.group.position.copy(at);
     this.group.quaternion.setFromUnitVectors(UP, force_n.clone().divideScalar(n));
     this.shaft.scale.y = length - 0.02;

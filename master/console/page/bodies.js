@@ -1,6 +1,6 @@
-// The bodies of a scene's MJCF: boxes, spheres, capsules and cylinders with their places; meshes are left out. The slave does
-// not report where free bodies float: one is drawn where it started or was let go of, as a shade, and goes with the tool
-// while the gripper holds it.
+// The bodies in the MJCF of a scene: boxes, spheres, capsules and cylinders with their poses; meshes are omitted. The
+// slave does not report the poses of free bodies. A free body is therefore drawn translucently at its start pose or
+// where it was released, and moves with the tool while the gripper holds it.
 
 import { BoxBufferGeometry, CylinderBufferGeometry, Euler, Group, LatheBufferGeometry, Mesh, MeshStandardMaterial, Path,
   Quaternion, SphereBufferGeometry, Vector3 } from 'three';
@@ -10,7 +10,7 @@ const Z = new Vector3(0, 0, 1);
 
 const numbers = (element, name) => element.getAttribute(name)?.trim().split(/\s+/).map(Number) ?? null;
 
-/** Orientation of a body or geom; `to_rad`: of the file's angles. */
+/** Orientation of a body or geom; `to_rad` converts the angles of the file. */
 function orientation(element, to_rad) {
   const quaternion = numbers(element, 'quat');
   if (quaternion) return new Quaternion(quaternion[1], quaternion[2], quaternion[3], quaternion[0]).normalize();
@@ -22,10 +22,10 @@ function orientation(element, to_rad) {
   return axis ? new Quaternion().setFromUnitVectors(Z, new Vector3(...axis).normalize()) : new Quaternion();
 }
 
-/** Capsules and cylinders stand along y here and along z in the file. */
+/** Capsules and cylinders are along y in three.js and along z in the file. */
 const upright = new Quaternion().setFromUnitVectors(UP, Z);
 
-/** Along y, `length` between the centres of its half spheres. */
+/** A capsule along y with the distance `length` between the centres of its hemispheres. */
 function capsule(radius, length) {
   const outline = new Path().absarc(0, -length / 2, radius, -Math.PI / 2, 0).absarc(0, length / 2, radius, 0, Math.PI / 2);
   return new LatheBufferGeometry(outline.getPoints(8), 24);
@@ -80,7 +80,7 @@ function body(element, colors, to_rad) {
 const child_named = (element, tag) => [...element.querySelectorAll(tag)].map((site) => site.getAttribute('name'));
 
 export class Bodies {
-  /** `start`: where the tool starts, W; the file's origin. */
+  /** `start`: start position of the tool, W, which is the origin of the file. */
   constructor(scene, start, colors) {
     this.group = new Group();
     this.bodies = [];
@@ -94,10 +94,10 @@ export class Bodies {
     this.fixture = scene.bodies.gripper?.fixture;
   }
 
-  /** How far they reach from where the tool starts, m. */
+  /** Maximum distance of a body from the start position of the tool, m. */
   radius() { return Math.max(0, ...this.bodies.map((one) => one.group.position.length())); }
 
-  /** The tool's pose, and whether its gripper holds something. */
+  /** Updates the bodies for a pose of the tool; `holds`: the gripper holds a body. */
   follow(tool_m, tool_q, holds) {
     if (this.bodies.length === 0) return;
     this.start_q ??= tool_q.clone();

@@ -1,13 +1,13 @@
-// The WebSocket to the view server: what it tells goes to `talk`, what the page asks for comes by send(). Connects again by
-// itself.
+// The WebSocket to the view server. It passes received messages to `talk`, and send() sends requests of the page. It
+// reconnects automatically.
 
 const RETRY_MS = 1000;
-const SILENT = 'the view server does not answer; retrying every second';
-const ANOTHER = 'the view server was restarted: open the address that it printed';
+const SILENT = 'the view server does not respond; retrying every second';
+const ANOTHER = 'the view server was restarted; open the address that it printed';
 
 export class Feed {
-  /** `talk`: functions by the name of what is told: frame, scene, anchor, desk, said, links, down, slave_down, full, and
-   * lost, when the server does not answer. */
+  /** `talk`: functions by the name of the message: frame, scene, anchor, desk, said, links, down, slave_down, full; and
+   * `lost`, which is called when the server does not respond. */
   constructor(talk) {
     this.talk = talk;
     this.frames = 0;
@@ -30,7 +30,7 @@ export class Feed {
     };
   }
 
-  /** A server that was started anew has another token: asking it again is no use. */
+  /** A restarted server has a different token, so further attempts are useless. */
   async ask_why() {
     try {
       this.stranger = (await fetch(location.href, { method: 'GET', cache: 'no-store' })).status === 403;
@@ -57,7 +57,7 @@ export class Feed {
     if (this.times_ms.length > 120) this.times_ms.shift();
   }
 
-  /** Frames a second, over the last two. */
+  /** Frames per second, averaged over the last two seconds. */
   rate_hz() {
     const n = this.times_ms.length;
     return n > 1 ? (1e3 * (n - 1)) / (this.times_ms[n - 1] - this.times_ms[0]) : 0;

@@ -1,5 +1,5 @@
-// The page's hand: where it wants the handle to be, from pointer, wheel, touch and keys. Nothing is sent from here; the newest
-// aim is `aim_m`. Keys are those of the terminal's keyboard.
+// The hand of the page: the target of the handle, from pointer, wheel, touch and keys. This module sends nothing;
+// `aim_m` is the current target. The keys are the same as in the terminal.
 
 export const STEP_M = 0.001;
 export const LARGE_STEP_M = 0.005;
@@ -14,7 +14,7 @@ const ACTIONS = { ' ': 'home', m: 'mode', '+': 'scale_up', '=': 'scale_up', '-':
   g: 'grip', e: 'engage', x: 'stop', t: 'take' };
 
 export class Hand {
-  /** `act(name)`: what a key asks for that is no motion. */
+  /** `act(name)` handles keys that do not move the handle. */
   constructor(act) {
     this.act = act;
     this.held = false;
@@ -23,7 +23,7 @@ export class Hand {
     this.workspace_m = 0.075;
     this.clutch = false;
     this.grip = false;
-    this.rate = false;     // rate mode: the handle goes home when the pointer lets it go
+    this.rate = false;     // rate mode: the handle returns home when the pointer releases it
     this.dragging = false;
   }
 
@@ -57,7 +57,7 @@ export class Hand {
     if (norm > this.workspace_m) this.aim_m = this.aim_m.map((x) => (x * this.workspace_m) / norm);
   }
 
-  /** True when the key is one of ours. */
+  /** Returns true if the page uses this key. */
   key(event) {
     if (event.ctrlKey || event.altKey || event.metaKey) return false;
     const name = event.key.toLowerCase();
@@ -72,10 +72,10 @@ export class Hand {
     return true;
   }
 
-  /** Dragging on `canvas` moves along the axes: `across` and `up` are functions of pixels. */
+  /** Dragging on `canvas` moves the handle: `axes.across` and `axes.up` are the axes of horizontal and vertical motion. */
   follow(canvas, radius_px, axes) {
     let last = null;
-    let turns = false;     // the right button turns the handle instead
+    let turns = false;     // the right button rotates the handle
     canvas.addEventListener('pointerdown', (event) => {
       if (!this.held) return this.act('untaken');
       canvas.setPointerCapture(event.pointerId);

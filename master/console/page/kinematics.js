@@ -1,10 +1,10 @@
-// Where the links of an arm are: Denavit-Hartenberg rows as in proto/config.proto, message Robot.
+// Forward kinematics of an arm with Denavit-Hartenberg rows as in proto/config.proto, message Robot.
 
 import { Matrix4, Quaternion, Vector3 } from 'three';
 
 export const vector = (numbers) => new Vector3(...(numbers?.length === 3 ? numbers : [0, 0, 0]));
 
-/** Rotation vector, rad. */
+/** Quaternion of a rotation vector, rad. */
 export function rotation(numbers) {
   const v = vector(numbers);
   const angle = v.length();
@@ -27,7 +27,7 @@ function row(joint, q, modified) {
   return modified ? about_x.multiply(about_z) : about_z.multiply(about_x);
 }
 
-/** Frames of the base, behind each row, and of the tool. */
+/** Frames of the base, after each row, and of the tool. */
 export function frames(robot, q) {
   const all = [placed(robot.base)];
   robot.joint.forEach((joint, i) => {
@@ -37,10 +37,10 @@ export function frames(robot, q) {
   return all;
 }
 
-/** Pose of the tool where the robot starts. */
+/** Pose of the tool at the start position of the robot. */
 export const start_frame = (robot) => frames(robot, robot.joint.map((joint) => joint.start_rad)).at(-1);
 
-/** Joints that stand at the end of their range, by index. */
+/** Indices of the joints that are at the end of their range. */
 export function at_limit(robot, q) {
   return robot.joint.flatMap((joint, i) => {
     const margin = 0.004 * (joint.max_rad - joint.min_rad);

@@ -1,4 +1,4 @@
-// The page of `longreach view`: puts feed, picture, plots, panel and hand together.
+// The page of `longreach view`: connects feed, picture, plots, panel and hand.
 
 import { Vector3 } from 'three';
 
@@ -10,9 +10,9 @@ import { Panel } from './panel.js';
 import { Picture } from './picture.js';
 import { Plots } from './plots.js';
 
-const AIM_MS = 25;     // the master lets a hand go that is silent for 300 ms
+const AIM_MS = 25;     // the master releases the handle if no aim arrives for 300 ms
 const SCALE_STEP = 0.05;
-const SILENT_S = 0.5;    // then what is shown of the robot is old
+const SILENT_S = 0.5;    // after this time the displayed state of the robot is outdated
 const COLORS = ['ground', 'card', 'line', 'text', 'quiet', 'operator', 'robot', 'contact', 'good', 'warn', 'third'];
 
 function colors() {
@@ -25,18 +25,18 @@ function colors() {
 
 const at = (id) => document.getElementById(id);
 let frame = null;
-let anchor = null;     // of the present engagement
-let away = null;       // why there are no frames: state and sentence
+let anchor = null;     // of the current engagement
+let away = null;       // if there are no frames: state and reason
 let dirty = true;
 let page_colors = colors();
 
-let picture = null;    // until the rest of the page is there
-let lasting = null;    // robot and scene, as last told
+let picture = null;    // created after the rest of the page is loaded
+let lasting = null;    // robot and scene as last received
 const plots = new Plots(at('plots'), page_colors);
 const hand = new Hand((name) => ask(name));
 const panel = new Panel((name, value) => ask(name, value));
 
-/** Where the commands put the tool now. */
+/** Current goal of the tool. */
 function ghost() {
   if (!anchor || anchor.engagement !== frame.engagement) return null;
   if (frame.state !== 'Engaged' && frame.state !== 'Holding') return null;
@@ -55,7 +55,7 @@ function show_lag(pose) {
   at('lag').textContent = text;
 }
 
-/** How long ago that was which is shown of the robot, s; none: not known. */
+/** Age of the displayed state of the robot, s; null: unknown. */
 function robot_age_s() {
   const { link } = frame;
   return frame.far && link.rtt_known && link.silence_s >= 0 ? link.silence_s + link.rtt_s / 2 : null;
@@ -69,7 +69,7 @@ function show_age(old) {
 
 const feed = new Feed({
   frame(now) {
-    // A deflected handle would be a speed from the start.
+    // In rate mode a deflected handle would command a speed immediately.
     if (now.mode === 'rate' && frame?.mode === 'position') hand.home();
     frame = now;
     away = null;
@@ -120,7 +120,7 @@ function ask(name, value) {
     grip: () => { hand.grip = !hand.grip; },
     home: () => hand.home(),
     camera: () => picture?.choose(value),
-    untaken: () => panel.say('take the hand first, then drag here', false),
+    untaken: () => panel.say('take control first, then drag here', false),
   };
   if (!frame && name !== 'stop' && name !== 'camera') return;
   asks[name]?.();
@@ -145,7 +145,7 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
 });
 new ResizeObserver(() => { dirty = true; }).observe(at('picture'));
 
-/** The picture takes longest to begin: the rest is there before. */
+/** Creating the picture takes longest, so it starts after the rest of the page is loaded. */
 function begin_picture() {
   picture = new Picture(at('space'), page_colors);
   picture.on_inset = ({ width, height, margin }) => {
@@ -158,11 +158,11 @@ addEventListener('load', () => setTimeout(begin_picture, 0));
 
 let rate_ms = 0;
 let drawn_ms = 0;
-let took_ms = 0; // of the last picture
+let took_ms = 0; // drawing time of the last picture
 
 function draw(now_ms) {
   requestAnimationFrame(draw);
-  // At least half of the time is for the feed and the controls, however large the scene is.
+  // Leaves at least half of the time to the feed and the controls, even for large scenes.
   if (!dirty || !frame || now_ms - drawn_ms < Math.max(picture?.pause_ms ?? 0, 2 * took_ms)) return;
   dirty = false;
   drawn_ms = now_ms;
@@ -186,5 +186,5 @@ function draw(now_ms) {
 }
 requestAnimationFrame(draw);
 
-// For tests and for the curious.
+// For tests and debugging.
 window.longreach = { feed, hand, picture: () => picture, frame: () => frame, anchor: () => anchor };

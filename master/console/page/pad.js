@@ -1,7 +1,7 @@
-// The handle seen from above: its workspace, where it is, where the hand wants it, the force on it, and the wall that is
-// remembered. Up is x, left is y, as at the keyboard; the narrow one beside it is z.
+// The handle from above: its workspace, its position, the target of the hand, the force on it, and the remembered wall.
+// Up is x and left is y, as with the keys. The narrow canvas next to it shows z.
 
-const MARGIN = 0.9;     // share of the half width that is workspace
+const MARGIN = 0.9;     // fraction of the half width that shows the workspace
 const FORCE_PX_PER_N = 14;
 
 function prepared(canvas) {
@@ -45,7 +45,7 @@ function segment(g, x0, y0, x1, y1, color, width) {
 /** The half of the disc behind the remembered surface: n . p > s. */
 function wall(g, x, y, radius, n, s, scale, color) {
   const across = Math.hypot(n[0], n[1]);
-  if (across < 0.3) return;     // seen from above it is no line
+  if (across < 0.3) return;     // from above, the surface is not a line
   const angle = Math.atan2(-n[0], -n[1]);
   g.save();
   g.beginPath();

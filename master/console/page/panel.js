@@ -1,10 +1,10 @@
-// The banner, the controls and the force bars: what they show of a frame, and what is asked for by them.
+// The banner, the controls and the force bars: they display a frame and send the requests of the user.
 
 const by_id = (id) => document.getElementById(id);
 const number = (x, digits) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
 const percent = (x) => (Number.isFinite(x) ? `${(100 * x).toFixed(1)} %` : '–');
 
-/** Changes the page only where something has changed. */
+/** Changes the page only if the text differs. */
 function write(id, text) {
   const element = by_id(id);
   if (element.textContent !== text) element.textContent = text;
@@ -34,22 +34,22 @@ export class Panel {
     this.ask('camera', name);
   }
 
-  /** Who has the hand: nobody, you, other. */
+  /** Shows which page has control: nobody (none), you (this page), other. */
   hold({ holder, viewers }) {
     this.holder = holder;
     const mine = holder === 'you';
     const take = by_id('take');
     take.classList.toggle('held', mine);
-    take.textContent = mine ? 'Return the hand' : 'Take the hand';
+    take.textContent = mine ? 'Return control' : 'Take control';
     take.disabled = holder === 'other';
     by_id('reach').classList.toggle('held', mine);
     for (const element of document.querySelectorAll('#controls button, #controls input, #controls select'))
       element.disabled = !mine;
-    const pages = viewers === 1 ? '' : ` · ${viewers} pages observe`;
-    write('holder', (mine ? 'you have the hand' : holder === 'other' ? 'another page has the hand' : 'you observe') + pages);
+    const pages = viewers === 1 ? '' : ` · ${viewers} pages are observing`;
+    write('holder', (mine ? 'you have control' : holder === 'other' ? 'another page has control' : 'you are observing') + pages);
   }
 
-  /** Told with every connection. */
+  /** Called at every connection. */
   links(names) {
     const link = by_id('link');
     const chosen = link.value;
@@ -80,10 +80,10 @@ export class Panel {
   felt(frame, hand) {
     const [x, y, z] = frame.hand_m.map((m) => (1e3 * m).toFixed(1));
     const turned = Math.hypot(...hand.turn_rad) * (180 / Math.PI);
-    write('where', `x ${x}   y ${y}   z ${z} mm${turned > 0.05 ? `   turned ${turned.toFixed(1)}°` : ''}`);
+    write('where', `x ${x}   y ${y}   z ${z} mm${turned > 0.05 ? `   rotated by ${turned.toFixed(1)}°` : ''}`);
     ['x', 'y', 'z'].forEach((name, i) => {
       const share = Math.max(-1, Math.min(1, frame.force_n[i] / frame.force_max_n));
-      // Bent, so that small forces show.
+      // A nonlinear scale, so that small forces are visible.
       const width = 50 * Math.abs(share) ** 0.7;
       const bar = by_id(`felt-${name}`).style;
       bar.width = `${width.toFixed(1)}%`;
@@ -107,7 +107,7 @@ export class Panel {
     write('clamped', clamped);
   }
 
-  /** Something of the moment. */
+  /** Shows a message for a few seconds. */
   say(sentence, refused) {
     const box = by_id('said');
     box.textContent = sentence;

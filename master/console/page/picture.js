@@ -1,5 +1,6 @@
-// The picture in space: arm, scene, ghost, trails, contact arrows, workspace. Two cameras: near the tool, and the whole arm;
-// the one that is not chosen is shown small in the corner. Drawn when something has changed.
+// The 3D picture: arm, scene, ghost, trails, contact arrows, workspace. It has two cameras, one near the tool and one
+// for the whole arm. The view of the camera that is not selected is an inset in the corner. The picture is drawn when
+// its contents change.
 
 import { AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, Line,
   LineBasicMaterial, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, SphereBufferGeometry, Vector2, Vector3,
@@ -16,7 +17,7 @@ const TRAIL_POINTS = 1800;     // 30 s at 60 Hz
 const GAMMA = 2.2;     // of the screen; lighting is computed in linear colours
 const INSET = { width: 0.24, margin: 12 };
 
-/** Whether the picture is drawn by the processor, which then has little time for anything else. */
+/** Returns true if the processor renders the picture, which leaves it little time for other work. */
 function drawn_in_software() {
   const gl = document.createElement('canvas').getContext('webgl');
   const names = gl?.getExtension('WEBGL_debug_renderer_info');
@@ -27,7 +28,7 @@ function drawn_in_software() {
 
 /** Lets pointer and wheel rotate, pan and zoom the camera. */
 function orbit(camera, canvas) {
-  // OrbitControls zooms by the number of events; here the distance that the wheel turns counts.
+  // OrbitControls zooms by the number of events. Here the zoom depends on the distance that the wheel turns.
   canvas.addEventListener('wheel', ({ deltaY, deltaMode }) => {
     controls.zoomSpeed = Math.abs(deltaY) * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 0.01 : 0.16);
   });
@@ -82,12 +83,12 @@ export class Picture {
     this.orbit = orbit(this.near, canvas);
     this.orbit_whole = orbit(this.whole, canvas);
     this.choose('tool');
-    this.lasting = null;     // {robot, scene}, as last told
-    this.last = null;        // frame and ghost, as last shown
+    this.lasting = null;     // {robot, scene} as last received
+    this.last = null;        // frame and ghost as last shown
     this.paint(colors);
   }
 
-  /** The colours of the page; everything is built anew. */
+  /** Sets the colours and builds the picture again. */
   paint(colors) {
     this.renderer.setClearColor(new Color(colors.card), 1);     // not converted by the renderer
     this.colors = Object.fromEntries(Object.entries(colors).map(([name, color]) => [name, linear(color)]));
@@ -139,7 +140,7 @@ export class Picture {
     this.orbit_whole.update();
   }
 
-  /** `ghost`: pose that the commands ask for now, or none. `old`: nothing is heard of the robot. */
+  /** `ghost`: current goal of the tool, or null. `old`: no data arrives from the robot. */
   show(frame, ghost, old) {
     if (!this.lasting || !frame.far) return;
     const { far } = frame;
@@ -153,7 +154,7 @@ export class Picture {
     if (ghost) this.trails.operator.add(ghost.position);
     this.scenery.touch(tool, frame.in_contact);
     this.bodies.follow(tool, rotation(far.tool_rad), far.holds);
-    // Side by side, where they would lie in each other.
+    // Offsets, because the arrows would otherwise overlap.
     const aside = new Vector3(0, 0, 0.012);
     this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3(), old);
     this.rendered.show((ghost?.position ?? tool).clone().addScaledVector(aside, 2), vector(frame.spring_n));
@@ -173,7 +174,7 @@ export class Picture {
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
     this.overview.visible = overview;
-    // From within, its wires are only in the way.
+    // From inside, the wires of the sphere would hide the robot.
     const radius = this.workspace.geometry.parameters.radius;
     this.workspace.visible = this.outside || camera.position.distanceTo(this.start) > 1.05 * radius;
     this.renderer.setViewport(x, y, width, height);

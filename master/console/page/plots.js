@@ -1,5 +1,5 @@
-// The live plots: the last half minute, drawn some times a second. What the operator commands is blue, what the robot has
-// reported is orange, as in the picture.
+// The live plots of the last half minute, which are drawn several times per second. Commands of the operator are blue,
+// reports of the robot are orange, as in the picture.
 
 import Dygraph from 'dygraphs';
 
@@ -10,8 +10,9 @@ const DRAW_MS = 66;
 const last_of = (frame, far, none = null) => (frame.far ? far(frame.far) : none);
 const axis_of = (p, axis) => p?.[axis] ?? null;
 
-/** Name, unit, lines: name, colour, value of a frame and the anchor. `least`: smallest range of the axis, which begins at
- * zero or is centred on the lines. A line with a fourth entry, its smallest range, has the axis on the right, from zero. */
+/** Plots with name, unit and lines. A line has a name, a colour, and a function of frame and plots that returns its value.
+ * `least` is the minimum range of the axis, which starts at zero (`zero`) or is centred on the lines. A line with a fourth
+ * entry uses the right axis, which starts at zero; the entry is the minimum range of that axis. */
 const PLOTS = [
   { name: 'Position', unit: 'mm', axis: true, least: 2, lines: [
     ['goal', 'operator', (f, s) => 1e3 * axis_of(f.goal_m, s.axis)],
@@ -20,13 +21,13 @@ const PLOTS = [
     ['hand', 'operator', (f) => Math.hypot(...f.force_n)],
     ['tool', 'robot', (f) => last_of(f, (far) => Math.hypot(...far.force_n))] ] },
   { name: 'Stiffness', unit: 'N/mm', least: 1, zero: true, lines: [
-    ['felt', 'operator', (f) => 1e-3 * f.stiffness_n_per_m],
+    ['displayed', 'operator', (f) => 1e-3 * f.stiffness_n_per_m],
     ['estimated', 'robot', (f) => last_of(f, (far) => 1e-3 * far.stiffness_n_per_m)] ] },
   { name: 'Energy', unit: 'mJ', least: 2, lines: [
     ['net, into the hand', 'operator', (f) => 1e3 * f.energy_j] ] },
   { name: 'Link', unit: '', least: 1, zero: true, lines: [
     ['round trip, s', 'operator', (f) => (f.link.rtt_known ? f.link.rtt_s : null)],
-    ['lost, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.up_loss ?? 0), 5] ] },
+    ['loss, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.up_loss ?? 0), 5] ] },
 ];
 
 const on_the_right = (line) => line[3] !== undefined;
@@ -65,7 +66,7 @@ function seconds_ago(from, to) {
   });
 }
 
-/** Options that depend on the colour scheme only. */
+/** Options that depend only on the colour scheme. */
 function options(plot, colors) {
   const axisLabelFormatter = (value) => String(+value.toPrecision(4));
   const y = { axisLabelWidth: 34, axisLabelFormatter, independentTicks: true, pixelsPerLabel: 20 };
@@ -75,7 +76,7 @@ function options(plot, colors) {
     strokeWidth: 1.6, pointSize: 0.8, legend: 'never', interactionModel: {},
     axisLabelFontSize: 11, xAxisHeight: 17, axisLineColor: 'transparent', gridLineColor: colors.line, gridLineWidth: 1,
     rightGap: plot.lines.some(on_the_right) ? 0 : 10,
-    underlayCallback: (g) => { g.lineJoin = 'round'; },     // mitred, noise has spikes
+    underlayCallback: (g) => { g.lineJoin = 'round'; },     // mitred lines would show noise as spikes
     axes: { y, y2: { ...y }, x: { axisLabelWidth: 30, axisTickSize: 5, drawGrid: false, ticker: seconds_ago } },
   };
 }
@@ -141,7 +142,7 @@ export class Plots {
   resize() { for (const drawn of this.plots) drawn.resize(); }
 
   add(frame) {
-    if (frame.seconds < this.next_s - 1) this.clear();     // the master has started anew
+    if (frame.seconds < this.next_s - 1) this.clear();     // the master was restarted
     if (frame.seconds < this.next_s) return;
     this.next_s = frame.seconds + SAMPLE_S;
     this.samples.push(frame);

@@ -1,5 +1,5 @@
-// What the robot can meet: the surfaces and the path of a scene (proto/config.proto, message Scene). A ball or any other
-// body turns red when the tool touches it; what was touched once keeps a tint.
+// The surfaces and the path of a scene (proto/config.proto, message Scene). A body turns red while the tool touches it
+// and stays tinted afterwards.
 
 import { BoxBufferGeometry, BufferGeometry, CylinderBufferGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,
   LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, PlaneBufferGeometry, SphereBufferGeometry, Vector3 }
@@ -10,7 +10,7 @@ import { rotation, vector } from './kinematics.js';
 const UP = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
 const WALL_M = 0.3;
-const EDGES_MAX = 500; // boxes with edges: each is drawn a second time for them
+const EDGES_MAX = 500; // maximum number of surfaces for which the edges of boxes are drawn, since edges double the cost
 
 const from_start = (part, numbers, start) => {
   const p = vector(numbers);
@@ -20,7 +20,7 @@ const from_start = (part, numbers, start) => {
 function plane(shape, start, material, colors) {
   const normal = vector(shape.normal).normalize();
   const point = from_start(shape, shape.point_m, start);
-  // The piece of it nearest to where the tool starts.
+  // Draws the part of the plane that is nearest to the start position of the tool.
   const centre = start.clone().addScaledVector(normal, point.clone().sub(start).dot(normal));
   const wall = new Mesh(new PlaneBufferGeometry(WALL_M, WALL_M), material);
   wall.position.copy(centre);
@@ -29,7 +29,7 @@ function plane(shape, start, material, colors) {
   Object.assign(grid.material, { transparent: true, opacity: 0.3 });
   grid.rotation.x = Math.PI / 2;
   wall.add(grid);
-  // Behind its own grid, whatever the depths are rounded to.
+  // Draws the plane behind its grid, regardless of the rounding of depths.
   Object.assign(material, { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   return { mesh: wall, distance: (p) => p.clone().sub(point).dot(normal) };
 }
@@ -77,7 +77,7 @@ function cylinder(shape, start, material) {
   };
 }
 
-/** The stiffer, the darker: 100 N/m to 1e6 N/m. */
+/** Colour of a material. Stiffer materials are darker, from 100 N/m to 1e6 N/m. */
 function shade(scene, name, colors) {
   const k = scene.material?.find((one) => one.name === name)?.stiffness_n_per_m ?? 1000;
   const share = Math.min(Math.max((Math.log10(k) - 2) / 4, 0), 1);
@@ -86,7 +86,7 @@ function shade(scene, name, colors) {
 
 const SHAPES = { plane, sphere, box, cylinder };
 
-/** Straight from point to point, quarter turns of the path's radius between. */
+/** Points of the path: straight segments with quarter turns of the path's radius between them. */
 function path_points(path, start) {
   const points = path.waypoint.map((w) => from_start(path, w.point_m, start));
   const out = [points[0]];
@@ -105,16 +105,16 @@ function path_points(path, start) {
 }
 
 export class Scenery {
-  /** `start`: where the tool starts, W. */
+  /** `start`: start position of the tool, W. */
   constructor(scene, start, colors) {
     this.group = new Group();
     this.tool_radius_m = scene.tool_radius_m ?? 0;
     this.red = colors.contact;
     this.bodies = [];
     for (const surface of scene.surface ?? []) {
-      // The slave prints all shapes; the one that it has is the one that is somewhere.
+      // The configuration contains all shapes. The actual shape is the one that has a position.
       const kind = Object.keys(SHAPES).find((name) => surface[name]?.centre_m?.length || surface[name]?.point_m?.length);
-      if (!kind) continue;     // a hinge is met by turning: it has no place
+      if (!kind) continue;     // a hinge has no position
       const plain = shade(scene, surface.material, colors);
       const material = new MeshStandardMaterial({ color: plain, roughness: 0.8, metalness: 0,
         transparent: kind === 'plane', opacity: kind === 'plane' ? 0.35 : 1 });
@@ -130,7 +130,7 @@ export class Scenery {
     }
   }
 
-  /** How far the scene reaches from where the tool starts, m. */
+  /** Extent of the scene from the start position of the tool, m. */
   radius(start) {
     let reach = 0.25;
     for (const { mesh, solid } of this.bodies) {
@@ -139,7 +139,7 @@ export class Scenery {
     return Math.min(reach, 3);
   }
 
-  /** `contact`: the slave feels something at the tool. */
+  /** `contact`: the slave detects a contact at the tool. */
   touch(tool_m, contact) {
     let nearest = null;
     if (contact) {
@@ -155,7 +155,7 @@ export class Scenery {
   }
 }
 
-/** A grid on the ground and three short axes, so that the eye finds its way. */
+/** A grid on the ground for orientation. */
 export function ground(size, colors) {
   const grid = new GridHelper(size, 20, colors.line, colors.line);
   grid.rotation.x = Math.PI / 2;

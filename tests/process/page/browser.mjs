@@ -1,9 +1,9 @@
-// A browser in front of the page of `longreach view`: opened without a window, driven as a person does, watched for errors.
+// A headless browser with the page of `longreach view`, which is operated with mouse and keys and checked for errors.
 
 import { createRequire } from 'module';
 import { join } from 'path';
 
-/** `packages`: the folder that the build fetched the tests' packages into. */
+/** `packages`: folder into which the build installed the packages of the tests. */
 export async function open(packages, chromium) {
   const puppeteer = createRequire(join(packages, 'package.json'))('puppeteer-core');
   return puppeteer.launch({
@@ -19,7 +19,7 @@ export class Person {
     this.folder = folder;
     this.errors = [];
     this.deeds = 0;     // clicks and keys
-    this.again = 0;     // of them, those that a busy machine made necessary
+    this.again = 0;     // repetitions that a busy machine made necessary
     this.engaged_ms = 0;
     page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
     page.on('pageerror', (error) => this.errors.push(String(error)));
@@ -47,7 +47,7 @@ export class Person {
     await this.key(name);
   }
 
-  /** With shift: the large step. */
+  /** Presses a key with shift: a large step. */
   async large(name) {
     this.deeds += 1;
     await this.page.keyboard.down('Shift');
@@ -55,7 +55,7 @@ export class Person {
     await this.page.keyboard.up('Shift');
   }
 
-  /** Takes the handle by the pad; drag() and release() follow. */
+  /** Grasps the handle on the pad; drag() and release() follow. */
   async grasp() {
     this.deeds += 1;
     this.grasps = true;
@@ -66,7 +66,7 @@ export class Person {
     await this.page.mouse.down();
   }
 
-  /** Forwards, along x. */
+  /** Drags forwards, along x. */
   async drag(by_m) {
     this.at.y -= by_m * this.px_per_m;
     await this.page.mouse.move(this.at.x, this.at.y, { steps: 6 });
@@ -77,7 +77,7 @@ export class Person {
     await this.page.mouse.up();
   }
 
-  /** Waits until it is so; `meanwhile` is done again and again. */
+  /** Waits until `is_so` returns true and calls `meanwhile` repeatedly. */
   async see(what, is_so, meanwhile = async () => {}) {
     const end = Date.now() + 150000;
     while (!await this.look(is_so)) {
@@ -91,17 +91,17 @@ export class Person {
     console.log(`seen: ${what}`);
   }
 
-  /** A busy machine may stop the page for longer than a hand may be silent. That is a hold, and a person begins again. */
+  /** A busy machine can suspend the page for longer than the timeout of the hand, which causes a hold. Recovers from it. */
   async hold_on() {
     const { held, state } = await this.look(() => ({ held: longreach.hand.held, state: longreach.frame().state }));
     if (!held) {
       await this.repeat('t');
-      if (this.grasps) {     // anew from the middle of the pad: the next drags would leave the window
+      if (this.grasps) {     // start again from the middle of the pad, because further drags would leave the window
         this.again += 1;
         await this.release();
         await this.grasp();
       }
-    } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the answer takes a round trip
+    } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the response takes a round trip
       console.log('held meanwhile: engaged again');
       this.engaged_ms = Date.now();
       await this.repeat('e');

@@ -1,5 +1,5 @@
-// drive.mjs demo|path|away ADDRESS FOLDER PACKAGES CHROMIUM: drives the page, writes pictures of it into FOLDER. Exit status 1 and a
-// sentence when something is not seen.
+// drive.mjs demo|path|away ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
+// an expected state is not reached, prints an error; exit status 1.
 
 import { Person, open } from './browser.mjs';
 
@@ -10,12 +10,12 @@ function require(is_so, sentence) {
   console.log(`so: ${sentence}`);
 }
 
-/** The page beside a script that touches the wall. */
+/** Observes a simulated operator that touches the wall, then takes control. */
 async function demo(person) {
   await person.see('engaged', () => longreach.frame().state === 'Engaged');
   await person.look(() => {
     longreach.was = longreach.frame();
-    // Each plot has an empty canvas above that of its lines.
+    // Each plot has an empty canvas on top of the canvas with its lines.
     longreach.ink = () => [...document.querySelectorAll('#plots canvas:first-of-type')].map((canvas) => canvas.toDataURL());
     longreach.plotted = longreach.ink();
   });
@@ -65,18 +65,18 @@ async function demo(person) {
   require(moved < 5e-4, `the robot does not: ${(1e3 * moved).toFixed(3)} mm`);
 }
 
-/** A person with nothing but the page: to the wall across the link, feel it, let go, stop. */
+/** A user operates only the page: approaches the wall over the link, touches it, retreats and stops. */
 async function path(person) {
   await person.click('#take');
   await person.see('the hand is taken', () => longreach.hand.held);
   await person.click('#engage');
   await person.see('engaged', () => longreach.frame().state === 'Engaged' && longreach.anchor(), () => person.hold_on());
-  // Where the commands put the tool, from where it was first.
+  // Commanded position of the tool relative to the first anchor.
   await person.look(() => {
     const [first] = longreach.anchor().position_m;
     longreach.commanded = () => longreach.anchor().position_m[0] + longreach.frame().goal_m[0] - first;
   });
-  // Coarse: a deflection of 15 mm is a speed of 20 mm/s. Let go, the handle goes home.
+  // Coarse approach: a deflection of 15 mm commands 20 mm/s. After the release the handle returns home.
   await person.click('[data-mode="rate"]');
   await person.see('rate mode', () => longreach.frame().mode === 'rate', () => person.hold_on());
   await person.grasp();
@@ -86,10 +86,10 @@ async function path(person) {
   });
   await person.release();
   await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004, async () => {
-    // Taken again after a hold, it stays where it is until it is sent home.
+    // If control was taken again after a hold, the handle stays in place until the home key is pressed.
     if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > 0.001)) await person.repeat(' ');
   });
-  // Fine: into the wall, whose news takes as long as the link; then it is there at once.
+  // Fine approach: the contact is displayed after the delay of the link, and later contacts immediately.
   await person.click('[data-mode="position"]');
   await person.see('position mode', () => longreach.frame().mode === 'position', () => person.hold_on());
   await person.grasp();
@@ -113,7 +113,7 @@ async function path(person) {
     `${person.deeds} clicks, drags and keys, under 20 without the ${person.again} for holds of a busy machine`);
 }
 
-/** The master goes and comes back. */
+/** The master ends and is restarted. */
 async function away(person) {
   await person.see('observing', () => longreach.frame().state === 'Observing');
   await person.see('no master', () => document.getElementById('state').textContent === 'no master');
