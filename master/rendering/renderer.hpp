@@ -139,8 +139,9 @@ class Renderer {
   double force_step_n_ = 0.0;
   Vector3 x_last_ = Vector3::Zero();
   Quaternion q_last_ = Quaternion::Identity();
-  double began_j_ = 0.0;            // port energy at the start of the engagement
-  double port_energy_min_j_ = 0.0;  // minimum of the port energy since then, over all engagements
+  // Port energy at the start of the engagement; minimum of the port energy since that start, over all
+  // engagements.
+  double began_j_ = 0.0, port_energy_min_j_ = 0.0;
   MotionMode mode_ = MotionMode::kPosition;
   bool clutched_ = false, live_ = false;  // values of the last tick
   bool begins_ = false;                   // the next step is the first of an engagement

@@ -10,10 +10,10 @@
 //
 //   β_i = ((q'² - o v_t²/ρ)/rod + n . A θ'²) / l_i
 //
-// Here o is the offset of a general leg, q the vector from the end of the arm to the platform joint, ρ the
-// length of q in the plane of the leg, v_t the speed of q' across q in that plane, and A the vector of the
-// arm. The equations are exact except for the lumping (Codourey, The International Journal of Robotics
-// Research 17(12), 1998).
+// Here o is the offset of a general leg, q the vector from DeltaGeometry::elbow() to the centre of the
+// platform, ρ the length of q in the plane of the leg, v_t the speed of q' across q in that plane, and A the
+// vector of the arm. The equations are exact except for the lumping (Codourey, The International Journal of
+// Robotics Research 17(12), 1998).
 
 #include "master/config/device_config.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"

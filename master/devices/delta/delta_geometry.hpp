@@ -50,8 +50,8 @@ struct DeltaDimensions {
   std::array<double, 3> azimuth_rad{};
 };
 
-/// Side of the plane through the ends of the three arms on which the platform is: the sign of det[n1 n2 n3],
-/// where n_i are the directions of the rods.
+/// Side of the plane through the three sphere centres K_i (delta_statics.hpp) on which the platform is: the
+/// sign of det[n1 n2 n3], where n_i are the directions of the rods.
 enum class DeltaAssembly : std::int8_t { kNegative = -1, kPositive = 1 };
 
 /// One number per leg. The first leg is repeated as a fourth element, so that SIMD instructions process the

@@ -1,6 +1,7 @@
 #pragma once
-// Velocities and forces of a DELTA at a closed pose (θ, P). With the unit vectors along the rods n_i = (P -
-// K_i)/rod, where K_i is the end of arm i, and the levers l_i = n_i . dK_i/dθ_i:
+// Velocities and forces of a DELTA at a closed pose (θ, P). K_i is the centre of the sphere of radius rod on
+// which P lies for a given angle of leg i: the elbow end of the rods, shifted by the offset of the platform
+// joint. With the unit vectors along the rods n_i = (P - K_i)/rod and the levers l_i = n_i . dK_i/dθ_i:
 //
 //   n_i . v = l_i θ'_i,   v = J θ',   τ = Jᵀ F         (F on the hand by the device, τ by the motors)
 //   τ_gravity = dU/dθ,  U = -g . (m_p P + Σ m_a (S_i + ρ A_i) + ½ m_f (S_i + A_i) + ½ m_f P)
