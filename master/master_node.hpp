@@ -26,7 +26,7 @@ struct OperatorRequests {
   std::optional<MotionMode> mode{};
   std::optional<double> scale{};  // 0.05 to 1; other values are ignored and counted
   int scale_steps = 0;            // number of steps of 0.05 to add to the scale
-  bool clutch = false;            // a level: while true, the handle moves without the robot
+  bool clutch = false;            // true while the handle moves without the robot
   std::optional<bool> grip{};     // true closes the gripper, false opens it
   bool turns_gripper = false;     // toggle the gripper
 };
@@ -39,7 +39,7 @@ struct MasterInput {
   OperatorRequests requests{};
   std::optional<Time> last_heard{};  // arrival of the last valid datagram of any type
   std::uint32_t peer_restarts = 0;
-  bool taken = false;               // a level: another master has control of the robot
+  bool taken = false;               // true while another master has control of the robot
   bool hand_stale = false;          // the input from the operator's hand is too old
   std::optional<double> rtt_s{};    // round-trip time of the link; none until it is known
   bool may_send = true;             // the bandwidth budget allows a datagram now
@@ -71,19 +71,19 @@ struct MasterView {
   /// Goal predicted one one-way delay ahead, from the anchor, W, for the predictive overlay of the display.
   Pose forecast{};
   Wrench F_H_M{};                            // rendered wrench on the hand
-  Vector3 spring_force_n = Vector3::Zero();  // force of the contact springs
+  Vector3 spring_force_n = Vector3::Zero();  // on the hand by the contact spring with the largest force, M
   bool in_contact = false;                   // as reported by the slave
   bool surface_known = false;
   double surface_m = 0.0;  // position of the registered surface along `inward`, from the handle's home, m
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, M
   double stiffness_n_per_m = 0.0;    // rendered stiffness along the inward normal
-  /// Maximum that can be rendered: limit of the device or the configured one.
+  /// Maximum stiffness that can be rendered: the limit of the device or the configured one.
   double stiffness_max_n_per_m = 0.0;
-  Vector3 spring_moment_nm = Vector3::Zero();    // moment of the rotational contact springs
+  Vector3 spring_moment_nm = Vector3::Zero();    // the same for a rotational contact, M
   double rotational_stiffness_nm_per_rad = 0.0;  // rendered stiffness about the axis with the largest moment
-  double rotational_stiffness_max_nm_per_rad = 0.0;  // maximum that can be rendered
+  double rotational_stiffness_max_nm_per_rad = 0.0;  // maximum stiffness that can be rendered
   double force_step_n = 0.0;   // change of the spring force caused by the last applied report
-  double port_energy_j = 0.0;  // net energy from the hand into the device, f[k-1] (x[k] - x[k-1])
+  double port_energy_j = 0.0;  // net energy from the hand into the device
   /// Minimum, over all engagements, of the port energy since the start of the engagement.
   double port_energy_min_j = 0.0;
   double stored_energy_j = 0.0;
@@ -124,11 +124,13 @@ class MasterNode {
   explicit MasterNode(const MasterConfig& config);
   ~MasterNode();
 
+  /// Advances by one tick.
   MasterOutput step(const MasterInput& input);
 
   /// Takes effect in the next step. Fields that can change only at start-up are ignored.
   void configure(const MasterConfig& config);
 
+  /// Returns the view after the last step.
   [[nodiscard]] const MasterView& view() const;
   /// Returns true while the fields that must not change during an engagement are locked.
   [[nodiscard]] bool engaged() const;

@@ -64,7 +64,7 @@ struct Summary {
   RunCounters counters{};
   std::vector<SummaryCheck> checks{};
 
-  /// Returns whether no check has failed.
+  /// Returns whether all checks passed.
   [[nodiscard]] bool passed() const;
   /// Returns the results and the verdict as several lines, each ended by '\n'.
   [[nodiscard]] std::string text() const;

@@ -4,8 +4,8 @@
 // reports, UTF-8, ESC with another key (Alt), and 8-bit controls. No part of an unknown sequence counts as a
 // key. Sources: ECMA-48 section 5.4; XTerm Control Sequences; the finals `$` and a to d of rxvt.
 //
-// Text sent by a terminal, which is a bracketed paste or a control string, has no effect until it ends, even
-// if it pauses. If it has not ended within 1 s, it is overdue: then the stop key, and only that key, acts
+// Text that the terminal sends as a bracketed paste or a control string has no effect until it ends, even if
+// the input pauses. If it has not ended within 1 s, it is overdue: then the stop key, and only that key, acts
 // inside the text. Esc also ends the text, as does 1 s without input after a stop.
 
 #include <cstdint>

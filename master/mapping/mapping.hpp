@@ -10,8 +10,8 @@
 // of mode, clutch, freeze or (in position mode) scale sets new references at the current handle and goal, so
 // that the goal never steps. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
 // began. It moves home together with the handle, so that a released handle commands no motion. The literal
-// law jumps at the edge of the dead zone. It stops only a tenth further inside, so that noise at the edge
-// causes a single jump and no chatter.
+// law jumps at the edge of the dead zone. The commanded motion ends only when the deflection is a tenth
+// further inside, so that noise at the edge causes a single jump and no chatter.
 //
 // The lead of the goal is bounded. Where a limit holds the robot back at `place`, in the direction d, the
 // goal is drawn back along d to `place` + kLead, at most at its maximum speed, and goes no further in this

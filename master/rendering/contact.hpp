@@ -79,6 +79,7 @@ class Contact {
 
   Contact(ContactMotion motion, const ContactConfig& config) : motion_(motion) { configure(config); }
   void configure(const ContactConfig& config);
+  /// Removes all surfaces.
   void reset();
 
   /// Processes a report of the current engagement: updates, adds and removes springs.
@@ -101,8 +102,11 @@ class Contact {
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
   /// stiffness, or else the first.
   [[nodiscard]] const ContactAxis& foremost() const;
+  /// Returns whether any surface is known.
   [[nodiscard]] bool known() const;
+  /// Returns whether the stiffness of a known surface was limited to the maximum.
   [[nodiscard]] bool clamped() const;
+  /// Returns whether a spring was at the force limit in the last step.
   [[nodiscard]] bool yielding() const;
 
  private:

@@ -83,7 +83,7 @@ class ContactSpring {
   double s_slow_m_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;
-  // Positions of the hand and the surface when the anchor had returned.
+  // Positions of the hand and the surface when the anchor last returned to the surface.
   bool home_ = false;
   double home_s_m_ = 0.0, home_surface_m_ = 0.0;
 };

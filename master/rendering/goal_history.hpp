@@ -33,6 +33,7 @@ class GoalHistory {
     return !whole_ && sequence >= 1.0 && sequence < static_cast<double>(first_);
   }
 
+  /// Returns the newest goal; none if the history is empty.
   [[nodiscard]] std::optional<Vector3> newest() const;
 
  private:

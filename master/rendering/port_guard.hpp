@@ -64,10 +64,13 @@ class PortGuard {
 
   /// Fraction of `rendered` that was applied in the last tick.
   [[nodiscard]] double gain() const { return gain_; }
+  /// Net energy from the hand into the device.
   [[nodiscard]] double port_energy_j() const { return port_energy_j_; }
   /// Maximum decrease of E_port - E_stored, J.
   [[nodiscard]] double deficit_max_j() const { return deficit_max_j_; }
+  /// Damping was injected in the last tick.
   [[nodiscard]] bool injecting() const { return injecting_; }
+  /// The force or its rate was limited in the last tick.
   [[nodiscard]] bool clamped() const { return clamped_; }
 
  private:

@@ -90,6 +90,7 @@ struct HandPort {
 class Renderer {
  public:
   Renderer(const RenderingConfig& config, const RenderedDevice& device);
+  /// Takes effect in the next step.
   void configure(const RenderingConfig& config);
 
   /// Starts an engagement with all springs unloaded at the position of the handle.
@@ -111,9 +112,13 @@ class Renderer {
   /// that the damping of the device permits.
   [[nodiscard]] double stiffness_max_n_per_m() const;
   [[nodiscard]] double stiffness_max_nm_per_rad() const;
+  /// Net energy from the hand into both ports.
   [[nodiscard]] double port_energy_j() const;
+  /// Minimum of the port energy since the start of an engagement, over all engagements.
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
+  /// Energy in the springs and tanks of both ports.
   [[nodiscard]] double stored_energy_j() const;
+  /// Remaining energy of the initial store.
   [[nodiscard]] double store_j() const { return store_.level_j(); }
   /// Returns the change of the contact force in the last step caused by the reports since the previous step,
   /// N, before rate limit and clamping. It is negative if the force decreased.

@@ -55,10 +55,10 @@ struct MasterSafetyInput {
   Time now{};
   std::optional<Time> last_heard{};  // arrival of the last valid datagram from the slave
   std::uint32_t peer_restarts = 0;   // number of sessions after the first
-  bool taken = false;                // a level: another master has control of the robot
+  bool taken = false;                // true while another master has control of the robot
   bool device_ok = true;
   bool held = true;         // a hand is on the handle
-  bool hand_stale = false;  // a level: the input from the hand is too old
+  bool hand_stale = false;  // true while the input from the hand is too old
   bool engage = false;      // requested in this tick
   bool hold = false;
   bool stop = false;

@@ -4,7 +4,7 @@
 // around the pressing force, releases, rests, and repeats from the second touch. At the end of a small
 // workspace the operator moves the handle home with the clutch. The behaviour is deterministic. It uses only
 // information that a person would have: the position of the hand, the contact force, and the displayed goal
-// and registered surface. It is not evidence about people.
+// and registered surface. Its results are not evidence about human operators.
 
 #include <cstdint>
 #include <optional>

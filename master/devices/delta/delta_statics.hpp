@@ -54,7 +54,9 @@ struct DeltaTorques {
 
 /// Returns the rod directions and levers at the pose (θ, P).
 DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const Vector3& p_m);
+/// Returns the distances from singularity.
 DeltaSingularity singularity(const DeltaGeometry& g, const DeltaVelocity& at);
+/// Returns J, which maps motor rates to the velocity of the platform.
 DeltaJacobian jacobian(const DeltaVelocity& at);
 
 /// Returns the motor torques for which the device applies the force `force_n` to the hand.

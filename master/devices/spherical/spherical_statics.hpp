@@ -40,6 +40,7 @@ struct SphericalTorque {
 
 /// Returns the normals and levers at the pose (θ, R).
 SphericalVelocity velocity(const SphericalGeometry& g, const Vector3& theta_rad, const Quaternion& q);
+/// Returns the distances from singularity.
 SphericalSingularity singularity(const SphericalGeometry& g, const SphericalVelocity& at);
 
 /// Returns J, which maps the angular velocity of the handle to motor rates. It is singular at a type 1
