@@ -1,7 +1,7 @@
 #pragma once
 // Detects a loop that does not keep its rate: more than half of the ticks of a second were missed or late by
-// more than one period. One stall counts as half a second at most; whether a single stall is too long is
-// decided by the gap timer. Pure.
+// more than one period. A single stall counts as at most half a second; the gap timer detects stalls that are
+// too long. Pure.
 
 #include <algorithm>
 #include <cstddef>
