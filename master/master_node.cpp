@@ -18,7 +18,7 @@ namespace longreach {
 namespace {
 
 constexpr double kScaleStep = 0.05;
-constexpr double kHistory_s = 300.0;  // longer than any round trip a person works over
+constexpr double kHistory_s = 300.0;  // longer than any round trip over which a person can work
 
 std::size_t history_capacity(double send_hz) {
   return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
@@ -27,8 +27,7 @@ std::size_t history_capacity(double send_hz) {
 RenderedDevice rendered_device(const MasterConfig& c) {
   const double period_s = 1.0 / c.loop.rate_hz;
   DeviceFigures device = device_figures(c.device, period_s);
-  if (!c.device_adapter.address.empty())
-    device.delay_s += period_s;  // the way through an adapter costs a sample
+  if (!c.device_adapter.address.empty()) device.delay_s += period_s;  // an adapter adds a delay of one sample
   return {.mass_kg = device.mass_kg,
           .damping_n_s_per_m = device.damping_n_s_per_m,
           .inertia_kg_m2 = device.inertia_kg_m2,
@@ -38,7 +37,8 @@ RenderedDevice rendered_device(const MasterConfig& c) {
           .cell = device.cell};
 }
 
-/// Whether a device can be there: what is not, or not finite, is a device that has failed.
+/// Returns whether a device can be in this state. A state that is impossible or not finite counts as a device
+/// fault.
 bool plausible(const HandleState& h) {
   constexpr double kFar_m = 10.0, kFast = 1e4;
   return h.p_MH.cwiseAbs().maxCoeff() < kFar_m && h.velocity_m_per_s.cwiseAbs().maxCoeff() < kFast &&
@@ -92,14 +92,14 @@ struct MasterNode::State {
   Renderer renderer;
   GoalHistories history;
   double period_s;
-  HandleState handle{};  // as last read, or as last plausible; its velocities are the certain ones
-  Buttons buttons{};     // in the last tick
+  HandleState handle{};  // last plausible state, with filtered velocities
+  Buttons buttons{};     // buttons in the last tick
   std::uint64_t sequence = 0;
   GoalInterleaver interleaver;
-  double one_way_s = 0.0;   // half of the round trip
-  double send_phase = 1.0;  // of the send period
-  Time far_at{};            // when the newest telemetry came
-  Time grip_asked{};        // when view.grip was asked for last
+  double one_way_s = 0.0;   // half the round-trip time
+  double send_phase = 1.0;  // phase within the send period, 0 to 1
+  Time far_at{};            // arrival of the newest telemetry
+  Time grip_asked{};        // time of the last request for view.grip
   MasterView view;
 };
 
@@ -133,20 +133,20 @@ void MasterNode::State::ask_gripper(bool closed, Time now) {
   grip_asked = now;
 }
 
-/// The gripper is the robot's: what was asked for is asked for until the slave, knowing that, tells it as
-/// done.
+/// A gripper request is repeated until telemetry that was sent after the slave received it reports the
+/// requested state.
 void MasterNode::State::take_gripper(const Received<Telemetry>& reported) {
   const bool knows = reported.echo_sent && *reported.echo_sent > grip_asked;
   if (knows && view.grip == reported.message.gripper.closed) view.grip.reset();
 }
 
-/// Steps land on multiples of 0.05, whatever scale was set before.
+/// Steps lead to multiples of 0.05, whatever the scale was before.
 void MasterNode::State::change_scale(double scale, int steps) {
   if (steps != 0) scale = std::round(scale / kScaleStep + steps) * kScaleStep;
   view.scale = std::clamp(scale, kScaleStep, 1.0);
 }
 
-/// The buttons act when they go down; the clutch while it is down.
+/// Buttons act when they are pressed; the clutch acts while it is pressed.
 void MasterNode::State::take_buttons(const Buttons& now) {
   if (now.mode && !buttons.mode)
     view.mode = view.mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
@@ -223,7 +223,7 @@ MotionCommand MasterNode::State::command() {
 bool MasterNode::stalled(Time now) const { return state_->time.stalls(now, state_->safety.config().gap_s); }
 
 void MasterNode::State::decide(const MasterInput& input) {
-  if (input.taken) view.grip.reset();  // another master's robot is another master's gripper
+  if (input.taken) view.grip.reset();  // another master also controls the gripper
   const std::uint32_t engagement = safety.engagement();
   const MasterSafetyInput in{.now = input.now,
                              .last_heard = input.last_heard,
@@ -241,7 +241,7 @@ void MasterNode::State::decide(const MasterInput& input) {
                              .overrun = time.overrun()};
   const bool begun = safety.step(in);
   view.answer_in_s = safety.answer_in_s(in);
-  // The goals of an engagement begin with the first command that asks for it.
+  // The goals of an engagement start with the first command that requests it.
   if (safety.engagement() != engagement || begun) {
     mapping.reset(handle);
     lead.reset();
@@ -265,7 +265,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.take_buttons(s.handle.buttons);
   s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
-  // Letting go moves the goal by nothing, wherever the handle goes then.
+  // A released handle does not move the goal, wherever it moves.
   const bool frozen = !engaged || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
@@ -325,7 +325,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.F_H_M = F;
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
   const ContactAxis& surface = linear.contact.foremost();
-  // What is ramped away is not felt.
+  // Only the part of the force that the ramp passes reaches the operator.
   view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
   view.surface_known = linear.contact.known();
   view.surface_m = surface.surface - surface.foot / mapping.scale();

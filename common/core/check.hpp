@@ -1,6 +1,6 @@
 #pragma once
-// CHECK asserts an invariant of the code. It is always enabled and terminates the program. Use it for
-// programming errors, never for invalid input.
+// CHECK asserts an invariant of the code. It is always enabled and terminates the program on failure. Use it
+// for programming errors, never for invalid input.
 
 #include <cstdio>
 #include <cstdlib>

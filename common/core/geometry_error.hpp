@@ -1,6 +1,6 @@
 #pragma once
-// Error for a mechanism that cannot be built. It is thrown at start-up only; the text names the parameter and
-// the problem.
+// Error for a mechanism that cannot be built. It is thrown only at start-up; the message names the parameter
+// and the problem.
 
 #include <cmath>
 #include <stdexcept>
@@ -14,7 +14,7 @@ class GeometryError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Returns `value` if it is finite; otherwise throws GeometryError.
+/// Returns `value` if it is finite; otherwise throws GeometryError with `name` in the message.
 inline double require_finite(std::string_view name, double value) {
   if (!std::isfinite(value)) throw GeometryError(std::string(name) + " is not a finite number");
   return value;

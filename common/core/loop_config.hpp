@@ -1,12 +1,14 @@
 #pragma once
-// Parameters of both programs. proto/config.proto defines meaning, unit and range under the same names.
+// Parameters that both programs share. proto/config.proto defines the meaning, unit and range of each field
+// under the same name.
 
 #include <cstdint>
 #include <string>
 
 namespace longreach {
 
-/// Trade-off between speed and accuracy, resolved when a configuration is read (common/config/accuracy.cpp).
+/// Trade-off between speed and accuracy. It sets other fields when a configuration is read
+/// (common/config/accuracy.cpp).
 enum class Accuracy : std::uint8_t { kFast, kBalanced, kExact };
 
 struct LoopConfig {

@@ -1,10 +1,10 @@
 #pragma once
-// Running least squares of a straight line, y = intercept + slope x, one pass and no memory of the samples:
+// Running least squares of a straight line, y = intercept + slope x, in one pass and without storing the
+// samples:
 //   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
-// with the centred moments updated as in Welford (1962), so that a large mean costs no digits.
-// Samples that are not finite are skipped and counted. There is no forgetting, weighting or outlier
-// rejection.
-// Samples may come in groups that share the slope but not the intercept (analysis of covariance).
+// The centred moments are updated as in Welford (1962), so that a large mean costs no precision. Samples that
+// are not finite are skipped and counted. There is no forgetting, weighting or outlier rejection. Samples may
+// come in groups that share the slope but not the intercept (analysis of covariance).
 
 #include <cmath>
 #include <cstdint>
@@ -30,8 +30,8 @@ class LineFit {
     syy_ += dy * (y - mean_y_);
   }
   void clear() { *this = LineFit{}; }
-  /// Starts a new group: the following samples may have another intercept. Means and intercept are those of
-  /// the last group.
+  /// Starts a new group: the following samples may have a different intercept. mean_x(), mean_y() and
+  /// intercept() refer to the last group.
   void begin_group() {
     if (group_count_ == 0) return;
     ++groups_;
@@ -44,15 +44,15 @@ class LineFit {
   [[nodiscard]] double mean_x() const { return mean_x_; }
   [[nodiscard]] double mean_y() const { return mean_y_; }
 
-  /// Returns false while the samples do not determine a line (fewer than two, all at one x, or out of the
-  /// range of a double); slope, intercept and slope_sd are then zero.
+  /// Returns whether the samples determine a line. They do not if there are fewer than two, if all have the
+  /// same x, or if a sum overflows; slope, intercept and slope_sd are then zero.
   [[nodiscard]] bool valid() const {
     return count_ >= 2 && sxx_ > 0.0 && std::isfinite(sxx_) && std::isfinite(sxy_ / sxx_);
   }
   [[nodiscard]] double slope() const { return valid() ? sxy_ / sxx_ : 0.0; }
   [[nodiscard]] double intercept() const { return valid() ? mean_y_ - slope() * mean_x_ : 0.0; }
-  /// Standard deviation of the slope for independent errors of y; zero while there are no residual degrees of
-  /// freedom.
+  /// Returns the standard deviation of the slope, assuming independent errors of y. It is zero while there
+  /// are no residual degrees of freedom.
   [[nodiscard]] double slope_sd() const {
     const std::uint64_t used = groups_ + (group_count_ > 0 ? 1 : 0) + 1;
     if (!valid() || count_ <= used) return 0.0;

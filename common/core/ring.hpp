@@ -2,8 +2,8 @@
 // A bounded queue in storage that is allocated once, at construction. When it is full, a new element replaces
 // the oldest one. Index 0 is the oldest element.
 //
-// The queue uses only as much of its storage as its maximum size so far needs, doubled when that is full, so
-// that a large but mostly empty ring stays in the cache.
+// The queue cycles through only part of its storage, and doubles that part (up to the capacity) when it is
+// full. A large but mostly empty ring therefore stays in the cache.
 
 #include <algorithm>
 #include <cstddef>
@@ -27,7 +27,7 @@ class Ring {
 
   /// Appends an element; drops the oldest one when full.
   void push(const T& value) { extend() = value; }
-  /// Appends an element for the caller to fill in; it still has the content of an older one.
+  /// Appends an element for the caller to fill in. Until then it has the content of an older element.
   T& extend() {
     if (full()) pop();
     if (size_ == round_) widen();
@@ -45,12 +45,12 @@ class Ring {
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
 
-  bool operator==(const Ring&) const = default;  // also compares unused slots
+  bool operator==(const Ring&) const = default;  // compares unused slots, too
 
  private:
   static constexpr std::size_t kFirstRound = 64;
 
-  /// Wraps an index below twice the size; a division would dominate the run time.
+  /// Wraps an index below twice round_. A division here would dominate the run time.
   [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i < round_ ? i : i - round_; }
   void widen() {
     const auto begin = slots_.begin();

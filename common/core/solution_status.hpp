@@ -1,5 +1,5 @@
 #pragma once
-// Result of a kinematic solver. The header of each solver states which output belongs to which status.
+// Result of a kinematic solver. The header of each solver states what its output is for each status.
 
 #include <cstdint>
 #include <string_view>
@@ -9,7 +9,7 @@ namespace longreach {
 enum class SolutionStatus : std::uint8_t {
   kFound,        // the output is the solution
   kNoSolution,   // no solution exists, or the input is not finite
-  kSingular,     // the mechanism loses or gains a degree of freedom: its branches coincide
+  kSingular,     // the mechanism loses or gains a degree of freedom: two solution branches coincide
   kNotConverged  // the maximum number of iterations was reached
 };
 

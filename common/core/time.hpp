@@ -1,7 +1,7 @@
 #pragma once
-// Instants and durations. Each side has one monotonic clock; instants of the two sides have different types,
-// so that they cannot be compared by accident. This header reads no clock: the program or the laboratory
-// supplies the time. 64-bit nanoseconds last 292 years.
+// Instants and durations in 64-bit nanoseconds, which suffice for 292 years. Each side has one monotonic
+// clock. Instants of the two sides have different types, so that they cannot be compared by accident. This
+// header does not read a clock: the program or the laboratory supplies the time.
 
 #include <chrono>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace longreach {
 
 using Duration = std::chrono::nanoseconds;
 
-// Tags only; they deliberately have no now().
+// The clocks are only tags; they deliberately have no now().
 struct LocalClock {
   using duration = Duration;
   using rep = Duration::rep;
@@ -32,7 +32,7 @@ using PeerTime = PeerClock::time_point;  // an instant on the other side's monot
 
 constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
 
-/// Rounds to the nearest nanosecond; saturates at +-146 years; NaN becomes zero.
+/// Rounds to the nearest nanosecond and saturates at ±146 years. NaN becomes zero.
 inline Duration from_seconds(double s) {
   constexpr double kLimit = 4.6e9;
   if (std::isnan(s)) return Duration{0};

@@ -1,5 +1,6 @@
 #pragma once
-// Adapter of a real device or robot. proto/config.proto defines meaning, unit and range under the same names.
+// Parameters of the adapter of a real device or robot. proto/config.proto defines the meaning, unit and range
+// of each field under the same name.
 
 #include <string>
 

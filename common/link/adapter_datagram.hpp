@@ -1,32 +1,33 @@
 #pragma once
-// The adapter protocol, version 1, by which your program lets longreach use a haptic device or a robot. Copy
-// this file; it needs only C++14 and its standard library. deploy/adapters has an example of each kind with
-// the command that compiles it, and `longreach adapter check` tests your adapter.
+// The adapter protocol, version 1. Through it your program gives longreach access to a haptic device or a
+// robot. Copy this file; it needs only C++14 and its standard library. deploy/adapters contains an example of
+// each kind with the command that compiles it, and `longreach adapter check` tests your adapter.
 //
-// The datagrams are exchanged on one machine, over a Unix socket (SOCK_SEQPACKET). Your adapter listens at a
-// path that only its user may access (mode 0600). longreach connects to unix:/PATH, as that user or as root;
-// each end asks the system for the user of the other end (SO_PEERCRED) and closes the socket if it is another
-// user. longreach sends a datagram in every tick of its loop (1000 per second by default, loop.rate_hz), and
-// your adapter sends 500 to 4000 datagrams per second, by its own clock or in response. After a disconnect,
-// the adapter accepts the next program that connects; one at a time.
+// Adapter and longreach run on the same machine and exchange datagrams over a Unix socket (SOCK_SEQPACKET).
+// Your adapter listens at a path that only its user may access (mode 0600). longreach connects to unix:/PATH,
+// as that user or as root. Each end requests the user of the other end from the system (SO_PEERCRED) and
+// closes the socket if it is a different user. longreach sends one datagram in every tick of its loop (1000
+// per second by default, loop.rate_hz). Your adapter sends 500 to 4000 datagrams per second, by its own clock
+// or in response. It serves one program at a time; after a disconnect it accepts the next one that connects.
 //
 //   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
 //   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
 //
-// All numbers are little-endian, doubles IEEE 754; no struct has padding. SI units and radians. Frames: M the
-// device's base, H its handle, W the robot's world, E its tool.
+// All numbers are little-endian, and doubles are IEEE 754; no struct has padding. Units are SI units and
+// radians. Frames: M is the base of the device, H its handle, W the world frame of the robot, E its tool.
 //
 // Both ends follow these rules:
 //   1  A datagram with a wrong size, magic, version or kind, or with a number that is not finite, is
-//      ignored; so are unknown flags, which are sent as 0.
-//   2  Each end draws a session number, not 0, when it starts, and counts its datagrams 1, 2, 3, ...
-//      `echo` is the number of the newest datagram accepted from the other end, 0 before the first.
-//   3  Within a session a datagram is valid only if its number is greater than all before. Another session
-//      is valid only after 20 ms of silence of the present one: one program at a time; restarts are accepted.
-//   4  Watchdog: after 20 ms without a valid datagram a device renders no wrench, and a robot stops where
-//      it is. Both keep sending for at least a second, and resume with the next valid datagram.
-//   5  An adapter that has failed clears its flag kOk and keeps sending. For longreach, 20 ms without a
-//      datagram, or a datagram without kOk, is a fault of the device or robot: it holds.
+//      ignored. Unknown flags are ignored; send them as 0.
+//   2  Each end draws a non-zero session number when it starts, and numbers its datagrams 1, 2, 3, ...
+//      `echo` is the number of the newest datagram accepted from the other end, or 0 before the first.
+//   3  Within a session, a datagram is valid only if its number is greater than all previous ones. A
+//      different session is accepted only after 20 ms without a valid datagram of the current session: one
+//      program at a time, and restarts are possible.
+//   4  Watchdog: after 20 ms without a valid datagram, a device renders no wrench and a robot stops at its
+//      present position. Both keep sending for at least a second, and resume with the next valid datagram.
+//   5  An adapter that has failed clears its flag kOk and keeps sending. longreach treats 20 ms without a
+//      datagram, or a datagram without kOk, as a fault of the device or robot, and holds.
 
 #include <cmath>
 #include <cstddef>
@@ -49,81 +50,82 @@ struct Header {
   char magic[4] = {'L', 'R', 'A', 'P'};
   std::uint8_t version = kVersion;
   std::uint8_t kind = 0;
-  std::uint16_t size = 0;  // of the whole datagram, bytes
+  std::uint16_t size = 0;  // size of the whole datagram, bytes
   std::uint64_t session = 0;
   std::uint64_t sequence = 0;
   std::uint64_t echo = 0;
 };
 
-/// Device adapter to longreach.
+/// Sent by a device adapter to longreach.
 struct HandleDatagram {
   static constexpr std::uint8_t kKind = kHandle;
   enum Flag : std::uint32_t {
     kOk = 1,    // the device works
-    kHeld = 2,  // a hand is on the handle; a device without a sensor always sets it
-    // Buttons, while they are down.
-    kMode = 4,        // rate or position
-    kScaleUp = 8,     // coarser
-    kScaleDown = 16,  // finer
+    kHeld = 2,  // a hand is on the handle; devices without a sensor always set it
+    // Buttons, set while they are pressed.
+    kMode = 4,        // switches between rate and position mode
+    kScaleUp = 8,     // coarser motion
+    kScaleDown = 16,  // finer motion
     kClutch = 32      // the handle moves without the robot
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double position_m[3] = {};               // of H from its home, in M
-  double orientation[4] = {1.0, 0, 0, 0};  // of H in M, home: 1 0 0 0; unit quaternion w x y z
-  double velocity_m_per_s[3] = {};         // of H in M
-  double angular_rad_per_s[3] = {};        // of H in M
+  double position_m[3] = {};               // position of H from its home, in M
+  double orientation[4] = {1.0, 0, 0, 0};  // orientation of H in M, unit quaternion w x y z; home is 1 0 0 0
+  double velocity_m_per_s[3] = {};         // velocity of H in M
+  double angular_rad_per_s[3] = {};        // angular velocity of H in M
   double force_n[3] = {};                  // commanded motor force on the hand, in M
-  double moment_nm[3] = {};                // commanded motor moment, likewise
+  double moment_nm[3] = {};                // commanded motor moment on the hand, in M
 };
 
-/// longreach to device adapter.
+/// Sent by longreach to a device adapter.
 struct WrenchDatagram {
   static constexpr std::uint8_t kKind = kWrench;
   enum Flag : std::uint32_t {
-    kLive = 1  // the wrench is valid; without this flag: no wrench
+    kLive = 1  // the wrench is to be rendered; without this flag, render no wrench
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double force_n[3] = {};    // on the hand, in M
-  double moment_nm[3] = {};  // likewise
+  double force_n[3] = {};    // force on the hand, in M
+  double moment_nm[3] = {};  // moment on the hand, in M
 };
 
 constexpr int kJoints = 6;
 
-/// longreach to robot adapter.
+/// Sent by longreach to a robot adapter.
 struct SetpointDatagram {
   static constexpr std::uint8_t kKind = kSetpoint;
   enum Flag : std::uint32_t {
-    kMove = 1,  // the joints follow joint_rad; without this flag they brake and rest: not engaged
-    kGrip = 2,  // the gripper is closed
-    // A client has requested the gripper state; without this flag the gripper stays as it is, for example
-    // after a restart of the slave.
+    kMove = 1,  // engaged: the joints follow joint_rad; without this flag they brake and stay at rest
+    kGrip = 2,  // the gripper is to be closed
+    // The gripper state was requested; without this flag, for example after a restart of the slave, the
+    // gripper keeps its state.
     kGripAsked = 4
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double joint_rad[kJoints] = {};  // in the order of the robot file; m for a prismatic joint
+  double joint_rad[kJoints] = {};  // setpoints in the order of the robot file; m for a prismatic joint
 };
 
-/// Robot adapter to longreach.
+/// Sent by a robot adapter to longreach.
 struct RobotDatagram {
   static constexpr std::uint8_t kKind = kRobot;
   enum Flag : std::uint32_t {
     kOk = 1,      // the robot works and may be moved
     kLoad = 2,    // the gripper holds a load
-    kStopped = 4  // at rest without a setpoint, until the next one
+    kStopped = 4  // at rest without a setpoint, until the next setpoint arrives
   };
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double joint_rad[kJoints] = {};  // measured; m for a prismatic joint
+  double joint_rad[kJoints] = {};  // measured positions; m for a prismatic joint
+  /// Measured speeds; m/s for a prismatic joint.
   double joint_rad_per_s[kJoints] = {};
-  double force_n[3] = {};    // by the environment on the tool, along the axes of E; without a sensor 0
-  double moment_nm[3] = {};  // about the origin of E, likewise
+  double force_n[3] = {};    // by the environment on the tool, along the axes of E; 0 without a sensor
+  double moment_nm[3] = {};  // the same for the moment, about the origin of E
 };
 
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
@@ -148,7 +150,7 @@ inline bool finite(const RobotDatagram& d) {
   return finite(d.joint_rad) && finite(d.joint_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
 }
 
-/// Rule 1. If it returns false, `out` is unchanged.
+/// Applies rule 1. Returns whether the datagram is well-formed; `out` is unchanged if it is not.
 template <class Datagram>
 bool decode(const void* bytes, std::size_t size, Datagram& out) {
   Datagram d;
@@ -163,13 +165,14 @@ bool decode(const void* bytes, std::size_t size, Datagram& out) {
   return true;
 }
 
-/// Rules 2 to 4 for one end.
+/// Applies rules 2 to 4 for one end.
 class Exchange {
  public:
   explicit Exchange(std::uint64_t session, std::int64_t watchdog_ns = kWatchdog_ns)
       : session_(session), watchdog_ns_(watchdog_ns) {}
 
-  /// Returns whether this datagram is valid. Times are of one monotonic clock, ns.
+  /// Returns whether this datagram is valid, and records it if it is. All times are read from one monotonic
+  /// clock, ns.
   bool accept(const Header& header, std::int64_t now_ns) {
     if (header.session == peer_ ? header.sequence <= newest_ : !silent(now_ns)) return false;
     if (header.session != peer_) ++sessions_;
@@ -180,6 +183,7 @@ class Exchange {
   }
 
   template <class Datagram>
+  /// Fills the header of a datagram that is sent next.
   void stamp(Datagram& out) {
     out.header = {};
     out.header.kind = Datagram::kKind;
@@ -189,9 +193,9 @@ class Exchange {
     out.header.echo = newest_;
   }
 
-  /// Returns whether no valid datagram has arrived within the watchdog time, or ever.
+  /// Returns whether no valid datagram has arrived within the watchdog time, or none ever.
   bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
-  std::uint64_t sessions() const { return sessions_; }  // sessions of the other end so far
+  std::uint64_t sessions() const { return sessions_; }  // number of sessions of the other end so far
 
  private:
   std::uint64_t session_;

@@ -1,7 +1,7 @@
 #pragma once
-// Limits the rate at which a side sends: a datagram may leave when the previous ones are paid for. In any
-// time T at most rate (T + 2 ms) plus one datagram are sent. The byte count includes the IPv4 and UDP
-// headers.
+// Limits the rate at which a side sends (a token bucket): a datagram may be sent once the previous ones are
+// paid for. In any interval T, at most rate (T + 2 ms) plus one datagram is sent. The byte count includes the
+// IPv4 and UDP headers.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,11 +14,13 @@ constexpr std::size_t kIpUdpBytes = 28;
 
 class ByteBudget {
  public:
-  /// Rate in kbit/s; 0: no limit.
+  /// Sets the rate, kbit/s; 0 means no limit.
   void configure(double kbit_per_s) { kbit_per_s_ = kbit_per_s; }
 
+  /// Returns whether a datagram may be sent at `now`.
   [[nodiscard]] bool allows(Time now) const { return kbit_per_s_ <= 0.0 || now >= paid_at_; }
 
+  /// Records a datagram with `datagram_bytes` of UDP payload as sent at `now`.
   void spend(Time now, std::size_t datagram_bytes) {
     if (kbit_per_s_ <= 0.0) return;
     const double bits = 8.0 * static_cast<double>(datagram_bytes + kIpUdpBytes);
@@ -26,7 +28,7 @@ class ByteBudget {
   }
 
  private:
-  // Called once per tick: credit that accrues between two ticks is kept.
+  // allows() is called once per tick, so credit that accrues between two ticks must not be lost.
   static constexpr Duration kLate = std::chrono::milliseconds(2);
 
   double kbit_per_s_ = 0.0;

@@ -10,7 +10,7 @@ void ClockOffset::on_datagram(Time received, PeerTime sent) {
   const Duration transit{transit_ns(received, sent)};
   const Duration age = received - half_began_;
   if (!current_ || age >= window_ / 2) {
-    // After a silence longer than the window the older half says nothing either.
+    // If no datagram arrived for longer than the window, the older half-window has expired as well.
     previous_ = age < window_ ? current_ : std::nullopt;
     current_ = transit;
     half_began_ = received;

@@ -1,8 +1,8 @@
 #pragma once
-// The only link between the two clocks: maps an instant of the peer to the clock of this side as the earliest
-// possible arrival: offset = min over a window of (received - sent), which includes the shortest one-way
-// delay. It follows drift up to 500 ppm by aging the minimum (two half-windows). Nothing that stops or starts
-// motion uses it.
+// The only relation between the two clocks: maps an instant of the peer to the earliest possible arrival on
+// this side's clock. The offset is the minimum of (received - sent) over a window, and includes the shortest
+// one-way delay. It follows drift of up to 500 ppm because old minima expire (two half-windows). Nothing that
+// stops or starts motion uses it.
 
 #include <optional>
 
@@ -12,19 +12,20 @@ namespace longreach {
 
 class ClockOffset {
  public:
-  /// `window`: validity of a minimum, > 0.
+  /// `window` is the time after which a minimum expires, > 0.
   explicit ClockOffset(Duration window = std::chrono::seconds(10)) : window_(window) {}
 
+  /// Adds the arrival of a datagram.
   void on_datagram(Time received, PeerTime sent);
 
-  /// Returns the earliest arrival time of a datagram sent at `sent`; none before the first datagram.
+  /// Returns the earliest arrival time of a datagram sent at `sent`, or none before the first datagram.
   [[nodiscard]] std::optional<Time> earliest_arrival(PeerTime sent) const;
   void clear();
 
  private:
   Duration window_;
-  std::optional<Duration> current_{};   // minimum of this half-window
-  std::optional<Duration> previous_{};  // minimum of the one before
+  std::optional<Duration> current_{};   // minimum of the current half-window
+  std::optional<Duration> previous_{};  // minimum of the previous half-window
   Time half_began_{};
 };
 

@@ -14,9 +14,10 @@ using std::chrono::seconds;
 
 constexpr Duration kWindow = seconds(2);
 constexpr Duration kSettlingMax = seconds(1);
-constexpr Duration kOvertakenMax = milliseconds(500);  // by jitter; what is later than that is no news
-constexpr Duration kRateSpanMin = milliseconds(100);   // a shorter span says nothing about a rate
-constexpr std::size_t kCapacity = 16384;               // 3 s at 5 kHz
+/// By jitter; anything later does not show that the peer is alive.
+constexpr Duration kOvertakenMax = milliseconds(500);
+constexpr Duration kRateSpanMin = milliseconds(100);  // a shorter span is not enough to determine a rate
+constexpr std::size_t kCapacity = 16384;              // 3 s at 5 kHz
 
 }  // namespace
 
@@ -26,14 +27,15 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
                                std::size_t bytes) {
   const auto type = static_cast<std::size_t>(header.type) - 1;
   if (type >= kDatagramTypes) return;
-  // Loss looks back by its window and by the time that late ones are waited for.
+  // loss() needs the samples of its window plus the maximum time that overtaken datagrams may still take.
   while (!samples_.empty() && (samples_.full() || now - samples_.front().received > kWindow + kSettlingMax)) {
     const Sample& old = samples_.front();
     Mark& mark = forgotten_[old.type];
     if (old.sequence > mark.sequence) mark = {old.sequence, old.sent};
     samples_.pop();
   }
-  // In place: a processor that copies in one go what was just written in parts waits for the parts.
+  // The sample is filled in place: copying a struct that was just written in parts causes a store-forwarding
+  // stall.
   Sample& sample = samples_.extend();
   sample.received = now;
   sample.sent = sent;
@@ -44,7 +46,7 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
   sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
   if (!first_received_) first_received_ = now;
-  // Who lets one datagram through and holds the others back is silent.
+  // A single prompt datagram among delayed ones must not make the peer appear alive.
   newest_sent_ = std::max(newest_sent_.value_or(sent), sent);
   if (saturating_sub(to_ns(*newest_sent_), to_ns(sent)) <= kOvertakenMax.count()) last_heard_ = now;
 }
@@ -59,7 +61,7 @@ LinkFigures DelayMonitor::figures(Time now) const {
   const std::size_t count = samples_.size() - first;
   if (count == 0) return f;
 
-  // Differences from the first transit, so that the unknown clock offset costs no digits.
+  // Differences from the first transit time are used, so that the unknown clock offset costs no precision.
   const std::int64_t reference = transit_ns(samples_[first].received, samples_[first].sent);
   double sum = 0.0, squares = 0.0, bytes = 0.0;
   std::size_t late = 0, rtts = 0;
@@ -115,8 +117,8 @@ std::size_t DelayMonitor::first_since(Time t) const {
   return low;
 }
 
-// How long a datagram that was overtaken may still be under way: as long as the slowest of those took beyond
-// the fastest.
+// Returns how long an overtaken datagram may still be in transit: the transit time of the slowest overtaken
+// datagram minus that of the fastest datagram.
 Duration DelayMonitor::settling(std::size_t first) const {
   std::int64_t fastest = std::numeric_limits<std::int64_t>::max();
   std::int64_t slowest = std::numeric_limits<std::int64_t>::min();
@@ -135,9 +137,9 @@ double DelayMonitor::loss(std::size_t first) const {
   end = saturating_sub(end, settling(first).count());
   const std::int64_t begin = saturating_sub(end, kWindow.count());
 
-  std::array<Mark, kDatagramTypes> before = forgotten_;  // last sent before the window
-  std::array<Mark, kDatagramTypes> after{};              // first sent in it
-  std::array<Mark, kDatagramTypes> last{};               // last sent in it
+  std::array<Mark, kDatagramTypes> before = forgotten_;  // last one sent before the window
+  std::array<Mark, kDatagramTypes> after{};              // first one sent in the window
+  std::array<Mark, kDatagramTypes> last{};               // last one sent in the window
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& s = samples_[i];
     const Mark mark{s.sequence, s.sent};
@@ -149,7 +151,8 @@ double DelayMonitor::loss(std::size_t first) const {
     }
   }
 
-  // Numbers up to `base` were sent before the window. In a gap across its beginning they are spread evenly.
+  // Numbers up to `base` were sent before the window. The numbers in a gap across the beginning of the window
+  // are assumed to have been sent at equal intervals.
   std::array<std::uint64_t, kDatagramTypes> base{};
   double sent = 0.0, came = 0.0;
   for (std::size_t type = 0; type < kDatagramTypes; ++type) {

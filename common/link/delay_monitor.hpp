@@ -1,17 +1,17 @@
 #pragma once
-// Measures the link as seen from one side: round-trip time, variation of the one-way time, loss, reordering,
-// age. RTT of a sample = now - echo.sent - echo.held, all on the clock of this side except the duration
-// `held`. The one-way variation is relative to the running minimum of (received - sent), so that the unknown
-// clock offset cancels. The windows are short (2 s), so that a change of the link shows quickly. Pure: the
-// caller supplies the time.
+// Measures the link as seen from one side: round-trip time, variation of the one-way delay, packet loss,
+// reordering and age of the data. The round-trip time of a sample is now - echo.sent - echo.held, all on the
+// clock of this side except the duration `held`. The one-way variation is relative to the running minimum of
+// (received - sent), so that the unknown clock offset cancels. The windows are short (2 s), so that a change
+// of the link shows quickly. Pure: the caller supplies the time.
 //
-// Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, from the gaps in the
-// numbers of each type. An overtaken datagram is not lost: where this happens, the window ends earlier by the
-// lateness of the overtaken datagrams (up to 1 s). Datagrams sent before the first one of a session are not
-// counted.
+// Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, derived from the gaps
+// in the sequence numbers of each type. A datagram that was overtaken is not lost. If datagrams overtake each
+// other, the window therefore ends earlier, by the observed lateness of the overtaken datagrams (up to 1 s).
+// Datagrams sent before the first one received in a session are not counted.
 //
 // A datagram that the peer sent more than 0.5 s before another one that has already arrived counts in all
-// figures except the time of the last datagram, because it does not show that the peer is alive.
+// statistics except the time of the last datagram, because it does not show that the peer is alive.
 
 #include <algorithm>
 #include <array>
@@ -27,15 +27,14 @@
 namespace longreach {
 
 struct LinkFigures {
-  std::optional<double> rtt_s{};  // median of the window; none until an echo has arrived
-  double rtt_min_s = 0.0;         // minimum of the window
-  double jitter_s = 0.0;          // standard deviation of the one-way time over the window
-  double loss = 0.0;              // fraction of the datagrams of the window that did not arrive
-  double reorder = 0.0;           // fraction that arrived after a newer one of its type
-  std::optional<double>
-      /// since this side sent the newest datagram that the peer had received; none until an echo has arrived
-      age_s{};
-  double silence_s = 0.0;    // since the last accepted datagram (infinite before the first)
+  std::optional<double> rtt_s{};  // median over the window; none until an echo has arrived
+  double rtt_min_s = 0.0;         // minimum over the window
+  double jitter_s = 0.0;          // standard deviation of the one-way delay over the window
+  double loss = 0.0;              // fraction of the datagrams in the window that did not arrive
+  double reorder = 0.0;           // fraction that arrived after a newer datagram of the same type
+  /// Time since this side sent the newest datagram that the peer has received; none until an echo has arrived.
+  std::optional<double> age_s{};
+  double silence_s = 0.0;    // since the last accepted datagram; infinite before the first
   double rate_hz = 0.0;      // accepted datagrams per second
   double bytes_per_s = 0.0;  // accepted bytes per second, without UDP and IP headers
 };
@@ -44,10 +43,10 @@ class DelayMonitor {
  public:
   DelayMonitor();
 
-  /// Records an accepted datagram. `rtt`: below zero if its echo did not determine one.
+  /// Records an accepted datagram of `bytes` bytes. `rtt` is its round-trip time, or below zero if unknown.
   void on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt, std::size_t bytes);
 
-  /// Records when this side sent the newest datagram that the peer had received.
+  /// Records the time at which this side sent the newest datagram that the peer has received.
   void on_echo(Time sent) { echoed_ = std::max(echoed_.value_or(sent), sent); }
 
   [[nodiscard]] LinkFigures figures(Time now) const;
@@ -64,10 +63,10 @@ class DelayMonitor {
     std::uint64_t sequence = 0;
     std::uint32_t bytes = 0;
     std::uint8_t type = 0;  // index, 0 to kDatagramTypes - 1
-    bool late = false;      // arrived after a newer one of its type
+    bool late = false;      // arrived after a newer datagram of the same type
     bool operator==(const Sample&) const = default;
   };
-  /// Position of a datagram in the numbers of its type; sequence 0: none.
+  /// Sequence number and send time of a datagram; sequence 0 means none.
   struct Mark {
     std::uint64_t sequence = 0;
     PeerTime sent{};
@@ -81,9 +80,9 @@ class DelayMonitor {
   Ring<Sample> samples_;
   mutable std::vector<std::int64_t> scratch_;
   std::array<std::uint64_t, kDatagramTypes> newest_{};  // highest sequence of each type
-  std::optional<PeerTime> newest_sent_{};               // of all types
-  std::array<Mark, kDatagramTypes>
-      forgotten_{};  // the sample with the highest sequence that has left the ring
+  std::optional<PeerTime> newest_sent_{};               // latest send time, over all types
+  /// For each type, the sample with the highest sequence number that has left the ring.
+  std::array<Mark, kDatagramTypes> forgotten_{};
   std::optional<Time> first_received_{};
   std::optional<Time> last_heard_{};
   std::optional<Time> echoed_{};  // send time of the newest datagram of this side that was echoed

@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono::seconds;
 
-// Longer than the longest link that can be configured (each way 100 s, a step of 100 s, jitter, a queue and
-// the turns of both sides): whatever exceeds it is not a round trip.
+// Exceeds the round-trip time of every link that can be configured (100 s each way, a step of 100 s, jitter,
+// a queue and the ticks of both sides). Larger values are not valid round-trip times.
 constexpr Duration kRttMax = seconds(600);
 
 constexpr std::size_t index_of(DatagramType type) { return static_cast<std::size_t>(type) - 1; }
@@ -19,7 +19,7 @@ constexpr std::size_t index_of(DatagramType type) { return static_cast<std::size
 Duration round_trip(Time now, Time echo_sent, Duration held) {
   const std::int64_t age = saturating_sub(to_ns(now), to_ns(echo_sent));
   const Duration rtt{saturating_sub(age, held.count())};
-  // An age at the end of the range was cut: nothing can be subtracted from it.
+  // An age at the end of the range has saturated, so that no difference can be formed from it.
   const bool cut = age == std::numeric_limits<std::int64_t>::max();
   const bool plausible = !cut && held >= Duration{0} && rtt >= Duration{0} && rtt <= kRttMax;
   return plausible ? rtt : kNoRtt;
@@ -62,8 +62,8 @@ Duration Endpoint::learn(Time now, const Header& header, const Stamp& stamp, std
     monitor_.on_echo(*echoed);
   }
   monitor_.on_datagram(now, header, stamp.sent, rtt, bytes);
-  // Whichever came last, late or not: echoing only the newest would prefer the fast ones, and a jittery link
-  // would look shorter than it is.
+  // The last datagram to arrive is echoed, whether late or not. Echoing only the newest would favour fast
+  // datagrams, and a link with jitter would appear to have a shorter delay than it has.
   received_at_ = now;
   received_sent_ = stamp.sent;
   return rtt;

@@ -1,5 +1,5 @@
 #pragma once
-// Common content of every datagram, and the metadata that a receiver gets with a message.
+// Content that all datagrams have in common, and the metadata that accompanies a received message.
 
 #include <array>
 #include <cstddef>
@@ -14,53 +14,55 @@ namespace longreach {
 enum class DatagramType : std::uint8_t { kMotionCommand = 1, kStiffnessReport = 2, kTelemetry = 3 };
 constexpr std::size_t kDatagramTypes = 3;
 
-/// Identifies a datagram. `session` is common to both sides; `sequence` grows with each datagram of a type.
+/// Identifies a datagram. Both sides use the same `session`; `sequence` increases with each datagram of a
+/// type.
 struct Header {
   DatagramType type = DatagramType::kMotionCommand;
   std::uint64_t session = 0;
   std::uint64_t sequence = 0;
 };
 
-/// Echo of the newest datagram that the sender had received in this session, so that the receiver can date it
-/// by its own clock.
+/// Echo of the newest datagram that the sender had received in this session. The receiver of the echo can
+/// date that datagram by its own clock.
 struct Echo {
-  std::int64_t sent_ns = 0;  // its send time, on the clock of its sender
-  Duration held{0};  // time between its arrival at the echoing side and the departure of this datagram
+  std::int64_t sent_ns = 0;  // send time of the echoed datagram, on the clock of its sender
+  /// Time from the arrival of the echoed datagram to the departure of this one.
+  Duration held{0};
 };
 
-/// The part of a datagram's body that is common to all messages.
+/// The part of a datagram's body that all messages have in common.
 struct Stamp {
-  PeerTime sent{};             // sender's clock
-  std::optional<Echo> echo{};  // none: no datagram received yet
+  PeerTime sent{};             // send time on the sender's clock
+  std::optional<Echo> echo{};  // none: the sender has not received a datagram yet
 };
 
-constexpr Duration kNoRtt{-1};  // an unknown round trip, like any value below zero
+constexpr Duration kNoRtt{-1};  // unknown round-trip time, like any value below zero
 
 /// A message with the metadata of its transmission.
 template <class Message>
 struct Received {
   std::uint64_t sequence = 0;
-  PeerTime sent{};  // on the sender's clock
-  Time received{};  // on this clock
-  /// when this side sent the newest datagram that the peer had received; none: not yet
+  PeerTime sent{};  // send time on the sender's clock
+  Time received{};  // arrival on this side's clock
+  /// When this side sent the newest datagram that the peer had received; none if there is no echo yet.
   std::optional<Time> echo_sent{};
-  Duration rtt = kNoRtt;  // from then until now, without the time held at the peer
-  bool newest = true;     // no newer one of its type has arrived before
+  Duration rtt = kNoRtt;  // time since echo_sent, without the time held at the peer
+  bool newest = true;     // no newer datagram of this type arrived earlier
   Message message{};
 };
 
-/// Why a datagram was dropped, in the order of the checks. Before authentication nothing changes except a
-/// counter.
+/// Why a datagram was dropped, in the order of the checks. Until a datagram is authenticated, it changes
+/// nothing except a counter.
 enum class Rejection : std::uint8_t {
   kLength,          // shorter than header and tag, or longer than 508 bytes
-  kVersion,         // other wire version
+  kVersion,         // different wire version
   kType,            // this side does not receive this type
-  kSession,         // not of the present session
-  kReplay,          // already received, or too old to check
-  kAuthentication,  // corrupted, or not sealed by the other side
+  kSession,         // not of the current session
+  kReplay,          // already received, or older than the replay window
+  kAuthentication,  // corrupted, or not sealed by the peer
   kDecode,          // the body is not the message that the header states
   kValue,           // a field is missing, not finite or out of range
-  kStalled,         // received while this side was stalled: too old to follow
+  kStalled,         // received while this side was stalled, and therefore too old to follow
   kCount
 };
 

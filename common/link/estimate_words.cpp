@@ -7,7 +7,7 @@ namespace longreach {
 namespace {
 
 constexpr double kApart = 0.9;     // correlation above which two parameters are not identifiable separately
-constexpr double kGivenSd = 1e-5;  // of n: it was not estimated
+constexpr double kGivenSd = 1e-5;  // standard deviation of n below which n was given instead of estimated
 
 std::string number(double value, int digits) {
   char text[32];

@@ -1,8 +1,8 @@
 #pragma once
-// The 18 bytes in front of every datagram, big-endian:
+// The header of every datagram, 18 bytes, big-endian:
 //   version (1) | type (1) | session (8) | sequence (8)
-// The sealed body and its tag of 16 bytes follow (common/crypto). The header is not encrypted; the tag covers
-// it.
+// The sealed body and its tag of 16 bytes follow (common/crypto). The header is not encrypted, but the tag
+// covers it.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace longreach {
 
 constexpr std::uint8_t kWireVersion = 4;
 constexpr std::size_t kHeaderBytes = 18;
-constexpr std::size_t kOverheadBytes = kHeaderBytes + 16;  // with the tag
-constexpr std::size_t kDatagramMaxBytes = 508;             // passes any IPv4 path unfragmented
+constexpr std::size_t kOverheadBytes = kHeaderBytes + 16;  // header and tag
+constexpr std::size_t kDatagramMaxBytes = 508;             // fits any IPv4 path without fragmentation
 
-/// Writes the header in front of the body. `datagram` has at least kHeaderBytes.
+/// Writes the header to the first kHeaderBytes of `datagram`, which must be at least that long.
 void write_header(const Header& header, std::span<std::byte> datagram);
 
-/// Reads and checks length, version and type (one of the known ones), in this order.
+/// Reads a header. Checks the length, the version and the type, in this order; an unknown type is rejected.
 std::variant<Header, Rejection> read_header(std::span<const std::byte> datagram);
 
 }  // namespace longreach

@@ -70,7 +70,7 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
 
 constexpr CauseText kUnknown{"unknown", "unknown", "see the log", By::kSystem};
 
-/// "+x" of 1, "-z" of -3; of no axis nothing.
+/// Returns for example "+x" for 1 and "-z" for -3; empty if `value` is not an axis.
 std::string axis(double value) {
   for (int i = 1; i <= 3; ++i)
     if (std::abs(value) == i) return std::string(value > 0.0 ? "+" : "-") + "xyz"[i - 1];

@@ -78,7 +78,7 @@ std::optional<std::span<const std::byte>> Impairment::pop(Time now) {
   return std::span<const std::byte>(bytes_).subspan(queued_datagram.slot * kSlotBytes, queued_datagram.size);
 }
 
-// An effect draws if it is on itself, whatever the others do.
+// Each enabled effect draws from its stream independently of the other effects.
 Impairment::Decision Impairment::draw_decision() {
   Decision decision;
   if (config_.loss > 0.0) decision.lost = draw_loss();
@@ -94,8 +94,8 @@ Impairment::Decision Impairment::draw_decision() {
   return decision;
 }
 
-// Gilbert's two states: bursts end with probability r = 1/burst and begin with q = p r / (1 - p), which makes
-// p the mean loss. Where that asks for q > 1, bursts become longer instead, so that the mean holds.
+// Two-state Gilbert model: bursts end with probability r = 1/burst and begin with probability q = p r / (1 -
+// p), so that p is the mean loss. If that requires q > 1, bursts become longer instead to keep the mean.
 bool Impairment::draw_loss() {
   const double u = streams_.loss.uniform();
   const double p = config_.loss;

@@ -1,13 +1,13 @@
 #pragma once
-// Origin of a datagram, in the format of the channel that received it; no other code reads it. All zero:
-// none.
+// Source address of a datagram, in the format of the channel that received it; no other code interprets it.
+// All zero means none.
 
 #include <array>
 #include <cstdint>
 
 namespace longreach {
 
-using Origin = std::array<std::uint8_t, 28>;  // holds an IPv6 socket address
+using Origin = std::array<std::uint8_t, 28>;  // large enough for an IPv6 socket address
 inline constexpr Origin kNowhere{};
 
 }  // namespace longreach

@@ -13,11 +13,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t kGoals = 8192;
-constexpr std::size_t kLatenessSamples = 4096;  // 5 s at 800 Hz; faster senders fill it sooner
+constexpr std::size_t kLatenessSamples = 4096;  // 5 s at 800 Hz; less at higher rates
 constexpr Duration kLatenessWindow = seconds(5);
 constexpr Duration kQuantilePeriod = milliseconds(100);
-constexpr Duration kLinkStep =
-    milliseconds(250);            // a fall of the transit by more is another link, not jitter
+// A larger decrease of the transit time means that the link has changed; it is not jitter.
+constexpr Duration kLinkStep = milliseconds(250);
 constexpr int kSlewDivisor = 20;  // 0.05 s/s
 
 }  // namespace
@@ -61,7 +61,7 @@ void Playout::clear() {
   played_.reset();
 }
 
-// False for a duplicate and for what is older than all that a full store holds.
+// Returns false for a duplicate, and for an entry that is older than all entries of a full store.
 bool Playout::insert(const Entry& entry) {
   std::size_t place = entries_.size();
   while (place > 0 && entries_[place - 1].sequence > entry.sequence) --place;
@@ -89,7 +89,7 @@ void Playout::adapt(Time now) {
   const std::int64_t target = saturating_add(offset().count(), wanted_delay(now).count());
   const std::int64_t change = saturating_sub(target, lag_.count());
   const std::int64_t slew = (dt / kSlewDivisor).count();
-  // While the newest goal is held because nothing newer came, waiting longer moves nothing.
+  // While the newest goal is held because no newer one has arrived, a longer delay causes no motion.
   const std::int64_t overdue = saturating_sub(transit_ns(now, entries_.back().sent), lag_.count());
   lag_ = Duration{saturating_add(lag_.count(), std::clamp(change, -slew, std::max(slew, overdue)))};
 }
@@ -113,8 +113,8 @@ Duration Playout::lateness_quantile() {
   const std::int64_t earliest_transit = offset().count();
   std::size_t n = 0;
   for (std::size_t i = 0; i < lateness_.size(); ++i) {
-    // The lesser of both: a link that has become faster, or whose slower time has become the norm, is not
-    // late.
+    // The smaller of the two counts: neither a link that has become faster nor one that has become
+    // permanently slower makes its datagrams late.
     const Lateness& l = lateness_[i];
     const std::int64_t late = std::min(l.late_ns, saturating_sub(l.transit_ns, earliest_transit));
     if (late <= latest) scratch_[n++] = std::max<std::int64_t>(late, 0);
@@ -166,7 +166,7 @@ std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m
   if (beyond == 0 || std::isnan(last_sequence)) return std::nullopt;
 
   Place b = place(beyond - 1);
-  std::size_t next = beyond - 1;  // entries below this one are still to be looked at
+  std::size_t next = beyond - 1;  // entries below this one have not been considered yet
   if (beyond < entries_.size() && last_sequence > b.sequence) {
     const Place c = place(beyond);
     const double part = (last_sequence - b.sequence) / (c.sequence - b.sequence);

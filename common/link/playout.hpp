@@ -1,13 +1,14 @@
 #pragma once
-// Turns jittery arrivals into a smooth goal. Goals are played at earliest arrival + playout delay, linearly
-// interpolated between sequences; on silence the last goal is held. A larger delay gives smoother but later
-// motion. The delay is fixed, or the `quantile` of the lateness in the last 5 s (adaptive; lateness beyond
-// `delay_max_s` is ignored). It changes by at most 0.05 s/s while goals are played, so that the goal does not
-// jump. A goal that is later than the delay is played on arrival. If the transit time of the link falls by
-// more than 0.25 s at once, the delay follows immediately. The class also stores recent goals, to find the
-// command that led to a given position.
+// The jitter buffer, which turns jittery arrivals into a smooth goal. A goal is played at its earliest
+// arrival time plus the playout delay, with linear interpolation between commands. If no newer goal has
+// arrived, the last one is held. A larger delay gives smoother but later motion. The delay is either fixed or
+// adaptive: the `quantile` of the lateness over the last 5 s, where lateness beyond `delay_max_s` is ignored.
+// While goals are played, the delay changes by at most 0.05 s/s, so that the goal does not jump. A goal that
+// is later than the delay is played on arrival. If the transit time of the link suddenly decreases by more
+// than 0.25 s, the delay follows immediately. The class also stores recent goals, so that the command at a
+// given position can be found.
 //
-// Orientation is not handled separately: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
+// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
 
 #include <cstdint>
 #include <limits>
@@ -23,12 +24,12 @@ namespace longreach {
 
 struct PlayoutConfig {
   bool adaptive = true;         // choose the delay from the measured lateness
-  double fixed_delay_s = 0.02;  // used when not adaptive, 0 to 2
-  double quantile = 0.9;        // of lateness, when adaptive
-  double delay_max_s = 0.5;     // adaptive delay never exceeds this
+  double fixed_delay_s = 0.02;  // used if not adaptive, 0 to 2
+  double quantile = 0.9;        // quantile of the lateness, used if adaptive
+  double delay_max_s = 0.5;     // maximum of the adaptive delay
 };
 
-/// A goal with the command that it belongs to.
+/// A goal with the sequence number of its command.
 struct PlayoutGoal {
   double sequence = 0.0;           // fractional between two commands
   Vector6 goal = Vector6::Zero();  // [position_m; rotation_rad]
@@ -40,19 +41,22 @@ class Playout {
 
   void configure(const PlayoutConfig& config) { config_ = config; }
 
-  /// Adds a goal. Old, reordered goals fill gaps of the past; duplicates change nothing.
+  /// Adds the goal of command `sequence`. Old, reordered goals fill gaps in the history; duplicates change
+  /// nothing.
   void push(Time received, PeerTime sent, std::uint64_t sequence, const Vector6& goal);
 
-  /// Returns the goal to follow now; none before the first push. Never returns to an older sequence.
+  /// Returns the goal to follow at `now`; none before the first push. The sequence numbers of successive
+  /// results never decrease.
   std::optional<PlayoutGoal> play(Time now);
 
-  /// Returns the fractional sequence of the newest goal, not after `last_sequence`, that crosses the plane
-  /// through `point_m` with normal `n` (unit): where n . (position - point) changes its sign from negative,
-  /// or is nearest to zero; none if that is further than `most_m` from it.
+  /// Returns the fractional sequence number, at most `last_sequence`, at which the goal most recently crossed
+  /// the plane through `point_m` with unit normal `n`, so that n . (position - point) became positive. If it
+  /// never did, returns where the goal was nearest to the plane, or none if that distance is `most_m` or
+  /// more. `n` and `point_m` are in the frame of the goals.
   [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
                                                double most_m = std::numeric_limits<double>::infinity()) const;
 
-  [[nodiscard]] double delay_s() const;  // playout delay in use
+  [[nodiscard]] double delay_s() const;  // current playout delay
   void clear();
 
  private:
@@ -63,8 +67,8 @@ class Playout {
   };
   struct Lateness {
     Time received{};
-    std::int64_t transit_ns = 0;  // received - sent, across two clocks
-    std::int64_t late_ns = 0;     // beyond the earliest arrival known at that time
+    std::int64_t transit_ns = 0;  // received - sent, the difference of two clocks
+    std::int64_t late_ns = 0;     // lateness relative to the earliest arrival known at that time
   };
 
   bool insert(const Entry& entry);
@@ -78,13 +82,13 @@ class Playout {
 
   PlayoutConfig config_;
   ClockOffset offset_;
-  Ring<Entry> entries_;      // ascending in sequence
-  Ring<Lateness> lateness_;  // of the last 5 s
+  Ring<Entry> entries_;      // in ascending order of sequence
+  Ring<Lateness> lateness_;  // samples of the last 5 s
   std::vector<std::int64_t> scratch_;
   Duration lag_{0};       // now - lag_ is the send time of the goal played now: offset + playout delay
-  Duration quantile_{0};  // adaptive delay as last computed
+  Duration quantile_{0};  // last computed adaptive delay
   std::optional<Time> quantile_at_{};  // time of that computation
-  std::optional<Time> stepped_at_{};   // last play()
+  std::optional<Time> stepped_at_{};   // time of the last play()
   std::optional<PlayoutGoal> played_{};
 };
 

@@ -12,8 +12,8 @@ constexpr std::uint64_t kWordBits = 64;
 
 }  // namespace
 
-// The window reaches at most ceil((width - 1) / 64) words below the newest number's word. As many words as a
-// power of two, so that a place among them is found without a division.
+// The window extends at most ceil((width - 1) / 64) words below the word of the newest number. The number of
+// words is a power of two, so that an index is found without a division.
 ReplayWindow::ReplayWindow(std::uint32_t width)
     : width_(width), bits_(std::bit_ceil((std::uint64_t{width} + kWordBits - 2) / kWordBits + 1)) {
   CHECK(width > 0);

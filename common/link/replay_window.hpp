@@ -1,6 +1,6 @@
 #pragma once
-// Accepts each sequence number once. Numbers that are `width` or more below the newest are refused, because
-// their state is no longer stored (idea of RFC 6479: a ring of bit words, longer than the window).
+// Accepts each sequence number once. Numbers that are `width` or more below the newest are rejected, because
+// their state is no longer stored (idea of RFC 6479: a ring of bit words that is longer than the window).
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +12,9 @@ class ReplayWindow {
  public:
   explicit ReplayWindow(std::uint32_t width = 8192);
 
-  /// Returns whether a number (>= 1) is within or above the window and has not been accepted yet.
+  /// Returns whether `sequence` (>= 1) is within or above the window and has not been accepted yet.
   [[nodiscard]] bool fresh(std::uint64_t sequence) const;
-  /// Returns true for a new number and marks it as used. Zero is never accepted.
+  /// Returns true for a new number and marks it as used. Zero is always rejected.
   bool accept(std::uint64_t sequence);
 
   [[nodiscard]] std::uint64_t newest() const { return newest_; }  // 0: none yet

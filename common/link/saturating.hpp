@@ -1,6 +1,6 @@
 #pragma once
-// Sums and differences of nanoseconds that saturate instead of overflowing, because one operand may come from
-// the peer and have any value.
+// Sums and differences of nanoseconds that saturate instead of overflowing. One operand may come from the
+// peer and have any value.
 
 #include <cstdint>
 #include <limits>
@@ -24,7 +24,8 @@ constexpr std::int64_t saturating_sub(std::int64_t a, std::int64_t b) {
 constexpr std::int64_t to_ns(Time t) { return t.time_since_epoch().count(); }
 constexpr std::int64_t to_ns(PeerTime t) { return t.time_since_epoch().count(); }
 
-/// One-way time plus the unknown difference of the two clocks, ns; only differences of it are meaningful.
+/// Returns the one-way delay plus the unknown offset between the two clocks, ns. Only differences between
+/// such values are meaningful.
 constexpr std::int64_t transit_ns(Time received, PeerTime sent) {
   return saturating_sub(to_ns(received), to_ns(sent));
 }

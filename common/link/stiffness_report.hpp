@@ -1,7 +1,7 @@
 #pragma once
-// Slave to master: the estimated stiffness of each surface, the only haptic quantity that crosses the link,
-// and the point of the operator's motion at which it was touched. The renderer receives this type and no
-// other data of the slave.
+// Sent by the slave to the master: the estimated stiffness of each surface, which is the only haptic quantity
+// that crosses the link, and the point of the operator's motion at which the surface was touched. The
+// renderer receives this type and no other data from the slave.
 
 #include <algorithm>
 #include <array>
@@ -12,38 +12,40 @@
 
 namespace longreach {
 
-/// States of the safety state machine of either side.
+/// States of the safety state machine on both sides.
 enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
 
-/// Stiffness of a report at most, N/m or N m/rad: beyond it the force changes without a motion, and a
-/// stiffness is not identifiable.
+/// Maximum stiffness in a report, N/m or N m/rad. Above it the force changes without measurable motion, so
+/// that no stiffness is identifiable.
 inline constexpr double kStiffnessMaxNPerM = 1e12;
 
-/// A surface that the tool presses on or has pressed on: the tangent of its force law at the working depth.
-/// Lengths in m and forces in N, or rad and N m.
+/// A surface that the tool presses on or has pressed on, described by the tangent to its force law at the
+/// working depth. Lengths are in m and forces in N, or rad and N m.
 struct ReportedSurface {
-  Vector3 normal = Vector3::Zero();  // unit, in W: direction in which it pushes the tool
-  double stiffness = 0.0;            // of the tangent, N/m or N m/rad; 0: not identified yet
-  double foot = 0.0;                 // of the tangent: its depth behind the surface, >= 0
-  // Sequence number of the command whose goal is at the surface, may be fractional; refined while pressed. 0:
-  // no longer stored because it is too old; the surface is then at `offset` along the normal from the
-  // engagement's anchor.
+  Vector3 normal = Vector3::Zero();  // unit vector, W: direction in which the surface pushes the tool
+  double stiffness = 0.0;            // slope of the tangent, N/m or N m/rad; 0: not identified yet
+  double foot = 0.0;                 // depth behind the surface at which the tangent has zero force, >= 0
+  // Sequence number of the command whose goal is at the surface. It may be fractional and is refined while the
+  // tool presses. 0: the command is too old to be stored; the surface is then at `offset` along the normal from
+  // the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
-  std::uint32_t touch = 0;  // number of the touch, from 1, in which it is or was last pressed; 0: no surface
+  /// Number of the touch, from 1, in which the tool last pressed on this surface; 0: no surface.
+  std::uint32_t touch = 0;
   bool pressed = false;
 };
 
 inline constexpr std::size_t kSurfaces = 3;
 
-/// Contact in translation or in rotation.
+/// Contacts in translation or in rotation.
 struct ContactReport {
-  // All known surfaces; their normals differ by at least 26 degrees. Unused entries are last.
+  // All known surfaces. Their normals differ by at least 26 degrees. Unused entries are at the end.
   std::array<ReportedSurface, kSurfaces> surfaces{};
-  // Position of the tool where a limit holds it back, from the engagement's anchor, in W: a displacement (m)
-  // or a rotation vector (rad).
+  // Position of the tool at which a limit holds it back, from the engagement's anchor, in W: a displacement
+  // (m) or a rotation vector (rad).
   Vector3 place = Vector3::Zero();
-  // Unit, in W: from the tool towards a goal from which a limit holds it back; zero: no limit is active.
+  // Unit vector in W from the tool towards the goal that a limit keeps it from reaching; zero: no limit is
+  // active.
   Vector3 held_back = Vector3::Zero();
 
   [[nodiscard]] bool in_contact() const {
@@ -52,14 +54,14 @@ struct ContactReport {
 };
 
 struct StiffnessReport {
-  std::uint32_t engagement = 0;  // engagement that the slave follows or last followed
+  std::uint32_t engagement = 0;  // number of the engagement that the slave follows or last followed
   SafetyState state = SafetyState::kIdle;
-  Reason cause{};  // of the state
+  Reason cause{};  // cause of the state
   ContactReport translation{};
   ContactReport rotation{};
   // Sequence number of the newest command whose goal the tool has reached.
   std::uint64_t reached_sequence = 0;
-  // The engagement that is requested but not granted, and the reason; 0: none.
+  // Number of the engagement that is requested but not granted (0: none), and the reason.
   std::uint32_t refused = 0;
   Reason refusal{};
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Slave to master, 30 to 60 Hz, for display and log only. No code that moves a motor may read it.
+// Sent by the slave to the master at 30 to 60 Hz, for display and log only. Code that moves a motor must not
+// read it.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace longreach {
 
 constexpr int kMaxJoints = 6;
 
-/// Limits that the slave has applied since the last datagram.
+/// Limits that were active at the slave since the previous datagram.
 struct Clamps {
   bool tool_speed = false;
   bool joint_speed = false;
@@ -20,29 +21,27 @@ struct Clamps {
   bool force_guard = false;
   bool singularity = false;
   bool unreachable = false;
-  bool acceleration =
-      /// limit of tool or joints, for statistics; every change of motion reaches it, so it is not a warning
-      false;
+  /// Acceleration limit of tool or joints. For statistics only: every change of motion reaches it.
+  bool acceleration = false;
   bool moment_guard = false;
 };
 
-/// Validity of an estimate.
-/// kNoPowerLaw: the contact does not follow a power law; the stiffness is then the slope of the force over
-/// the probed depth.
+/// Validity of an estimate. With kNoPowerLaw the contact does not follow a power law, and the stiffness is the
+/// slope of the force over the probed depth.
 enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable, kNoPowerLaw };
 
-/// Present result of the estimator.
+/// Current result of the estimator for the law F = k p^n + λ p^n p', p the depth.
 struct ContactEstimate {
-  double stiffness_n_per_m = 0.0;     // tangent dF/dp of the elastic force at the present depth
+  double stiffness_n_per_m = 0.0;     // tangent stiffness dF/dp of the elastic force at the present depth
   double stiffness_sd_n_per_m = 0.0;  // one standard deviation
   double k = 0.0;                     // N/m^n
   double lambda = 0.0;                // N s/m^(n+1)
   double n = 1.0;                     // exponent
   double depth_m = 0.0;               // present depth below the estimated surface
   bool valid = false;                 // false: not yet identified, or no contact
-  double secant_n_per_m = 0.0;        // F/p of the elastic force at the present depth: stiffness over n
+  double secant_n_per_m = 0.0;        // secant stiffness F/p at the present depth: tangent stiffness over n
   double k_sd = 0.0, lambda_sd = 0.0, n_sd = 0.0;
-  double correlation = 0.0;  // of k and λ
+  double correlation = 0.0;  // correlation of k and λ
   Verdict stiffness_verdict = Verdict::kNotYet;
   Verdict k_verdict = Verdict::kNotYet;
   Verdict lambda_verdict = Verdict::kNotYet;
@@ -53,7 +52,7 @@ struct GripperState {
   bool closed = false;
   bool holds = false;       // the gripper holds a load
   double load_kg = 0.0;     // identified mass of the load
-  double load_sd_kg = 0.0;  // 0: not known
+  double load_sd_kg = 0.0;  // standard deviation; 0: mass unknown
 };
 
 struct Telemetry {
@@ -62,18 +61,18 @@ struct Telemetry {
   std::uint32_t engagement = 0;
   Pose X_WE{};                                 // measured tool pose
   Pose X_WE_goal{};                            // goal that the robot follows
-  std::array<double, kMaxJoints> joint_rad{};  // measured
-  Wrench F_E_W{};                              // measured, by the environment on the tool
+  std::array<double, kMaxJoints> joint_rad{};  // measured positions; m for a prismatic joint
+  Wrench F_E_W{};                              // measured wrench of the environment on the tool
   ContactEstimate estimate{};
   double penetration_m = 0.0;  // measured depth below the estimated surface; 0 without contact
   Clamps clamps{};
-  // Statistics of the direction from the master.
-  double up_loss = 0.0;      // fraction
-  double up_jitter_s = 0.0;  // standard deviation of the one-way time
+  // Statistics of the direction from master to slave.
+  double up_loss = 0.0;      // fraction of datagrams lost
+  double up_jitter_s = 0.0;  // standard deviation of the one-way delay
   double playout_delay_s = 0.0;
-  std::uint64_t rejected = 0;  // datagrams dropped, all reasons
+  std::uint64_t rejected = 0;  // dropped datagrams, all reasons
   std::uint64_t limit_violations = 0;
-  std::uint64_t late_ticks = 0;  // ticks late by over 100 ms
+  std::uint64_t late_ticks = 0;  // ticks that were more than 100 ms late
   GripperState gripper{};
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// Passes one command at a time from any thread to the loop, and its answer back. The loop side (take, answer)
-// needs a few atomic operations: it never waits, locks or wakes a thread. The other side polls for the
-// answer.
+// Passes one command at a time from any thread to the loop, and returns its reply. The loop side (take,
+// answer) needs a few atomic operations: it never waits, locks or wakes a thread. The posting side polls for
+// the reply.
 
 #include <atomic>
 #include <chrono>
@@ -15,8 +15,8 @@ namespace longreach {
 template <class Command, class Reply>
 class Mailbox {
  public:
-  /// Passes the command and waits for the answer. Returns none if the loop did not take it within `timeout`;
-  /// the loop will then not take it later either.
+  /// Passes a command to the loop and waits for the reply. Returns none if the loop did not take the command
+  /// within `timeout`; it will then not take it later either.
   std::optional<Reply> post(Command command, std::chrono::milliseconds timeout) {
     const std::lock_guard lock(posting_);
     const Emptied emptied{command_};
@@ -26,7 +26,7 @@ class Mailbox {
     while (state_.load(std::memory_order_acquire) != State::kAnswered) {
       State posted = State::kPosted;
       const bool late = std::chrono::steady_clock::now() >= deadline;
-      // Once a command is taken, the answer follows within a tick.
+      // Once a command is taken, the reply follows within a tick.
       if (late && state_.compare_exchange_strong(posted, State::kEmpty)) return std::nullopt;
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
@@ -35,19 +35,20 @@ class Mailbox {
     return reply;
   }
 
-  /// Loop side: returns the pending command, or nothing. It must be answered before the next take().
+  /// Loop side: returns the pending command, or null. It must be answered before the next take().
   const Command* take() {
     State posted = State::kPosted;
     return state_.compare_exchange_strong(posted, State::kTaken, std::memory_order_acq_rel) ? &command_
                                                                                             : nullptr;
   }
+  /// Loop side: returns `reply` to the thread that posted the command.
   void answer(const Reply& reply) {
     reply_ = reply;
     state_.store(State::kAnswered, std::memory_order_release);
   }
 
  private:
-  /// Erases the content of a command, which may include the secret of a session, after its post.
+  /// Erases the command at the end of post(), because it may contain the secret of a session.
   struct Emptied {
     Command& command;
     ~Emptied() { command = Command{}; }

@@ -1,5 +1,6 @@
 #pragma once
-// Absolute deadlines of periodic updates, which do not drift; a slow reader skips missed updates.
+// Absolute deadlines for periodic updates, so that the period does not drift. Deadlines that a slow reader
+// has missed are skipped.
 
 #include <chrono>
 

@@ -22,7 +22,7 @@ std::vector<std::string> ask_for_real_time(const LoopConfig& config) {
           "): ticks may be late; grant it with `ulimit -r` or CAP_SYS_NICE, or set loop.priority to 0");
     }
   }
-  // On fault: only what is used is locked, not every thread's whole stack.
+  // With MCL_ONFAULT only pages that are used are locked, not the entire stack of every thread.
   if (config.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
     notes.push_back(std::string("memory is not locked (") + std::strerror(errno) +
                     "): ticks may be late; grant it with `ulimit -l`, or set loop.lock_memory to false");

@@ -1,5 +1,5 @@
 #pragma once
-// Calls a step at a fixed rate by absolute deadlines of the side's clock, in the calling thread.
+// Calls a step at a fixed rate in the calling thread, with absolute deadlines on the side's clock.
 
 #include <atomic>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace longreach {
 
-/// Sleeps until an instant of the side's clock.
+/// Sleeps until `deadline` on the side's clock.
 void sleep_until(Time deadline);
 
-/// Requests real-time priority and locked memory for the calling thread. Returns one sentence with a remedy
-/// for each request that the system refused.
+/// Requests real-time priority and locked memory for the calling thread. For each request that the system
+/// refused, the result contains one sentence with a remedy.
 std::vector<std::string> ask_for_real_time(const LoopConfig& config);
 
-/// Time source of a loop; a test passes another one.
+/// Time source of a loop. Tests pass a different one.
 struct LoopClock {
   Time (*now)() = boottime_now;
   void (*sleep_until)(Time) = longreach::sleep_until;
@@ -29,7 +29,7 @@ class RealTimeLoop {
   explicit RealTimeLoop(double rate_hz, const LoopClock& clock = {})
       : period_(from_seconds(1.0 / rate_hz)), clock_(clock) {}
 
-  /// Calls step(Time now, const LoopFigures&) once per period until `stop`.
+  /// Calls step(Time now, const LoopFigures&) once per period until `stop` is true.
   template <class Step>
   void run(const std::atomic<bool>& stop, Step step) {
     Deadlines deadlines(clock_.now() + period_, period_);

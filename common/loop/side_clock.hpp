@@ -1,5 +1,6 @@
 #pragma once
-// The clock of a side: CLOCK_BOOTTIME, which never goes back and continues while the host is suspended.
+// The clock of a side: CLOCK_BOOTTIME, which never goes backwards and keeps running while the host is
+// suspended.
 
 #include <time.h>
 
@@ -7,6 +8,7 @@
 
 namespace longreach {
 
+/// Returns the present time of the side's clock.
 inline Time boottime_now() {
   timespec t{};
   clock_gettime(CLOCK_BOOTTIME, &t);

@@ -1,6 +1,6 @@
 #pragma once
-// Passes a stop from any thread to the loop by its own path: a flag that the next tick reads, independent of
-// the mailbox and of any lock. The loop side needs two atomic operations.
+// Passes a stop from any thread to the loop on a path of its own: a flag that the next tick reads,
+// independent of the mailbox and of any lock. The loop side needs two atomic operations.
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +11,8 @@ namespace longreach {
 
 class StopLevel {
  public:
-  /// Requests a stop and returns whether a tick took it within `timeout`. A later tick takes it in any case.
+  /// Requests a stop and returns whether a tick took it within `timeout`. If not, the next tick still takes
+  /// it.
   bool ask(std::chrono::milliseconds timeout) {
     const std::uint64_t own = asked_.fetch_add(1, std::memory_order_acq_rel) + 1;
     const auto deadline = std::chrono::steady_clock::now() + timeout;
@@ -22,7 +23,7 @@ class StopLevel {
     return true;
   }
 
-  /// Loop side: returns whether to stop in this tick.
+  /// Loop side: returns whether a stop was requested since the last call.
   bool take() {
     const std::uint64_t asked = asked_.load(std::memory_order_acquire);
     if (asked == taken_.load(std::memory_order_relaxed)) return false;
@@ -32,7 +33,7 @@ class StopLevel {
 
  private:
   std::atomic<std::uint64_t> asked_{0};
-  std::atomic<std::uint64_t> taken_{0};  // number of requests taken; written by the loop only
+  std::atomic<std::uint64_t> taken_{0};  // number of requests taken; written only by the loop
 };
 
 }  // namespace longreach

@@ -12,7 +12,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::atomic<int> signals{0};
 
-// Async-signal-safe: atomics and _exit only. A terminal that closes may send several hang-ups at once.
+// Async-signal-safe: uses only atomics and _exit. SIGHUP is not counted, because a closing terminal may send
+// it several times.
 void request_stop(int signal) {
   if (signal != SIGHUP && signals.fetch_add(1) >= 2) _exit(128 + signal);
   requested.store(true);
@@ -30,8 +31,8 @@ std::atomic<bool>& stop_requested() {
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction present {};
     const bool ignored = sigaction(SIGHUP, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
-    if (!ignored) sigaction(SIGHUP, &action, nullptr);  // nohup(1) ignores it
-    // A reader of the output that goes away must not end a program that steers a robot.
+    if (!ignored) sigaction(SIGHUP, &action, nullptr);  // nohup(1) sets it to be ignored
+    // The end of a process that reads the output must not end a program that controls a robot.
     std::signal(SIGPIPE, SIG_IGN);
     return true;
   }();

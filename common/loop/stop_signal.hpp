@@ -1,12 +1,13 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP (unless ignored) request the end of the program; the third SIGINT or SIGTERM
-// ends it immediately. SIGPIPE is ignored.
+// Signal handling of a program. SIGINT, SIGTERM and SIGHUP (unless ignored) request the end of the program;
+// the third SIGINT or SIGTERM ends it immediately. SIGPIPE is ignored.
 
 #include <atomic>
 
 namespace longreach {
 
-/// Becomes true when the end of the program is requested. The first call installs the signal handlers.
+/// Returns a flag that becomes true when the end of the program is requested. The first call installs the
+/// signal handlers.
 std::atomic<bool>& stop_requested();
 
 }  // namespace longreach

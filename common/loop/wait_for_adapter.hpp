@@ -1,6 +1,6 @@
 #pragma once
-// Waits for the adapter before the first tick. A running adapter answers within a millisecond or two;
-// otherwise the loop reports a fault.
+// Waits for the adapter before the first tick. A running adapter responds within a millisecond or two. If
+// none responds, the program continues, and the loop reports a fault.
 
 #include <chrono>
 #include <thread>
@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-/// Sends to the adapter until it answers, for at most 2 s.
+/// Sends datagrams to the adapter until it responds, for at most 2 s.
 template <class Adapter>
 void wait_for_adapter(Adapter& adapter) {
   const Time end = boottime_now() + std::chrono::seconds(2);

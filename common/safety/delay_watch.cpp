@@ -8,10 +8,10 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Duration kLeastWindow = milliseconds(500);
-constexpr Duration kSpanMin = milliseconds(250);  // a few odd ones are then a minority
+constexpr Duration kSpanMin = milliseconds(250);  // a few outliers are then a minority
 constexpr Duration kLook = milliseconds(20);
 constexpr std::size_t kSamplesMin = 3;
-constexpr double kRise_s_per_s = 1e-3;        // of the least: clocks drift, and paths lengthen
+constexpr double kRise_s_per_s = 1e-3;  // permitted rise of the minimum: clocks drift, and paths lengthen
 constexpr std::size_t kLeastCapacity = 4096;  // 0.5 s at 8 kHz
 
 }  // namespace

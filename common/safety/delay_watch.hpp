@@ -1,10 +1,10 @@
 #pragma once
-// Detects an increase of the delay of a link: compares the median round trip of the last half second with its
-// minimum since the engagement, where the minimum may rise by at most 1 ms per second. An attacker that holds
-// back authentic datagrams in either direction, in a step or a ramp, is detected by it. Medians are used, so
-// that a single datagram, a late tick or a stalled side does not set the minimum; it is unknown until a
-// quarter of a second of datagrams has arrived. Pure: the caller supplies the time. A delay that existed when
-// the engagement began is not detected.
+// Detects an increase of the delay of a link. It compares the median round-trip time of the last half second
+// with its minimum since the engagement; the minimum itself may rise by at most 1 ms per second. This reveals
+// an attacker who delays authentic datagrams in either direction, in a step or a ramp. Medians are used so
+// that a single datagram, a late tick or a stalled side does not set the minimum; the median is unknown until
+// datagrams have arrived for a quarter of a second. Pure: the caller supplies the time. A delay that already
+// existed when the engagement began is not detected.
 
 #include <cstdint>
 #include <optional>
@@ -19,17 +19,20 @@ class DelayWatch {
  public:
   DelayWatch();
 
-  /// Starts an engagement, which accepts the present delay but no increase from now on.
+  /// Starts an engagement: accepts the present delay, but no increase from now on.
   void rebase();
-  /// Adds the round trip of a datagram; below zero: unknown.
+  /// Adds the round-trip time of a datagram. A value below zero (unknown) is ignored.
   void add(Time now, Duration rtt);
-  /// Call it in each tick, after add(). It evaluates 50 times a second.
+  /// Updates median and minimum, at most 50 times a second. Call it in each tick, after add().
   void step(Time now);
 
-  [[nodiscard]] std::optional<double> median_s() const { return median_s_; }  // of the last half second
-  [[nodiscard]] std::optional<double> least_s() const { return least_s_; }    // since the engagement
+  /// Median round-trip time of the last half second; none until it is known.
+  [[nodiscard]] std::optional<double> median_s() const { return median_s_; }
+  /// Minimum of the median since the engagement; none until it is known.
+  [[nodiscard]] std::optional<double> least_s() const { return least_s_; }
+  /// Returns whether the median exceeds the minimum by more than `bound_s`.
   [[nodiscard]] bool rose(double bound_s) const {
-    return median_s_ && *median_s_ - *least_s_ > bound_s;  // set together
+    return median_s_ && *median_s_ - *least_s_ > bound_s;  // both are set together
   }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
-// Detects a loop that does not keep its rate: more than half of the ticks of a second were late by more than
-// one period, or missed. Pure: updated in each tick with the number of such ticks. One stall counts as half a
-// second at most; the gap timer decides whether a stall is too long.
+// Detects a loop that does not keep its rate: more than half of the ticks of a second were missed or late by
+// more than one period. A single stall counts as at most half a second; the gap timer detects stalls that are
+// too long. Pure.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,8 @@ class OverrunWatch {
       : half_(static_cast<std::uint64_t>(0.5 * rate_hz)),
         late_(static_cast<std::size_t>(2.0 * rate_hz) + 1) {}
 
-  /// `overdue`: number of ticks so far that were late by more than one period, or missed.
+  /// Call it in each tick. `overdue` is the total number of ticks so far that were missed or late by more
+  /// than one period.
   void step(Time now, std::uint64_t overdue) {
     const std::uint64_t more = std::min(overdue - std::min(overdue, overdue_), half_);
     overdue_ = overdue;
@@ -30,12 +31,13 @@ class OverrunWatch {
     late_.push({now, more});
     count_ += more;
   }
-  /// Ignores lateness before this call.
+  /// Forgets all lateness before this call.
   void clear() {
     late_.clear();
     count_ = 0;
   }
 
+  /// Returns whether more than half of the ticks of the last second were overdue.
   [[nodiscard]] bool overrun() const { return count_ > half_; }
 
  private:
@@ -47,7 +49,7 @@ class OverrunWatch {
   std::uint64_t half_;
   Ring<Late> late_;
   std::uint64_t overdue_ = 0;
-  std::uint64_t count_ = 0;  // in late_
+  std::uint64_t count_ = 0;  // sum of the counts in late_
 };
 
 }  // namespace longreach

@@ -1,8 +1,8 @@
 #pragma once
-// Time monitoring of a side: the time since its previous tick, and the delay of received datagrams. Reports a
-// stall longer than the gap timer, a loop that does not keep its rate, and an increased delay. A datagram, or
-// an echo, that newer ones have overtaken by more than 0.25 s reflects a past delay and is ignored. Pure: the
-// caller supplies the time.
+// Monitors the timing of a side: the time since its previous tick, and the delay of received datagrams. It
+// reports a stall longer than the gap timer, a loop that does not keep its rate, and an increased delay. A
+// datagram whose echo is more than 0.25 s older than the newest echo reflects a past delay and is ignored.
+// Pure: the caller supplies the time.
 
 #include <algorithm>
 #include <optional>
@@ -18,12 +18,12 @@ class TimeWatch {
  public:
   explicit TimeWatch(double rate_hz) : overrun_(rate_hz) {}
 
-  /// Returns whether a tick at `now` is later than the gap timer after the previous one.
+  /// Returns whether a tick at `now` comes more than `gap_s` after the previous one.
   [[nodiscard]] bool stalls(Time now, double gap_s) const {
     return stepped_at_ && to_seconds(now - *stepped_at_) > gap_s;
   }
 
-  /// Processes the datagrams received with this tick; call it before step().
+  /// Processes the datagrams received in this tick. Call it before step().
   template <class Message>
   void receive(Time now, std::span<const Received<Message>> messages) {
     for (const auto& received : messages) {
@@ -33,7 +33,8 @@ class TimeWatch {
       if (!overtaken) delay_.add(now, received.rtt);
     }
   }
-  /// Processes a tick. `overdue`: number of ticks so far that were late by more than one period, or missed.
+  /// Processes a tick. `overdue` is the total number of ticks so far that were missed or late by more than
+  /// one period.
   void step(Time now, double gap_s, std::uint64_t overdue) {
     stalled_since_ = stalls(now, gap_s) ? stepped_at_ : std::nullopt;
     if (stepped_at_) passed_s_ = to_seconds(now - *stepped_at_);
@@ -42,12 +43,12 @@ class TimeWatch {
     if (stalled_since_) overrun_.clear();
     delay_.step(now);
   }
-  /// Starts an engagement, which accepts the present delay.
+  /// Starts an engagement: accepts the present delay.
   void rebase() { delay_.rebase(); }
 
-  /// Time since the previous tick; none at the first.
+  /// Returns the time from the previous tick to this one; none at the first tick.
   [[nodiscard]] std::optional<double> passed_s() const { return passed_s_; }
-  /// Time of the previous tick, if this one is later than the gap timer.
+  /// Returns the time of the previous tick if this one came later than the gap timer allows; otherwise none.
   [[nodiscard]] std::optional<Time> stalled_since() const { return stalled_since_; }
   [[nodiscard]] bool overrun() const { return overrun_.overrun(); }
   [[nodiscard]] const DelayWatch& delay() const { return delay_; }
@@ -60,7 +61,7 @@ class TimeWatch {
   std::optional<Time> stepped_at_{};
   std::optional<Time> stalled_since_{};
   std::optional<double> passed_s_{};
-  std::optional<Time> newest_echo_{};  // echo of the newest datagram that this side has sent
+  std::optional<Time> newest_echo_{};  // send time of the newest datagram of this side that was echoed
 };
 
 }  // namespace longreach

@@ -1,6 +1,7 @@
 #pragma once
-// The simulated devices, the simulated hand and its operator. proto/config.proto defines meaning, unit and
-// range under the same names. The defaults here are those of deploy/devices/desktop.txtpb.
+// Parameters of the simulated devices, the simulated hand and its operator. proto/config.proto defines the
+// meaning, unit and range of each field under the same name. The defaults here equal
+// deploy/devices/desktop.txtpb.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace longreach {
 
-/// One motor axis; the three axes of a device are equal.
+/// One motor axis. All three axes of a device have the same parameters.
 struct DriveConfig {
   double inertia_kg_m2 = 3e-4;
   double viscous_nm_s_per_rad = 0.075;

@@ -1,6 +1,6 @@
 #pragma once
-// Mapping from the motion of the handle to the goal of the robot. proto/config.proto defines meaning, unit
-// and range under the same names.
+// Parameters of the mapping from the motion of the handle to the goal of the robot. proto/config.proto
+// defines the meaning, unit and range of each field under the same name.
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-// All parameters of the master as plain values. proto/config.proto defines meaning, unit, default and range
-// under the same names.
+// All parameters of the master as plain values. proto/config.proto defines the meaning, unit, default and
+// range of each field under the same name.
 
 #include <algorithm>
 #include <cstdint>
@@ -24,8 +24,8 @@ struct MasterLinkConfig {
   double budget_kbit_per_s = 0.0;
 };
 
-/// Rate of sent commands: the requested rate, limited by the budget at 128 bytes per datagram including all
-/// headers.
+/// Returns the rate at which commands are sent, Hz: the requested rate, limited by the bandwidth budget. A
+/// datagram counts as 128 bytes, headers included.
 inline double sent_hz(const MasterLinkConfig& link) {
   constexpr double kbit = 1e-3 * 8.0 * 128.0;
   return link.budget_kbit_per_s > 0.0 ? std::min(link.send_hz, link.budget_kbit_per_s / kbit) : link.send_hz;
@@ -49,7 +49,7 @@ struct MasterConfig {
   std::string device_file = "devices/desktop.txtpb";
   DeviceConfig device{};
   HandConfig hand{};
-  OperatorConfig operator_{};  // `operator` in the schema
+  OperatorConfig operator_{};  // called `operator` in the schema
   MappingConfig mapping{};
   RenderingConfig rendering{};
   MasterSafetyConfig safety{};

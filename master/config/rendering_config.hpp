@@ -1,5 +1,6 @@
 #pragma once
-// Parameters of the rendering. proto/config.proto defines meaning, unit and range under the same names.
+// Parameters of the rendering. proto/config.proto defines the meaning, unit and range of each field under the
+// same name.
 
 #include <cstdint>
 
@@ -8,7 +9,7 @@ namespace longreach {
 enum class RenderingLaw : std::uint8_t {
   kStiffness = 0,
   kNaive = 1,
-  kDirect = 2,  // from here on: in the laboratory only
+  kDirect = 2,  // this and the following laws exist in the laboratory only
   kPositionPosition = 3,
   kWave = 4,
   kTdpa = 5,
@@ -47,8 +48,8 @@ struct RenderingConfig {
   bool ke_by_scale = false;
 };
 
-/// Energy that the port may return beyond what it received since the start of an engagement: its store, and
-/// the energy that encoder steps can simulate without a leak, J.
+/// Maximum energy that the port may return beyond what it received since the start of an engagement, J. It is
+/// the initial store plus the apparent energy that encoder quantization can produce without a real leak.
 inline double returned_most_j(const RenderingConfig& c = {}) {
   constexpr double kSteps_j = 1e-3;
   return c.store_j + kSteps_j;

@@ -1,5 +1,5 @@
 #pragma once
-// printf into a string of at most 255 characters.
+// printf into a string. The result is truncated to 255 characters.
 
 #include <array>
 #include <cstdio>

@@ -20,9 +20,9 @@ std::string machine_words(const HoldRecord& hold) {
   return text + "stalled: its machine is busy";
 }
 
-/// The trouble of the hand that a fault of the device began with; empty: none.
+/// Returns the text of the input problem that began together with a device fault; empty if there is none.
 std::string hand_words(const HoldRecord& hold, const std::vector<HandTrouble>& hand) {
-  constexpr double kApartS = 0.5;  // the hand is asked beside the loop
+  constexpr double kApartS = 0.5;  // the hand is polled outside the loop
   if (hold.cause != HoldCause::kDeviceFault || hand.empty()) return "";
   const auto apart_s = [&](const HandTrouble& trouble) { return std::fabs(trouble.began_s - hold.began_s); };
   const auto nearest = std::min_element(
@@ -35,7 +35,7 @@ std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& han
   if (hold.attribution == HoldAttribution::kMachine) return when + machine_words(hold);
   const std::string trouble = hand_words(hold, hand);
   std::string text = when + (trouble.empty() ? sentence(hold.cause) : trouble);
-  // That the slave holds with the master goes without saying.
+  // It is not worth mentioning that the slave holds because the master does.
   const bool follows = hold.far_cause == HoldCause::kPeerHolds && hold.cause != HoldCause::kNone;
   if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause && !follows)
     text += ", at the slave " + sentence(hold.far_cause);

@@ -1,7 +1,7 @@
 #pragma once
-// The holds, stops and faults of a run: time, duration and cause, including the present one. A hold caused by
-// a busy machine (a control loop that stalled or was late) is not a fault of the system; neither is one by
-// the operator, nor an outage that the profile of the link specifies. add() allocates nothing.
+// Log of the holds, stops and faults of a run with their time, duration and cause, including the current one.
+// A hold is not a fault of the system if it was caused by a busy machine (a control loop that stalled or was
+// late), by the operator, or by an outage that the profile of the link specifies. add() does not allocate.
 
 #include <array>
 #include <cstdint>
@@ -15,12 +15,12 @@ namespace longreach {
 
 struct HoldRecord {
   double began_s = 0.0, lasted_s = 0.0;
-  Reason cause{};      // at the master
-  Reason far_cause{};  // at the slave, as far as it was reported during the hold
+  Reason cause{};      // cause at the master
+  Reason far_cause{};  // cause at the slave, if it was reported during the hold
   HoldAttribution attribution = HoldAttribution::kSystem;
 };
 
-/// Why the handle was released from then on, and a remedy.
+/// Why the handle counts as released since `began_s`, with a remedy.
 struct HandTrouble {
   double began_s = 0.0;
   std::string text;
@@ -28,29 +28,32 @@ struct HandTrouble {
 
 class HoldLog {
  public:
-  /// `outages`: the profile of the link specifies outages.
+  /// `outages` is true if the profile of the link specifies outages.
   explicit HoldLog(bool outages = false) : outages_(outages) {}
 
-  /// `seconds` since the start must not fall.
+  /// Adds a sample of the run. `seconds` is the time since the start; it must not decrease.
   void add(double seconds, const MasterView& view);
 
+  /// Returns the number of holds with this attribution, including the current one.
   [[nodiscard]] std::uint64_t count(HoldAttribution attribution) const {
     return counts_[static_cast<std::size_t>(attribution)] + (now() == attribution ? 1 : 0);
   }
+  /// Returns the number of all holds, including the current one.
   [[nodiscard]] std::uint64_t count() const;
-  /// Attribution of the present hold; none: there is no hold.
+  /// Returns the attribution of the current hold, or none if there is no hold.
   [[nodiscard]] std::optional<HoldAttribution> now() const {
     return holds_ ? std::optional(attribution(hold_)) : std::nullopt;
   }
-  /// Duration of the holds caused by the machine, including the present one.
+  /// Returns the total duration of the holds caused by the machine, s, including the current one.
   [[nodiscard]] double machine_s() const;
-  /// A sentence for each of the first holds, including the present one.
+  /// A sentence about one hold.
   struct Sentence {
     std::string text;
-    bool fault = false;  // of the system
+    bool fault = false;  // the hold is a fault of the system
   };
-  /// `hand`: troubles of the run, by time. A device fault that begins with one of them is described by its
-  /// text.
+  /// Returns one sentence for each of the first holds, including the current one. `hand` contains the input
+  /// problems of the run in order of time. A device fault that starts together with one of them is described
+  /// by its text.
   [[nodiscard]] std::vector<Sentence> words(const std::vector<HandTrouble>& hand = {}) const;
 
  private:

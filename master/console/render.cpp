@@ -17,11 +17,11 @@ constexpr std::size_t kPlainColumns = 120;
 
 constexpr int kWidthMin = 60;
 constexpr int kWidthMax = 110;
-constexpr int kLabel = 10;  // columns of the first column
+constexpr int kLabel = 10;  // width of the first column
 
 enum class Tone { kPlain, kDim, kGood, kWarn, kBad };
 
-// The only formatted print here; a figure that is not finite shows as it is.
+// The only function here that formats numbers. Values that are not finite are shown as such.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
   std::array<char, 256> line{};
   std::va_list arguments;
@@ -47,7 +47,8 @@ std::string_view tone_code(Tone tone) {
   return "";
 }
 
-// Collects lines no longer than the width. Colour goes around what has been cut, so it never counts.
+// Collects lines that are no longer than the width. Colours are added after the lines are cut, so that they
+// do not count.
 class Page {
  public:
   Page(int width, bool color) : width_(static_cast<std::size_t>(width)), color_(color) {}
@@ -61,7 +62,7 @@ class Page {
   void whole(const std::string& content, Tone tone = Tone::kPlain) {
     text_ += painted(content.substr(0, width_), tone) + "\n";
   }
-  /// A sentence over as many lines as it needs.
+  /// Adds a sentence on as many lines as necessary.
   void wrapped(std::string_view sentence, Tone tone) {
     while (sentence.size() > width_) {
       std::size_t end = sentence.rfind(' ', width_);
@@ -86,7 +87,7 @@ class Page {
 
 std::string bar(double value, double full, int length) {
   const double share =
-      full > 0.0 && value > 0.0 ? std::min(value / full, 1.0) : 0.0;  // a NaN gives an empty bar
+      full > 0.0 && value > 0.0 ? std::min(value / full, 1.0) : 0.0;  // NaN gives an empty bar
   const int filled = static_cast<int>(std::lround(share * length));
   return "[" + std::string(static_cast<std::size_t>(filled), '=') +
          std::string(static_cast<std::size_t>(length - filled), '.') + "]";
@@ -129,7 +130,7 @@ std::string datagrams_line(const LinkFigures& link) {
   return text("%.1f %% lost, %.1f %% reordered", link.loss * 100.0, link.reorder * 100.0);
 }
 
-/// What is worth a word: that it is open is none.
+/// Returns the state of the gripper if it is worth showing; an open gripper is not.
 std::string gripper_in_words(const MasterView& view) {
   const GripperState& there = view.far.gripper;
   if (view.grip && *view.grip != there.closed) return *view.grip ? ", gripper closes" : ", gripper opens";
@@ -154,7 +155,7 @@ std::string stiffness_line(const ConsoleSnapshot& s) {
   return line;
 }
 
-// What may be thought of the slave's estimate.
+// Returns the slave's estimate of the contact with its accuracy.
 std::string contact_line(const ConsoleSnapshot& s) {
   if (!s.view.far_known || !s.view.far.estimate.valid) return s.view.in_contact ? "not yet known" : "none";
   return law_in_words(s.view.far.estimate);

@@ -11,13 +11,13 @@
 namespace longreach {
 namespace {
 
-/// Microjoules and more; rounding is no energy, and has no sign.
+/// Converts to mJ. Values below half a microjoule are rounding errors and become zero, without a sign.
 double in_mj(double j) { return std::fabs(j) < 5e-7 ? 0.0 : j * 1e3; }
 
 constexpr std::size_t kRttSamples = 36000;
 constexpr double kRttPeriodS = 0.1;
 constexpr double kSpringForceMinN = 0.2;
-constexpr double kSettleS = 1.0;  // beside one RTT, after the first touch
+constexpr double kSettleS = 1.0;  // after the first touch, in addition to one RTT
 constexpr std::uint64_t kSamplesMin = 50;
 
 std::string count_text(std::uint64_t count, const char* what) {
@@ -65,11 +65,12 @@ void RunSummary::add(double seconds, const MasterView& view, std::optional<doubl
 }
 
 void RunSummary::add_force_step(const MasterView& view) {
-  // The view repeats the last step until the next report: only a new one counts, against the force of its
-  // moment.
+  // The view repeats the last step until the next report. Only a new step counts, relative to the force at
+  // that time.
   if (view.reports == reports_) return;
   reports_ = view.reports;
-  const double step_n = view.force_step_n;  // a force that vanishes with its surface is no fault
+  /// Negative if the force vanishes with its surface, which is not a fault.
+  const double step_n = view.force_step_n;
   const double allowed_n =
       std::fmax(config_.force_step_n, config_.force_step_share * view.spring_force_n.norm());
   force_step_max_n_ = std::fmax(force_step_max_n_, step_n);
@@ -79,7 +80,8 @@ void RunSummary::add_force_step(const MasterView& view) {
 void RunSummary::add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s) {
   if (view.in_contact && !touched_at_s_) touched_at_s_ = seconds;
   if (touched_at_s_ && (view.state != SafetyState::kEngaged || view.clutched)) {
-    // The handle goes on from another place: the wall lies elsewhere for it, and settles anew.
+    // The handle resumes from another position, so that the position of the wall changes for it and settles
+    // again.
     touched_at_s_ = seconds;
     fit_.begin_group();
   }

@@ -20,8 +20,8 @@ constexpr double kPlainPeriodS = 0.1, kFiguresPeriodS = 5.0;
 constexpr std::size_t kPlainMaxBytes = 64 << 10;
 constexpr std::chrono::milliseconds kScreenTimeout{200};
 constexpr std::string_view kEnter =
-    "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J"  // other screen, no cursor, no wrap, empty
-    "\x1b[?2004h";                         // what is pasted comes in brackets: no keys
+    "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J"  // alternate screen, no cursor, no wrap, clear
+    "\x1b[?2004h";                         // bracketed paste, so that pasted text is not read as keys
 
 struct ScreenSize {
   int columns = 80;
@@ -39,8 +39,9 @@ bool can_redraw(int fd) {
   return ::isatty(fd) == 1 && term != nullptr && std::string_view(term) != "dumb" && *term != '\0';
 }
 
-// From the top corner; each line clears its rest, the end clears what lies below: nothing is blanked first,
-// so nothing flickers. Rows that do not fit are left out, or the screen would scroll.
+// Starts at the top left corner. Each line clears its remainder, and the end clears the screen below. The
+// screen is not blanked first, so it does not flicker. Rows that do not fit are omitted, because the screen
+// would scroll.
 std::string in_place(std::string_view page, int rows) {
   std::string text = "\x1b[H";
   for (int row = 0; row < rows && !page.empty(); ++row) {
@@ -52,7 +53,7 @@ std::string in_place(std::string_view page, int rows) {
   return text + "\x1b[J";
 }
 
-/// Figures change all the time.
+/// Removes the digits, because measured values change all the time.
 std::string without_figures(std::string text) {
   std::erase_if(text,
                 [](unsigned char c) { return std::isdigit(c) != 0 || c == '.' || c == ' ' || c == '-'; });
@@ -67,13 +68,14 @@ TerminalView::TerminalView(ViewKind kind, int fd)
   color_ = live_ && (no_color == nullptr || *no_color == '\0');
   if (plain_) async_writer_.emplace(fd_, kPlainMaxBytes);
   if (!live_) return;
-  // A thread that waits in a write would keep everybody else from the terminal, also who gives it back.
+  // A thread that blocks in a write would keep all other code from the terminal, including the code that
+  // restores it.
   const int own = open_anew(fd_);
   async_writer_.emplace(own, 0);
   ::close(own);
   keep_screen(fd_);
   async_writer_->offer(std::string(kEnter));
-  async_writer_->drain(kScreenTimeout);  // before a signal may give it back
+  async_writer_->drain(kScreenTimeout);  // before a signal handler may restore the screen
 }
 
 TerminalView::~TerminalView() { close(); }

@@ -1,9 +1,9 @@
 #pragma once
-// A live view of the master in the terminal. render() returns the picture as text, a pure function.
-// TerminalView draws it on the screen: redrawn in place, at most ten times a second, in one write so that it
-// does not flicker. Where that is not possible it prints plain lines: the state when it changes, figures
-// every five seconds. A stalled terminal or pipe delays nothing: complete pictures are skipped if there is no
-// room for them.
+// A live view of the master in the terminal. render() is a pure function that returns the view as text.
+// TerminalView draws it on the screen: it is redrawn in place at most ten times a second, with one write per
+// frame so that it does not flicker. If live drawing is not possible, it prints plain lines: the state
+// whenever it changes, and the measured values every five seconds. A stalled terminal or pipe does not delay
+// the caller: complete frames are skipped if there is no room for them.
 
 #include <optional>
 #include <string>
@@ -13,32 +13,34 @@
 
 namespace longreach {
 
-/// Returns the whole picture, lines ended by '\n', none longer than max(width, 60) columns; with ANSI colours
-/// on request.
+/// Returns the whole view as lines ended by '\n', each of at most max(width, 60) columns. ANSI colours are
+/// included if `color` is true.
 std::string render(const ConsoleSnapshot& snapshot, int width, bool color);
 
-/// Returns the figures in one line of at most 120 columns without a newline, for logs and pipes.
+/// Returns the measured values in one line of at most 120 columns without a newline, for logs and pipes.
 std::string render_line(const ConsoleSnapshot& snapshot);
-/// Returns the present state in the same format; long sentences continue in the following lines.
+/// Returns the current state in the same format. Long sentences continue on the following lines.
 std::string render_event(const ConsoleSnapshot& snapshot);
 
-enum class ViewKind { kAuto, kPlain, kNone };  // kAuto: live on a terminal, otherwise plain
+enum class ViewKind { kAuto, kPlain, kNone };  // kAuto: live on a terminal, plain otherwise
 
 class TerminalView {
  public:
-  /// Draws on the file descriptor `fd`, 1: standard output.
+  /// Draws on the file descriptor `fd` (1 is standard output).
   explicit TerminalView(ViewKind kind, int fd = 1);
   /// Restores the screen.
   ~TerminalView();
   TerminalView(const TerminalView&) = delete;
   TerminalView& operator=(const TerminalView&) = delete;
 
-  /// May be called at any rate: pictures that come too early by `snapshot.seconds` are skipped.
+  /// Draws the snapshot. It may be called at any rate: a snapshot that comes too soon after the previous one,
+  /// according to `snapshot.seconds`, is skipped.
   void show(const ConsoleSnapshot& snapshot);
-  /// Restores the screen, also if the terminal is stalled; later calls of show() draw nothing. Call it before
-  /// the summary.
+  /// Restores the screen, even if the terminal is stalled. Later calls of show() draw nothing. Call it before
+  /// printing the summary.
   void close();
 
+  /// Returns whether the view is redrawn in place.
   [[nodiscard]] bool live() const { return live_; }
 
  private:
@@ -47,7 +49,7 @@ class TerminalView {
   bool plain_ = false;
   bool color_ = false;
   double next_s_ = 0.0, next_figures_s_ = 0.0;
-  std::string event_{};  // the last event, without its figures
+  std::string event_{};  // the last event without its measured values
   std::optional<AsyncWriter> async_writer_;
 };
 

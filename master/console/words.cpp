@@ -16,20 +16,20 @@ std::string_view name_of(Enum value, const std::array<std::string_view, N>& name
 
 bool heard(const ConsoleSnapshot& s) { return s.view.far_known || std::isfinite(s.link.silence_s); }
 
-/// Of what is said of the robot: how long ago it was so.
+/// Returns how old the statements about the robot are.
 std::string as_of(const ConsoleSnapshot& s) {
   constexpr double kNoticed_s = 0.1;
   const auto age_s = age_of_news_s(s);
   return age_s && *age_s >= kNoticed_s ? formatted(" (%.1f s ago)", *age_s) : "";
 }
 
-/// By what can be seen: a limit that costs no more is not worth a warning.
+/// Returns whether the robot lags visibly. A limit that causes a smaller lag does not deserve a warning.
 bool behind(const Telemetry& robot) {
   constexpr double kBehind_m = 0.01;
   return (robot.X_WE_goal.p - robot.X_WE.p).norm() > kBehind_m;
 }
 
-/// Which limit keeps the robot from following; empty: none does.
+/// Returns which limit keeps the robot from following; empty if none does.
 std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
@@ -48,7 +48,7 @@ std::string held_back(const MasterView& view) {
   return "";
 }
 
-/// A stop is felt, and no wall.
+/// Returns whether the operator feels a rotational contact but no wall.
 bool turned_against(const MasterView& view) {
   return view.spring_moment_nm.norm() > 0.0 && !(view.spring_force_n.norm() > 0.0);
 }
@@ -177,7 +177,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
     words.emplace_back(
         "hand: at the edge of its workspace, move it back with the "
         "clutch");
-  if (!view.far_known || view.silent) return words;  // what was clamped then
+  if (!view.far_known || view.silent) return words;  // the limits in the last telemetry are out of date
   const Clamps& robot = view.far.clamps;
   const bool late = behind(view.far);
   if (robot.tool_speed && late) words.emplace_back("robot: at its tool speed limit, it will catch up");

@@ -1,5 +1,6 @@
 #pragma once
-// States, causes and limits of the system as text for the operator. Pure; no trailing full stops.
+// States, causes and limits of the system as text for the operator. Pure; the texts have no trailing full
+// stop.
 
 #include <optional>
 #include <string>
@@ -11,21 +12,22 @@
 namespace longreach {
 
 std::string_view state_in_words(SafetyState state);
-/// Returns the cause of the state, whether it is of the slave, and whether it is over; empty if there is
-/// none.
+/// Returns the cause of the state, including whether the slave reported it and whether it is over. Empty if
+/// there is no cause.
 std::string cause_in_words(const MasterView& view);
-/// Returns why the requested engagement is not granted, and a remedy.
+/// Returns why the requested engagement was not granted, and a remedy.
 std::string refusal_in_words(const MasterView& view);
 std::string_view mode_in_words(MotionMode mode);
 
-/// Returns the active limits of either side and their reasons; empty if there are none.
+/// Returns the active limits of both sides with their reasons; empty if there are none.
 std::vector<std::string> clamps_in_words(const MasterView& view);
 
-/// Returns the age of the data about the robot; none if the delay is unknown.
+/// Returns the age of the data about the robot, s; none if the delay is unknown.
 std::optional<double> age_of_news_s(const ConsoleSnapshot& snapshot);
 
-/// Returns one sentence: the present state, and what the operator can do. Statements about the robot are one
-/// delay old; the sentence says so if that is more than a tenth of a second.
+/// Returns one sentence that describes the current state and what the operator can do. Statements about the
+/// robot are as old as the delay of the link; the sentence mentions this if that is more than a tenth of a
+/// second.
 std::string happening(const ConsoleSnapshot& snapshot);
 
 }  // namespace longreach

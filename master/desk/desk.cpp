@@ -16,10 +16,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSilentHandsMax = kHandsMax / 2;                // that are told why when they speak again
-constexpr auto kLeaveCheck = std::chrono::milliseconds(100);  // how soon a follower that left is noticed
+constexpr int kSilentHandsMax = kHandsMax / 2;  // they receive an error message if they resume
+/// Maximum delay until a disconnected follower is detected.
+constexpr auto kLeaveCheck = std::chrono::milliseconds(100);
 
-/// False when there is nothing to wait for: the server stops or the client has left.
+/// Returns false if the server stops or the client has disconnected.
 bool wait_until(Clock::time_point due, const grpc::ServerContext& context) {
   while (!context.IsCancelled()) {
     const auto now = Clock::now();
@@ -31,17 +32,17 @@ bool wait_until(Clock::time_point due, const grpc::ServerContext& context) {
 
 double follow_hz(const proto::FollowRequest& request) {
   if (!request.has_rate_hz()) return kWatchHzMax;
-  if (!(request.rate_hz() > kWatchHzMin)) return kWatchHzMin;  // also what is not a number
+  if (!(request.rate_hz() > kWatchHzMin)) return kWatchHzMin;  // applies to NaN as well
   return std::min(request.rate_hz(), kWatchHzMax);
 }
 
-/// Three numbers, or none: no field is zero.
+/// Converts three numbers; an empty field is zero. Returns none if the field is invalid.
 template <class Field>
 std::optional<Vector3> vector(const Field& numbers, double radius) {
   if (numbers.empty()) return Vector3::Zero();
   if (numbers.size() != 3) return std::nullopt;
   const Vector3 v(numbers[0], numbers[1], numbers[2]);
-  // Beyond it a square could overflow.
+  // Beyond this limit a square could overflow.
   if (!v.allFinite() || v.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
   return Vector3(clamp_norm(v, radius));
 }
@@ -70,7 +71,7 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
             std::to_string(kFollowersMax) + " clients already follow the master: close one of them"};
   }
-  // A frame that waits in a buffer is an old frame.
+  // Frames are not buffered, because a frame that waits in a buffer is out of date.
   const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
   for (Pace pace(follow_hz(*request)); wait_until(pace.due(), *context); pace.advance()) {
     if (is_revoked(*context->auth_context())) break;
@@ -114,7 +115,8 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
     }
     if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand has taken the handle"};
   }
-  // What it last said grows old, and that is a hold. A stream that breaks may look like one that was closed.
+  // The last aim becomes too old, which causes a hold. A broken stream may look like one that was closed, so
+  // both are treated in the same way.
   return {grpc::StatusCode::CANCELLED,
           "the connection of the hand ended without releasing the handle: the "
           "robot holds"};

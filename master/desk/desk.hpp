@@ -1,7 +1,7 @@
 #pragma once
-// Serves pictures of the master to remote clients, and accepts a hand from them (service Desk in
+// Serves snapshots of the master to remote clients, and accepts hand input from them (service Desk in
 // proto/control.proto). It runs in RPC threads: it reads data that the loop publishes and writes data that
-// the loop may fetch, so that a slow or silent client never delays the loop.
+// the loop may fetch, so that a slow or unresponsive client never delays the loop.
 
 #include <chrono>
 #include <functional>
@@ -13,18 +13,19 @@
 
 namespace longreach {
 
-// Each uses a thread of the server; more are refused with RESOURCE_EXHAUSTED.
+// Maximum numbers of streams. Each stream uses a thread of the server; further ones are refused with
+// RESOURCE_EXHAUSTED.
 inline constexpr int kFollowersMax = 16;
 inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
-  /// Radii of the workspace about the home of the handles; aims are limited to it.
+  /// Radii of the workspace around the home of the handles. Aims are limited to it.
   struct Reach {
     double translation_m = 0.075;
     double rotation_rad = 0.8;
   };
-  /// Both functions are called from RPC threads; `aim` from one at a time.
+  /// `snapshot` and `aim` are called from RPC threads, `aim` only by one thread at a time.
   DeskService(const Reach& reach, std::function<ConsoleSnapshot()> snapshot,
               std::function<void(const RemoteAim&)> aim);
 
@@ -36,16 +37,17 @@ class DeskService final : public proto::Desk::Service {
  private:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// Takes one of a number of places; false: all are taken.
+  /// Takes one of `places` places. Returns false if all are taken.
   bool take(int& taken, int places);
   void leave(int& taken);
   grpc::Status follow_hand(grpc::ServerContext& context, grpc::ServerReader<proto::HandAim>& reader,
                            proto::Outcome& answer);
-  /// Returns the number of a new hand; 0: another hand has the handle. If several wait, a silent one is
-  /// closed, since it would keep its thread forever.
+  /// Returns the number of the new hand, or 0 if another hand has the handle. A new hand replaces one that
+  /// has stopped sending. If many streams are open, the replaced stream is closed, because it would otherwise
+  /// occupy its thread forever.
   std::uint64_t take_handle(grpc::ServerContext& context);
   void leave_handle(const grpc::ServerContext& context);
-  /// Returns false if `hand` no longer has the handle.
+  /// Passes an aim to the loop. Returns false if `hand` no longer has the handle.
   bool pass(std::uint64_t hand, const RemoteAim& aim);
 
   Reach reach_;
@@ -53,10 +55,10 @@ class DeskService final : public proto::Desk::Service {
   std::function<void(const RemoteAim&)> aim_;
   std::mutex mutex_;
   int followers_ = 0;
-  int hands_there_ = 0;                    // streams, including refused and closed ones
+  int hands_there_ = 0;  // number of open streams, including those that do not have the handle
   grpc::ServerContext* holder_ = nullptr;  // stream of the hand that has or last had the handle
-  std::uint64_t hands_ = 0;                // number of hands so far
-  bool held_ = false;                      // by the last of them
+  std::uint64_t hands_ = 0;                // number of hands so far; identifies the newest one
+  bool held_ = false;                      // the newest hand has the handle
   Instant said_{};                         // time of its last message
 };
 

@@ -7,11 +7,11 @@
 
 namespace longreach {
 
-/// Desired position of the handle, and grip of the fingers.
+/// Desired pose of the handle, and how firmly the hand grips it.
 struct HandTarget {
-  Vector3 position_m = Vector3::Zero();  // in M, from home
+  Vector3 position_m = Vector3::Zero();  // from home, in M
   Vector3 velocity_m_per_s = Vector3::Zero();
-  Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home
+  Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home, in M
   Grip grip = Grip::kLight;
   Buttons buttons{};
 };

@@ -1,24 +1,25 @@
 #pragma once
-// Behaviours of the handles that are independent of the robot: return home or stay in place when released,
-// keep to one axis at a time on request, stop softly before the edge of the workspace.
+// Behaviour of the handles that does not depend on the robot. A released handle returns to its home position
+// or stays in place. On request, the handle keeps to one axis at a time. It is stopped softly before the edge
+// of the workspace.
 //
-//   idle     F = -k (x - a) - b v     anchor a: where the handle was left; HOME lets it glide home
-//   guide    F = -k (x - (x . e) e - o)    decoupled: e the axis that was moved first, o what was off it then
-//   stop     F = -k (|x| - r) x/|x|   beyond r, a share of the workspace
+//   idle     F = -k (x - a) - b v          anchor a: where the handle was released; with HOME it glides home
+//   guide    F = -k (x - (x . e) e - o)    decoupled: e is the axis that was moved first, o the offset from e then
+//   stop     F = -k (|x| - r) x/|x|        beyond the radius r, a fraction of the workspace
 //
-// All springs start without force, so that nothing steps; only the gliding anchor supplies energy, which it
-// reports. The same applies to rotations, with x the rotation vector from home.
+// All springs start without force, so that the force never steps. Only the gliding anchor supplies energy,
+// which it reports. The same applies to rotations, with x the rotation vector from home.
 
 #include "master/config/device_config.hpp"
 #include "master/devices/handle_state.hpp"
 
 namespace longreach {
 
-/// One handle: three coordinates and the forces on them.
+/// The springs of one handle, in three coordinates.
 class HandleSprings {
  public:
   struct Gains {
-    double home = 0.0, damping = 0.0, speed = 0.0;  // N/m, N s/m, m/s; or N m/rad ...
+    double home = 0.0, damping = 0.0, speed = 0.0;  // N/m, N s/m, m/s; or N m/rad, ... ...
     double guide = 0.0, free = 0.0;                 // N/m, m
     double stop = 0.0, stop_radius = 0.0;           // N/m, m
   };
@@ -26,14 +27,16 @@ class HandleSprings {
     Vector3 x, rate;
   };
 
-  /// Force on the hand. `dt_s` > 0.
+  /// Advances by `dt_s` > 0. Returns the force (N) or moment (N m) on the hand.
   Vector3 step(const Coordinates& at, bool held, const Gains& gains, const BehaviourConfig& config,
                double dt_s);
 
+  /// Energy stored in the springs.
   [[nodiscard]] double energy_j() const { return energy_j_; }
-  [[nodiscard]] double supplied_j() const { return supplied_j_; }  // by the anchor, in the last step
-  [[nodiscard]] int guided_axis() const { return axis_; }          // -1: none
-  [[nodiscard]] bool at_stop() const { return at_stop_; }          // the soft stop of the workspace
+  /// Energy supplied by the anchor in the last step.
+  [[nodiscard]] double supplied_j() const { return supplied_j_; }
+  [[nodiscard]] int guided_axis() const { return axis_; }  // 0 to 2; -1: none
+  [[nodiscard]] bool at_stop() const { return at_stop_; }  // at the soft stop of the workspace
 
  private:
   Vector3 idle(const Coordinates& at, bool held, const Gains& gains, IdleRule rule, double dt_s);
@@ -53,7 +56,8 @@ class HandleBehaviour {
   explicit HandleBehaviour(const DeviceConfig& config);
   void configure(const DeviceConfig& config);
 
-  /// Wrench on the hand, in M. Values of the handle that are not finite give zero.
+  /// Advances by `dt_s` > 0. Returns the wrench on the hand, in M; zero if a value of the handle is not
+  /// finite.
   Wrench step(const HandleState& handle, double dt_s);
 
   [[nodiscard]] const HandleSprings& translation() const { return translation_; }

@@ -1,20 +1,21 @@
 #pragma once
-// Velocity of a handle from quantized positions, and detection of a handle at rest. Encoders report a
-// position only within a cell; a handle at rest may show jumps of one cell in a sample, and back. The
-// position is followed with a play r of half a cell:
+// Velocity of a handle from quantized positions, and detection of a handle at rest. Encoders determine a
+// position only to within a cell; the reading of a handle at rest may jump by one cell in a sample and back
+// again. The position is tracked with a play (backlash) r of half a cell:
 //
 //   z' = z + Δx,   c = z' max(0, 1 - r/|z'|),   z = z' - c,   v += dt/(dt + filter) (a c/dt - v)
 //
-// c is the motion that is certain, for any position within the cells. It never points against the motion and
-// is zero while the handle stays within a cell, so that damping -B v also only takes energy. When the handle
-// reverses, the velocity is zero for the width of a cell; in motion it is that of the encoders. A single
-// count, t after the last one, is taken as a speed of at most c/t instead of an impulse: a = min(1, 20 ms/t).
+// c is the motion that is certain, whatever the true positions within the cells are. It never points against
+// the motion and is zero while the handle stays within a cell, so that damping -B v can only extract energy.
+// When the handle reverses, the velocity is zero over the width of a cell; while it moves, the velocity is
+// that of the encoders. A single count at time t after the previous one is treated as a speed of at most c/t
+// instead of an impulse: a = min(1, 20 ms/t).
 //
-// A spring on the cells of the encoders acts as a relay, which with the delay of a sample sustains a limit
-// cycle within a cell, and nothing within a cell can damp it. A handle that was measured to move ten cells
-// back and forth without certain motion is considered at rest: its position is x - z, which is constant,
+// A spring that acts on the cells of the encoders is a relay. With the delay of a sample, the relay sustains
+// a limit cycle within a cell, where no damping can act. A handle whose measured path is longer than ten
+// cells without any certain motion is therefore considered at rest: its position is x - z, which is constant,
 // until there is certain motion. A handle at rest supplies no energy. Both handles are processed in the same
-// way, with Δx the displacement, m, or the rotation vector, rad.
+// way; Δx is the displacement, m, or the rotation vector, rad.
 
 #include <algorithm>
 
@@ -23,7 +24,8 @@
 
 namespace longreach {
 
-/// Half of the maximum distance between two corners of a cell, at the handle, over the whole workspace.
+/// Half of the maximum distance between two corners of an encoder cell, at the handle, over the whole
+/// workspace.
 struct EncoderCell {
   double m = 0.0;
   double rad = 0.0;
@@ -33,7 +35,7 @@ class QuantizedVelocityFilter {
  public:
   explicit QuantizedVelocityFilter(double cell) : cell_(cell) {}
 
-  /// The handle was measured to have `moved` in `dt_s` > 0.
+  /// Advances by the measured displacement `moved` in `dt_s` > 0. Returns the velocity.
   const Vector3& step(const Vector3& moved, double dt_s, double filter_s) {
     play_ += moved;
     wandered_ += norm(moved);
@@ -48,30 +50,30 @@ class QuantizedVelocityFilter {
     return rate_;
   }
 
-  /// The measurement moves back and forth without certain motion.
+  /// Returns whether the measurement only moves back and forth without certain motion.
   [[nodiscard]] bool rests() const { return wandered_ > kNowhere * cell_; }
-  /// Measured position relative to the followed one.
+  /// Measured position relative to the tracked one.
   [[nodiscard]] const Vector3& play() const { return play_; }
 
  private:
   static constexpr double kNothing2 = 1e-18;
   static constexpr double kAlone_s = 0.02;
-  static constexpr double kNowhere = 20.0;  // half cells
+  static constexpr double kNowhere = 20.0;  // in half cells
   double cell_;
-  double wandered_ = 0.0;  // measured distance since the last certain motion
-  double alone_s_ = 0.0;   // time since then
+  double wandered_ = 0.0;  // length of the measured path since the last certain motion
+  double alone_s_ = 0.0;   // time since the last certain motion
   Vector3 play_ = Vector3::Zero();
   Vector3 rate_ = Vector3::Zero();
 };
 
-/// Both handles of a device.
+/// Filters for both handles of a device.
 class QuantizedMotionFilter {
  public:
   QuantizedMotionFilter(const EncoderCell& cell, double filter_s)
       : linear_(cell.m), angular_(cell.rad), filter_s_(filter_s) {}
 
-  /// Returns the measured, finite handle, held at rest if it has no certain motion, with the certain
-  /// velocities. Call it once per tick of `dt_s` > 0.
+  /// Returns the measured state with the filtered velocities; a handle without certain motion keeps its pose.
+  /// The input must be finite. Call it once per tick of `dt_s` > 0.
   HandleState step(HandleState handle, double dt_s) {
     if (!started_) {
       x_ = handle.p_MH;

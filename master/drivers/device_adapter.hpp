@@ -1,7 +1,7 @@
 #pragma once
-// A real pair of haptic devices, connected by its adapter, the program that drives the hardware
-// (common/link/adapter_datagram.hpp). The watchdog of the adapter releases the handle when this side is
-// silent; silence of the adapter, or a reported failure of the device, is a fault of this side.
+// A real pair of haptic devices, connected through an adapter, the program that drives the hardware
+// (common/link/adapter_datagram.hpp). If this side stops sending, the watchdog of the adapter releases the
+// handle. If the adapter stops sending, or reports a failure of the device, this side reports a device fault.
 
 #include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
@@ -11,16 +11,16 @@ namespace longreach {
 
 class DeviceAdapter : public HapticDevice {
  public:
-  /// `channel` must outlive it. `session`: random at each start, not 0.
+  /// `channel` must outlive this object. `session` is drawn at random at each start and is not 0.
   DeviceAdapter(Channel& channel, const AdapterConfig& config, std::uint64_t session)
       : port_(channel, session, config.silence_s) {}
 
-  /// Returns the content of the newest datagram, with its time of arrival. Before the first datagram: a
-  /// failed device.
+  /// Returns the state from the newest datagram. Before the first datagram, and without one for silence_s, it
+  /// is that of a failed device.
   HandleState read(Time now) override;
-  /// A wrench that is not finite counts as no wrench.
+  /// Sends a wrench to the device. A wrench that is not finite counts as no wrench.
   void write(const Wrench& F_H_M) override;
-  /// Contacts the adapter before the first wrench.
+  /// Sends a datagram without a wrench, to establish contact before the first tick.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }

@@ -5,9 +5,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kStepMax_s = 0.1;  // a stalled program does not leap
+constexpr double kStepMax_s = 0.1;  // avoids a jump after a stall
 
-/// Deflection beyond the dead zone, at most 1; what is not finite is none.
+/// Returns the deflection beyond the dead zone, with magnitude at most 1; zero if it is not finite.
 Vector3 shaped(const Vector3& d, double dead_zone) {
   const double length = d.allFinite() ? norm(d) : 0.0;
   if (length <= dead_zone) return Vector3::Zero();
@@ -92,7 +92,7 @@ void AxisHand::take_buttons(std::uint32_t buttons, MotionMode mode) {
     r.mode = mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
   r.scale_steps = has(pressed, PadButton::kScaleUp) - has(pressed, PadButton::kScaleDown);
   r.turns_gripper = has(pressed, PadButton::kGripper);
-  // A stop wins.
+  // A stop takes precedence.
   r.stop = has(pressed, PadButton::kStop);
   r.engage = has(pressed, PadButton::kEngage) && !r.stop;
 }

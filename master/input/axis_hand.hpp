@@ -1,12 +1,13 @@
 #pragma once
 // Converts the deflections and buttons of a gamepad, joystick or SpaceMouse to motion of the simulated hand.
 // Pure.
-//   s = (|d| - z)/(1 - z) d/|d| beyond the dead zone z, of push and twist each
-//    rate mode       the hand is at reach s; when released, the handle is home and the robot is at rest
-//    position mode   the hand moves with speed s; when released, it stays in place
-// After a reconnection nothing acts until every axis has been released once; its buttons act when pressed. A
-// deflection without a new report for silence_s counts as released, because a wireless receiver stays
-// connected when its pad is gone.
+//   s = (|d| - z)/(1 - z) d/|d|  for a deflection d beyond the dead zone z, for push and twist separately
+//    rate mode       the hand is displaced by reach · s; when released, it is at home and the robot is at rest
+//    position mode   the hand moves at the velocity speed · s; when released, it stays in place
+//
+// After a reconnection, deflections have no effect until every axis has been released once; buttons act when
+// they are pressed. A deflection without a new report for silence_s counts as released, because a wireless
+// receiver stays connected even if its pad is gone.
 
 #include <cstdint>
 
@@ -15,16 +16,16 @@
 
 namespace longreach {
 
-/// Bits of AxisSample::buttons.
+/// Bit numbers in AxisSample::buttons.
 enum class PadButton : std::uint8_t { kMode, kScaleUp, kScaleDown, kClutch, kGripper, kEngage, kStop, kHome };
 
-/// Present state of the device.
+/// Current state of the device.
 struct AxisSample {
-  bool present = false;            // it is plugged in
+  bool present = false;            // the device is plugged in
   Vector3 push = Vector3::Zero();  // -1 to 1 along x, y, z of M
   Vector3 twist = Vector3::Zero();
-  std::uint32_t buttons = 0;  // pressed buttons
-  std::uint32_t reports = 0;  // number of reports of the device so far: motion of the axes
+  std::uint32_t buttons = 0;  // bit mask of the pressed buttons
+  std::uint32_t reports = 0;  // number of axis reports from the device so far
 
   void press(PadButton button, bool down) {
     if (down) buttons |= 1U << static_cast<unsigned>(button);
@@ -35,25 +36,26 @@ struct AxisHandConfig {
   double dead_zone = 0.12;
   double reach_m = 0.04, reach_rad = 0.4;
   double speed_m_per_s = 0.03, speed_rad_per_s = 0.4;
-  double workspace_m = 0.075, workspace_rad = 0.8;  // limits of the motion of the hand
-  // A hand is never perfectly still, so that a held device reports continuously; but a stick at its end stop
-  // gives constant values.
+  double workspace_m = 0.075, workspace_rad = 0.8;  // limits of the hand's motion
+  // A hand is never perfectly still, so a device in use reports continuously, except that a stick at its end
+  // stop gives constant values.
   double silence_s = 0.3, silence_at_stop_s = 1.0;
 };
+/// Returns the configuration for an operator and a device.
 AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig& device);
 
 struct AxisHandState {
   HandLevel level{.present = false};
-  OperatorRequests requests{};  // since the last step; the clutch is in `level`
-  bool armed = false;           // every axis was released since the device was connected
-  bool silent = false;          // deflected without a new report for silence_s
+  OperatorRequests requests{};  // requests since the last step; the clutch is in `level`
+  bool armed = false;           // every axis has been released since the device was connected
+  bool silent = false;          // the device is deflected, but has sent no report for silence_s
 };
 
 class AxisHand {
  public:
   explicit AxisHand(const AxisHandConfig& config) : config_(config) {}
 
-  /// `dt_s`: since the last step.
+  /// Advances by `dt_s`, the time since the last step, s.
   const AxisHandState& step(const AxisSample& sample, MotionMode mode, double dt_s);
 
  private:
@@ -63,9 +65,9 @@ class AxisHand {
 
   AxisHandConfig config_;
   AxisHandState state_{};
-  std::uint32_t buttons_ = 0;  // in the last step
-  std::uint32_t reports_ = 0;  // likewise
-  double quiet_s_ = 0.0;       // since the last report
+  std::uint32_t buttons_ = 0;  // pressed buttons in the last step
+  std::uint32_t reports_ = 0;  // AxisSample::reports in the last step
+  double quiet_s_ = 0.0;       // time since the last report
 };
 
 }  // namespace longreach

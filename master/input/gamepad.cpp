@@ -14,7 +14,7 @@ constexpr const char* kSdlLibrary = "libSDL2-2.0.so.0";
 constexpr Uint32 kParts = SDL_INIT_GAMECONTROLLER | SDL_INIT_HAPTIC;
 constexpr Uint32 kRumble_ms = 200;
 
-/// SDL's functions that are used, by their names.
+/// The functions of SDL that are used, loaded by name.
 struct Sdl {
   decltype(&SDL_SetHint) set_hint;
   decltype(&SDL_InitSubSystem) begin;
@@ -90,7 +90,7 @@ constexpr auto kPadKeys = std::to_array<PadKey>({{SDL_CONTROLLER_BUTTON_A, PadBu
                                                  {SDL_CONTROLLER_BUTTON_DPAD_UP, PadButton::kScaleUp},
                                                  {SDL_CONTROLLER_BUTTON_DPAD_DOWN, PadButton::kScaleDown},
                                                  {SDL_CONTROLLER_BUTTON_BACK, PadButton::kHome}});
-// In the order in which joysticks number them: the trigger first.
+// In the order in which joysticks number their buttons: the trigger first.
 constexpr auto kStickKeys = std::to_array<PadKey>({{0, PadButton::kClutch},
                                                    {1, PadButton::kStop},
                                                    {2, PadButton::kEngage},
@@ -110,7 +110,7 @@ struct Gamepad::State {
 
   Sdl sdl;
   std::string wanted, name;
-  SDL_GameController* pad = nullptr;  // of the joystick, where SDL knows its layout
+  SDL_GameController* pad = nullptr;  // same device as `stick`; null if SDL does not have its layout
   SDL_Joystick* stick = nullptr;
   AxisSample last{};
 };
@@ -140,7 +140,7 @@ void Gamepad::State::leave() {
 AxisSample Gamepad::State::read_pad() const {
   const auto axis = [this](SDL_GameControllerAxis a) { return unit(sdl.pad_axis(pad, a)); };
   AxisSample s{.present = true};
-  // Up and left are negative on a stick; forwards and left are positive in M.
+  // Up and left are negative on a stick, whereas forwards and left are positive in M.
   s.push = {-axis(SDL_CONTROLLER_AXIS_LEFTY), -axis(SDL_CONTROLLER_AXIS_LEFTX),
             -axis(SDL_CONTROLLER_AXIS_RIGHTY)};
   s.twist = {0.0, axis(SDL_CONTROLLER_AXIS_TRIGGERRIGHT) - axis(SDL_CONTROLLER_AXIS_TRIGGERLEFT),
@@ -168,7 +168,8 @@ AxisSample Gamepad::State::read_stick() const {
 Gamepad::Gamepad(const std::string& name) : state_(std::make_unique<State>(name)) {
   const Sdl& sdl = state_->sdl;
   sdl.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-  sdl.set_hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // there is no window to be in front
+  /// There is no window that could have the focus.
+  sdl.set_hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
   if (sdl.begin(kParts) != 0)
     throw std::runtime_error(std::string("SDL cannot read gamepads: ") + sdl.error());
 }
@@ -181,7 +182,7 @@ Gamepad::~Gamepad() {
 AxisSample Gamepad::poll() {
   State& s = *state_;
   s.sdl.update();
-  s.sdl.flush(SDL_FIRSTEVENT, SDL_LASTEVENT);  // levels are read, events only pile up
+  s.sdl.flush(SDL_FIRSTEVENT, SDL_LASTEVENT);  // states are read directly, so events would only accumulate
   if (s.stick != nullptr && s.sdl.attached(s.stick) == SDL_FALSE) s.leave();
   if (s.stick == nullptr) s.find();
   if (s.stick == nullptr) return {};

@@ -1,7 +1,7 @@
 #pragma once
-// A gamepad or joystick, using only the joystick part of SDL: no window, no sound. SDL is loaded by the first
-// object. Poll it in one thread, outside the loop. A device that is plugged in while the program runs is used
-// if there is no other.
+// A gamepad or joystick. Only the joystick part of SDL is used: no window, no sound. SDL is loaded when the
+// first object is created. Poll it in one thread, outside the loop. A device that is plugged in while the
+// program runs is used if no other device is in use.
 //
 //   gamepad    left stick: along x and y; right stick: along z, turn about z; triggers: turn about y
 //   joystick   first two axes: along y and x; third axis or twist: along z; fourth: turn about z
@@ -15,22 +15,22 @@ namespace longreach {
 
 class Gamepad {
  public:
-  /// `name`: part of the name of the device to use; empty: the first. Throws std::runtime_error, one
-  /// sentence, if SDL cannot be loaded.
+  /// Uses the first device whose name contains `name`, or the first one if `name` is empty. Throws
+  /// std::runtime_error with one sentence if SDL cannot be loaded.
   explicit Gamepad(const std::string& name);
   ~Gamepad();
   Gamepad(const Gamepad&) = delete;
   Gamepad& operator=(const Gamepad&) = delete;
 
-  /// Returns the present state; never waits.
+  /// Returns the current state without waiting.
   AxisSample poll();
-  /// `strength` 0 to 1, until the next call or for a fifth of a second. Returns false if the device has no
-  /// motor.
+  /// Runs the rumble motor with `strength`, 0 to 1, until the next call but at most for 0.2 s. Returns false
+  /// if the device has no motor.
   bool rumble(double strength);
-  /// Name reported by the device; empty: there is none.
+  /// Returns the name that the device reports; empty if there is no device.
   [[nodiscard]] const std::string& name() const;
 
-  /// One line that lists sticks and buttons.
+  /// Returns one line that lists sticks and buttons.
   static std::string_view key_line();
 
  private:

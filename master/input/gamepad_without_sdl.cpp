@@ -1,4 +1,4 @@
-// Stands in for gamepad.cpp in a build without SDL's headers.
+// Replaces gamepad.cpp in a build without the SDL headers.
 #include <stdexcept>
 
 #include "master/input/gamepad.hpp"

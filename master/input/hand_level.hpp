@@ -1,5 +1,5 @@
 #pragma once
-// State of the hand at keyboard, gamepad or SpaceMouse.
+// State of the operator's hand as given by keyboard, gamepad or SpaceMouse.
 
 #include "common/core/time.hpp"
 #include "common/spatial/spatial.hpp"
@@ -7,11 +7,11 @@
 namespace longreach {
 
 struct HandLevel {
-  Vector3 target_m = Vector3::Zero();    // target of the hand, from handle home, M
-  Vector3 target_rad = Vector3::Zero();  // likewise, rotation vector
+  Vector3 target_m = Vector3::Zero();    // target position of the hand, from the handle's home, M
+  Vector3 target_rad = Vector3::Zero();  // target rotation vector, from the handle's home, M
   bool clutch = false;
-  bool present = true;  // false: keyboard or pad is no longer available
-  Time said{};          // when the hand was polled
+  bool present = true;  // false: keyboard or pad is not available
+  Time said{};          // time of the poll
 };
 
 }  // namespace longreach

@@ -8,7 +8,7 @@ namespace {
 
 constexpr char kEscape = '\x1b', kBell = '\a', kCancel = '\x18', kSubstitute = '\x1a';
 constexpr int kPausePolls = 5, kQuietPolls = 50;  // 0.1 s and 1 s
-constexpr std::size_t kBodyMax = 16;              // no key that we know has more
+constexpr std::size_t kBodyMax = 16;              // no supported key has a longer sequence
 constexpr std::string_view kPasteEnd = "\x1b[201~";
 
 Key move(int axis, int sign, bool large) { return {KeyAction::kMove, axis, sign, large}; }
@@ -70,7 +70,8 @@ std::optional<Key> arrow(char c, bool large) {
   }
 }
 
-/// Parameters and final byte. The second parameter is the modifier: none or 1, or shift, which is 2.
+/// Returns the key for parameters and final byte. The second parameter is the modifier: absent or 1 means
+/// none, 2 means shift.
 std::optional<Key> sequence(std::string_view body, char c) {
   if (c == '~' || c == '$') {
     const bool large = c == '$' || body.ends_with(";2");  // '$': shift in rxvt
@@ -91,7 +92,8 @@ bool between(char c, int low, int high) {
   return byte >= low && byte <= high;
 }
 
-/// Bytes that follow the first one of a character in UTF-8 (RFC 3629); 0: `c` begins no such character.
+/// Returns the number of bytes that follow the first byte `c` of a UTF-8 character (RFC 3629); 0 if `c` does
+/// not begin a multi-byte character.
 int continuation(char c) {
   return between(c, 0xf0, 0xf4) ? 3 : between(c, 0xe0, 0xef) ? 2 : between(c, 0xc2, 0xdf) ? 1 : 0;
 }
@@ -117,7 +119,8 @@ void KeyParser::tick() {
 void KeyParser::pause() {
   if (state_ == State::kEscape) state_ = State::kPaused;
   if (state_ == State::kIntermediate || state_ == State::kMouse) state_ = State::kGround;
-  // The key Esc ends a paste that has lost its end; a short one may be split behind the escape of its end.
+  // The Esc key ends a paste whose end was lost. The end sequence of a normal paste may be split after its
+  // ESC, so this applies only when the paste is overdue.
   if (state_ == State::kPaste && overdue() && body_.ends_with(kEscape)) state_ = State::kPaused;
 }
 
@@ -132,10 +135,10 @@ void KeyParser::begin_text(State state) {
   body_.clear();
 }
 
-/// A control of eight bits (C1) is ESC and a letter in one. A continuation byte of UTF-8 is none, but C2 and
-/// one of 80 to 9F is the same control in UTF-8.
+/// An 8-bit control (C1) is equivalent to ESC and a letter. A UTF-8 continuation byte is not a control, but
+/// C2 followed by 80 to 9F is the same control in UTF-8.
 std::optional<Key> KeyParser::next(char c) {
-  if (state_ == State::kMouse) {  // its bytes are numbers
+  if (state_ == State::kMouse) {  // the bytes of a mouse report are numbers
     if (--mouse_left_ == 0) state_ = State::kGround;
     return std::nullopt;
   }
@@ -167,7 +170,7 @@ std::optional<Key> KeyParser::take(char c) {
       introduce(c);
       return std::nullopt;
     case State::kPaused:
-      // A link may have split a sequence here; neither byte is a key.
+      // A slow connection may have split a sequence here, so neither byte is a key.
       if (c != '[' && c != 'O') {
         state_ = State::kGround;
         return ground(c);
@@ -188,7 +191,7 @@ std::optional<Key> KeyParser::take(char c) {
       return std::nullopt;
     case State::kMouse:
     case State::kPaste:
-      return std::nullopt;  // taken above
+      return std::nullopt;  // handled above
   }
   return std::nullopt;
 }
@@ -203,7 +206,7 @@ std::optional<Key> KeyParser::ground(char c) {
   return between(c, 0x80, 0xff) ? std::nullopt : letter(c);
 }
 
-/// After ESC; every other byte is a key with Alt, which does nothing.
+/// Handles the byte after ESC. Any other byte is a key with Alt, which has no function.
 void KeyParser::introduce(char c) {
   body_.clear();
   state_ = State::kGround;
@@ -218,17 +221,18 @@ std::optional<Key> KeyParser::control(char c) {
     state_ = State::kFunction;
     return std::nullopt;
   }
-  // By the grammar '$' is followed by a letter; rxvt ends with it, and then there is one number.
+  // By the grammar, '$' is followed by a letter. rxvt ends sequences with '$'; then there is exactly one
+  // number.
   const bool number =
       !body_.empty() && std::ranges::all_of(body_, [](char d) { return between(d, '0', '9'); });
   if (between(c, ' ', '?') && !(c == '$' && number)) {
     if (body_.size() < kBodyMax) body_ += c;
     return std::nullopt;
   }
-  if (between(c, 0, 0x1f)) return std::nullopt;  // a control within a sequence is not part of it
+  if (between(c, 0, 0x1f)) return std::nullopt;  // a control character within a sequence is not part of it
   const bool whole = state_ == State::kControl;
   state_ = State::kGround;
-  if (between(c, 0x7f, 0xff)) return ground(c);  // nor is this; it ends it
+  if (between(c, 0x7f, 0xff)) return ground(c);  // neither is this byte, but it ends the sequence
   if (whole && c == '~' && body_ == "200") {
     begin_text(State::kPaste);
   } else if (whole && c == 'M' && body_.empty()) {

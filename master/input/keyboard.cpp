@@ -14,9 +14,9 @@ namespace longreach {
 namespace {
 
 constexpr int kRatePolls = 100;  // 2 s
-constexpr int kReadsMax = 16;    // a poll, so that a flood of input cannot keep it
+constexpr int kReadsMax = 16;    // per poll, so that a flood of input cannot block it
 
-/// Input, its end or an error: read() tells which.
+/// Returns whether there is input, end of file or an error, which read() distinguishes.
 bool readable(int fd) {
   pollfd waiting{fd, POLLIN, 0};
   return ::poll(&waiting, 1, 0) > 0;
@@ -32,14 +32,14 @@ Keyboard::~Keyboard() {
   if (raw_) give_back_terminal_mode();
 }
 
-// Again after each time in the background, since a shell sets the mode that it likes.
+// Called again each time the program returns from the background, because the shell sets its own mode.
 void Keyboard::set_raw() {
   termios mode{};
   if (::tcgetattr(fd_, &mode) != 0 || (raw_ && (mode.c_lflag & ICANON) == 0)) return;
   keep_terminal_mode(fd_, mode);
   mode.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  mode.c_iflag &= ~static_cast<tcflag_t>(IXON);  // ctrl-S must not stop the view
-  mode.c_cc[VSUSP] = _POSIX_VDISABLE;            // nor ctrl-Z a program that steers a robot
+  mode.c_iflag &= ~static_cast<tcflag_t>(IXON);  // Ctrl-S must not stop the view
+  mode.c_cc[VSUSP] = _POSIX_VDISABLE;            // nor Ctrl-Z a program that controls a robot
   mode.c_cc[VMIN] = 1;
   mode.c_cc[VTIME] = 0;
   raw_ = ::tcsetattr(fd_, TCSANOW, &mode) == 0;
@@ -57,7 +57,8 @@ KeyboardState Keyboard::poll(MotionMode mode) {
     set_raw();
     read_all(mode);
   }
-  // A terminal reports no release of a key, and in rate mode a deflection drives the robot without end.
+  // A terminal does not report the release of a key, and in rate mode a deflection would move the robot
+  // indefinitely.
   if (++idle_polls_ >= kRatePolls && mode == MotionMode::kRate && !state_.target_m.isZero(0.0)) {
     state_.target_m.setZero();
     let_go_ = true;

@@ -13,7 +13,7 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
       state.target_m.setZero();
       return;
     case KeyAction::kMode: {
-      // Pressed twice between two polls it is back where it was.
+      // Pressing the key twice between two polls restores the mode.
       const MotionMode from = requests.mode.value_or(mode);
       requests.mode = from == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
       return;
@@ -30,7 +30,7 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
     case KeyAction::kGripper:
       requests.turns_gripper = !requests.turns_gripper;
       return;
-    // Whatever was typed since the last poll, a stop among it wins.
+    // If a stop is among the keys since the last poll, it takes precedence.
     case KeyAction::kEngage:
       requests.engage = !requests.stop;
       return;

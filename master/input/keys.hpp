@@ -1,9 +1,10 @@
 #pragma once
 // Keys and their functions. Pure.
 //
-// Keys: w s or up down: along x; a d or left right: along y; r f or page up, page down: along z; with shift
-// the large step; space: home; m: mode; + - scale; c clutch; g gripper closed or open; e engage;
-// x stop; q quit; ? keys. Other keys, such as Enter, only keep the hand in place in rate mode.
+// Keys: w s or up, down: along x; a d or left, right: along y; r f or page up, page down: along z; with shift
+// the large step; space: home; m: mode; + - scale; c: clutch; g: open or close the gripper; e: engage; x:
+// stop; q: quit; ?: show the keys. Other keys, such as Enter, have no function; in rate mode they only keep
+// the hand from returning to its home position.
 
 #include <string_view>
 
@@ -13,7 +14,7 @@
 namespace longreach {
 
 enum class KeyAction {
-  kMove,  // by `steps` along `axis`
+  kMove,  // one step along `axis`, in the direction `sign`
   kHome,
   kMode,
   kScaleUp,
@@ -30,7 +31,7 @@ struct Key {
   KeyAction action = KeyAction::kHome;
   int axis = 0;        // 0 x, 1 y, 2 z of M
   int sign = 0;        // -1, 0, +1
-  bool large = false;  // the large step
+  bool large = false;  // use the large step
 
   bool operator==(const Key&) const = default;
 };
@@ -42,16 +43,16 @@ struct KeyboardConfig {
 };
 
 struct KeyboardState {
-  Vector3 target_m = Vector3::Zero();  // target of the hand, from handle home, M
-  OperatorRequests requests{};         // since the last poll; the clutch is a state
+  Vector3 target_m = Vector3::Zero();  // target position of the hand, from the handle's home, M
+  OperatorRequests requests{};         // requests since the last poll; the clutch is true while it is on
   bool show_keys = false;
   bool quit = false;  // latched
 };
 
-/// Applies `key` to `state`; `mode` is the present one, which the mode key changes.
+/// Applies `key` to `state`. `mode` is the current mode, which the mode key toggles.
 void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, KeyboardState& state);
 
-/// One line that lists the keys.
+/// Returns one line that lists the keys.
 std::string_view key_line();
 
 }  // namespace longreach

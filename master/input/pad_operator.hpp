@@ -1,5 +1,5 @@
 #pragma once
-// Operator at a gamepad, joystick or SpaceMouse. Poll it in one thread, outside the loop.
+// Operator with a gamepad, joystick or SpaceMouse. Poll it in one thread, outside the loop.
 
 #include <optional>
 #include <string>
@@ -14,19 +14,21 @@ namespace longreach {
 
 class PadOperator {
  public:
+  /// Returns whether this class serves operators of `kind`.
   static bool is_for(OperatorKind kind) {
     return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpaceMouse;
   }
 
-  /// Throws std::runtime_error if the library of the device cannot be loaded.
+  /// Throws std::runtime_error if the library for the device cannot be loaded.
   explicit PadOperator(const MasterConfig& config);
 
-  /// `felt`: force at the hand relative to the maximum rendered force, shown by the rumble motor. `dt_s`:
-  /// since the last call.
+  /// Polls the device and returns the state of the hand. `felt` is the force on the hand relative to the
+  /// maximum rendered force, which the rumble motor displays. `dt_s` is the time since the last call, s.
   const AxisHandState& poll(MotionMode mode, double felt, double dt_s);
 
-  /// Returns why the hand does not hold the handle, and a remedy; empty: it does.
+  /// Returns why the hand does not hold the handle, and a remedy; empty if it does.
   [[nodiscard]] std::string trouble() const;
+  /// Returns one line that lists the buttons of the device.
   [[nodiscard]] std::string_view key_line() const;
 
  private:

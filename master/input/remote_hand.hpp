@@ -1,11 +1,11 @@
 #pragma once
-// A hand controlled by messages of a remote client: it holds the handle while they arrive. If the messages
-// stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an orderly release
+// A hand that a remote client controls by messages. It holds the handle while they arrive. If the messages
+// stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an explicit release
 // only releases the handle. In both cases the handle stays released until the next engagement, so that no
-// script or keyboard continues from there.
+// script or keyboard resumes motion from there.
 //
-// The handle moves at most at the speed of a hand. Aims are relative to its position when it is taken, so
-// that taking and returning it cause no motion.
+// The handle moves at most as fast as a human hand. Aims are relative to the position of the handle when the
+// client took control, so that neither taking nor returning control causes motion.
 
 #include <cstdint>
 #include <optional>
@@ -16,16 +16,17 @@
 
 namespace longreach {
 
-/// Maximum age of the data of a hand: local hands are polled at 50 Hz, remote ones send at their own rate.
+/// Maximum age of the input from a hand. Local input devices are polled at 50 Hz; remote clients send at
+/// their own rate.
 inline constexpr double kHandAgeMax_s = 0.3;
 
-/// The newest message of the hand.
+/// The newest message from the remote client.
 struct RemoteAim {
-  Vector3 position_m = Vector3::Zero();    // from handle home, M
-  Vector3 rotation_rad = Vector3::Zero();  // rotation vector from home
+  Vector3 position_m = Vector3::Zero();    // target position, from the handle's home, M
+  Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, from the handle's home, M
   bool clutch = false;
   bool grip = false;
-  bool holds = false;  // false: there is no hand, or it has released the handle
+  bool holds = false;  // false: no client holds the handle, or it has released it
   Time said{};
 };
 
@@ -34,7 +35,7 @@ struct RemoteHandInput {
   RemoteAim aim{};
   HandleState handle{};
   std::uint32_t engagement = 0;
-  Grip grip = Grip::kLight;  // grip of a hand that holds
+  Grip grip = Grip::kLight;  // grip while the hand holds the handle
 };
 
 class RemoteHand {
@@ -44,11 +45,13 @@ class RemoteHand {
 
   explicit RemoteHand(double period_s) : period_s_(period_s) {}
 
-  /// Returns none if the configured operator has the handle. Adds the requests of the hand to `requests`.
+  /// Returns the target of the hand, or none if the configured operator controls the handle. Adds the
+  /// requests of the remote client to `requests`.
   std::optional<HandTarget> step(const RemoteHandInput& in, OperatorRequests& requests);
 
+  /// Returns whether a remote client holds the handle.
   [[nodiscard]] bool holds() const { return holds_; }
-  /// In this tick, without an orderly release.
+  /// Returns whether the messages stopped in this tick without a release.
   [[nodiscard]] bool fell_silent() const { return fell_silent_; }
 
  private:
@@ -58,10 +61,10 @@ class RemoteHand {
   double period_s_;
   bool holds_ = false;
   bool fell_silent_ = false;
-  bool gone_ = false;             // it held the handle, and no hand has held it since
-  std::uint32_t engagement_ = 0;  // engagement at that time
+  bool gone_ = false;             // the client has released the handle, and no hand has held it since
+  std::uint32_t engagement_ = 0;  // engagement when the handle was released
   bool gripped_ = false;
-  Vector3 led_m_ = Vector3::Zero();  // its position
+  Vector3 led_m_ = Vector3::Zero();  // current position of the hand, from home
   Vector3 led_rad_ = Vector3::Zero();
   Vector3 from_m_ = Vector3::Zero();  // offset added to aims
   Vector3 from_rad_ = Vector3::Zero();

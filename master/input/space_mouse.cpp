@@ -11,9 +11,9 @@ namespace longreach {
 namespace {
 
 constexpr const char* kSpnavLibrary = "libspnav.so.0";
-constexpr double kFull = 350.0;      // of an axis, as the daemon tells it
-constexpr double kRetry_s = 1.0;     // between looks for the daemon
-constexpr int kEventsPerPoll = 256;  // so that a flood cannot keep it
+constexpr double kFull = 350.0;      // full deflection of an axis as reported by the daemon
+constexpr double kRetry_s = 1.0;     // interval of attempts to connect to the daemon
+constexpr int kEventsPerPoll = 256;  // so that a flood of events cannot block the poll
 
 struct Spnav {
   decltype(&spnav_open) open;
@@ -41,7 +41,7 @@ struct Spnav {
   }
 };
 
-// The two that every SpaceMouse has come first.
+// The first two buttons exist on every SpaceMouse.
 constexpr auto kButtons = std::to_array<PadButton>(
     {PadButton::kEngage, PadButton::kStop, PadButton::kMode, PadButton::kGripper, PadButton::kClutch,
      PadButton::kScaleUp, PadButton::kScaleDown, PadButton::kHome});
@@ -67,7 +67,7 @@ void SpaceMouse::State::find_daemon(double dt_s) {
   if (spnav.open() != 0) return;
   open = true;
   std::array<char, 128> name{};
-  // A daemon of the old protocol cannot say whether there is a device.
+  // The old protocol has no query for whether there is a device.
   sample.present = spnav.protocol() < 1 || spnav.device_name(name.data(), static_cast<int>(name.size())) >= 0;
 }
 
@@ -85,7 +85,7 @@ bool SpaceMouse::State::hung_up() const {
 void SpaceMouse::State::take(const spnav_event& event) {
   if (event.type == SPNAV_EVENT_MOTION) {
     const spnav_event_motion& m = event.motion;
-    // The daemon's x is right, y up, z towards the person.
+    // In the daemon's frame, x points right, y up and z towards the user.
     sample.push = Vector3(-m.z, -m.x, m.y) / kFull;
     sample.twist = Vector3(-m.rz, -m.rx, m.ry) / kFull;
     ++sample.reports;

@@ -1,9 +1,10 @@
 #pragma once
-// A SpaceMouse by spacenavd: the six deflections of the puck and its buttons. libspnav is loaded by the first
-// object; one object at a time. Poll it in one thread, outside the loop. If the daemon ends, or reports that
-// the device is unplugged, there is no device; both are searched again.
+// A SpaceMouse, accessed through spacenavd: the six deflections of the puck and its buttons. libspnav is
+// loaded when the first object is created; only one object may exist at a time. Poll it in one thread,
+// outside the loop. If the daemon ends, or reports that the device is unplugged, no device is present; the
+// search for daemon and device then starts again.
 //
-//   push the puck away: x, to the left: y, up: z; turns likewise
+//   push the puck away: x, to the left: y, up: z; rotations about the same axes
 
 #include <memory>
 #include <string>
@@ -15,17 +16,17 @@ namespace longreach {
 
 class SpaceMouse {
  public:
-  /// Throws std::runtime_error, one sentence, if libspnav cannot be loaded.
+  /// Throws std::runtime_error with one sentence if libspnav cannot be loaded.
   SpaceMouse();
   ~SpaceMouse();
   SpaceMouse(const SpaceMouse&) = delete;
   SpaceMouse& operator=(const SpaceMouse&) = delete;
 
-  /// Returns the present state, `dt_s` after the last call. Waits only for a newly found daemon, at most 0.7
-  /// s.
+  /// Returns the current state, `dt_s` after the last call. It blocks only while connecting to a newly found
+  /// daemon, for at most 0.7 s.
   AxisSample poll(double dt_s);
 
-  /// One line that lists the buttons.
+  /// Returns one line that lists the buttons.
   static std::string_view key_line();
 
  private:

@@ -22,10 +22,10 @@ constexpr int kTries = 20;
 constexpr int kTryPause_ms = 10;
 
 std::atomic<int> mode_fd{-1};
-std::atomic<int> screen_fd{-1};  // never waits
-termios kept_mode{};             // written before mode_fd says that it is there
+std::atomic<int> screen_fd{-1};  // non-blocking
+termios kept_mode{};             // written before mode_fd marks it as valid
 
-// Only what POSIX allows inside of a signal.
+// Uses only functions that POSIX allows in a signal handler.
 void give_back_all() {
   give_back_screen();
   give_back_terminal_mode();
@@ -38,7 +38,7 @@ void on_fatal_signal(int signal) {
 }
 
 void watch() {
-  static const int at_exit = std::atexit(give_back_all);  // once
+  static const int at_exit = std::atexit(give_back_all);  // registered once
   static_cast<void>(at_exit);
   for (const int signal :
        {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
@@ -67,7 +67,7 @@ void keep_terminal_mode(int fd, const termios& mode) {
 
 void give_back_terminal_mode() {
   const int fd = mode_fd.exchange(-1);
-  // To change a terminal that belongs to another program would stop this one (SIGTTOU).
+  // Changing a terminal that belongs to another program would stop this one (SIGTTOU).
   if (fd >= 0 && !in_background(fd)) ::tcsetattr(fd, TCSANOW, &kept_mode);
 }
 
@@ -90,9 +90,9 @@ void give_back_screen() {
   for (int i = 0; i < kTries && written < kLeaveScreen.size(); ++i) {
     const ssize_t n = ::write(fd, kLeaveScreen.data() + written, kLeaveScreen.size() - written);
     if (n > 0) written += static_cast<std::size_t>(n);
-    if (n < 0 && errno != EAGAIN && errno != EINTR) break;  // nothing can be done about one that is gone
+    if (n < 0 && errno != EAGAIN && errno != EINTR) break;  // the terminal is closed
     if (n > 0) continue;
-    if (i == kTries / 2) ::tcflush(fd, TCOFLUSH);  // nobody reads: makes room
+    if (i == kTries / 2) ::tcflush(fd, TCOFLUSH);  // the output is not being read; discards it to make room
     ::poll(nullptr, 0, kTryPause_ms);
   }
   ::close(fd);

@@ -1,8 +1,9 @@
 #pragma once
 // Selects the goal of a datagram: each datagram carries the goal of one device (Liu et al. 2019). If both
-// move, translation is sent. A device has moved if its goal differs from its last sent one by more than two
-// encoder counts of a desktop device, scaled like the motion; noise therefore does not use datagrams. The
-// waiting device gets every eighth datagram, so that its last goal is repeated and may be lost.
+// devices move, the translation is sent. A device has moved if its goal differs from the last one sent by
+// more than two encoder counts of a desktop device, scaled like the motion, so that noise does not use up
+// datagrams. The other device gets every eighth datagram. Its last goal is therefore repeated, and the loss
+// of one datagram does no harm.
 
 #include <cstdint>
 
@@ -13,12 +14,12 @@ namespace longreach {
 
 class GoalInterleaver {
  public:
-  /// Returns the kind of the goal in the datagram of this period, which counts as sent.
+  /// Returns the kind of goal that the datagram of this period carries, and records it as sent.
   GoalKind next(const Goal& goal, double scale);
 
  private:
-  Goal sent_{};                // last sent goal of each device
-  std::uint32_t waiting_ = 0;  // datagrams since the other device was sent
+  Goal sent_{};                // goal of each device when it was last sent
+  std::uint32_t waiting_ = 0;  // number of datagrams since the other device had its turn
 };
 
 }  // namespace longreach

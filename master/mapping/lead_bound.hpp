@@ -1,7 +1,7 @@
 #pragma once
-// Period in which the goal is bounded: from the report that a limit holds the robot back until the robot has
-// reached a goal that was commanded within the bound. Ending it with the flag would not suffice: with a delay
-// the goal would repeatedly run ahead and be drawn back.
+// Determines when the lead of the goal is bounded: from the report that a limit holds the robot back until
+// the robot has reached a goal that was commanded within the bound. Ending the bound as soon as the report
+// ends would not suffice: because of the delay, the goal would repeatedly run ahead and be drawn back.
 
 #include <cstdint>
 #include <optional>
@@ -13,12 +13,13 @@ namespace longreach {
 
 class LeadBound {
  public:
-  /// `lead`: Mapping::kLead_m or kLead_rad.
+  /// `lead` is Mapping::kLead_m or Mapping::kLead_rad.
   explicit LeadBound(double lead) : lead_(lead) {}
 
   void reset() { *this = LeadBound(lead_); }
 
-  /// For the present engagement; `reached`: newest command whose goal the robot has reached.
+  /// Processes a report of the current engagement. `reached` is the number of the newest command whose goal
+  /// the robot has reached.
   void on_report(const ContactReport& report, std::uint64_t reached) {
     if (!report.held_back.isZero(0.0)) {
       bound_ = {report.place, report.held_back};
@@ -27,7 +28,8 @@ class LeadBound {
     }
   }
 
-  /// The command with this number is sent, its goal `ahead` of the position of the bound along its direction.
+  /// Records that the command `sequence` is sent with a goal that is `ahead` of the position of the bound, m
+  /// or rad, along its direction.
   void on_command(std::uint64_t sequence, double ahead) {
     constexpr double kRounding = 1e-9;
     if (bound_.direction.isZero(0.0) || ahead > lead_ + kRounding) {
@@ -42,7 +44,8 @@ class LeadBound {
  private:
   double lead_;
   GoalBound bound_{};
-  std::optional<std::uint64_t> within_{};  // first of the later commands whose goals were within the bound
+  /// First command since which all goals were within the bound.
+  std::optional<std::uint64_t> within_{};
 };
 
 }  // namespace longreach

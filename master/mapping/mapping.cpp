@@ -6,11 +6,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kReentry = 0.9;    // of the dead zone, where the literal law's motion ends
-constexpr double kSmooth_s = 0.1;   // of the speed that a forecast in position mode goes on with
-constexpr double kReach_rad = 2.0;  // farther than any handle turns
+constexpr double kReentry = 0.9;    // fraction of the dead zone at which the motion of the literal law ends
+constexpr double kSmooth_s = 0.1;   // time constant of the velocity for forecasts in position mode
+constexpr double kReach_rad = 2.0;  // beyond the range of any handle
 
-/// The rate law of one device, which remembers on which side of the edge the handle was.
+/// Applies the rate law to one device. `outside` stores on which side of the edge the handle is.
 Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law, bool& outside) {
   const double edge = law == RateLaw::kLiteral && outside ? kReentry * dead_zone : dead_zone;
   const Vector3 rate = rate_law(deflection, edge, radius_max, law);
@@ -18,7 +18,7 @@ Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, 
   return rate;
 }
 
-/// Slower where it goes into a surface.
+/// Limits the component of `speed` into a pressed surface.
 Vector3 press(Vector3 speed, const Vector3& goal, const PressedSurfaces& surfaces) {
   for (const PressedSurface& s : surfaces) {
     const double into = s.inward.dot(speed) - s.speed_max;
@@ -78,7 +78,7 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
 
 void Mapping::step_rate(const MappingInput& input, double dt_s) {
   const HandleState& handle = input.handle;
-  // The centre goes home with the hand, so that letting go commands nothing.
+  // The centre moves home with the hand, so that a released handle commands no motion.
   x_ref_ = clamp_norm(x_ref_, norm(handle.p_MH));
   if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
     q_ref_ = exp_rotation(clamp_norm(log_rotation(q_ref_), log_rotation(handle.q_MH).norm()));

@@ -1,21 +1,22 @@
 #pragma once
-// Maps the motion of the handle to the goal of the robot, a displacement g (m) and a rotation R_g from the
-// engagement's anchor, both in W (Liu et al. 2019, hybrid control). x, R_H are the handle in M, R_WM the
-// base:
+// Maps the motion of the handle to the goal of the robot. The goal is a displacement g (m) and a rotation R_g
+// from the engagement's anchor, both in W (Liu et al. 2019, hybrid control). x and R_H are the pose of the
+// handle in M; R_WM is the orientation of its base in W:
 //
 //   rate      g' = kv R_WM ρ(x - x_ref)              R_g' = [ω]ˣ R_g,  ω = kv R_WM ρ(log(R_H R_refᵀ))
 //   position  g  = g_ref + k_scale R_WM (x - x_ref)  R_g  = exp(k_scale R_WM log(R_H R_refᵀ)) R_gref
 //
-// ρ has a dead zone and an effective radius (rate_law); rotations are composed exactly. Every change of mode,
-// clutch, freeze or (in position mode) scale sets new references at the present handle and goal, so the goal
-// never steps. The centre x_ref, R_ref of rate mode is the position of the handle when the mode began; it
-// moves home with the handle, so that a released handle commands nothing. The literal law, which jumps at the
-// edge of the dead zone, re-enters it a tenth further in, so that noise at the edge causes one jump and no
-// chatter.
-// The lead of the goal is bounded: where a limit holds the robot back at `place`, in the direction d, the
-// goal is drawn back along d, at most at its maximum speed, to `place` + kLead and goes no further in this
-// direction (lead_bound.hpp), frozen or not. In position mode the reference shifts by the same amount. Not
-// handled: rotations of the handle by more than π from its reference.
+// ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change
+// of mode, clutch, freeze or (in position mode) scale sets new references at the current handle and goal, so
+// that the goal never steps. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
+// began. It moves home together with the handle, so that a released handle commands no motion. The literal
+// law jumps at the edge of the dead zone. The commanded motion ends only when the deflection is a tenth
+// further inside, so that noise at the edge causes a single jump and no chatter.
+//
+// The lead of the goal is bounded. Where a limit holds the robot back at `place`, in the direction d, the
+// goal is drawn back along d to `place` + kLead, at most at its maximum speed, and goes no further in this
+// direction (lead_bound.hpp), whether frozen or not. In position mode the reference shifts by the same
+// amount. Rotations of the handle by more than π from its reference are not supported.
 
 #include <array>
 
@@ -25,18 +26,18 @@
 
 namespace longreach {
 
-/// Bound on the lead of the goal over the robot: no further than kLead from `place` along `direction`. Goals
-/// are displacements (m) or rotation vectors (rad) from the anchor, in W.
+/// Bound on how far the goal may lead the robot: at most kLead from `place` along `direction`. Both are in W;
+/// `place` is a displacement (m) or rotation vector (rad) from the anchor.
 struct GoalBound {
   Vector3 place = Vector3::Zero();
-  Vector3 direction = Vector3::Zero();  // unit; zero: no bound
+  Vector3 direction = Vector3::Zero();  // unit vector; zero: no bound
 };
 
-/// A surface into which the goal moves no faster than this, in rate mode, because hand, goal and force form
-/// an integrator. Its position is a displacement (m) or a rotation vector (rad) from the anchor, in W.
+/// A surface into which the goal moves no faster than `speed_max` in rate mode, because hand, goal and force
+/// form an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
 struct PressedSurface {
   Vector3 place = Vector3::Zero();
-  Vector3 inward = Vector3::Zero();  // unit; zero: none
+  Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
   double speed_max = 0.0;            // m/s or rad/s
 };
 using PressedSurfaces = std::array<PressedSurface, 3>;
@@ -45,15 +46,15 @@ struct MappingInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;   // k_scale, > 0
-  bool frozen = false;  // clutch, hold or released: the handle moves without the robot
+  bool frozen = false;  // the handle moves without the robot (clutch, hold or release)
   GoalBound translation_bound{}, rotation_bound{};
-  PressedSurfaces surfaces{}, stops{};  // in translation, in rotation
+  PressedSurfaces surfaces{}, stops{};  // surfaces in translation and in rotation
 };
 
 struct Goal {
-  Vector3 position_m = Vector3::Zero();          // from the anchor, W
-  Quaternion rotation = Quaternion::Identity();  // from the anchor, W
-  Vector3 rotation_rad = Vector3::Zero();        // the same as a rotation vector
+  Vector3 position_m = Vector3::Zero();          // displacement from the anchor, W
+  Quaternion rotation = Quaternion::Identity();  // rotation from the anchor, W
+  Vector3 rotation_rad = Vector3::Zero();        // the same rotation as a rotation vector
 };
 
 class Mapping {
@@ -61,34 +62,35 @@ class Mapping {
   static constexpr double kLead_m = 3e-3, kLead_rad = 0.04;
 
   explicit Mapping(const MappingConfig& config) { configure(config); }
-  /// A new base sets new references at the next step.
+  /// Takes effect in the next step. A new orientation of the base sets new references.
   void configure(const MappingConfig& config);
 
-  /// Starts an engagement: zero goal, references at the handle.
+  /// Starts an engagement with a zero goal and references at the handle.
   void reset(const HandleState& handle);
 
-  /// `dt_s` > 0. The goal is always finite: invalid values of the handle leave it unchanged.
+  /// Advances by `dt_s` > 0 and returns the goal. It is always finite: a handle with non-finite values leaves
+  /// it unchanged.
   const Goal& step(const MappingInput& input, double dt_s);
 
   [[nodiscard]] const Goal& goal() const { return goal_; }
-  /// Returns the goal `ahead_s` (>= 0) from now, extrapolated by the present motion: in rate mode by the
-  /// commanded speed, in position mode by the mean speed of the last tenth of a second.
+  /// Returns the goal extrapolated by `ahead_s` >= 0, with the commanded velocity in rate mode, and with the
+  /// velocity of the goal, low-pass filtered over 0.1 s, in position mode.
   [[nodiscard]] Pose forecast(double ahead_s) const;
 
-  /// Centre of rate mode in M: m, and orientation.
+  /// Centre of rate mode in M: position, m, and orientation.
   [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
   [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }
   [[nodiscard]] bool frozen() const { return frozen_; }
   [[nodiscard]] double scale() const { return scale_; }  // k_scale
-  /// R_WM.
+  /// R_WM, the orientation of the handle's base in W.
   [[nodiscard]] const Quaternion& base() const { return base_; }
 
-  /// Coordinate along R_WMᵀ n, in M from home, at which the handle is in the plane n . g = `offset_m` of the
-  /// goal space; n unit, in W. Position mode only.
+  /// Returns the coordinate of the handle along R_WMᵀ n, in M from home, at which it commands a goal in the
+  /// plane n . g = `offset_m`. n is a unit vector in W. Position mode only.
   [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
 
-  /// Rotation vector of the handle, in M from home, at which it commands `goal_rotation`. Position mode only.
-  /// Limited to 2 rad from the reference of the handle, which is beyond every device.
+  /// Returns the rotation vector of the handle, in M from home, at which it commands `goal_rotation`. It is
+  /// limited to 2 rad from the reference of the handle, which no device can reach. Position mode only.
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
 
  private:
@@ -105,17 +107,18 @@ class Mapping {
   MotionMode mode_ = MotionMode::kPosition;
   double scale_ = 1.0;
   bool frozen_ = true;
-  bool outside_m_ = false, outside_rad_ = false;  // outside of the dead zones
-  Vector3 x_ref_ = Vector3::Zero();               // handle at the last change
-  Vector3 g_ref_ = Vector3::Zero();               // goal at the last change
+  bool outside_m_ = false, outside_rad_ = false;  // outside the dead zones
+  Vector3 x_ref_ = Vector3::Zero();               // handle when the references were set
+  Vector3 g_ref_ = Vector3::Zero();               // goal when the references were set
   Quaternion q_ref_ = Quaternion::Identity();
   Quaternion q_gref_ = Quaternion::Identity();
-  Vector3 speed_m_per_s_ = Vector3::Zero();  // of the goal, W
+  Vector3 speed_m_per_s_ = Vector3::Zero();  // velocity of the goal, W
   Vector3 speed_rad_per_s_ = Vector3::Zero();
 };
 
-/// Speed commanded by a deflection, per unit of kv: zero inside the dead zone, limited at `radius_max`.
-/// Continuous: |x| - dead_zone; literal: |x|.
+/// Returns the velocity that a deflection x commands, divided by kv. It is zero inside the dead zone and
+/// limited as at `radius_max`. Its magnitude is |x| - dead_zone for the continuous law and |x| for the
+/// literal one.
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law);
 
 }  // namespace longreach

@@ -17,7 +17,7 @@ bool asks(const OperatorRequests& r) {
          r.grip.has_value() || r.turns_gripper;
 }
 
-/// What keys and pad ask for together; a stop wins.
+/// Combines the requests of keys and pad. A stop takes precedence.
 OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
   keys.stop = keys.stop || pad.stop;
   keys.engage = (keys.engage || pad.engage) && !keys.stop;
@@ -34,7 +34,7 @@ HandPoll::HandPoll(const MasterConfig& config, MasterShell& shell, MasterService
   const bool pad = PadOperator::is_for(config.operator_.kind);
   if (pad) {
     pad_.emplace(config);
-    shell.hand().write({.present = false});  // until it has been looked for
+    shell.hand().write({.present = false});  // until the first poll
   }
   if (!pad && config.operator_.kind != OperatorKind::kKeyboard) return;
   keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
@@ -56,7 +56,7 @@ HandPoll::Seen HandPoll::seen() const {
 void HandPoll::run() {
   LoopConfig behind = config_.loop;
   behind.priority -= behind.priority > 0 ? 1 : 0;
-  (void)ask_for_real_time(behind);  // what is not permitted the loop has said
+  (void)ask_for_real_time(behind);  // the loop has already reported refused requests
   while (!ended_) {
     std::this_thread::sleep_for(kPollPeriod);
     poll();

@@ -1,6 +1,6 @@
 #pragma once
-// The thread that polls keyboard and pad for the state of the hand, and passes it with its time to the loop.
-// It writes to no terminal, pipe or file, so that a stalled reader cannot block it.
+// The thread that polls keyboard and pad, and passes the state of the hand with its time to the loop. It
+// writes to no terminal, pipe or file, so that a stalled reader cannot block it.
 
 #include <atomic>
 #include <mutex>
@@ -16,25 +16,26 @@ namespace longreach {
 
 class HandPoll {
  public:
-  /// For the view.
+  /// Data for the console.
   struct Seen {
     bool show_keys = false;
     bool quit = false;  // latched
     std::string pad_keys;
-    std::string notice;   // notice for the user at the keyboard
-    std::string trouble;  // why the hand does not hold the handle, and a remedy
+    std::string notice;   // for the user at the keyboard; empty if there is none
+    std::string trouble;  // why the hand does not hold the handle, and a remedy; empty if it does
   };
 
-  /// All must outlive it. Other kinds of operator are not polled. Throws std::runtime_error if the library of
-  /// a pad cannot be loaded.
+  /// Starts polling if the configured operator is a keyboard or a pad. The arguments must outlive this
+  /// object. Throws std::runtime_error if the library for a pad cannot be loaded.
   HandPoll(const MasterConfig& config, MasterShell& shell, MasterService& service);
-  /// Restores the terminal.
+  /// Stops polling and restores the terminal.
   ~HandPoll();
   HandPoll(const HandPoll&) = delete;
   HandPoll& operator=(const HandPoll&) = delete;
 
-  /// The operator is a keyboard or pad.
+  /// Returns whether the operator is a keyboard or pad.
   [[nodiscard]] bool is_hand() const { return keyboard_.has_value(); }
+  /// Returns the result of the last poll; callable from any thread.
   [[nodiscard]] Seen seen() const;
 
  private:

@@ -1,4 +1,5 @@
-// longreach-master: the operator's side. Reads the hands, commands the slave, renders what it touches.
+// longreach-master: the operator's side. Reads the haptic device, commands the slave and renders its
+// contacts.
 
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -32,7 +33,7 @@ struct MasterOptions : ProgramOptions {
   std::optional<double> wall_n_per_m{};
 };
 
-/// As people write them.
+/// Returns the names in the form that users write.
 std::vector<std::string> names_of(const google::protobuf::EnumDescriptor& values) {
   std::vector<std::string> names;
   for (int i = 0; i < values.value_count(); ++i) {
@@ -42,7 +43,7 @@ std::vector<std::string> names_of(const google::protobuf::EnumDescriptor& values
   return names;
 }
 
-/// The shorthands are settings like any other.
+/// Converts shorthand options to ordinary settings.
 ProgramOptions with_shorthands(const MasterOptions& options) {
   ProgramOptions out = options;
   if (!options.operator_kind.empty()) out.settings.push_back("operator.kind=" + options.operator_kind);
@@ -57,7 +58,7 @@ ViewKind view_kind(const std::string& name) {
   return name == "plain" ? ViewKind::kPlain : ViewKind::kAuto;
 }
 
-/// The newest one, for RPC threads.
+/// Returns the newest snapshot, for RPC threads.
 ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, double seconds) {
   ConsoleSnapshot out = picture(service.snapshot(), config);
   out.trouble = service.trouble();
@@ -73,7 +74,8 @@ SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_
           .outages = config.link.impairment.blackout_duration_s > 0.0};
 }
 
-/// The verdict counts for a run that was given its length; one that ends by a signal has just ended.
+/// Returns the exit status. The verdict counts only for a run with a given length, not for one that was ended
+/// by a signal.
 int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
           const MasterConfig& config, const std::vector<HandTrouble>& hand) {
   const Summary result = summary.finish(picture(last, config), hand);
@@ -85,7 +87,7 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
   return options.seconds && !result.passed() ? kExitFailed : 0;
 }
 
-/// All of them outlive it.
+/// The arguments must outlive the service.
 std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shell,
                                        const MasterConfig& config) {
   return std::make_unique<DeskService>(
@@ -95,7 +97,7 @@ std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shel
       [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
 }
 
-/// What the configuration means for the operator, each line after `before`.
+/// Returns what the configuration means for the operator. Each line starts with `before`.
 std::string notes_on(const MasterConfig& config, const std::string& before) {
   const double most_n_per_m = MasterNode(config).view().stiffness_max_n_per_m;
   std::string text = before + "device " + config.device.name +
@@ -108,7 +110,7 @@ std::string notes_on(const MasterConfig& config, const std::string& before) {
   return text;
 }
 
-/// What ranges cannot tell: whether the mechanisms close their loops.
+/// Checks what ranges of single fields cannot: whether the mechanisms can close their loops.
 void require_device(const DeviceConfig& device) {
   try {
     SimulatedDevices{device};
@@ -117,7 +119,7 @@ void require_device(const DeviceConfig& device) {
   }
 }
 
-/// A file that nobody has chosen is not that of a real device.
+/// A device file that was not explicitly chosen does not describe a real device.
 void log_device(const MasterConfig& config, bool chosen) {
   std::istringstream notes(notes_on(config, ""));
   for (std::string note; std::getline(notes, note);) spdlog::info("device note=\"{}\"", note);
@@ -157,7 +159,7 @@ int operate(const MasterOptions& options) {
                rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
   log_device(plain, config.has_device_file());
   StatusLoop status_loop({view_kind(options.view), options.seconds}, plain, shell, service);
-  // The live view owns the terminal; it shows what the log would say.
+  // The live view controls the terminal, and displays what the log would contain.
   if (status_loop.live() && isatty(STDERR_FILENO) == 1) hush_log();
 
   RunSummary summary(summary_of(plain, options.wall_n_per_m));
@@ -182,7 +184,7 @@ int operate(const MasterOptions& options) {
       sent_hz(plain.link),
       [&service, &plain]() -> SessionClient::Present {
         const SideFigures side = service.snapshot().side;
-        // Both directions have the same, or the slave's is not known here.
+        // Both directions have the same impairment, or that of the slave is not known here.
         const ImpairmentConfig& down = plain.link.impairment;
         return {side.session, side.link.silence_s, plain.link.slave,
                 2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};

@@ -50,7 +50,7 @@ bool begins_with(const std::string& path, std::string_view group) {
   return std::string_view(path).substr(0, group.size()) == group;
 }
 
-/// The script plans with what these say.
+/// Returns whether an assignment changes a field that the script uses.
 bool moves_script(const Assignments& assignments) {
   for (const auto& [path, value] : assignments) {
     if (begins_with(path, "operator.") || begins_with(path, "mapping.")) return true;
@@ -156,7 +156,7 @@ std::optional<Refusal> MasterService::engage() {
 std::optional<Refusal> MasterService::stop() { return ask(shell_.stops()); }
 
 std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
-  if (requests.stop) return stop();  // what else is asked for with it does not count
+  if (requests.stop) return stop();  // other requests made together with a stop are ignored
   return post(shell_.mailbox(), MasterCommand(requests));
 }
 

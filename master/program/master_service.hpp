@@ -1,6 +1,6 @@
 #pragma once
-// Operations of the master for RPC clients and keys: queries, settings, impairment, mode and scale, engage,
-// stop.
+// Operations of the master for RPC clients and keys: status, configuration, impairment of the link, mode,
+// scale, engage, stop, sessions and recordings.
 
 #include <chrono>
 #include <mutex>
@@ -14,7 +14,8 @@ namespace longreach {
 
 class MasterService : public ControlBackend {
  public:
-  /// `config`: as loaded, files resolved; its limits are upper bounds for later changes.
+  /// `config` is the loaded configuration with all referenced files resolved. Its limits are upper bounds for
+  /// later changes.
   MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
@@ -33,33 +34,37 @@ class MasterService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Call it before the loop starts, so that its first tick is recorded, as a replay requires. Throws
-  /// RecordingError.
+  /// Starts a recording. Call it before the loop starts, because a replay requires that the first tick is
+  /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Newest snapshot of the loop; callable from any thread except the loop's.
+  /// Returns the newest snapshot of the loop. Callable from any thread except that of the loop.
   MasterSnapshot snapshot();
-  /// Passes requests of keys to the loop; callable from any thread except the loop's.
+  /// Passes requests to the loop. Returns the reason if they are refused. Callable from any thread except
+  /// that of the loop.
   std::optional<Refusal> request(const OperatorRequests& requests);
-  /// Passes a session to the loop; false: it did not respond. Callable from any thread except the loop's.
+  /// Passes a session to the loop. Returns false if the loop did not respond. Callable from any thread except
+  /// that of the loop.
   bool adopt(const Session& session);
-  /// Returns why there is no session; empty: there is one.
+  /// Returns why there is no session with the slave, or another problem of the link or hand; empty if there
+  /// is none.
   std::string trouble();
-  /// Sets why there is no session, and the address of the master that has control of the robot; empty: none.
+  /// Sets the text that trouble() returns, and the address of the other master that has control of the robot.
+  /// Empty means none.
   void put_trouble(const std::string& trouble, const std::string& taken_by);
 
  private:
   SideRecording<MasterRecordBuffer>::Request recording_request(double max_mb) const;
-  /// Passes a record buffer to the loop; false: it did not respond.
+  /// Passes a record buffer to the loop. Returns false if the loop did not respond.
   bool attach(MasterRecordBuffer* record_buffer);
 
   MasterShell& shell_;
   SideConfig<proto::MasterConfig> config_;
-  std::uint32_t config_number_ = 0;  // of the configurations passed to the loop
+  std::uint32_t config_number_ = 0;  // number of the last configuration passed to the loop
   RecordingPlace recordings_;
   SideRecording<MasterRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::mutex reading_;  // for readers of snapshots
+  std::mutex reading_;  // serialises readers of snapshots
   std::mutex troubling_;
   std::string trouble_, taken_by_;
 };

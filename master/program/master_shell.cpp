@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kHandSpeed_m_per_s = 0.1;  // a key asks for a step; a hand moves
+constexpr double kHandSpeed_m_per_s = 0.1;  // a key requests a step, whereas a hand moves continuously
 constexpr double kHandSpeed_rad_per_s = 1.0;
 
 std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterConfig& config) {
@@ -17,7 +17,8 @@ std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterCo
                                       draw_session(Cipher::kChaCha20Poly1305).number);
 }
 
-/// By more than friction leaves, and nearly as much as the dead zones of rate mode; or on its way.
+/// Returns whether the handle is still away from its target or moving. The thresholds exceed what friction
+/// leaves, and are slightly smaller than the dead zones of rate mode.
 bool away(const HandLevel& level, const HandleState& handle, bool turns) {
   constexpr double kFar_m = 0.004, kFar_rad = 0.04, kMoves_m_per_s = 0.01, kMoves_rad_per_s = 0.1;
   return norm(level.target_m - handle.p_MH) > kFar_m ||
@@ -60,7 +61,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   HandTarget target = operate(now, in.handle, requests);
   if (!config_.device.turns) target.rotation_rad.setZero();
   devices_.set_target(target);
-  // The hand has nothing to hold any more: a device that has failed.
+  // Without keyboard or pad the simulated device counts as failed.
   if (lost_) in.handle.ok = false;
   in.reports = port_.reports();
   in.telemetry = port_.telemetry();
@@ -128,7 +129,7 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
 HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
   hand_stale_ = false;
   const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
-  // A hand from outside moves the simulated handle, whoever had it.
+  // A remote hand takes precedence over the configured operator of the simulated handle.
   if (const auto target = adapter_ ? std::nullopt : remote_.step(remote, requests)) {
     lost_ = false;
     hand_stale_ = remote_.fell_silent();
@@ -138,8 +139,8 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
   if (kind == OperatorKind::kKeyboard || PadOperator::is_for(kind)) {
     const HandLevel& level = hand_.read();
     hand_stale_ = to_seconds(now - level.said) > kHandAgeMax_s;
-    // Taken again, it counts when the hand has brought the handle to where it wants it: else the robot would
-    // move by what was left of the deflection.
+    // After a reconnection the hand counts again only when the handle has reached its target. Otherwise the
+    // robot would move by the remaining deflection.
     lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle, config_.device.turns)));
     requests.clutch = level.clutch;
     return hold(level, handle);
@@ -161,12 +162,13 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
   if (script.mode && !requests.mode) requests.mode = script.mode;
   HandTarget target = script.target;
-  // The grip may change while the script goes on; where the script itself lets go, it stays let go.
+  // The configured grip may change while the script runs. If the script itself releases the handle, it stays
+  // released.
   if (target.grip == script_grip_) target.grip = config_.hand.grip;
   return target;
 }
 
-/// Whoever is configured goes on from where the hand from outside leaves the handle.
+/// Makes the configured operator resume from where the remote hand leaves the handle.
 HandTarget MasterShell::displaced(const HandTarget& target) {
   held_m_ = target.position_m;
   held_rad_ = target.rotation_rad;
@@ -179,7 +181,8 @@ HandTarget MasterShell::displaced(const HandTarget& target) {
 
 HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) {
   HandTarget target;
-  if (!level.present || hand_stale_) {  // taken again, the handle is where it then is
+  /// When it is held again, the hand starts at the position of the handle.
+  if (!level.present || hand_stale_) {
     target.grip = Grip::kReleased;
     held_m_ = handle.p_MH;
     held_rad_ = log_rotation(handle.q_MH);

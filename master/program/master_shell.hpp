@@ -1,7 +1,7 @@
 #pragma once
-// The loop of the master with real sockets, a device and an operator: one tick receives, reads the handle,
-// steps the node, renders the wrench, sends. It runs only in the thread of the loop; other threads
-// communicate with it by the mailbox, the hand and the snapshots, which never block it.
+// The loop of the master with real sockets, a device and an operator. One tick receives datagrams, reads the
+// handle, steps the node, renders the wrench and sends a command. It runs only in the loop thread. Other
+// threads communicate with it through the mailbox, the hand and the snapshots, which never block it.
 
 #include <variant>
 
@@ -25,51 +25,55 @@ namespace longreach {
 struct MasterSnapshot {
   SideFigures side{};
   MasterView view{};
-  ScriptPhase phase = ScriptPhase::kWaiting;  // of the script, if it is the operator
-  bool hand_outside = false;                  // a remote hand holds the handle
+  ScriptPhase phase = ScriptPhase::kWaiting;  // phase of the script, if the operator is a script
+  bool hand_outside = false;                  // a remote client holds the handle
   AdapterFigures adapter{};
-  bool hand_lost = false;  // keyboard or pad is not available, or the handle has not yet reached its target
+  /// The keyboard or pad is not available, or the handle has not reached its target since it became
+  /// available.
+  bool hand_lost = false;
 };
 
 struct MasterChange {
   MasterConfig config{};
-  bool only_disengaged = false;  // a field changes that cannot change while engaged
+  bool only_disengaged = false;  // a changed field must not change while engaged
   bool impairment = false;       // config.link.impairment has changed
-  bool script = false;           // the configuration of the script has changed: it restarts
-  std::uint32_t number = 0;      // of the configuration, for a recording
+  bool script = false;           // the configuration of the script has changed, so it restarts
+  std::uint32_t number = 0;      // number of the configuration, for recordings
 };
-/// Record buffer from now on; none: no recording. The loop no longer uses the previous one.
+/// Sets the record buffer; null means no recording. Once this is processed, the loop no longer uses the
+/// previous buffer.
 struct MasterRecordingChange {
   MasterRecordBuffer* record_buffer = nullptr;
 };
-/// Another master has control of the robot, which is why the slave is silent.
+/// Another master has control of the robot, so that the slave no longer sends datagrams to this one.
 struct MasterPreempted {};
 using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
                                    MasterRecordingChange>;
 
 class MasterShell {
  public:
-  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: of the artificial
-  /// impairment.
+  /// Throws AddressError for an invalid address, or std::runtime_error if the socket cannot be opened. `seed`
+  /// is for the simulated impairment of the link.
   MasterShell(const MasterConfig& config, std::uint64_t seed);
 
-  /// Waits until the adapter of the device answers, at most 2 s; returns at once if there is none. Call it
-  /// before the first tick.
+  /// Waits until the adapter of the device responds, for at most 2 s. Returns immediately if no adapter is
+  /// configured. Call it before the first tick.
   void wait_for_device();
+  /// Runs one tick at `now`.
   void tick(Time now, const LoopFigures& loop);
 
-  /// Call it before the first tick; later use MasterRecordingChange.
+  /// Sets the record buffer. Call it before the first tick; later, use MasterRecordingChange.
   void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
-  /// Loop thread only: snapshot of the last tick.
+  /// Returns the snapshot of the last tick. Only for the loop thread.
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
 
   Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
   StopLevel& stops() { return stops_; }
   LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
-  /// Written by the thread that polls keyboard, gamepad or SpaceMouse.
+  /// Written only by the thread that polls keyboard, gamepad or SpaceMouse.
   LatestValue<HandLevel>& hand() { return hand_; }
-  /// Written by one thread at a time, for a remote hand.
+  /// Target from a remote client; written by one thread at a time.
   LatestValue<RemoteAim>& remote_aim() { return remote_aim_; }
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
@@ -83,23 +87,23 @@ class MasterShell {
   MasterConfig config_;
   UdpChannel channel_;
   MasterPort port_;
-  SimulatedDevices devices_;  // simulated while there is no adapter
+  SimulatedDevices devices_;  // used if no adapter is configured
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<DeviceAdapter> adapter_;
   HapticDevice& device_;
   ScriptedOperator script_;
   Grip script_grip_;
   MasterNode node_;
-  Vector3 held_m_ = Vector3::Zero();  // position of the hand at keyboard, gamepad or SpaceMouse
+  Vector3 held_m_ = Vector3::Zero();  // position of the hand that keyboard, gamepad or SpaceMouse controls
   Vector3 held_rad_ = Vector3::Zero();
-  bool lost_ = false;        // as MasterSnapshot::hand_lost
-  bool hand_stale_ = false;  // in this tick
+  bool lost_ = false;        // see MasterSnapshot::hand_lost
+  bool hand_stale_ = false;  // the input of the hand is too old in this tick
   RemoteHand remote_;
   SideObserver observer_;
-  bool preempted_ = false;                       // until the next session
-  MasterRecordBuffer* record_buffer_ = nullptr;  // none: no recording
-  std::uint64_t ticks_ = 0;                      // steps of the node
-  std::uint32_t config_number_ = 0;              // number of its configuration
+  bool preempted_ = false;                       // true until the next session starts
+  MasterRecordBuffer* record_buffer_ = nullptr;  // null: no recording
+  std::uint64_t ticks_ = 0;                      // number of steps of the node
+  std::uint32_t config_number_ = 0;              // number of the node's configuration
   MasterSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<MasterCommand, LoopAnswer> mailbox_;

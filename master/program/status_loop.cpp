@@ -136,7 +136,7 @@ bool Resumption::step(double seconds, const MasterView& view, const HoldLog& hol
   return true;
 }
 
-/// Why there is nothing in the hand, and what to do.
+/// Returns why the hand does not hold the handle, and a remedy; empty if it does.
 std::string StatusLoop::hand_trouble(const MasterSnapshot& s) const {
   const std::string adapter = adapter_trouble(s.adapter, "haptic device", config_.device_adapter.address);
   const bool real_device = !config_.device_adapter.address.empty();

@@ -1,6 +1,6 @@
 #pragma once
-// The thread besides the loop that writes view and log until the end of the run, with the thread that polls
-// the hand.
+// The thread that updates the view and the log until the end of the run, in addition to the loop thread. It
+// also owns the thread that polls the hand.
 
 #include <atomic>
 #include <optional>
@@ -17,13 +17,14 @@
 
 namespace longreach {
 
-/// A simulated operator at the simulated device; a real device has a real operator.
+/// Returns whether the operator is a script, which requires a simulated device: a real device has a real
+/// operator.
 bool scripted(const MasterConfig& config);
 
-/// Data for the console.
+/// Returns the data for the console.
 ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config);
 
-/// Logs what has changed since the last call.
+/// Logs the changes of state since the previous call.
 class StateLog {
  public:
   void write(const MasterSnapshot& s, const std::string& trouble, const std::string& hand_trouble);
@@ -34,11 +35,11 @@ class StateLog {
   std::string trouble_, hand_trouble_, notice_;
 };
 
-/// Lets the simulated operator engage again after a hold caused by the machine or by an outage of the link
-/// profile, as a person would: after a second, and every few seconds until it is granted.
+/// Makes the simulated operator engage again after a hold caused by the machine or by an outage of the link
+/// profile, as a person would: after one second, and then every few seconds until the engagement is granted.
 class Resumption {
  public:
-  /// Returns true to request an engagement now.
+  /// Returns whether to request an engagement now. `seconds` is the time since the start of the run.
   bool step(double seconds, const MasterView& view, const HoldLog& holds);
 
  private:
@@ -47,25 +48,27 @@ class Resumption {
 
 struct RunOptions {
   ViewKind view = ViewKind::kAuto;
-  std::optional<double> seconds{};  // length of the run; none: until it is ended
+  std::optional<double> seconds{};  // length of the run; none: unlimited
 };
 
 class StatusLoop {
  public:
-  /// All must outlive it. Throws std::runtime_error if the library of a pad cannot be loaded.
+  /// The arguments must outlive this object. Throws std::runtime_error if the library for a pad cannot be
+  /// loaded.
   StatusLoop(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
              MasterService& service);
 
-  /// The view controls the terminal.
+  /// Returns whether the view controls the terminal.
   [[nodiscard]] bool live() const { return view_.live(); }
-  /// Returns on `stop`, on request of the user at the keys, or at the end of the run.
+  /// Runs until `stop` is true, the user presses the quit key, or the run ends.
   void run(const std::atomic<bool>& stop, const SessionClient& session_client);
-  /// Reasons for a released handle, from the first of the run; for its summary.
+  /// Returns the reasons why the handle counted as released during the run, in order of time, for the
+  /// summary.
   [[nodiscard]] const std::vector<HandTrouble>& hand_troubles() const { return troubles_; }
 
  private:
   [[nodiscard]] double seconds() const { return to_seconds(boottime_now() - began_); }
-  /// Holds caused by this machine extend the run, to at most twice its length.
+  /// Length of the run, s. Holds caused by this machine extend it to at most twice the requested length.
   [[nodiscard]] double length_s() const;
   [[nodiscard]] std::string hand_trouble(const MasterSnapshot& s) const;
   void note(const std::string& hand);
@@ -79,7 +82,7 @@ class StatusLoop {
   ServiceWatch watch_;
   HoldLog holds_;
   std::vector<HandTrouble> troubles_;
-  std::string hand_said_;  // the last one; empty when it was over
+  std::string hand_said_;  // the present problem of the hand; empty if there is none
   Resumption resumption_{};
   Time began_ = boottime_now();
   bool quit_ = false;

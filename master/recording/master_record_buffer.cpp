@@ -17,7 +17,7 @@ MasterRecordBuffer::MasterRecordBuffer(double rate_hz, Duration to_log_time)
 void MasterRecordBuffer::add_tick(std::uint64_t tick, std::uint32_t config, const MasterInput& input,
                                   const MasterOutput& output, const MasterView& view) {
   if (!open()) return;
-  // All of a tick or nothing: an input without its messages is of no use.
+  // A tick is recorded completely or not at all, because an input without its messages is useless.
   if (ring_.room() < input.reports.size() + input.telemetry.size() + 2) {
     drop_tick();
     return;

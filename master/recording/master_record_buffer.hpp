@@ -1,7 +1,8 @@
 #pragma once
-// Records of the master's loop for a recording: exact inputs and outputs of each tick, so that a node can be
-// replayed, and, less often, the operator's view. The calls of the loop copy into preallocated memory: they
-// do not wait, allocate or make system calls. A tick for which there is no space is dropped and counted.
+// Collects the records of the master's loop for a recording: the exact inputs and outputs of each tick, so
+// that a node can be replayed, and, less often, the operator's view. The calls of the loop copy into
+// preallocated memory; they do not wait, allocate or make system calls. A tick for which there is no space is
+// dropped and counted.
 
 #include <cstdint>
 #include <variant>
@@ -12,9 +13,9 @@
 
 namespace longreach {
 
-/// A step of the node. `input` is without the messages, which are recorded before it.
+/// A step of the node. `input` does not contain the messages, which are recorded before it.
 struct MasterTickRecord {
-  std::uint64_t tick = 0;    // from 0 at the node's first step
+  std::uint64_t tick = 0;    // number of the step, from 0
   std::uint32_t config = 0;  // number of the node's configuration
   std::uint32_t reports = 0, telemetry = 0;
   MasterInput input{};
@@ -23,13 +24,15 @@ struct MasterTickRecord {
 
 class MasterRecordBuffer : public RecordBuffer {
  public:
+  /// `rate_hz` is the rate of the loop. `to_log_time` is added to the side's clock to obtain the log time.
   MasterRecordBuffer(double rate_hz, Duration to_log_time);
 
-  /// Loop: adds a step and the resulting view of the node.
+  /// Loop thread: adds a step and the resulting view of the node.
   void add_tick(std::uint64_t tick, std::uint32_t config, const MasterInput& input,
                 const MasterOutput& output, const MasterView& view);
-  /// Loop: returns whether a record of the link is due after this tick.
+  /// Loop thread: returns whether a record of the link is due after this tick.
   [[nodiscard]] bool link_due(std::uint64_t tick) const { return tick % link_every_ == 0; }
+  /// Loop thread: adds a record of the link.
   void add_link(const LinkSample& sample);
 
  private:
@@ -49,7 +52,7 @@ class MasterRecordBuffer : public RecordBuffer {
   void write_record(const ViewRecord& record, McapWriter& writer);
   void write_record(const LinkSample& record, McapWriter& writer) { write_link(record, writer); }
 
-  std::uint64_t view_every_, link_every_;  // ticks
+  std::uint64_t view_every_, link_every_;  // intervals, ticks
   RecordRing<Record> ring_;
   std::uint16_t report_channel_ = 0, telemetry_channel_ = 0, tick_channel_ = 0, view_channel_ = 0;
   recording::ReceivedReport report_;
@@ -58,11 +61,11 @@ class MasterRecordBuffer : public RecordBuffer {
   recording::MasterView view_;
 };
 
-/// Without the messages, whose numbers are already in `out`.
+/// Writes the input without its messages, whose numbers are already in `out`.
 void write(const MasterInput& input, recording::MasterInput& out);
 void write(const MasterOutput& output, recording::MasterOutput& out);
 void write(const MasterView& view, recording::MasterView& out);
-/// Throws RecordingError.
+/// Reads an input without its messages. Throws RecordingError if a value is invalid.
 MasterInput read(const recording::MasterInput& in);
 
 }  // namespace longreach

@@ -6,11 +6,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kSameTouch = 0.5;       // cosine, of the directions of a surface that is pressed
-constexpr double kSameDirection = 0.9;   // likewise, of one that is met again
-constexpr double kTurned = 0.98;         // likewise, 11 degrees: a spring under force goes no further
-constexpr double kDeepest = 1.5;         // depth of a spring, over that of the hand behind the surface
-constexpr double kUnitTolerance = 1e-3;  // of a normal's length
+// Cosines of the angle between a known and a reported normal.
+constexpr double kSameTouch = 0.5;       // minimum for the same surface during one touch
+constexpr double kSameDirection = 0.9;   // minimum for the same surface when it is touched again
+constexpr double kTurned = 0.98;         // minimum at which a loaded spring is kept (11 degrees)
+constexpr double kDeepest = 1.5;         // maximum ratio of the depth of a spring to that of the hand
+constexpr double kUnitTolerance = 1e-3;  // tolerance of the length of a normal
 
 bool possible(const ReportedSurface& s) {
   return s.normal.allFinite() && std::abs(s.normal.norm() - 1.0) < kUnitTolerance &&
@@ -18,7 +19,7 @@ bool possible(const ReportedSurface& s) {
          std::isfinite(s.touch_sequence) && s.touch_sequence >= 0.0 && std::isfinite(s.offset);
 }
 
-/// Of the same direction there is one.
+/// Returns whether all surfaces are possible. No two of them may have the same direction.
 bool possible(const std::array<ReportedSurface, kSurfaces>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].touch == 0) continue;
@@ -59,12 +60,12 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
   bool any = false;
   for (std::size_t i = 0; i < kSurfaces; ++i) {
     const ReportedSurface& s = report.surfaces[i];
-    if (s.touch == 0 || s.stiffness <= 0.0) continue;  // none, or not identified yet
+    if (s.touch == 0 || s.stiffness <= 0.0) continue;  // no surface, or not identified yet
     ContactAxis* known = axis_of(s);
     any = any || known || goals[i];
     if (known) {
       update(*known, s, goals[i], handle, mapping);
-    } else if (goals[i]) {  // nothing new can be placed without
+    } else if (goals[i]) {  // a new surface cannot be placed without its goal
       add_axis(s, *goals[i], handle, mapping);
     }
   }
@@ -76,8 +77,8 @@ std::optional<Vector3> Contact::goal_of(const ReportedSurface& s, const GoalHist
   if (!config_.by_arrival && s.touch_sequence > 0.0) {
     goal = history.at(s.touch_sequence);
   } else if (!config_.by_arrival) {
-    // The surface's place nearest to the hand, since a spring under force keeps its direction: where this has
-    // turned since, a place far from the hand would move the surface under it.
+    // The point of the surface that is nearest to the hand is used. A loaded spring keeps its direction, so
+    // if the normal has turned since, a point far from the hand would shift the surface.
     const Vector3 hand = goal.value_or(Vector3::Zero());
     goal = hand + (s.offset - s.normal.dot(hand)) * s.normal;
   }
@@ -115,8 +116,8 @@ void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::option
   if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), a.reported);
 }
 
-/// Takes the first place without force; where there is none, the report after the fading brings the surface
-/// again.
+/// Uses the first free axis without force. If there is none, a later report adds the surface after a spring
+/// has faded.
 void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const ContactHandle& handle,
                        const Mapping& mapping) {
   for (ContactAxis& a : axes_) {
@@ -147,8 +148,9 @@ double Contact::along(const ContactAxis& a, const Mapping& mapping) const {
 
 double Contact::locate(const ContactAxis& a, const ContactHandle& handle, const Mapping& mapping) const {
   if (!handle.rate_mode) return along(a, mapping);
-  // Rate mode has no position to press against: the surface lies as deep in the hand as the goal is commanded
-  // behind it, up to the force limit, and never beyond the centre: a hand is not driven to the other side.
+  // In rate mode the handle has no position at which to press against the surface. The handle is therefore
+  // placed as deep behind the surface as the goal is, up to the force limit, and never so deep that the hand
+  // would be driven beyond the centre.
   const double commanded = a.n_W.dot(handle.goal - a.goal);
   const double k = a.spring.stiffness_n_per_m();
   const double most = k > 0.0 ? config_.spring.force_max_n / k : 0.0;
@@ -169,13 +171,14 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.surface = locate(a, handle, mapping);
       const bool presses = handle.held && !handle.clutched;
       a.spring.set_surface(presses ? a.surface : std::max(a.surface, s));
-      // No contact, no force: what the anchor lags behind may exceed the depth by half of it and no more.
+      // Without contact there must be no force, so the depth of the spring is limited to 1.5 times that of
+      // the handle behind the surface.
       a.spring.limit_depth(s, handle.clutched ? 0.0 : kDeepest * std::max(0.0, s - a.surface));
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
     } else {
       a.spring.set_surface(std::max(a.surface, s));
-      a.spring.give_way(s);  // what fades does not load the hand again, however far this has gone meanwhile
+      a.spring.give_way(s);  // a fading spring must not be loaded again by the hand
     }
     a.force = a.spring.step(s, dt_s, source);
     if (a.force <= 0.0) continue;

@@ -1,16 +1,18 @@
 #pragma once
-// Displays the contacts of the slave: a unilateral spring for each reported surface, in translation or in
-// rotation. The spring is the tangent of the contact law at the working depth, and begins at the foot of the
-// tangent, behind the surface. The surface is at the goal of the touch sequence, or, if that is too old, at
-// an offset from the engagement's anchor.
+// Displays the contacts of the slave: one unilateral spring per reported surface, in translation or in
+// rotation. Each spring is the tangent to the contact law at the working depth. The force of the tangent is
+// zero at its foot, a point behind the surface, and the spring starts there. The surface is located at the
+// goal of the touch sequence. If that goal is no longer stored, the surface is located by its offset from the
+// engagement's anchor.
 //
 //   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
 //
 // x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
-// vectors from the engagement's anchor, in W; n_i points inwards. On a released handle the springs fade,
-// until a hand holds it again. While the goal is in front of a surface, or the clutch is pressed, its spring
-// has no force. A surface that the slave remembers is displayed like one that it presses on; a surface that
-// is no longer reported fades. A spring changes its direction only without force.
+// vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the
+// springs fade until a hand holds it again. A spring has no force while the goal is in front of its surface
+// or the clutch is pressed. A surface that the slave only remembers is displayed like one that it currently
+// presses on; a surface that is no longer reported fades. A spring changes its direction only while its force
+// is zero.
 
 #include <array>
 #include <cstdint>
@@ -27,42 +29,45 @@ namespace longreach {
 struct ContactConfig {
   ContactSpringConfig spring{};
   double ke = 1.0;
-  bool ke_by_scale = false;  // the rendered stiffness is ke k_scale times the estimate, otherwise ke times
-  double damping = 0.0;      // B, N s/m
-  bool by_arrival = false;   // surfaces are placed at the newest goal, for comparison
+  /// True: the rendered stiffness is ke k_scale times the estimate; false: ke times it.
+  bool ke_by_scale = false;
+  double damping = 0.0;     // B, N s/m
+  bool by_arrival = false;  // place surfaces at the newest goal (comparison only)
 };
 
 enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
 
-/// The handle now.
+/// Current state of the handle.
 struct ContactHandle {
-  Vector3 x = Vector3::Zero();     // in M
-  Vector3 rate = Vector3::Zero();  // x'
-  Vector3 goal = Vector3::Zero();  // commanded, in W
-  bool rate_mode = false;  // there is no position to press against: the depth of the goal itself is displayed
-  bool held = true;        // on a released handle the springs fade
-  bool clutched = false;   // the hand moves without the robot
-  Vector3 deflection = Vector3::Zero();  // from the centre of rate mode, in M
+  Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) from home, M
+  Vector3 rate = Vector3::Zero();  // time derivative of x
+  Vector3 goal = Vector3::Zero();  // commanded goal from the anchor, W
+  /// In rate mode the handle has no position at which to press against the surface, so the depth of the goal is
+  /// displayed instead.
+  bool rate_mode = false;
+  bool held = true;                      // a hand is on the handle; otherwise the springs fade
+  bool clutched = false;                 // the handle moves without the robot
+  Vector3 deflection = Vector3::Zero();  // handle from the centre of rate mode, M
 };
 
-/// Result of a report.
+/// Effect of a report.
 enum class ContactChange : std::uint8_t {
-  kNone,      // nothing new, or too little is known yet
-  kRejected,  // impossible, or a touch that this side never commanded
-  kUpdated,   // surfaces or stiffness
+  kNone,      // no change, or not enough data to place a surface yet
+  kRejected,  // the values are impossible, or the touch is at a command that this side never sent
+  kUpdated,   // surfaces or stiffness have changed
 };
 
 struct ContactAxis {
   bool known = false;
-  Vector3 n_W = Vector3::UnitX();  // inward, unit
-  Vector3 n_M = Vector3::UnitX();  // the same in M
-  Vector3 goal = Vector3::Zero();  // at the foot of the tangent
-  double reported = 0.0;           // stiffness times ke, N/m
-  double surface = 0.0;            // handle's coordinate of the foot along n_M, m
-  double foot = 0.0;               // its depth behind the surface, in goal space, m
-  double force = 0.0;              // rendered, against n_M, N
-  std::uint32_t touch = 0;
-  bool let_go = false;  // the spring has faded, because no hand is on the handle
+  Vector3 n_W = Vector3::UnitX();  // unit vector into the surface, W
+  Vector3 n_M = Vector3::UnitX();  // the same direction in M
+  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, from the anchor, W
+  double reported = 0.0;           // reported stiffness times ke, N/m
+  double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
+  double foot = 0.0;               // depth of the foot behind the surface, in goal space, m
+  double force = 0.0;              // rendered force against n_M, N
+  std::uint32_t touch = 0;         // number of the last touch of this surface
+  bool let_go = false;             // the spring is faded because no hand is on the handle
   ContactSpring spring{ContactSpringConfig{}};
 
   [[nodiscard]] double s(const Vector3& x) const { return n_M.dot(x); }
@@ -74,32 +79,40 @@ class Contact {
 
   Contact(ContactMotion motion, const ContactConfig& config) : motion_(motion) { configure(config); }
   void configure(const ContactConfig& config);
+  /// Removes all surfaces.
   void reset();
 
-  /// Processes a report of the present engagement.
+  /// Processes a report of the current engagement: updates, adds and removes springs.
   ContactChange on_report(const ContactReport& report, const GoalHistory& history,
                           const ContactHandle& handle, const Mapping& mapping);
 
-  /// One tick; `stale`: no datagram arrives, so everything fades and is removed. Returns the force on the
-  /// hand.
+  /// Advances the springs by `dt_s` and returns the force (N) or moment (N m) on the hand, in M. If `stale`
+  /// is true, no datagrams arrive, and all springs fade and are removed. `source` supplies the energy for
+  /// moving spring anchors outwards.
   Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                double dt_s);
-  /// The same without the passivity rules, for comparison.
+  /// Same as step() but without the passivity rules, for comparison.
   Vector3 step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale);
 
-  [[nodiscard]] double energy_j(const Vector3& x) const;  // stored in the springs
-  [[nodiscard]] double paid_j() const;                    // energy from source to springs, in the last step
-  /// Surfaces into which the goal is commanded, for Mapping: their force may grow by at most `rise_per_s`.
+  [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
+  [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
+  /// Returns the known surfaces with the maximum speed of the goal into each, for Mapping, so that the
+  /// contact force rises by at most `rise_per_s`, N/s or N m/s.
   [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
-  /// The axis with the largest force, else with the largest known stiffness, else the first.
+  /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
+  /// stiffness, or else the first.
   [[nodiscard]] const ContactAxis& foremost() const;
+  /// Returns whether any surface is known.
   [[nodiscard]] bool known() const;
+  /// Returns whether the stiffness of a known surface was limited to the maximum.
   [[nodiscard]] bool clamped() const;
+  /// Returns whether a spring was at the force limit in the last step.
   [[nodiscard]] bool yielding() const;
 
  private:
   using Surfaces = std::array<ReportedSurface, kSurfaces>;
-  /// Returns the goal at a surface; none: its touch is too old.
+  /// Returns the goal at the foot of the tangent of `s`, or none if the goal of its touch is no longer
+  /// stored.
   [[nodiscard]] std::optional<Vector3> goal_of(const ReportedSurface& s, const GoalHistory& history) const;
   ContactAxis* axis_of(const ReportedSurface& s);
   void forget(ContactAxis& a, const Vector3& x);
@@ -108,7 +121,7 @@ class Contact {
   void add_axis(const ReportedSurface& s, const Vector3& goal, const ContactHandle& handle,
                 const Mapping& mapping);
   [[nodiscard]] double ke(const Mapping& mapping) const;
-  /// Coordinate of the handle along the axis at which it commands the goal of the touch.
+  /// Returns the coordinate along the axis at which the handle commands the goal of the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;
 

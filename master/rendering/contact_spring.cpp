@@ -24,7 +24,7 @@ bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
   clamped_ = wanted < stiffness_n_per_m;
   const double present = this->stiffness_n_per_m();
   if (wanted > present) {
-    // Same force from less energy: f^2/2k falls with k.
+    // The same force with less energy: f^2/2k decreases with increasing k.
     const double depth = std::max(0.0, s_m - anchor_m_);
     if (depth > 0.0) anchor_m_ = s_m - depth * (present / wanted);
     fading_ = 0.0;
@@ -78,10 +78,11 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergySource& source)
     home_surface_m_ = surface_m_;
     return;
   }
-  // Outwards: k/2 ((d + m)^2 - d^2) = cost; solved for m where the purse is short, without cancellation.
+  // Outwards: k/2 ((d + m)^2 - d^2) = cost. If the available energy is less, this is solved for m without
+  // cancellation.
   const double most = config_.force_max_n / k;
   const double full_s = s_m - s_slow_m_ > 2.0 * config_.count_m ? kFullForce_s : kAtRest_s;
-  const double grown = (last_n_ + config_.force_max_n * dt_s / full_s) / k;  // depth of the force that may be
+  const double grown = (last_n_ + config_.force_max_n * dt_s / full_s) / k;  // depth at the permitted force
   double out = std::min(-std::expm1(-dt_s / kLoad_s) * -inwards, std::min(most, grown) - depth);
   if (out <= 0.0) return;
   const double cost = 0.5 * k * out * (2.0 * depth + out);

@@ -1,7 +1,7 @@
 #pragma once
-// Energy from dissipation at the port, which the anchor of a spring may spend to return, J. Never below zero,
-// never above its size (Franken et al., T-RO 2011, simplified). The store of an engagement is a tank that
-// starts full: passivity permits the port its initial energy.
+// An energy tank (Franken et al., T-RO 2011, simplified). It collects energy dissipated at the port, which a
+// spring may spend to return its anchor. The level, J, is never below zero or above the size. The initial
+// store of an engagement is a tank that starts full: passivity permits a port to have initial energy.
 
 #include <algorithm>
 
@@ -15,13 +15,14 @@ class EnergyTank {
     level_j_ = std::min(level_j_, size_j);
   }
 
-  /// Adds `energy_j`, or takes a negative one. Returns the part that it could not add (>= 0) or take (<= 0).
+  /// Adds `energy_j`, or removes energy if it is negative. Returns the part that could not be added (>= 0) or
+  /// removed (<= 0).
   double fill(double energy_j) {
     const double before = level_j_;
     level_j_ = std::clamp(before + energy_j, 0.0, size_j_);
     return before + energy_j - level_j_;
   }
-  /// Spends at most the available energy.
+  /// Removes up to `energy_j`, limited by the level. Returns the energy that was removed.
   double spend(double energy_j) {
     const double spent = std::clamp(energy_j, 0.0, level_j_);
     level_j_ -= spent;
@@ -35,12 +36,12 @@ class EnergyTank {
   double level_j_ = 0.0;
 };
 
-/// Energy source of a spring: the tank of its port, then the store of the engagement.
+/// Energy source of a spring: first the tank of its port, then the store of the engagement.
 class EnergySource {
  public:
   EnergySource(EnergyTank& tank, EnergyTank* store = nullptr) : tank_(tank), store_(store) {}
   [[nodiscard]] double level_j() const { return tank_.level_j() + (store_ ? store_->level_j() : 0.0); }
-  /// Spends at most the available energy.
+  /// Removes up to `energy_j`, limited by the available energy. Returns the energy that was removed.
   double spend(double energy_j) {
     const double from_tank = tank_.spend(energy_j);
     return from_tank + (store_ ? store_->spend(energy_j - from_tank) : 0.0);

@@ -1,6 +1,7 @@
 #pragma once
-// Goals by command: the motion of the master, in which the slave's touch sequence locates the surface.
-// Sequences are pushed in order; storage is allocated once.
+// History of the goals that the master commanded, by sequence number. The touch sequence that the slave
+// reports selects the goal at which the surface is located. Goals are pushed in order of their numbers;
+// storage is allocated once.
 
 #include <cstdint>
 #include <optional>
@@ -19,24 +20,25 @@ class GoalHistory {
     whole_ = true;
   }
 
-  /// `sequence` must be one above the last one; otherwise the history restarts.
+  /// Adds a goal, m or rad. `sequence` must be one above the previous one; otherwise the history restarts.
   void push(std::uint64_t sequence, const Vector3& goal_m);
 
-  /// Returns the goal at a fractional sequence, linear between two commands; none outside the stored range.
-  /// For commands before the start of the history it is the first goal, because an engagement starts at the
-  /// position of the robot.
+  /// Returns the goal at a fractional sequence number, interpolated linearly between two commands, or none
+  /// outside the stored range. A number before the start of a complete history gives the first goal, because
+  /// an engagement starts at the position of the robot.
   [[nodiscard]] std::optional<Vector3> at(double sequence) const;
 
-  /// Returns whether the command was sent too long ago to be stored.
+  /// Returns whether the command is so old that its goal is no longer stored.
   [[nodiscard]] bool forgotten(double sequence) const {
     return !whole_ && sequence >= 1.0 && sequence < static_cast<double>(first_);
   }
 
+  /// Returns the newest goal; none if the history is empty.
   [[nodiscard]] std::optional<Vector3> newest() const;
 
  private:
-  std::uint64_t first_ = 0;  // sequence of goals_[0]
-  bool whole_ = true;        // nothing has been dropped since the start
+  std::uint64_t first_ = 0;  // sequence number of goals_[0]
+  bool whole_ = true;        // no goal has been dropped since the start
   Ring<Vector3> goals_;
 };
 

@@ -32,7 +32,7 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
       freed_s_ -= dt_s;
       out -= std::min(config_.freed_damping, 0.4 * config_.handle_mass / dt_s) * in.rate;
     }
-    // Only the rise is limited: a force that falls gives no energy away.
+    // Only increases are limited; a decreasing force needs no limit.
     const Vector3 rise = out - f_given_;
     const double most = config_.slew_per_s * dt_s;
     if (out.squaredNorm() > f_given_.squaredNorm() && norm(rise) > most) {

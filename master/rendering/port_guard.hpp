@@ -1,14 +1,14 @@
 #pragma once
-// The last stage before the motors for one port, the translational or the rotational handle. It monitors the
-// energy at the port and keeps it passive, limits the force and its rate, and ramps it to zero.
+// The last stage before the motors, for one port: the translational or the rotational handle. It monitors the
+// energy at the port and keeps the port passive, limits the force and its rate, and ramps the force to zero.
 //
-// Port energy is summed exactly as the motors deliver it, with the force held over a sample:
+// The port energy is summed exactly as the motors deliver it, with the force held over a sample:
 //   E_port += -f[k-1] . (x[k] - x[k-1])      (positive: from the hand into the device)
-// A spring held for a sample acts like negative damping K T/2. If E_port - E_stored therefore decreases and
-// the tank is empty, the deficit is repaid by injected damping of at most 0.4 m/T with m the handle alone
-// (Hannaford and Ryu 2002, bounded), within the limits of force and rate. Damping computed from single
-// encoder counts would supply energy to the handle; the velocity is therefore that of
-// quantized_motion_filter.hpp. Force in N and motion in m, or N m and rad.
+// A spring whose force is held for a sample acts like negative damping K T/2. If E_port - E_stored decreases
+// for this reason and the tank is empty, the deficit is repaid by injected damping of at most 0.4 m/T, within
+// the limits of force and rate; m is the mass of the handle alone (bounded as in Hannaford and Ryu 2002).
+// Damping computed from single encoder counts would supply energy to the handle, so the velocity is that of
+// quantized_motion_filter.hpp. Forces are in N and motions in m, or N m and rad.
 
 #include <algorithm>
 
@@ -21,15 +21,15 @@ struct PortGuardConfig {
   double force_max = 15.0;
   double slew_per_s = 5000.0;  // maximum rate of the force, N/s
   double ramp_s = 0.05;
-  double freed_damping =
-      0.0;  // of a hand whose contact has just ended by a stop, a change of mode or the clutch, N s/m
+  /// Damping, N s/m, while the hand is slowed down after a stop, a mode change or the clutch ended a contact.
+  double freed_damping = 0.0;
 };
 
 /// Commanded force in this tick.
 struct PortForce {
-  Vector3 rendered = Vector3::Zero();  // ramps to zero when disengaged
-  Vector3 always = Vector3::Zero();    // does not
-  Vector3 rate = Vector3::Zero();      // of the handle, as far as it is certain
+  Vector3 rendered = Vector3::Zero();  // force that ramps to zero when disengaged
+  Vector3 always = Vector3::Zero();    // force that is independent of the engagement
+  Vector3 rate = Vector3::Zero();      // certain velocity (quantized_motion_filter.hpp)
   bool live = false;
 };
 
@@ -37,47 +37,53 @@ class PortGuard {
  public:
   explicit PortGuard(const PortGuardConfig& config) : config_(config) {}
   void configure(const PortGuardConfig& config) { config_ = config; }
-  /// Resets the energy balance. The next force starts from the present force.
+  /// Resets the energy balance. The rate limit continues from the present force.
   void reset();
-  void open() { gain_ = 1.0; }  // after reset, with all springs at rest
+  /// Sets the ramp to full force; call it after reset(), with all springs unloaded.
+  void open() { gain_ = 1.0; }
 
-  /// Energy that entered the port since the last tick, J, by the motion `moved`. Call it once per tick,
-  /// before the new force.
+  /// Returns the energy that entered the port by the motion `moved` since the last tick, J. Call it once per
+  /// tick, before apply().
   double observe(const Vector3& moved);
 
-  /// The contact force ends although the hand may still press: damping slows the hand down.
+  /// Starts damping for kFreed_s. Call it when the contact force ends although the hand may still be
+  /// pressing.
   void free_hand() { freed_s_ = kFreed_s; }
 
-  /// Repays the deficit from `energy_j` >= 0 that was dissipated; returns the remainder.
+  /// Reduces the deficit by the dissipated energy `energy_j` >= 0. Returns the part that exceeds the deficit,
+  /// J.
   double repay(double energy_j);
-  /// Records `energy_j` >= 0 that leaked and that no tank could supply.
+  /// Adds `energy_j` >= 0, which leaked and could not be taken from a tank, to the deficit.
   void owe(double energy_j) {
     deficit_j_ += energy_j;
     deficit_max_j_ = std::max(deficit_max_j_, deficit_j_);
   }
 
-  /// Returns the force on the hand with injected damping, ramp and limits. It is always finite.
+  /// Applies ramp, injected damping and limits. Returns the force on the hand, which is always finite.
   Vector3 apply(const PortForce& force, double dt_s);
 
-  /// Share of `rendered` that was applied in the last tick.
+  /// Fraction of `rendered` that was applied in the last tick.
   [[nodiscard]] double gain() const { return gain_; }
+  /// Net energy from the hand into the device.
   [[nodiscard]] double port_energy_j() const { return port_energy_j_; }
-  /// maximum decrease of E_port - E_stored
+  /// Maximum decrease of E_port - E_stored, J.
   [[nodiscard]] double deficit_max_j() const { return deficit_max_j_; }
+  /// Damping was injected in the last tick.
   [[nodiscard]] bool injecting() const { return injecting_; }
+  /// The force or its rate was limited in the last tick.
   [[nodiscard]] bool clamped() const { return clamped_; }
 
  private:
   static constexpr double kFreed_s = 0.6;
 
   PortGuardConfig config_;
-  Vector3 f_last_ = Vector3::Zero();   // force whose work is recorded
+  Vector3 f_last_ = Vector3::Zero();   // force whose work observe() adds
   Vector3 f_given_ = Vector3::Zero();  // present force on the hand
   double port_energy_j_ = 0.0;
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;
   double gain_ = 0.0;
-  double freed_s_ = 0.0;  // remaining time of the damping after a release
+  double freed_s_ = 0.0;  // remaining duration of the damping after a contact ended
   bool injecting_ = false;
   bool clamped_ = false;
 };

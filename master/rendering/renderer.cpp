@@ -7,8 +7,8 @@
 namespace longreach {
 namespace {
 
-/// Sampled spring on a damped device: K < b/(T/2 + t_d) (Colgate and Schenkel 1997, virtual damping left
-/// out).
+/// Returns the maximum stiffness of a sampled spring on a damped device: K < b/(T/2 + t_d) (Colgate and
+/// Schenkel 1997, without virtual damping).
 double device_limit(const RenderedDevice& d, double damping) {
   return damping / (0.5 * d.period_s + d.delay_s);
 }
@@ -52,12 +52,13 @@ PortGuardConfig rotation_guard(const RenderingConfig& c, const RenderedDevice& d
           .ramp_s = c.ramp_s};
 }
 
-/// D in φ' = D(φ) ω, φ = log(R), ω in the frame of the base: the inverse left Jacobian of SO(3).
+/// Returns D in φ' = D(φ) ω, with φ = log(R) and ω in the frame of the base: the inverse left Jacobian of
+/// SO(3).
 Matrix3 rotation_vector_rate(const Vector3& phi) {
   Matrix3 cross;
   cross << 0.0, -phi.z(), phi.y(), phi.z(), 0.0, -phi.x(), -phi.y(), phi.x(), 0.0;
   const double angle = phi.norm();
-  // (1 - (a/2) cot(a/2))/a²; its series near zero.
+  // (1 - (a/2) cot(a/2))/a², near zero by its series.
   const double c = angle < 1e-3 ? 1.0 / 12.0 + angle * angle / 720.0
                                 : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
   return Matrix3::Identity() - 0.5 * cross + c * cross * cross;
@@ -73,7 +74,7 @@ ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping
           in.handle.p_MH - mapping.centre_m()};
 }
 
-/// `phi`: rotation vector of the handle; `rate`: D(phi).
+/// `phi` is the rotation vector of the handle, `rate` is D(phi).
 ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, const Vector3& phi,
                               const Matrix3& rate) {
   return {phi,
@@ -133,7 +134,7 @@ void Renderer::reset(const HandleState& handle) {
   force_step_n_ = 0.0;
   for (HandPort* port : {&translation_, &rotation_}) {
     port->contact.reset();
-    port->tank.empty();  // what is in it may come from the store of the engagement before
+    port->tank.empty();  // its energy may come from the store of the previous engagement
     port->guard.reset();
     port->guard.open();
     port->stored_j = 0.0;
@@ -173,7 +174,8 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
     unreported_.reset();
   }
   if (config_.law == RenderingLaw::kStiffness) {
-    // A spring that is ramped away stores as much less: the hand does not load what it does not feel.
+    // The ramp scales the stored energy like the force, because the hand loads a spring only by the applied
+    // force.
     const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
     const double left_j =
         translation_.account(entered_j, translation_.guard.gain() * felt_j + in.translation.stored_j,
@@ -211,7 +213,7 @@ void Renderer::let_down(const RendererInput& input) {
   if (freed && pushed_n > 0.0) translation_.guard.free_hand();
 }
 
-/// Motion fills the store again (tank level control).
+/// Drag that refills the store from the motion of the hand (tank level control).
 Vector3 Renderer::refill_drag(const RendererInput& input) const {
   constexpr double kDamping_n_s_per_m = 2.0, kMost_n = 0.15;
   if (config_.law != RenderingLaw::kStiffness || !input.live || store_.level_j() >= config_.store_j)
@@ -222,7 +224,8 @@ Vector3 Renderer::refill_drag(const RendererInput& input) const {
 Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   let_down(input);
   if (std::exchange(begins_, false)) {
-    // The device's own springs may be stretched already: the hand does not owe what they hold.
+    // The springs of the device's own behaviour may already be stretched; their energy was not supplied in
+    // this engagement.
     translation_.stored_j = input.translation.stored_j;
     rotation_.stored_j = input.rotation.stored_j;
   }

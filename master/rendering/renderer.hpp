@@ -1,13 +1,14 @@
 #pragma once
-// All forces on the hand: resistance of the mapping, contact by the registered surfaces and the estimated
-// stiffness, in translation and in rotation; energy accounting, limits. Its inputs are StiffnessReports and
-// the motion of the master; it uses no other data of the slave.
+// Computes all forces on the hand: the resistance of the mapping, and the contact forces from the registered
+// surfaces and the estimated stiffness, in translation and in rotation. It also accounts for the energy and
+// applies the limits. Its inputs are StiffnessReports and the motion of the master; it uses no other data
+// from the slave.
 //
 //   F = F_behaviour + F_resistance + F_contact(x),      M = M_behaviour + M_resistance + D(φ)ᵀ M_contact(φ)
 //
-// φ is the rotation vector of the handle, φ' = D(φ) ω: the moment of a spring in φ uses the transpose, so
-// that its work equals its stored energy. A released handle has no resistance, and its behaviour continues
-// when disengaged. Law NAIVE applies stiffness and surfaces as they arrive, for comparison; it keeps the
+// φ is the rotation vector of the handle, φ' = D(φ) ω. The moment of a spring in φ uses the transpose of D,
+// so that its work equals the stored energy. A released handle has no resistance; its behaviour continues
+// when disengaged. The law NAIVE applies stiffness and surfaces as they arrive, for comparison, but keeps the
 // limits.
 
 #include <cstdint>
@@ -25,22 +26,22 @@
 
 namespace longreach {
 
-/// Limits of the rendering by the device: the minimum over its workspace.
+/// Properties of the device that limit the rendering: the worst case over its workspace.
 struct RenderedDevice {
   double mass_kg = 0.2;
   double damping_n_s_per_m = 3.5;
   double inertia_kg_m2 = 1e-4;
   double damping_nm_s_per_rad = 4e-4;
   double period_s = 0.001;
-  double delay_s = 0.0;  // from reading the handle to the torque of its motors
-  EncoderCell cell{};    // cell within which a measured position is uncertain
+  double delay_s = 0.0;  // from reading the handle to the motor torque
+  EncoderCell cell{};    // resolution of the measured position
 };
 
-/// Behaviour of the handle, engaged or not.
+/// Result of the handle's own behaviour (handle_behaviour.hpp), which is active whether engaged or not.
 struct HandleBehaviourOutput {
-  Vector3 force = Vector3::Zero();  // or moment
-  double stored_j = 0.0;            // in its springs
-  double supplied_j = 0.0;          // by its anchor, in this tick
+  Vector3 force = Vector3::Zero();  // on the hand, N in M; the moment, N m, for the rotation
+  double stored_j = 0.0;            // energy in its springs
+  double supplied_j = 0.0;          // energy supplied by its moving anchor in this tick
 };
 
 struct RendererInput {
@@ -50,11 +51,11 @@ struct RendererInput {
   double scale = 1.0;
   bool live = false;   // false: the wrench ramps to zero
   bool stale = false;  // no datagrams from the slave: the stiffness only decays
-  bool load = false;   // there is a load in the gripper
+  bool load = false;   // the gripper holds a load
   bool clutched = false;
 };
 
-/// Goals of the sent commands.
+/// Goals of the sent commands, from the engagement's anchor.
 struct GoalHistories {
   explicit GoalHistories(std::size_t capacity) : translation(capacity), rotation(capacity) {}
   void clear() {
@@ -65,59 +66,65 @@ struct GoalHistories {
   GoalHistory rotation;     // rotation vectors, rad
 };
 
-/// One port of the hand: its contacts, and the means that keep it passive.
+/// One port of the hand: its contacts, and the guard and tank that keep it passive.
 struct HandPort {
   HandPort(ContactMotion motion, const ContactConfig& touch, const PortGuardConfig& limits, double tank_j,
            double cell_radius)
       : contact(motion, touch), guard(limits), tank(tank_j), cell(cell_radius) {}
 
-  /// Records the energy of the last tick: energy that entered and was neither stored nor supplied has been
-  /// dissipated, or has leaked if negative; only the certain part counts. `force` is the commanded force. The
-  /// sum uses measured positions with errors e of up to half a cell: Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] .
-  /// (f[k] - f[k-1]) except for the ends, so that a tick is uncertain by `cell` |f[k] - f[k-1]|. Returns the
-  /// dissipated energy that did not fit into the tank, J.
+  /// Updates the energy balance with the last tick. The energy that entered or was supplied and is not stored
+  /// was dissipated, or has leaked if it is negative. `force` is the commanded force. The positions have
+  /// errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1]) apart from the
+  /// end terms. The balance of a tick is therefore uncertain by `cell` |f[k] - f[k-1]|, and only the part
+  /// beyond that counts. Returns the dissipated energy that did not fit into the tank, J.
   double account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
 
   Contact contact;
   PortGuard guard;
   EnergyTank tank;
-  double cell = 0.0;  // half of it, m or rad
+  double cell = 0.0;  // half the size of an encoder cell at the handle, m or rad
   double stored_j = 0.0;
-  Vector3 force = Vector3::Zero();  // of the last tick
+  Vector3 force = Vector3::Zero();  // commanded force of the last tick
 };
 
 class Renderer {
  public:
   Renderer(const RenderingConfig& config, const RenderedDevice& device);
+  /// Takes effect in the next step.
   void configure(const RenderingConfig& config);
 
-  /// Starts an engagement with all springs at rest at the handle.
+  /// Starts an engagement with all springs unloaded at the position of the handle.
   void reset(const HandleState& handle);
 
-  /// Processes a report of the present engagement. Returns false if it is refused because a value is
-  /// impossible.
+  /// Processes a report of the current engagement. Returns false if a value is impossible and was rejected.
   bool on_report(const StiffnessReport& report, const GoalHistories& history, const RendererInput& input,
                  const Mapping& mapping);
 
-  /// One tick; the values of the handle are finite, and so is the wrench.
+  /// Advances by one tick and returns the wrench on the hand, in M. The handle's values must be finite; the
+  /// wrench is then finite as well.
   Wrench step(const RendererInput& input, const Mapping& mapping);
 
   [[nodiscard]] const HandPort& translation() const { return translation_; }
   [[nodiscard]] const HandPort& rotation() const { return rotation_; }
-  /// Rendered stiffness of the foremost axis.
+  /// Returns the rendered stiffness of the axis with the largest force, N/m or N m/rad.
   [[nodiscard]] double stiffness(const HandPort& port) const;
-  /// Maximum rendered stiffness: of the configuration, and of the device, whose damping bounds it.
+  /// Returns the maximum stiffness that can be rendered: the smaller of the configured value and the limit
+  /// that the damping of the device permits.
   [[nodiscard]] double stiffness_max_n_per_m() const;
   [[nodiscard]] double stiffness_max_nm_per_rad() const;
+  /// Net energy from the hand into both ports.
   [[nodiscard]] double port_energy_j() const;
+  /// Minimum of the port energy since the start of an engagement, over all engagements.
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
+  /// Energy in the springs and tanks of both ports.
   [[nodiscard]] double stored_energy_j() const;
+  /// Remaining energy of the initial store.
   [[nodiscard]] double store_j() const { return store_.level_j(); }
-  /// Change of the contact force on the hand by the reports that were processed before the last step, N;
-  /// before slew and limits. Negative: a decrease.
+  /// Returns the change of the contact force in the last step caused by the reports since the previous step,
+  /// N, before rate limit and clamping. It is negative if the force decreased.
   [[nodiscard]] double force_step_n() const { return force_step_n_; }
 
-  // Maximum rate of the force into a pressed surface in rate mode.
+  // Maximum rise of the contact force, per second, while the goal moves into a surface in rate mode.
   static constexpr double kRise_n_per_s = 10.0, kRise_nm_per_s = 0.2;
 
  private:
@@ -132,15 +139,17 @@ class Renderer {
   RenderedDevice device_;
   Resistance resistance_;
   HandPort translation_, rotation_;
-  EnergyTank store_;                   // of the engagement, for both ports
-  std::optional<Contact> unreported_;  // of translation, without the reports of this tick
+  EnergyTank store_;                   // initial store of the engagement, shared by both ports
+  std::optional<Contact> unreported_;  // translational contact without the reports of this tick
   double force_step_n_ = 0.0;
   Vector3 x_last_ = Vector3::Zero();
   Quaternion q_last_ = Quaternion::Identity();
-  double began_j_ = 0.0, port_energy_min_j_ = 0.0;  // at the engagement; since the start of an engagement
+  // Port energy at the start of the engagement; minimum of the port energy since that start, over all
+  // engagements.
+  double began_j_ = 0.0, port_energy_min_j_ = 0.0;
   MotionMode mode_ = MotionMode::kPosition;
-  bool clutched_ = false, live_ = false;  // in the last tick
-  bool begins_ = false;                   // an engagement starts with the next step
+  bool clutched_ = false, live_ = false;  // values of the last tick
+  bool begins_ = false;                   // the next step is the first of an engagement
 };
 
 }  // namespace longreach

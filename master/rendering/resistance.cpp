@@ -6,15 +6,16 @@
 namespace longreach {
 namespace {
 
-constexpr double kCount = 1e-5;    // m or rad: about what an encoder sees
+constexpr double kCount = 1e-5;    // m or rad; about the resolution of an encoder
 constexpr double kNothing = 1e-7;  // m or rad
 
-/// `present` follows a smaller target slowly and a greater one at once.
+/// Moves `present` slowly to a smaller target and immediately to a larger one.
 double fade(double present, double target, double share) {
   return std::max(target, present + share * (target - present));
 }
 
-/// Largest part, up to 1, of `step` by which |stretch + part step|² exceeds |stretch|² by at most `gain`.
+/// Returns the largest fraction, at most 1, of `step` for which |stretch + fraction · step|² exceeds
+/// |stretch|² by at most `gain`.
 double affordable(const Vector3& stretch, const Vector3& step, double gain) {
   const double along = stretch.dot(step), length2 = step.squaredNorm();
   if (length2 <= 0.0) return 1.0;
@@ -48,7 +49,7 @@ Vector3 ElasticResistance::spring(const Motion& motion, const Gains& gains, doub
     follow(carried, motion, share);
   }
   if (gains.spring > spring_) {
-    stretch_ *= spring_ / gains.spring;  // the same force from less energy
+    stretch_ *= spring_ / gains.spring;  // the same force with less energy
     attached_ = false;
   }
   spring_ = fade(spring_, gains.spring, share);

@@ -1,17 +1,19 @@
 #pragma once
-// Resistance of the mapping at the handles, the same for both (x is a position or a rotation vector):
+// Resistance of the mapping at the handles. It is computed in the same way for translation and rotation (x is
+// a position or a rotation vector):
 //
-//   rate mode      F = -k_f (x - centre) - b v    k_f times load_factor with a load in the gripper
+//   rate mode      F = -k_f (x - centre) - b v    k_f is multiplied by load_factor with a load in the gripper
 //   position mode  F = -σ z                       z follows the handle and slips at |z| = f/(k_scale σ)
 //   home spring    F = -k_f x - b v               optional addition in position mode
 //
-// Friction is elastic and perfectly plastic (Prandtl 1928; one element of Iwan 1966; Dahl's with exponent 0),
-// so it is quiet at rest: encoder noise is only multiplied by σ.
+// The friction model is elastic-perfectly plastic (Prandtl 1928; one element of Iwan 1966; Dahl's model with
+// exponent 0). It is quiet at rest, because encoder noise is only multiplied by σ.
 //
-// In any change the force does not step and the stored energy does not rise by itself: a reduced force (coarser
-// scale, load released, end of rate mode, clutch) fades with fade_s; a stiffer spring starts with the present
-// force; a spring is stretched further only as far as its own dissipation permits. Springs that are held for a
-// sample return up to k|dx|²/2 each, which the caller must account for. Non-finite handles are not handled.
+// No transition causes a step of the force or by itself increases the stored energy. A reduced force (coarser
+// scale, load released, end of rate mode, clutch) fades with fade_s. A stiffer spring starts with the present
+// force. A spring is stretched further only as far as its own dissipation permits. A spring that is held for
+// a sample returns up to k|dx|²/2, which the caller must account for. The values of the handle must be
+// finite.
 
 #include <cstdint>
 
@@ -34,15 +36,15 @@ class ElasticResistance {
   };
   enum class Centre : std::uint8_t { kNone, kRate, kHome };
   struct Motion {
-    Vector3 moved = Vector3::Zero();       // since the last step
-    Vector3 rate = Vector3::Zero();        // velocity
-    Vector3 deflection = Vector3::Zero();  // from the centre
-    Centre centre = Centre::kNone;         // none: no spring, deflection ignored
+    Vector3 moved = Vector3::Zero();       // displacement since the last step
+    Vector3 rate = Vector3::Zero();        // velocity, m/s or rad/s
+    Vector3 deflection = Vector3::Zero();  // displacement from the centre
+    Centre centre = Centre::kNone;         // kNone: no spring; the deflection is ignored
   };
 
-  /// Force or moment on the hand.
+  /// Advances by `dt_s` > 0. Returns the force (N) or moment (N m) on the hand.
   Vector3 step(const Motion& motion, const Gains& gains, double dt_s);
-  [[nodiscard]] double energy_j() const;  // stored
+  [[nodiscard]] double energy_j() const;  // stored energy
 
  private:
   Vector3 spring(const Motion& motion, const Gains& gains, double share);
@@ -50,10 +52,10 @@ class ElasticResistance {
   Vector3 friction(const Vector3& moved, const Gains& gains, double share);
 
   Centre centre_ = Centre::kNone;
-  double spring_ = 0.0, damping_ = 0.0, friction_ = 0.0, friction_stiffness_ = 1.0;  // in effect
-  bool attached_ = false;              // the stretch equals the deflection; otherwise it follows
-  Vector3 stretch_ = Vector3::Zero();  // of the spring
-  Vector3 bristle_ = Vector3::Zero();  // stretch of the friction
+  double spring_ = 0.0, damping_ = 0.0, friction_ = 0.0, friction_stiffness_ = 1.0;  // values in effect
+  bool attached_ = false;              // the stretch equals the deflection; otherwise it approaches it
+  Vector3 stretch_ = Vector3::Zero();  // deflection of the spring
+  Vector3 bristle_ = Vector3::Zero();  // deflection of the friction element
   Vector3 drag_ = Vector3::Zero();     // damping force of the last step
 };
 
@@ -61,23 +63,23 @@ struct ResistanceInput {
   HandleState handle{};
   MotionMode mode = MotionMode::kPosition;
   double scale = 1.0;                                   // k_scale, > 0
-  Vector3 centre_m = Vector3::Zero();                   // of rate mode, M
-  Quaternion centre_rotation = Quaternion::Identity();  // likewise
-  bool frozen = false;                                  // the goal does not follow: rate mode has no centre
-  bool load = false;                                    // in the gripper
+  Vector3 centre_m = Vector3::Zero();                   // centre of rate mode, M
+  Quaternion centre_rotation = Quaternion::Identity();  // orientation at the centre of rate mode, M
+  bool frozen = false;  // the goal does not follow the handle; rate mode has no centre spring
+  bool load = false;    // the gripper holds a load
 };
 
 class Resistance {
  public:
   explicit Resistance(const RenderingConfig& config) : config_(config) {}
   void configure(const RenderingConfig& config) { config_ = config; }
-  /// Starts without force.
+  /// Restarts without force at the position of the handle.
   void reset(const HandleState& handle);
 
-  /// Wrench on the hand, in M. `dt_s` > 0.
+  /// Advances by `dt_s` > 0. Returns the wrench on the hand, in M.
   Wrench step(const ResistanceInput& input, double dt_s);
 
-  [[nodiscard]] double energy_j() const { return translation_.energy_j(); }  // stored
+  [[nodiscard]] double energy_j() const { return translation_.energy_j(); }  // stored energy
   [[nodiscard]] double rotation_energy_j() const { return rotation_.energy_j(); }
 
  private:

@@ -31,10 +31,12 @@ namespace {
 using State = SafetyState;
 using Cause = HoldCause;
 
-constexpr double kAnswer_s = 3.0;     // of a slave, besides the round trip
-constexpr double kOverdue_s = 1.0;    // likewise: then the operator is told
-constexpr double kLongTrip_s = 10.0;  // as long as the round trip is not known: for a reason, for an answer
-constexpr double kUnknownTrip_s = 60.0;  // as long as the round trip is not known
+// Times, in addition to the round trip, after which a request without a reply is given up or reported.
+constexpr double kAnswer_s = 3.0;
+constexpr double kOverdue_s = 1.0;
+// Round-trip times assumed while it is unknown, for reporting and for giving up.
+constexpr double kLongTrip_s = 10.0;
+constexpr double kUnknownTrip_s = 60.0;
 
 constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
 constexpr unsigned kAny = ~0U;
@@ -45,7 +47,7 @@ constexpr unsigned kFollowing = in(State::kObserving) | in(State::kEngaged) | in
 
 struct MasterSafety::Rule {
   unsigned from;
-  bool active;  // only while an engagement is requested
+  bool active;  // the rule applies only while an engagement is requested
   Demand demand;
   State to;
   HoldCause cause;
@@ -155,14 +157,14 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
   return true;
 }
 
-// Somebody asks for an engagement that is neither under way nor there.
+// Returns whether the operator or engage_at_start requests an engagement that is neither pending nor active.
 bool MasterSafety::wants(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
   const bool by_itself = config_.engage_at_start && !reported_ && rests && !active();
   return (in.engage && !pending() && state_ != State::kEngaged) || by_itself;
 }
 
-// Why this side does not ask the slave for it.
+// Returns why this side does not forward the request to the slave; kNone if it does.
 Reason MasterSafety::why_not(const MasterSafetyInput& in) const {
   if (!in.device_ok) return Cause::kDeviceFault;
   if (in.stop) return Cause::kOperator;
@@ -191,13 +193,13 @@ std::optional<double> MasterSafety::answer_in_s(const MasterSafetyInput& in) con
   return std::max(0.0, *in.rtt_s - to_seconds(in.now - asked_at_));
 }
 
-// Of the present engagement.
+// Returns whether the slave reports `state` for the current engagement.
 bool MasterSafety::says(SafetyState state) const {
   return far_engagement_ == engagement_ && far_state_ == state;
 }
 
-// A slave that has engaged, and held before the news of that was here, goes on by itself within resume_s or
-// not at all.
+// If the slave engaged but already holds when its first report arrives, it resumes automatically within
+// resume_s or not at all.
 bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
   if (to_seconds(in.now - held_since_) > config_.resume_s) return true;
   return to_seconds(in.now - asked_at_) > in.rtt_s.value_or(kUnknownTrip_s) + kAnswer_s;
@@ -224,7 +226,7 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   return !std::exchange(confirmed_, true);
 }
 
-// What the slave says counts before what is said of it.
+// The cause that the slave reports takes precedence over the cause of the rule.
 void MasterSafety::take_cause(const Rule& rule) {
   const bool its_own = rule.demand == Demand::kSlaveStopped || rule.demand == Demand::kSlaveFault ||
                        rule.demand == Demand::kSlaveHolds ||
@@ -236,7 +238,7 @@ void MasterSafety::take_cause(const Rule& rule) {
   cause_ = far_refusal_;
 }
 
-// A number greater than any that the slave may remember of another master.
+// Starts an engagement. Its number is greater than any that the slave may have from another master.
 void MasterSafety::begin(const MasterSafetyInput& in) {
   engagement_ = std::max(engagement_, far_engagement_) + 1;
   asked_at_ = in.now;

@@ -1,7 +1,8 @@
 #pragma once
-// A passive hand at the handle: a mass that moves with it, coupled by a spring and damper to the target of
-// the person. Parameters of the translation: a light and a firm grip as measured on people; of the rotation:
-// assumed, a wrist of the order of magnitude of the handle.
+// A passive model of the hand on the handle: a mass that moves with the handle, coupled by a spring and
+// damper to the position that the person intends. The parameters for translation are a light and a firm grip,
+// as measured on people. Those for rotation are assumed: a wrist whose stiffness has the order of magnitude
+// of the handle's.
 
 #include "master/config/device_config.hpp"
 
@@ -18,11 +19,13 @@ struct WristModel {
   double stiffness_nm_per_rad = 0.0;
 };
 
+/// Returns the translational model for a grip; all zero for a released handle.
 constexpr HandModel hand_model(Grip grip) {
   if (grip == Grip::kReleased) return {};
   return grip == Grip::kFirm ? HandModel{1.7, 16.0, 400.0} : HandModel{0.55, 6.5, 135.0};
 }
 
+/// Returns the rotational model for a grip; all zero for a released handle.
 constexpr WristModel wrist_model(Grip grip) {
   if (grip == Grip::kReleased) return {};
   return grip == Grip::kFirm ? WristModel{0.06, 1.8} : WristModel{0.02, 0.6};

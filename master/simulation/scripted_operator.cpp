@@ -10,20 +10,20 @@
 namespace longreach {
 namespace {
 
-constexpr double kFelt_n = 0.5;       // a contact that a person notices
-constexpr double kBackOff_m = 0.002;  // of the handle, in front of the surface
+constexpr double kFelt_n = 0.5;       // contact force that a person notices
+constexpr double kBackOff_m = 0.002;  // distance of the handle in front of the surface
 constexpr double kReleased_m = 0.010;
 constexpr double kFast_m_per_s = 0.02;      // unhurried motion of the hand
-constexpr double kCareful_m_per_s = 0.008;  // towards something that will be touched
-constexpr double kCoarse_m_per_s = 0.08;    // at the slave, in rate mode
+constexpr double kCareful_m_per_s = 0.008;  // towards a surface that will be touched
+constexpr double kCoarse_m_per_s = 0.08;    // speed of the slave in rate mode
 constexpr double kRest_s = 2.0;
-constexpr double kStop_n = 8.0;         // no person pushes harder against the end of the workspace
-constexpr double kRelocated_m = 0.005;  // of the handle from its home, when the clutch is let go
-constexpr double kRelocates_s = 3.0;    // at most
-constexpr double kHome_m = 1e-4;        // of the handle, along the direction
+constexpr double kStop_n = 8.0;         // a person does not push harder against the end of the workspace
+constexpr double kRelocated_m = 0.005;  // distance of the handle from home at which the clutch is released
+constexpr double kRelocates_s = 3.0;    // maximum duration of relocating
+constexpr double kHome_m = 1e-4;        // distance from home along the direction
 constexpr double kComesHome_s = 0.8;
 
-/// In which the hand moves until something happens: 1 towards the surface, -1 away from it.
+/// Returns the direction in which the hand moves in a phase: 1 towards the surface, -1 away from it.
 double direction_of(ScriptPhase phase) {
   switch (phase) {
     case ScriptPhase::kApproach:
@@ -84,7 +84,7 @@ ScriptOutput ScriptedOperator::step(const ScriptInput& input) {
   return out;
 }
 
-/// Changes of phase; returns the mode that the person switches to.
+/// Changes the phase. Returns the mode to which the operator switches, if any.
 std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
   const double elapsed_s = to_seconds(in.now - entered_);
   const double left_m = this->left_m(in);
@@ -92,8 +92,8 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
     case ScriptPhase::kWaiting:
       if (!in.engaged) break;
       if (left_m > 0.0) {
-        // After a hold he first lets the handle come home: rate mode's centre was left where the handle was,
-        // and goes home with it, as far as friction lets it.
+        // After a hold the operator first lets the handle return home. The centre of rate mode was left where
+        // the handle was, and moves home with it as far as friction permits.
         const double off_m = direction_.dot(in.handle_m);
         const bool home = std::abs(off_m) < kHome_m;
         if (!home && (elapsed_s < kComesHome_s || std::abs(off_m) > mapping_.dead_zone_m)) break;
@@ -104,7 +104,7 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
       enter(in.surface_known ? ScriptPhase::kReturn : ScriptPhase::kApproach, in.now);
       return MotionMode::kPosition;
     case ScriptPhase::kCoarse:
-      // A wall in the way ends it, too.
+      // Contact with a wall also ends this phase.
       if (left_m < 5e-4 || in.felt_n > kFelt_n) enter(ScriptPhase::kSettle, in.now);
       break;
     case ScriptPhase::kSettle:
@@ -155,7 +155,8 @@ double ScriptedOperator::coarse_deflection(double left_m) const {
   return mapping_.dead_zone_m + speed / mapping_.kv_per_s;
 }
 
-/// In position mode, at the end of the workspace: clutches, brings the handle home, takes the robot up again.
+/// At the end of the workspace in position mode: presses the clutch, moves the handle home and releases the
+/// clutch.
 bool ScriptedOperator::relocates(const ScriptInput& in) {
   const double way = direction_of(phase_), handle_m = direction_.dot(in.handle_m);
   const bool blocked = way != 0.0 && !(way > 0.0 && in.felt_n > kFelt_n) &&
@@ -172,7 +173,7 @@ bool ScriptedOperator::relocates(const ScriptInput& in) {
   return relocating_;
 }
 
-/// Moves the hand's target along the direction.
+/// Moves the target of the hand along the direction.
 void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   const double handle_m = direction_.dot(in.handle_m);
   const double approach = std::min(config_.approach_speed_m_per_s / in.scale, kCareful_m_per_s);
@@ -211,7 +212,7 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
       break;
   }
   reach_m_ += dt_s * std::clamp(speed, -0.1, 0.1);
-  // A small device may not have the deflection of the fastest speed.
+  // A small device may not reach the deflection for the maximum speed.
   if (phase_ == ScriptPhase::kCoarse || direction_of(phase_) != 0.0) {
     const double stop_m = kStop_n / hand_stiffness_;
     reach_m_ = std::clamp(reach_m_, handle_m - stop_m, handle_m + stop_m);

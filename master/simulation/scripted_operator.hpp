@@ -1,10 +1,10 @@
 #pragma once
-// A simulated operator who touches a surface: moves in rate mode to the start distance or until a wall is
-// displayed, approaches in scaled position mode, touches, retreats, touches again, presses, probes about the
-// pressing force, releases, rests, and repeats from the second touch; at the end of a small workspace the
-// operator moves the handle home with the clutch. Deterministic; it uses only the information of a person:
-// the own hand, the contact force, the display of the own commands (goal) and of the registered surface. It
-// is not evidence about people.
+// A simulated operator that touches a surface. The operator moves in rate mode to the start distance or until
+// a wall is displayed, approaches in scaled position mode, touches, retreats, touches again, presses, probes
+// around the pressing force, releases, rests, and repeats from the second touch. At the end of a small
+// workspace the operator moves the handle home with the clutch. The behaviour is deterministic. It uses only
+// information that a person would have: the position of the hand, the contact force, and the displayed goal
+// and registered surface. Its results are not evidence about human operators.
 
 #include <cstdint>
 #include <optional>
@@ -36,28 +36,29 @@ std::string_view to_string(ScriptPhase phase);
 struct ScriptInput {
   Time now{};
   Vector3 handle_m = Vector3::Zero();
-  double felt_n = 0.0;               // contact force at the hand
-  Vector3 goal_m = Vector3::Zero();  // own commands, from the anchor, W
+  double felt_n = 0.0;               // magnitude of the contact force on the hand
+  Vector3 goal_m = Vector3::Zero();  // commanded goal from the anchor, W
   double scale = 1.0;
   bool engaged = false;
-  std::uint32_t engagement = 0;  // goals restart with each engagement
+  std::uint32_t engagement = 0;  // goals restart at zero with each engagement
   bool surface_known = false;
-  double depth_m = 0.0;  // of the handle behind the registered surface
+  double depth_m = 0.0;  // depth of the handle behind the registered surface
 };
 
 struct ScriptOutput {
   HandTarget target{};
-  std::optional<MotionMode> mode{};  // requested in this tick
+  std::optional<MotionMode> mode{};  // mode requested in this tick; none: no request
 };
 
 class ScriptedOperator {
  public:
   ScriptedOperator(const OperatorConfig& config, const MappingConfig& mapping, Grip grip);
 
+  /// Advances to `input.now`. Returns the target of the hand and a requested mode.
   ScriptOutput step(const ScriptInput& input);
 
   [[nodiscard]] ScriptPhase phase() const { return phase_; }
-  [[nodiscard]] int cycles() const { return cycles_; }  // completed touches with probing
+  [[nodiscard]] int cycles() const { return cycles_; }  // number of completed touches with probing
 
  private:
   void enter(ScriptPhase phase, Time now);
@@ -70,23 +71,24 @@ class ScriptedOperator {
   OperatorConfig config_;
   MappingConfig mapping_;
   Grip grip_;
-  Vector3 direction_;       // in M
-  Vector3 goal_direction_;  // the same in W
+  Vector3 direction_;       // direction of the approach in M
+  Vector3 goal_direction_;  // the same direction in W
   double hand_stiffness_;   // N/m
   ScriptPhase phase_ = ScriptPhase::kWaiting;
   Time entered_{};
   Time now_{};
   bool started_ = false;
-  double reach_m_ = 0.0;        // target of the hand along the direction
-  double speed_m_per_s_ = 0.0;  // its speed
-  double centre_m_ = 0.0;       // of rate mode
+  double reach_m_ = 0.0;        // target of the hand along direction_
+  double speed_m_per_s_ = 0.0;  // speed of that target
+  double centre_m_ = 0.0;       // centre of rate mode along direction_
   double probe_centre_m_ = 0.0;
-  // Distance covered in previous engagements, and so far in this one.
+  // Distance covered in previous engagements and, so far, in this one.
   std::uint32_t engagement_ = 0;
   double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
-  bool relocating_ = false;  // with the clutch
-  Time blocked_{};           // time since which the handle does not follow; while relocating: start of it
+  bool relocating_ = false;  // the clutch is pressed to move the handle home
+  /// Time since which the handle has not followed; while relocating_, the start of that.
+  Time blocked_{};
 };
 
 }  // namespace longreach

@@ -10,10 +10,11 @@ namespace {
 constexpr double kDeltaStep_s = 1e-3;
 constexpr double kEdge_n_per_m = 2e4;  // rubber on metal
 constexpr double kEdge_n_s_per_m = 60.0;
-constexpr double kDeltaBeyond = 1.1;  // of the workspace that must be reachable: the edge gives way a little
-constexpr double kLeastEdgeLever = 0.05;  // of the arm, at the workspace's edge
+/// Radius that must be reachable, relative to the workspace: the edge is slightly compliant.
+constexpr double kDeltaBeyond = 1.1;
+constexpr double kLeastEdgeLever = 0.05;  // relative to the arm, at the edge of the workspace
 
-/// Directions of a cube's faces, edges and corners.
+/// Visits the directions of the faces, edges and corners of a cube.
 template <class Visit>
 void each_direction(const Visit& visit) {
   for (int i = 0; i < 27; ++i) {
@@ -82,7 +83,7 @@ void SimulatedDelta::move(double dt_s, const Hand& hand) {
   const double half_s = 0.5 * dt_s;
   const Vector3 motor_nm = drives_.run(dt_s);
   const double b = drives_.viscous_nm_s_per_rad(), axis = dynamics_.axis_inertia_kg_m2();
-  // Forces that depend on the place only, and the hand's damper on its own velocity.
+  // Forces that depend only on the position, and the damper of the hand with the target's velocity.
   const auto push = [&](const Vector3& hand_m) -> Vector3 {
     return dynamics_.weight(pose_, gravity_) + edge_force() +
            DeltaDynamics::force(pose_, motor_nm + friction_nm_) +
@@ -101,7 +102,7 @@ void SimulatedDelta::move(double dt_s, const Hand& hand) {
   const Vector3 a = mass().inverse() * (push(hand.position_m) - damping() * v_ - bias(v_));
   const Vector3 v_half = v_ + half_s * a;
   const DeltaPose next = dynamics_.pose(pose_.p_m + dt_s * v_half);
-  if (!next.closed) {  // no device can go there: it stops where it is
+  if (!next.closed) {  // the device cannot reach that pose and stops
     v_.setZero();
     return;
   }

@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kLongestStep_s = 0.05;  // a stalled program does not leap
+constexpr double kLongestStep_s = 0.05;  // avoids a jump after a stall
 
 double least_eigenvalue(const Matrix3& symmetric) {
   Eigen::SelfAdjointEigenSolver<Matrix3> solver;

@@ -1,6 +1,6 @@
 #pragma once
-// The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, a 3-RRR
-// spherical device for the orientation. The controller uses only the encoder angles, as with real devices.
+// The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, and a 3-RRR
+// spherical device for the orientation. As with real devices, the controller uses only the encoder angles.
 
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/hand_target.hpp"
@@ -17,12 +17,14 @@ class SimulatedDevices : public HapticDevice {
   /// Throws GeometryError, which names the parameter, for an impossible device.
   explicit SimulatedDevices(const DeviceConfig& config);
 
+  /// Sets the target of the simulated hand.
   void set_target(const HandTarget& target) { target_ = target; }
 
   HandleState read(Time now) override;
   void write(const Wrench& F_H_M) override;
 
-  /// Puts both handles at rest at a pose, before the first read. Returns false if a device cannot reach it.
+  /// Places both handles at a pose, at rest. Call it before the first read. Returns false if a device cannot
+  /// reach the pose.
   bool place(const Pose& X_MH);
 
   [[nodiscard]] const SimulatedDelta& delta() const { return delta_; }
@@ -39,19 +41,20 @@ class SimulatedDevices : public HapticDevice {
   bool started_ = false;
 };
 
-/// Worst-case properties of a device in its workspace (27 points of the ball).
+/// Worst-case properties of a device over its workspace (27 points in a ball).
 struct DeviceFigures {
-  double mass_kg = 0.0;            // of the handle with the moving parts
-  double damping_n_s_per_m = 0.0;  // physical
+  double mass_kg = 0.0;            // apparent mass of the handle with the moving parts
+  double damping_n_s_per_m = 0.0;  // physical damping
   double inertia_kg_m2 = 0.0;
   double damping_nm_s_per_rad = 0.0;
-  double delay_s = 0.0;  // from read to motor torque: waiting samples and the motors' lag
+  double delay_s = 0.0;  // from reading to motor torque: delayed samples and the lag of the motors
   EncoderCell cell{};
 };
-/// Half of the maximum motion of the handle when each axis moves by `step_rad` or not at all; `rates`: of the
-/// axes by the handle.
+/// Returns half of the maximum displacement of the handle when each axis moves by `step_rad` or not at all, m
+/// or rad. `rates` maps the velocity of the handle to the axis rates.
 double cell_radius(double step_rad, const Matrix3& rates);
-/// Throws GeometryError like SimulatedDevices.
+/// Returns the properties of a device that is sampled with `period_s`. Throws GeometryError like
+/// SimulatedDevices.
 DeviceFigures device_figures(const DeviceConfig& config, double period_s);
 
 }  // namespace longreach

@@ -10,8 +10,8 @@ namespace {
 constexpr double kSphericalStep_s = 1e-3;
 constexpr double kEdge_nm_per_rad = 15.0;
 constexpr double kEdge_nm_s_per_rad = 0.03;
-constexpr double kSphericalBeyond = 1.05;  // of the workspace that must be reachable
-constexpr double kLeastMeasure = 0.1;      // distance from both singularities there
+constexpr double kSphericalBeyond = 1.05;  // radius that must be reachable, relative to the workspace
+constexpr double kLeastMeasure = 0.1;      // minimum distance from both singularities there
 
 }  // namespace
 
@@ -88,7 +88,7 @@ void SimulatedSpherical::move(double dt_s, const WristModel& wrist, const Quater
   const Vector3 omega_half = omega_ + half_s * a;
   const SphericalAttitude next =
       dynamics_.attitude((exp_rotation(dt_s * omega_half) * attitude_.q).normalized());
-  if (!next.closed) {  // no device can go there: it stops where it is
+  if (!next.closed) {  // the device cannot reach that pose and stops
     omega_.setZero();
     return;
   }

@@ -7,7 +7,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kLeastArmLever = 1e-3;  // of the arm; nearer to singularity the motion is not followed
+/// Relative to the arm; poses closer to singularity count as not closed.
+constexpr double kLeastArmLever = 1e-3;
 
 DeltaGeometry geometry_of(const DeltaConfig& c) {
   return DeltaGeometry(

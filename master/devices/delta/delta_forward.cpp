@@ -5,10 +5,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kFlat = 1e-6;     // height over rod below which the two assemblies are indistinguishable
-constexpr double kTrusted = 10.0;  // way over rod and volume of the unit rods at the start that a tick may go
-constexpr double kAnyWay = 1e300;  // where the start is no previous position
-constexpr double kInLine = 1e-7;   // |sin| of the angle in the triangle of centres below which it is a line
+constexpr double kFlat = 1e-6;  // ratio of height to rod below which the two assemblies are indistinguishable
+// Maximum displacement in a tick, over the rod length and the volume of the unit rods at the start.
+constexpr double kTrusted = 10.0;
+constexpr double kAnyWay = 1e300;  // no limit, if the initial guess is not a previous position
+constexpr double kInLine = 1e-7;   // |sin| of an angle of the triangle of centres below which it is a line
 
 using Points = std::array<Vector3, 3>;
 
@@ -19,7 +20,8 @@ struct Intersection {
   Vector3 p = Vector3::Zero();
 };
 
-/// The point at distance `rod` from three centres, on the positive or negative side of their triangle.
+/// Returns the point at the distance `rod` from three centres, on the positive or negative side of their
+/// triangle.
 Intersection intersect(const Points& centre, double rod, double side) {
   const Vector3 a = centre[1] - centre[0];
   const Vector3 b = centre[2] - centre[0];
@@ -53,7 +55,7 @@ class OffsetSolver {
  public:
   OffsetSolver(const DeltaGeometry& g, const Vector3& theta) : g_(g), elbow_(g.elbows(DeltaTurns(theta))) {}
 
-  /// From `start` to a position that closes all loops, in `assembly`.
+  /// Iterates from `start` to a position that closes all loops in `assembly`.
   [[nodiscard]] DeltaPosition solve(const Vector3& start, DeltaAssembly assembly, double trusted) const;
   [[nodiscard]] Points elbows() const {
     Points all;
@@ -72,8 +74,9 @@ DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, 
   DeltaPosition result{SolutionStatus::kNotConverged, start, 0};
   double trust = 0.0;
   while (result.iterations < DeltaKinematics::kMaxIterations) {
-    // The way from the elbow to p, its part outwards, and what the offset, in the plane of the leg, leaves of
-    // it. The parallelogram is folded through itself where `share` (offset over way in the plane) is over 1.
+    // The vector from the elbow to p, its outward component, and the fraction that remains after the offset
+    // in the plane of the leg. The parallelogram is folded through itself if `share` (offset over distance in
+    // the plane) exceeds 1.
     const Legs x = result.p_m.x() - elbow_.x, y = result.p_m.y() - elbow_.y, z = result.p_m.z() - elbow_.z;
     const Legs out = cos * x + sin * y;
     const Legs share = g_.offset_m() / (out * out + z * z).sqrt();
@@ -97,7 +100,7 @@ DeltaPosition OffsetSolver::solve(const Vector3& start, DeltaAssembly assembly, 
     const double step2 = step.squaredNorm();
     if (step2 > length2 / 16.0) step *= 0.25 * length / std::sqrt(step2);
     result.p_m -= step;
-    // The iteration squares its error: what is left after this step is below rounding.
+    // The iteration converges quadratically: the error after this step is below rounding.
     if (step2 < 1e-17 * length2 * regularity * regularity) {
       if (!(share.maxCoeff() < 1.0)) return result;
       const bool near = (result.p_m - start).squaredNorm() <= trust * trust;
@@ -135,8 +138,8 @@ void add(DeltaPositions& all, const Vector3& p, double same) {
   if (all.count < DeltaPositions::kMost) all.p_m[all.count++] = p;
 }
 
-/// Without a closed form and without a previous position: from the outer spheres, then from all around the
-/// arms' ends.
+/// Searches without a closed form and without a previous position. The initial guesses are the solutions for
+/// the outer spheres, and then points all around the ends of the arms.
 void search(const OffsetSolver& solver, const DeltaGeometry& g, DeltaAssembly first, DeltaPositions& all) {
   const double same = 1e-6 * g.rod_m();
   const auto from = [&](const Vector3& start, double side) {

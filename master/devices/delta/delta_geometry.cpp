@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kSameAzimuth = 1e-3;  // |sin| of the angle between two legs that are called one
+constexpr double kSameAzimuth = 1e-3;  // |sin| of the angle below which two legs count as the same
 
 double positive(std::string_view name, double value) {
   if (!(require_finite(name, value) > 0.0))
@@ -24,8 +24,8 @@ double not_negative(std::string_view name, double value) {
 
 }  // namespace
 
-// A negative base radius is the same device with the azimuths turned by 180 degrees and θ counted from the
-// other side.
+// A negative base radius describes the same device with the azimuths turned by 180 degrees and θ counted from
+// the other side.
 DeltaGeometry::DeltaGeometry(const DeltaSimple& simple)
     : arm_(positive("l1", simple.l1)),
       rod_(positive("l2", simple.l2)),
@@ -66,7 +66,7 @@ void DeltaGeometry::place_legs(const std::array<double, 3>& azimuth_rad) {
     sin_[i] = std::sin(azimuth_rad[i]);
   }
   cos_[3] = cos_[0], sin_[3] = sin_[0];
-  double turn = 0.0;  // twice the area of the triangle of the three directions: positive counterclockwise
+  double turn = 0.0;  // twice the area of the triangle of the three directions, positive if counterclockwise
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double sine = cos_[i] * sin_[j] - sin_[i] * cos_[j];
@@ -79,7 +79,7 @@ void DeltaGeometry::place_legs(const std::array<double, 3>& azimuth_rad) {
   working_ = turn * up_ > 0.0 ? DeltaAssembly::kPositive : DeltaAssembly::kNegative;
 }
 
-/// By how much, in lengths, the worst leg fails to reach p; not positive where all reach.
+/// Returns the distance, m, by which the worst leg fails to reach p; not positive if all legs reach it.
 double DeltaGeometry::gap(const Vector3& p) const {
   double worst = -size_m();
   for (int i = 0; i < 3; ++i) {
@@ -92,13 +92,14 @@ double DeltaGeometry::gap(const Vector3& p) const {
   return worst;
 }
 
-/// Looks for one pose that all legs reach: a coarse grid, then a search that shrinks about the best points of
-/// it.
+/// Searches for one pose that all legs reach: on a coarse grid, and then in shrinking neighbourhoods of its
+/// best points.
 void DeltaGeometry::require_closed_loop() const {
   constexpr int kHalf = 8;
   const double span = std::abs(radius_) + std::abs(side_) + size_m();
   if (!std::isfinite(span * span)) throw GeometryError("the lengths are too large");
-  // Where devices are used, first: it spares almost all of them the search.
+  // The positions where devices are used are tried first, which makes the search unnecessary for almost all
+  // of them.
   for (int k = -kHalf; k <= kHalf; ++k) {
     if (gap({0.0, 0.0, span / kHalf * k}) <= 0.0) return;
   }

@@ -11,7 +11,7 @@ DeltaHandle::DeltaHandle(const DeviceConfig& config)
       p_(home_) {}
 
 bool DeltaHandle::read(const Vector3& theta_rad, double dt_s) {
-  if (!started_) {  // wherever the device has been switched on
+  if (!started_) {  // the device may have been switched on anywhere
     const DeltaPositions all = kinematics_.forward_all(theta_rad);
     if (all.status == SolutionStatus::kFound) p_ = all.p_m[0];
   }

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// The leg closes where U cos θ + w sin θ = H; D² = U² + w² - H².
+/// The loop of the leg closes where U cos θ + w sin θ = H; D² = U² + w² - H².
 struct DeltaLegLoop {
   double U, w, H, D;
   bool closes;
   bool double_root;
 };
 
-/// Near a double root: D² and what rounding of H may do to it.
+/// Decides whether the loop closes near a double root. `slack` is the possible effect of rounding of H on D².
 void judge(DeltaLegLoop& leg, double D2, double slack) {
   leg.closes = D2 >= -slack;
   leg.double_root = D2 <= slack;
@@ -23,11 +23,12 @@ void judge(DeltaLegLoop& leg, double D2, double slack) {
 }
 
 inline DeltaLegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
-  constexpr double kNearRoot = 1e-6;  // of D² in d²
+  constexpr double kNearRoot = 1e-6;  // D² relative to d²
   const Vector3 q = g.to_leg(i, p);
   const double arm = g.arm_m(), rod = g.rod_m();
   const double across = q.y() - g.side_m();
-  double flat2 = (rod - across) * (rod + across);  // rods seen in the leg's plane, squared
+  /// Squared length of the rods projected into the plane of the leg.
+  double flat2 = (rod - across) * (rod + across);
   DeltaLegLoop leg;
   leg.closes = true;
   leg.double_root = false;
@@ -51,7 +52,7 @@ inline DeltaLegLoop leg_loop(const DeltaGeometry& g, int i, const Vector3& p) {
   return leg;
 }
 
-// tan(θ/2) = (w - D) / (H + U) = (H - U) / (w + D): the form whose sum does not cancel.
+// tan(θ/2) = (w - D) / (H + U) = (H - U) / (w + D): the form without cancellation is used.
 inline double first_root(const DeltaLegLoop& leg) {
   const double wide = leg.w + leg.D;
   if (leg.w < 0.0) return 2.0 * std::atan((leg.w - leg.D) / (leg.H + leg.U));

@@ -10,7 +10,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kDependentRods = 1e-9;  // volume of the unit rods below which they are called dependent
+/// Volume of the unit rods below which they count as linearly dependent.
+constexpr double kDependentRods = 1e-9;
 
 Matrix3 adjugate_columns(const Matrix3& rows) {
   Matrix3 columns;
@@ -38,7 +39,7 @@ DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const V
   const DeltaLegVectors elbow = g.elbows(turn);
   const DeltaLegs &cos = g.cos_azimuth(), &sin = g.sin_azimuth();
   DeltaLegs x = p_m.x() - elbow.x, y = p_m.y() - elbow.y, z = p_m.z() - elbow.z;
-  // The offset lies in the leg's plane between the arm's end and the rods.
+  // The offset lies in the plane of the leg between the end of the arm and the rods.
   DeltaLegs out = cos * x + sin * y;
   const DeltaLegs distance = (out * out + z * z).sqrt();
   const DeltaLegs share = (distance > 0.0).select(g.offset_m() / distance, 1.0);
@@ -85,7 +86,7 @@ DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
   const double with_arm = masses.arm_kg * masses.arm_com_fraction + 0.5 * masses.forearm_kg;
   DeltaTorques result = statics(at, force_n - with_platform * gravity_m_per_s2);
   if (result.status != SolutionStatus::kFound) return result;
-  // The way of an arm's end, per radian, is in the leg's frame (-a sin θ, 0, a cos θ).
+  // In the frame of the leg, the displacement of the end of the arm per radian is (-a sin θ, 0, a cos θ).
   const DeltaTurns turn(theta_rad);
   const Vector3& pull = gravity_m_per_s2;
   const DeltaLegs outwards = g.cos_azimuth() * pull.x() + g.sin_azimuth() * pull.y();
@@ -96,7 +97,7 @@ DeltaTorques holding_torques(const DeltaGeometry& g, const DeltaMasses& masses,
 
 double potential_energy(const DeltaGeometry& g, const DeltaMasses& masses, const Vector3& gravity_m_per_s2,
                         const Vector3& theta_rad, const Vector3& p_m) {
-  Vector3 moment = (masses.platform_kg + 1.5 * masses.forearm_kg) * p_m;  // mass times place
+  Vector3 moment = (masses.platform_kg + 1.5 * masses.forearm_kg) * p_m;  // mass times position
   for (int i = 0; i < 3; ++i) {
     const auto [s, c] = sin_cos(theta_rad[i]);
     const Vector3 motor = g.to_world(i, {g.radius_m(), g.side_m(), 0.0});

@@ -8,7 +8,8 @@ namespace longreach {
 namespace {
 
 constexpr double kPresliding_rad = 5e-4;  // elastic range of a bearing before it slips, assumed
-// Longer where the friction is so strong that its elastic would be too stiff for steps of a millisecond.
+// The elastic range is longer if the friction is so strong that its stiffness would be too high for steps of
+// a millisecond.
 constexpr double kSoftest_s2 = 1e-5;
 
 }  // namespace
@@ -33,7 +34,7 @@ void Drives::command(const Vector3& tau_nm) {
 Vector3 Drives::run(double dt_s) {
   const Vector3& wanted = waiting_[delay_samples_];
   if (lag_s_ <= 0.0) return tau_ = wanted;
-  const double gone = -std::expm1(-dt_s / lag_s_);  // of the gap
+  const double gone = -std::expm1(-dt_s / lag_s_);  // fraction of the gap that is closed
   const Vector3 gap = tau_ - wanted;
   tau_ = wanted + (1.0 - gone) * gap;
   return wanted + gap * (dt_s > 0.0 ? gone * lag_s_ / dt_s : 1.0);
@@ -45,7 +46,7 @@ void Drives::place(const Vector3& theta_rad) {
 }
 
 Vector3 Drives::friction(const Vector3& theta_rad) {
-  Vector3 share = Vector3::Zero();  // of the Coulomb torque
+  Vector3 share = Vector3::Zero();  // fraction of the Coulomb torque
   double range = presliding_rad_;
   for (Vector3& z : stretch_) {
     z = (z + theta_rad - theta_).cwiseMax(-range).cwiseMin(range);

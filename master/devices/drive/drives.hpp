@@ -1,11 +1,13 @@
 #pragma once
-// The three motor axes of a device, between controller and mechanism.
+// Simulates the three motor axes of a device, between controller and mechanism.
 //
-//   motor     τ' = (τ_c - τ)/t_m,  t_m = 1/(2π bandwidth); |τ_c| <= torque_max; commands may wait some
-//   samples friction  Coulomb as an elastic that slips (Prandtl): τ_f = -σ z, z follows the axis within ±
-//   τ_C/σ.
-//             It holds without creep, dissipates exactly, and stores at most τ_C²/(2σ).
+//   motor     τ' = (τ_c - τ)/t_m,  t_m = 1/(2π bandwidth);  |τ_c| <= torque_max;
+//             commands may be delayed by some samples
+//   friction  Coulomb friction as an elastic element that slips (Prandtl): τ_f = -σ z;
+//             z follows the axis within ± τ_C/σ. It holds without creep, dissipates
+//             exactly, and stores at most τ_C²/(2σ).
 //   encoder   rounds to the resolution
+//
 // Viscous friction is part of the mechanism, which integrates it implicitly.
 
 #include <array>
@@ -18,24 +20,25 @@ namespace longreach {
 
 class Drives {
  public:
-  static constexpr std::uint32_t kMostDelay = 4;  // samples
+  static constexpr std::uint32_t kMostDelay = 4;  // maximum delay, samples
   static constexpr int kElements = 6;
 
   Drives(const DriveConfig& config, std::uint32_t delay_samples);
 
-  /// Call it once per sample: torques commanded by the controller, N m. Values that are not finite count as
+  /// Sets the torques commanded by the controller, N m. Call it once per sample. A non-finite value counts as
   /// zero.
   void command(const Vector3& tau_nm);
 
-  /// Mean torque of the motors over the next `dt_s`, N m.
+  /// Advances the motors by `dt_s`. Returns their mean torque over that time, N m.
   Vector3 run(double dt_s);
 
-  /// Moves the axes to these angles without friction torque.
+  /// Places the axes at these angles, without friction torque.
   void place(const Vector3& theta_rad);
 
-  /// Friction torque at these axis angles, N m, after the axes have moved there.
+  /// Moves the axes to these angles. Returns the friction torque there, N m.
   Vector3 friction(const Vector3& theta_rad);
 
+  /// Returns the encoder reading, rad, at these axis angles.
   [[nodiscard]] Vector3 encoder(const Vector3& theta_rad) const;
   [[nodiscard]] double viscous_nm_s_per_rad() const { return config_.viscous_nm_s_per_rad; }
 
@@ -43,7 +46,7 @@ class Drives {
   DriveConfig config_;
   std::uint32_t delay_samples_;
   double lag_s_;
-  std::array<Vector3, kMostDelay + 1> waiting_{};  // newest first
+  std::array<Vector3, kMostDelay + 1> waiting_{};  // delayed commands, newest first
   Vector3 tau_ = Vector3::Zero();
   Vector3 theta_ = Vector3::Zero();
   double presliding_rad_;

@@ -13,7 +13,8 @@ constexpr int kPowers = 2 * kHalfDegree + 1;
 using Octic = std::array<double, kPowers>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
-/// Coefficients in t of cos kχ (1 + t²)^4 and sin kχ (1 + t²)^4: parts of (1 + it)^(4+k) (1 - it)^(4-k).
+/// Coefficients in t of cos kχ (1 + t²)^4 and sin kχ (1 + t²)^4: real and imaginary parts of (1 + it)^(4+k)
+/// (1 - it)^(4-k).
 struct HalfAngle {
   std::array<Octic, kHalfDegree + 1> cosine{}, sine{};
 };
@@ -36,7 +37,7 @@ HalfAngle half_angle() {
 
 const HalfAngle kHalfAngle = half_angle();
 
-/// Discrete Fourier transform of the samples, seen from `origin` radians, summed up in powers of t.
+/// Discrete Fourier transform of the samples relative to the angle `origin`, rad, collected in powers of t.
 Octic octic(const std::array<double, OcticRoots::kSamples>& F, double origin) {
   constexpr std::size_t n = OcticRoots::kSamples;
   Octic result{};
@@ -63,7 +64,7 @@ Matrix8 companion(const Octic& p) {
   return result;
 }
 
-// The QR iteration stands still on some symmetric sets of double roots: another origin breaks the symmetry.
+// The QR iteration stagnates for some symmetric sets of double roots. Another origin breaks the symmetry.
 constexpr std::array<double, 4> kTurns{0.03, 0.11, -0.07, 0.17};
 
 }  // namespace

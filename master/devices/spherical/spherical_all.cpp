@@ -9,15 +9,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kSame = 1e-6;              // rad/2 between two solutions that are one
-constexpr double kClosed = 1e-13;           // residual of a closure that counts as zero
-constexpr double kSingularSolution = 1e-6;  // 1 / |J^-1| below which a solution is called singular
-constexpr double kDependentRows =
-    0.05;  // of its largest value, below which the linear elimination of ψ is not trusted
+constexpr double kSame = 1e-6;              // distance below which two solutions are the same, rad/2
+constexpr double kClosed = 1e-13;           // residual of a closure equation that counts as zero
+constexpr double kSingularSolution = 1e-6;  // 1 / |J^-1| below which a solution counts as singular
+// Fraction of its largest value below which the linear elimination of ψ is not trusted.
+constexpr double kDependentRows = 0.05;
 
 Vector3 any_across(const Vector3& axis) { return axis.unitOrthogonal(); }
 
-/// A leg's closure at φ, as A cos ψ + B sin ψ + C = 0.
+/// The closure equation of a leg at φ: A cos ψ + B sin ψ + C = 0.
 struct Turn {
   double A = 0.0, B = 0.0, C = 0.0;
 };
@@ -34,7 +34,7 @@ class Elimination {
     f_ = w[static_cast<std::size_t>(first_)].cross(e_);
   }
 
-  /// Columns v, dv/dφ / sin(alpha2), and their product.
+  /// Returns the matrix with the columns v, dv/dφ / sin(alpha2), and their cross product.
   [[nodiscard]] Matrix3 frame(double phi) const {
     const double c = std::cos(phi), s = std::sin(phi);
     const Vector3 v =
@@ -65,7 +65,7 @@ class Elimination {
   }
 
  private:
-  /// The leg whose platform axis is farthest from being in line with another one.
+  /// Chooses the leg whose platform axis is farthest from being collinear with another one.
   void choose_first() {
     double best = -1.0;
     for (int i = 0; i < 3; ++i) {
@@ -83,7 +83,8 @@ class Elimination {
   Vector3 e_, f_;
 };
 
-/// ψ where both closures hold: from both at once, and where those are nearly dependent from one of them.
+/// Values of ψ at which both closure equations hold. They are found from both equations at once, or from one
+/// of them if the two are nearly dependent.
 struct Candidates {
   int count = 0;
   std::array<double, 5> psi_rad{};
@@ -106,12 +107,12 @@ struct Candidates {
   }
 };
 
-/// Collects the different solutions of the closures.
+/// Collects the distinct solutions of the closure equations.
 class Collector {
  public:
   Collector(const SphericalGeometry& g, const std::array<Vector3, 3>& w) : g_(g), w_(w) {}
 
-  /// Newton's method on the closures from q; keeps where it arrives.
+  /// Applies Newton's method to the closure equations, starting at q, and keeps the result.
   void polish(Quaternion q) {
     constexpr int kRounds = 10;
     for (int round = 0; round < kRounds; ++round) {

@@ -7,7 +7,7 @@ namespace longreach {
 
 SphericalGeometry reconstructed_spherical() {
   const double right = std::numbers::pi / 2.0;
-  const double corner = std::atan(std::numbers::sqrt2);  // of a cube's edge with its diagonal
+  const double corner = std::atan(std::numbers::sqrt2);  // angle between an edge of a cube and its diagonal
   return SphericalGeometry(SphericalAngles{right, right, corner, corner});
 }
 

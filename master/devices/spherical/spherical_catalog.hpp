@@ -5,16 +5,17 @@
 
 namespace longreach {
 
-/// The device of Liu, Geng, Liu, Wang (2019), **reconstructed**, because its table of angles is lost. All
-/// link angles are 90 degrees, base and platform axes are orthogonal, in its usual attitude with z as the
-/// axis of symmetry.
+/// Returns a **reconstruction** of the device of Liu, Geng, Liu, Wang (2019), because its table of angles is
+/// not available. All link angles are 90 degrees, and the base axes and the platform axes are mutually
+/// orthogonal. The device is in its usual attitude, with z as the axis of symmetry.
 SphericalGeometry reconstructed_spherical();
 
-/// The Agile Eye (Gosselin, Hamel 1994): all angles 90 degrees, base axes x, y, z, platform axes the
-/// platform's x, y, z, and at θ = 0 the middle axes along z, x, y.
+/// Returns the Agile Eye (Gosselin, Hamel 1994). All angles are 90 degrees, the base axes are x, y, z, and
+/// the platform axes are x, y, z of the platform frame. At θ = 0 the middle axes are along z, x, y.
 SphericalGeometry agile_eye();
 
-/// A haptic handle with shorter links than the Agile Eye's, far from singularity about home; assumed.
+/// Returns a haptic handle with shorter links than the Agile Eye and no singularity near home. All angles are
+/// assumed.
 SphericalGeometry compact_spherical();
 
 }  // namespace longreach

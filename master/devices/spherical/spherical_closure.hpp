@@ -1,8 +1,9 @@
 #pragma once
-// The closure of one leg about a present orientation q0, as a function of g in q = (1, g) q0 (g = axis
+// Loop closure of one leg near a given orientation q0, as a function of g in q = (1, g) q0 (g = axis
 // tan(angle/2)):
 //   F(g) = (k - c)/2 + g . n + ...,   n = v x w,  k = w . v,  c = cos(alpha2)
-// to first order (spherical_kinematics.hpp has the remaining terms), and the linear algebra for three legs.
+// to first order (spherical_kinematics.hpp contains the remaining terms), and the linear algebra for three
+// legs.
 
 #include "common/spatial/spatial.hpp"
 
@@ -19,7 +20,7 @@ struct SphericalClosure {
   }
 };
 
-/// Adjugate of the matrix with rows a, b, c: its inverse is [x y z] / volume.
+/// Adjugate of the matrix with the rows a, b, c, whose inverse is [x y z] / volume.
 struct Adjugate {
   Vector3 x, y, z;
   double volume = 0.0;
@@ -28,11 +29,11 @@ struct Adjugate {
       : x(b.cross(c)), y(c.cross(a)), z(a.cross(b)), volume(a.dot(x)) {}
 
   [[nodiscard]] Vector3 times(double r1, double r2, double r3) const { return r1 * x + r2 * y + r3 * z; }
-  /// Square of the Frobenius norm of the inverse, times volume².
+  /// Returns the squared Frobenius norm of the inverse, times volume².
   [[nodiscard]] double square() const { return x.squaredNorm() + y.squaredNorm() + z.squaredNorm(); }
 };
 
-/// (1, g) q0, normalised.
+/// Returns (1, g) q0, normalised.
 inline Quaternion turned(const Vector3& g, const Quaternion& q0) {
   return (Quaternion(1.0, g.x(), g.y(), g.z()) * q0).normalized();
 }

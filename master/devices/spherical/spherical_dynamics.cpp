@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kLeastLever = 1e-3;  // nearer to singularity the motion is not followed
+constexpr double kLeastLever = 1e-3;  // poses closer to singularity count as not closed
 
 }  // namespace
 

@@ -1,10 +1,12 @@
 #pragma once
-// Equation of motion of a 3-RRR spherical device in the angular velocity of its platform, links lumped into
-// the drives, the platform with its handle balanced about the centre and of equal inertia about every axis:
+// Equation of motion of a 3-RRR spherical device in terms of the angular velocity of its platform. The
+// inertia of the links is lumped into the drives. The platform with its handle is balanced about the centre
+// and has the same inertia about every axis:
 //
 //   M α = m + Jᵀ (τ - I β),   M = I_h 1 + Jᵀ I J,   θ' = J ω,   θ'' = J α + β
 //
-// J of spherical_statics.hpp, (w x v)/sin(alpha2) =: n, l = u . n; β from the closure's second derivative:
+// J is that of spherical_statics.hpp. β follows from the second derivative of the closure equation, with n =
+// (w x v)/sin(alpha2) and l = u . n:
 //
 //   β_i = (n'_i . ω - l'_i θ'_i) / l_i,   n' = (w' x v + w x v')/sin(alpha2),  w' = θ' u x w,  v' = ω x v
 
@@ -14,8 +16,8 @@
 
 namespace longreach {
 
-/// An orientation with the quantities needed for the motion. If `closed` is false (impossible or singular),
-/// the other values are invalid.
+/// An orientation with the quantities that the equation of motion needs. If `closed` is false (unreachable or
+/// singular), the other values are invalid.
 struct SphericalAttitude {
   bool closed = false;
   Quaternion q = Quaternion::Identity();
@@ -32,11 +34,13 @@ class SphericalDynamics {
   [[nodiscard]] const SphericalKinematics& kinematics() const { return kinematics_; }
   [[nodiscard]] const SphericalGeometry& geometry() const { return kinematics_.geometry(); }
 
+  /// Returns the attitude with the platform at orientation `q`, in the base frame.
   [[nodiscard]] SphericalAttitude attitude(const Quaternion& q) const;
+  /// Returns the inertia matrix M.
   [[nodiscard]] Matrix3 inertia_kg_m2(const SphericalAttitude& at) const;
-  /// β, rad/s².
+  /// Returns β, rad/s², at the angular velocity `omega_rad_per_s`.
   [[nodiscard]] Vector3 rate_bias(const SphericalAttitude& at, const Vector3& omega_rad_per_s) const;
-  /// Axis torques as a moment on the platform, N m.
+  /// Returns the moment on the platform, N m, that is equivalent to the axis torques `tau_nm`.
   [[nodiscard]] static Vector3 moment(const SphericalAttitude& at, const Vector3& tau_nm) {
     return at.rates.transpose() * tau_nm;
   }

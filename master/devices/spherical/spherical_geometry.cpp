@@ -9,9 +9,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kGiven = 1e-6;      // how exactly given axes must be of unit length and at their angle
+constexpr double kGiven = 1e-6;      // tolerance of the length and the angle of given axes
 constexpr double kSameAxis = 1e-3;   // rad
-constexpr double kLeastLink = 1e-3;  // rad from 0 and from π
+constexpr double kLeastLink = 1e-3;  // minimum distance of a link angle from 0 and from π, rad
 
 double link(std::string_view name, double angle) {
   require_finite(name, angle);
@@ -104,7 +104,8 @@ void SphericalGeometry::require_distinct_legs() const {
     throw GeometryError("beta2 or v: the platform axes are collinear, so the platform turns freely");
 }
 
-/// By how much, rad, the worst leg fails to reach orientation q; not positive where all reach.
+/// Returns the angle, rad, by which the worst leg fails to reach the orientation q; not positive if all legs
+/// reach it.
 double SphericalGeometry::gap(const Quaternion& q) const {
   const double least = std::abs(alpha1_ - alpha2_);
   const double most = std::min(alpha1_ + alpha2_, 2.0 * std::numbers::pi - alpha1_ - alpha2_);
@@ -116,14 +117,14 @@ double SphericalGeometry::gap(const Quaternion& q) const {
   return worst;
 }
 
-/// Looks for one orientation that all legs reach: rotations spread over all directions and angles, then a
-/// search that shrinks about the best of them.
+/// Searches for one orientation that all legs reach: among rotations spread over all directions and angles,
+/// and then in shrinking neighbourhoods of the best of them.
 void SphericalGeometry::require_closed_loop() const {
   constexpr int kSamples = 4000;
   Quaternion best = Quaternion::Identity();
   double least = gap(best);
   for (int n = 0; n < kSamples && least > 0.0; ++n) {
-    // Shoemake's uniform rotations over an additive (Kronecker) sequence of three numbers.
+    // Shoemake's uniform rotations from an additive (Kronecker) sequence of three numbers.
     const double a = std::fmod(0.8191725134 * n, 1.0), b = std::fmod(0.6710436067 * n, 1.0),
                  c = std::fmod(0.5497004779 * n, 1.0);
     const double turn = 2.0 * std::numbers::pi, r1 = std::sqrt(1.0 - a), r2 = std::sqrt(a);

@@ -1,6 +1,6 @@
 #pragma once
-// Controller of a 3-RRR spherical device: encoder angles to orientation and angular velocity of the handle,
-// moment to motor torques. It does not model the dynamics of the device.
+// Controller of a 3-RRR spherical device. It converts encoder angles to orientation and angular velocity of
+// the handle, and a moment to motor torques. It does not model the dynamics of the device.
 //
 //   q by tracking from the previous sample (the assembly mode is kept), ω its filtered backward difference,
 //   τ = J^-T M
@@ -13,14 +13,14 @@ class SphericalHandle {
  public:
   explicit SphericalHandle(const DeviceConfig& config);
 
-  /// Call it once per sample of `dt_s`; 0 for the first. Returns false if the orientation is lost; the last
-  /// one is then kept.
+  /// Updates orientation and angular velocity from the encoder angles. Call it once per sample, with `dt_s` =
+  /// 0 for the first one. Returns false if tracking fails; the last orientation is then kept.
   bool read(const Vector3& theta_rad, double dt_s);
 
-  /// Sets the start of the tracking, for a device that does not start at home.
+  /// Sets the orientation from which tracking starts, for a device that does not start at home.
   void start_at(const Quaternion& q_MH);
 
-  /// Returns the motor torques that act on the hand with `moment_nm`, N m. Zero at a singularity.
+  /// Returns the motor torques, N m, that apply `moment_nm` to the hand; zero at a singularity.
   [[nodiscard]] Vector3 torques(const Vector3& moment_nm) const;
 
   [[nodiscard]] const Quaternion& orientation() const { return pose_.q; }

@@ -12,7 +12,7 @@ struct SphericalLegLoop {
   bool closes = false;
   bool double_root = false;
 
-  // side +1: the root with u . (w x v) = F cos θ - E sin θ >= 0.
+  // Returns the root with u . (w x v) = F cos θ - E sin θ >= 0 if `side` is +1, and <= 0 if it is -1.
   [[nodiscard]] double root(double side) const {
     const double y = -G * F - side * E * D, x = -G * E + side * F * D;
     return x == 0.0 && y == 0.0 ? 0.0 : std::atan2(y, x);
@@ -27,7 +27,7 @@ SphericalLegLoop leg_loop(const SphericalGeometry& g, int i, const Vector3& v) {
   leg.G = l.w_axial.dot(v) - g.cos_alpha2();
   const double h = std::sqrt(leg.E * leg.E + leg.F * leg.F);
   const double D2 = (h - leg.G) * (h + leg.G);
-  // All terms are at most 1: what rounding of G and h may do to D².
+  // Possible effect of rounding of G and h on D²; all terms are at most 1.
   const double slack = 16.0 * std::numeric_limits<double>::epsilon() * (h + std::abs(leg.G) + 1e-15);
   leg.closes = D2 >= -slack;
   leg.double_root = D2 <= slack;

@@ -9,7 +9,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kDependentNormals = 1e-9;  // lever, or volume of the unit normals, that counts as zero
+/// Lever, or volume of the unit normals, below which it counts as zero.
+constexpr double kDependentNormals = 1e-9;
 
 }  // namespace
 

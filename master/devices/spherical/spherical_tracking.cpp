@@ -8,12 +8,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kSingularPose = 1e-6;  // 1 / |J^-1| below which a pose is called singular
-constexpr double kNear =
-    0.02;  // the same, where an iteration that does not arrive was stopped by a singularity
-constexpr double kSmall = 2e-2;  // contraction below which the first Jacobian serves to the end
-constexpr double kReuse = 1e-3;  // contraction below which a Jacobian serves for another step
-constexpr double kDone = 5e-17;  // error that is left, rad/2
+constexpr double kSingularPose = 1e-6;  // 1 / |J^-1| below which a pose counts as singular
+// 1 / |J^-1| below which an iteration that fails to converge was stopped by a singularity.
+constexpr double kNear = 0.02;
+constexpr double kSmall = 2e-2;  // contraction below which the first Jacobian is used until convergence
+constexpr double kReuse = 1e-3;  // contraction below which a Jacobian is used for another step
+constexpr double kDone = 5e-17;  // remaining error, rad/2
 
 double square(double x) { return x * x; }
 
@@ -37,7 +37,7 @@ SphericalKinematics::SphericalKinematics(const SphericalGeometry& geometry)
   }
 }
 
-/// F of the three legs about the previous orientation.
+/// F of the three legs near the previous orientation.
 struct SphericalKinematics::Closures {
   Vectors w, v, n;
   Eigen::Array4d half_gap;  // (k - c)/2
@@ -93,9 +93,9 @@ struct SphericalKinematics::Search {
     legs.sum = wv + k.g_.cos_alpha2();
   }
 
-  /// g <- step - J^-1 (terms of second order): for a small step the contraction makes the first Jacobian
-  /// enough. The contraction that is seen (half of it in the first round) tells when what is left is below
-  /// rounding.
+  /// Iterates g <- step - J^-1 (terms of second order). For a small step the contraction is so strong that
+  /// the first Jacobian suffices. The observed contraction (half of it in the first round) determines when
+  /// the remaining error is below rounding.
   [[gnu::always_inline]] inline bool small_step(const Adjugate& inverse, double scale, const Vector3& step) {
     const Vector3 x = scale * inverse.x, y = scale * inverse.y, z = scale * inverse.z;
     double before2 = step.squaredNorm();
@@ -112,7 +112,8 @@ struct SphericalKinematics::Search {
     return false;
   }
 
-  /// Newton steps with one Jacobian from `off` = 0 away from where it was taken, while they contract fast.
+  /// Performs Newton steps with one Jacobian, starting where it was evaluated (`off` = 0), while they
+  /// contract fast.
   bool steps(const Adjugate& inverse, double bend) {
     const double scale = -1.0 / inverse.volume;
     double off = 0.0;
@@ -120,7 +121,7 @@ struct SphericalKinematics::Search {
       ++iterations;
       const Vector3 step = scale * times(inverse, legs.at(g));
       const double length = step.norm();
-      if (bend * length > 0.5) {  // outside of the radius that is known to be regular: go half of it
+      if (bend * length > 0.5) {  // outside the radius that is known to be regular: go half that radius
         g += step * (0.25 / (bend * length));
         return false;
       }
@@ -133,10 +134,10 @@ struct SphericalKinematics::Search {
   }
 };
 
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // whose runtime starts after the choice is made
-// Compiled twice and chosen by the processor when the program starts: instructions with three operands spare
-// a third of the moves. No contraction, so the results are the same to the bit.
-#ifndef __clang__  // Clang 14 leaves the name itself undefined
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // TSan's runtime starts after the choice is made
+// Compiled twice; the version for the processor is selected when the program starts. Instructions with three
+// operands save a third of the moves. Floating-point contraction is off, so the results are bit-identical.
+#ifndef __clang__  // Clang 14 leaves the symbol itself undefined
 [[gnu::target_clones("avx", "default")]]
 #endif
 #endif
@@ -181,7 +182,7 @@ SphericalKinematics::forward(const Vector3& theta_rad, const SphericalPose& prev
     return result;
   }
   result.side = previous.side;
-  // Angles that are not finite end here at once.
+  // Angles that are not finite are rejected here.
   if (!theta_rad.allFinite()) return result;
   result.status = conditioning < square(kNear) ? SolutionStatus::kSingular : SolutionStatus::kNotConverged;
   return result;

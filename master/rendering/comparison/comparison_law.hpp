@@ -1,5 +1,5 @@
 #pragma once
-// The closed set of comparison laws at the master.
+// The comparison laws that the master can run instead of its own rendering, as one closed variant.
 
 #include <variant>
 
@@ -14,12 +14,12 @@ namespace longreach {
 
 using ComparisonLaw = std::variant<DirectLaw, PositionPositionLaw, WaveLaw, PassivityLaw, TankLaw>;
 
-/// Returns whether a law needs the ComparisonReport, which only the laboratory has.
+/// Returns whether `law` needs ComparisonReports, which only the laboratory exchanges.
 constexpr bool is_comparison(RenderingLaw law) {
   return law != RenderingLaw::kStiffness && law != RenderingLaw::kNaive;
 }
 
-/// Returns the law in its initial state; DIRECT if `law` is not a comparison law.
+/// Returns `law` in its initial state, or DIRECT if `law` is not a comparison law.
 inline ComparisonLaw make_comparison_law(RenderingLaw law, const ComparisonConfig& config) {
   switch (law) {
     case RenderingLaw::kPositionPosition:

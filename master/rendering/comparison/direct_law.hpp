@@ -1,9 +1,10 @@
 #pragma once
-// Direct force reflection: the received force is applied.
+// Direct force reflection: the most recently received environment force is applied to the hand.
 //
 //   F_m = F_e[k-d]
 //
-// Without reports the last force is held. It is unstable above a wall stiffness that depends on the delay.
+// The last force is held while no report arrives. The loop is unstable above a wall stiffness that depends on
+// the delay.
 
 #include "master/rendering/comparison/comparison_port.hpp"
 

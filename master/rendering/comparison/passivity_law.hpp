@@ -1,12 +1,13 @@
 #pragma once
-// Time-domain passivity of a two-port (Ryu, Artigas, Preusche 2010) at the master: force reflection with a
-// passivity observer and a passivity controller.
+// Master side of time-domain passivity control for a two-port (Ryu, Artigas, Preusche 2010): force reflection
+// with a passivity observer and a passivity controller.
 //
 //   P = -F v (into the port),  E_in = Σ max(P, 0) T,  E_out = Σ max(-P, 0) T,   F = F_e[k-d]
 //   W = E_in,slave[k-d] - E_out + E_pc;  W < 0:  F -= α v,  α = min(-W/(T v²), 2m/T),  E_pc += α v² T
 //
-// The energy that leaves here, minus the dissipated energy, never exceeds the energy that entered at the
-// slave, except for the part that the bound of α leaves to later motion. The slave corrects the drift.
+// The energy that leaves this port, minus the dissipated energy, never exceeds the energy that entered at the
+// slave, except for the part that the bound on α defers to later motion. The slave corrects the position
+// drift.
 
 #include "common/link/comparison_config.hpp"
 #include "master/rendering/comparison/comparison_port.hpp"

@@ -1,10 +1,10 @@
 #pragma once
-// Position-position: each side is attracted to the delayed position of the other.
+// Position-position coupling: each side is attracted to the delayed position of the other.
 //
 //   F_m = -Kc (x_m - x_s[k-d]) - B v_m
 //
-// Stable only if 4 Bm Bs > (T1² + T2²) Kc², with Bm and Bs the total damping of each side. No force before
-// the first report.
+// The coupling is stable only if 4 Bm Bs > (T1² + T2²) Kc², where Bm and Bs are the total damping of master
+// and slave. There is no force before the first report.
 
 #include "common/link/comparison_config.hpp"
 #include "master/rendering/comparison/comparison_port.hpp"

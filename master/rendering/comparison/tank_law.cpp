@@ -5,7 +5,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kNearlyEmpty = 0.1;  // of the wanted level: cut at once, the force would chatter
+/// Fraction of the target level; an abrupt cut-off would make the force chatter.
+constexpr double kNearlyEmpty = 0.1;
 
 }  // namespace
 

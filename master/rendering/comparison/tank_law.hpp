@@ -1,10 +1,10 @@
 #pragma once
-// Two layers with an energy tank (Franken, Stramigioli, Misra, Secchi, Macchelli 2011) at the master: the
-// force F_e[k-d] of the transparency layer is applied only while the tank has energy.
+// Master side of the two-layer approach with an energy tank (Franken, Stramigioli, Misra, Secchi, Macchelli
+// 2011): the force F_e[k-d] of the transparency layer is applied only while the tank contains energy.
 //
 //   H += -F[k-1] (x[k] - x[k-1]) + received - sent,   sent = share · H · T
-//   F = s F_e[k-d] - d v,   s = 0 where H <= 0, 1 from a tenth of the level on,  d = α max(0, H_level - H) <=
-//   m/T
+//   F = s F_e[k-d] - d v,   d = α max(0, H_level - H) <= m/T
+//   s = 0 where H <= 0, and 1 where H is at least a tenth of the level
 //
 // H falls below zero by at most the energy of one held sample.
 

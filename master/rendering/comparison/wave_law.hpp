@@ -3,9 +3,9 @@
 //
 //   u_m = √(2b) v_m - w_m,   F_m = -(b v_m - √(2b) w_m),   so  -F_m v_m = (u_m² - w_m²)/2
 //
-// The line between two such ends stores energy and cannot create any, for any delay. A missing wave counts as
+// The link between two such ends stores energy and cannot create any, at any delay. A missing wave counts as
 // zero: its energy is lost, and the tool drifts relative to the handle (the drift is not corrected here). The
-// wall is displayed in series with a spring of b/(one-way delay).
+// wall is displayed in series with a spring of stiffness b/(one-way delay).
 
 #include <cmath>
 
