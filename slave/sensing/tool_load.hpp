@@ -160,7 +160,7 @@ class ToolCompensation {
   AccelerationPeak push_{}, turn_{};  // of a load
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
-  double tool_m_per_s2_ = 0.0;     // filtered acceleration of the tool's centre
+  double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre
   // As a bond transmits it; as the stiffest bond does; and that, filtered like the force that decides on a touch.
   SensorMotion slow_{}, quick_{}, decided_{};
   Wrench bias_{}, sum_{};
