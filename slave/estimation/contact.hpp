@@ -62,10 +62,8 @@ class SlaveContact {
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
   [[nodiscard]] std::uint32_t touch() const { return touches_; }  // number of touches so far
-  [[nodiscard]] const Vector3& normal() const {
-    /// Unit direction of the whole force.
-    return reading_.normal;
-  }                                                                   // unit direction of the whole force
+  /// Unit direction of the whole force.
+  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
   [[nodiscard]] const ContactForce& force() const { return force_; }  // input of the force guard
   /// The surface with the largest force; if none is pressed, the one that was pressed last.
   [[nodiscard]] const Surface& foremost() const { return surfaces_[foremost_]; }

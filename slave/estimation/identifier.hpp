@@ -104,8 +104,7 @@ class Identifier {
   [[nodiscard]] double position_sd() const;
   bool still(double x_m);
   /// The standard deviation of the force at the present depth is below 5 %.
-  [[nodiscard]] bool settled()
-      const;  // the standard deviation of the force at the present depth is below 5 %
+  [[nodiscard]] bool settled() const;
   [[nodiscard]] double foreseen_variance(const PenetrationSample& sample) const;
   void watch(const PenetrationSample& sample, double innovation_n);
   void restart();
