@@ -37,12 +37,12 @@
 //
 // The round trip, a median over half a second, is compared with its minimum since the engagement
 // (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The gap timer is
-// gap_s or, by default, max(0.1 s, 30/f) for a master that sends f times per second. Because setpoints lag
-// the path that they smooth, the path starts to brake by that lag before the gap timer ends, so that the
+// gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second. Setpoints lag
+// the path that they smooth, so the path starts to brake by that lag before the gap timer ends, and the
 // setpoint starts to brake when it ends. Age = now - the time at which this side sent the newest datagram
-// that the master had received; no clocks of two sides are compared. The reported cause is the first one
-// since Engaged, with two exceptions: a fault has its own cause, the first of its kind, and so has a hold
-// whose force does not fall.
+// that the master had received; clocks of the two sides are not compared. The reported cause is the first one
+// since Engaged, with two exceptions: a fault has its own cause, the first of its kind, and so has a hold in
+// which the force does not fall.
 
 #include <cstdint>
 #include <optional>

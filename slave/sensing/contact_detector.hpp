@@ -25,7 +25,7 @@ struct ContactReading {
   bool ended = false;                    // in this step
   Vector3 filtered_n = Vector3::Zero();  // N, in the frame of the input
   double touch_n = 0.0;                  // present threshold of a contact, N
-  Vector3 normal = Vector3::Zero();      // unit, during contact; otherwise zero
+  Vector3 normal = Vector3::Zero();      // unit vector, during contact; otherwise zero
 };
 
 class ContactDetector {

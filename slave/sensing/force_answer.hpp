@@ -36,7 +36,7 @@ namespace longreach {
 struct ForceAnswerInput {
   Vector3 p_m = Vector3::Zero();       // measured tool in W, with the same delay and filter as the force
   double force_n = 0.0;                // |F|
-  Vector3 reaction = Vector3::Zero();  // unit, of the force on the tool, in W
+  Vector3 reaction = Vector3::Zero();  // unit vector, of the force on the tool, in W
   bool in_contact = false;
   bool still = false;     // the setpoint is at rest, and the tool has reached it
   bool may_move = false;  // otherwise it does not retreat

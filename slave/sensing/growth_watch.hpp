@@ -40,7 +40,7 @@ class GrowthWatch {
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
-  /// Unit; zero: the force grows in no unexpected direction. Kept until the contact ends, or the tool moves
+  /// Unit vector; zero: the force grows in no unexpected direction. Kept until the contact ends, or the tool moves
   /// in this direction and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // since it last grew
