@@ -55,9 +55,8 @@ class GoalLimiter {
 
   LimiterOutput step(const LimiterInput& input);
 
-  [[nodiscard]] const std::optional<Pose>& goal() const {
-    return X_WE_goal_;
-  }  // of the last step, moved into the workspace
+  /// Of the last step, moved into the workspace.
+  [[nodiscard]] const std::optional<Pose>& goal() const { return X_WE_goal_; }
   /// `p_WE` is in the workspace, or at most `margin_m` outside it.
   [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
     return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
