@@ -1,10 +1,10 @@
 #pragma once
 // Checks whether the measured force is plausible while the tool presses. If the force grows while the
-// setpoint is at rest, the robot retreats and the response of the force decides (force_answer.hpp). If the
-// force is close to its limit and grows unexpectedly (growth_watch.hpp), a test starts during which the robot
-// rests (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface stiffer than
-// command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that direction
-// (goal_limiter.hpp).
+// setpoint is at rest, the robot retreats, and the response of the force is evaluated (force_answer.hpp). If
+// the force is close to its limit and grows unexpectedly (growth_watch.hpp), a test starts, during which the
+// robot rests (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface stiffer
+// than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that direction
+// (contact_guard.hpp).
 
 #include "common/link/stiffness_report.hpp"
 #include "slave/command/goal_limiter.hpp"

@@ -78,7 +78,7 @@ class GoalLimiter {
   Vector3 centre_m_;
   Pose X_WE_{};
   Pose X_WE_before_{};               // in the previous step
-  Twist V_WE_{};                     // of the setpoint
+  Twist V_WE_{};                     // velocity of the setpoint
   std::optional<Pose> X_WE_goal_{};  // in the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
   Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint

@@ -83,7 +83,7 @@ class JointLimiter {
   double dt_ = 0.0;
   int ticks_ = 1;  // N
   JointVector path_rad_ = JointVector::Zero();
-  JointVector rad_per_s_ = JointVector::Zero();  // of the path
+  JointVector rad_per_s_ = JointVector::Zero();  // velocity of the path
   JointVector setpoint_rad_ = JointVector::Zero();
   /// Ring buffer of the last N points of the path.
   Eigen::Matrix<double, kMaxJoints, kTicksMax> before_ = decltype(before_)::Zero();

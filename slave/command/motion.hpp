@@ -46,7 +46,7 @@ class SlaveMotion {
   Clamps step(const MotionInput& input);
 
   [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joints_.setpoint_rad(); }
-  [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
+  [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // pose of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
   /// The setpoint is in the workspace or at most 1 mm outside, because an arm may rest at the edge.
   [[nodiscard]] bool in_workspace() const { return limiter_.within(X_WE_.p, 1e-3); }

@@ -8,11 +8,11 @@
 //   if its sd has halved since the last change and it differs by more than max(2 %, 3 sd) in value or
 //       direction, at most three times per touch;
 //   or if it is computed for another depth.
-// Differences are in the Frobenius norm of S n nᵀ, so a more accurate direction is a change, too. A value is
-// never replaced by one that is farther from the requested depth or not known within `first_sd`, unless the
-// held value is certainly wrong: the new value is known within 30 % and lies outside the values that a power
-// law through the held one permits, by more than 30 % and 5 sd. A second touch of the same surface continues
-// with the held value.
+// Differences are in the Frobenius norm of S n nᵀ, so a more accurate direction also counts as a change. A
+// value that is farther from the requested depth, or not known within `first_sd`, replaces the held value
+// only if the held value is certainly wrong. That is the case if the new value is known within 30 % and
+// deviates, by more than 30 % and 5 sd, from every slope that a power law through the held value permits. A
+// second touch of the same surface continues with the held value.
 
 #include "common/spatial/spatial.hpp"
 #include "slave/estimation/identifier.hpp"

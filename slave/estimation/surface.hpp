@@ -169,12 +169,12 @@ class Surface {
   // like a moving surface.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();
   Direction pushes_{}, reported_normal_{};
-  double placed_sd_m_ = 0.0;          // standard deviation of the reported position; 0: none reported yet
-  double reported_s_ = 0.0;           // time since the surface was first reported
-  bool touched_anew_ = false;         // the position was reported in a previous touch
-  Vector3 tool_m_ = Vector3::Zero();  // position of the tool now, or when it left the surface
-  double inward_m_ = 0.0;             // coordinate along the motion: motion against the force since the touch
-  double marked_m_ = 0.0;             // value of inward_m_ at the mark
+  double placed_sd_m_ = 0.0;             // standard deviation of the reported position; 0: none reported yet
+  double reported_s_ = 0.0;              // time since the surface was first reported
+  bool touched_anew_ = false;            // the position was reported in a previous touch
+  Vector3 tool_m_ = Vector3::Zero();     // position of the tool now, or when it left the surface
+  double inward_m_ = 0.0;                // motion of the tool against the force since the touch
+  double marked_m_ = 0.0;                // value of inward_m_ at the mark
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
   double surface_m_ = 0.0;               // position of the surface in this coordinate
   double scale_ = 1.0;

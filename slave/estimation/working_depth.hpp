@@ -84,7 +84,8 @@ class WorkingDepth {
   /// below_: the tool was below the mean in this period; whole_: the period started at the end of another
   /// one.
   bool below_ = false, whole_ = false;
-  double swing_sum_ = 0.0, swing_s_ = 0.0;  // sum in m s and duration of the present period
+  /// Integral of the depth over the present period, m s, and its duration, s.
+  double swing_sum_ = 0.0, swing_s_ = 0.0;
 };
 
 }  // namespace longreach

@@ -27,7 +27,7 @@ namespace longreach {
 /// of solutions near them need no arc tangent.
 struct KnownJoints {
   JointVector joint_rad;
-  double cos[6], sin[6];  // of the angles of the loop, a to f
+  double cos[6], sin[6];  // cosines and sines of the loop angles, a to f
 };
 
 struct Branch {

@@ -1,6 +1,6 @@
 #pragma once
 // Operations of the slave for RPC clients: queries, tighter limits, an artificial impairment of the link, and
-// stop. The master decides about engagement, mode and scale.
+// stop. Engagement, mode and scale can be changed only at the master.
 
 #include <chrono>
 #include <mutex>

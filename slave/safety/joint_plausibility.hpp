@@ -21,7 +21,8 @@ class JointPlausibility {
  public:
   explicit JointPlausibility(const RobotConfig& robot) : robot_(robot) {}
 
-  /// Returns the first implausible joint, or no reason. `robot` must be ok and finite.
+  /// Returns the reason for the first implausible joint; no reason if all joints are plausible. `robot` must
+  /// be ok and finite.
   Reason check(const RobotState& robot, Time now) {
     const Time measured = now - from_seconds(robot.age_s);
     Reason found;

@@ -133,7 +133,7 @@ class SlaveSafety {
   Reason refusal_{};
   std::uint32_t refused_ = 0;
   std::uint32_t engagement_ = 0;
-  std::uint32_t used_ = 0;  // greatest number that was accepted or stopped in this session
+  std::uint32_t used_ = 0;  // highest number that was accepted or stopped in this session
   std::uint32_t sessions_ = 0;
   /// The master started a new session since the start of the engagement.
   bool restarted_ = false;

@@ -97,17 +97,17 @@ class Bodies {
   int striker_ = -1, keeper_ = -1;
   Pose X_WE_start_;
   std::array<RigidState, kMost> state_{};
-  Pose X_tool_{};               // in S
+  Pose X_tool_{};               // pose of the tool in S
   std::vector<GeomPair> near_;  // pairs near each other in the present state
   double clear_m_ = 0.0;        // lower bound on the distance of any two geoms
   bool closed_ = false;
   std::optional<Held> held_{}, latched_{};
-  Wrench impulse_{};  // on the tool in this step
+  Wrench impulse_{};  // impulse on the tool in this step
   BodiesContact contact_{};
   double tool_work_j_ = 0.0;
   double spent_j_ = 0.0;
   std::uint64_t unconverged_ = 0;
-  Wrenches last_{};  // of the last step
+  Wrenches last_{};  // mean wrenches of the last step
   Attempt best_{}, next_{};
 };
 

@@ -20,8 +20,8 @@ namespace longreach {
 
 struct ContactReading {
   bool in_contact = false;
-  bool began = false;                    // in this step
-  bool ended = false;                    // in this step
+  bool began = false;                    // the contact started in this step
+  bool ended = false;                    // the contact ended in this step
   Vector3 filtered_n = Vector3::Zero();  // filtered force, N, in the frame of the input
   double touch_n = 0.0;                  // present touch threshold, N
   /// Unit vector, direction of the force during contact; otherwise zero.
@@ -56,7 +56,7 @@ class ContactDetector {
   std::array<Vector3, 3> last_n_{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   int samples_ = 0;
   bool begun_ = false;
-  double variance_n2_ = 0.0;  // of f along an axis
+  double variance_n2_ = 0.0;  // variance of f along an axis
   Vector3 filtered_n_ = Vector3::Zero();
   Vector3 sum_n_ = Vector3::Zero();
   bool in_contact_ = false;

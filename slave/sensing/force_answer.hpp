@@ -1,6 +1,6 @@
 #pragma once
 // Distinguishes an approaching wall from a faulty sensor. If the force grows while the setpoint is at rest,
-// the robot did not cause the growth. The response of the force to a retreat of the tool decides:
+// the robot did not cause the growth. The tool retreats, and the response of the force is evaluated:
 //   g = ΔF/Δt at rest, since the touch, over at least 40 ms and 0.4 N or 8 σ, or over 8 ms and half of the
 //       bound. The growth must exceed k_max times the motion of the tool towards the contact in that time.
 //   D = F_0 + g (t - t_0) - F, where s is the motion of the tool along the force since the start t_0 of the

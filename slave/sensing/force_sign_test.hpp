@@ -1,17 +1,17 @@
 #pragma once
 // Tests whether the sensor or the contact causes an unexpected growth of the force. The robot brakes, and the
-// force decides. If the sensor is faulty, the pressed wall is at rest with the robot. An approaching wall
-// continues to push. The force of a carried body ends with the motion. The change of the force is evaluated
-// after 60 ms, over the whole time and over the last 20 ms:
-//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the sensor
-//                                                    is wrong; decided as soon as an approaching wall would
-//                                                    differ by twice that tolerance
-//   otherwise, it grows at rest (force_answer.hpp)   approaching wall: its response to a retreat decides
+// test observes how the force changes. If the sensor is faulty, the pressed wall is at rest with the robot.
+// An approaching wall continues to push. The force of a carried body ends with the motion. The change of the
+// force is evaluated after 60 ms, over the whole time and over the last 20 ms:
+//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the
+//                                                    sensor is wrong; this is decided as soon as an
+//                                                    approaching wall would differ by twice that tolerance
+//   otherwise, it grows at rest (force_answer.hpp)   approaching wall: the response to a retreat is evaluated
 //   otherwise, after 150 ms or that duration         force persists
 // Growth perpendicular to the force can also come from a surface stiffer than k_max on which the tool slides.
-// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm: with
-// such a surface, the force falls by more than k_max causes over half of that distance, or the contact ends.
-// That result clears the sensor at any time.
+// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. With
+// such a surface, the force then falls by more than k_max times half of that distance, or the contact ends.
+// Either result clears the sensor at any time.
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,16 @@
 #pragma once
 // Identifies the load in the gripper from its effect on the force sensor without contact: its mass m and
 // first moment h = m c, where c is its centre of mass relative to the origin of the sensor. In the frame of
-// the sensor, with the acceleration a of its origin, its rotation ω, α, gravity g and the bias b,
+// the sensor, with the acceleration a of its origin, its angular velocity ω and acceleration α, gravity g and
+// the bias b,
 //
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
-// The bond that holds a load spreads a push over about 10 ms, so f and m a agree as integrals, but not from
-// sample to sample. Therefore both sides are filtered equally (two first-order filters of kLoadBand_s), and a
-// Kalman filter for the constants m and h and for the drifting bias processes them every kLoadUpdate_s. The
-// remaining effect of the bond on a changing force is treated as noise. An open gripper holds nothing; a
-// closed one may hold up to robot.load_max_kg.
+// The bond that holds a load spreads an impulse over about 10 ms, so f and m a agree in their integrals, but
+// not from sample to sample. Therefore both sides are filtered equally (two first-order filters of
+// kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias processes them every
+// kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as noise. An open gripper
+// holds nothing; a closed one may hold up to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 

@@ -117,8 +117,8 @@ class ToolCompensation {
     if (!(config.zero_s > 0.0)) abandon();
   }
 
-  /// Starts averaging for a zero; there must be no contact until it is complete. The previous zero is used
-  /// until then. Does nothing if zero_s = 0.
+  /// Starts to zero the sensor: averages the readings; there must be no contact until this is complete. The
+  /// previous zero is used until then. Does nothing if zero_s = 0.
   void zero();
   /// Stops averaging and keeps the previous zero. Call it when there is contact or contact becomes possible.
   void abandon() { zeroing_ = first_ = false; }

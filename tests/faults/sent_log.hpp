@@ -70,7 +70,7 @@ class SentLog {
 
   double gap_s_, resume_s_;
   std::uint64_t session_ = 1, master_session_ = 1;
-  std::deque<SentCommand> sent_;  // with increasing numbers
+  std::deque<SentCommand> sent_;  // ordered by sequence number
   std::uint64_t newest_ = 0;
   std::uint32_t ended_ = 0;  // engagements up to this number have ended
   std::uint32_t entered_ = 0;

@@ -18,7 +18,7 @@ namespace longreach {
 
 /// Combined effect of all faults in a tick; reset before each tick.
 struct Levels {
-  ImpairmentConfig up{}, down{};  // settings of the link, impaired further
+  ImpairmentConfig up{}, down{};  // impairments of the link, increased by the active faults
   DirectionFaults wire_up{}, wire_down{};
   bool slave_skips_tick = false, master_skips_tick = false;
   double slave_ppm = 0.0, master_ppm = 0.0;  // rate errors of the clocks
