@@ -27,7 +27,7 @@ struct SlaveInput {
   std::uint32_t peer_session_count = 0;  // number of sessions of the master so far
   /// The newest session took control from another master.
   bool taken = false;
-  bool stop = false;  // requested by RPC on this side
+  bool stop = false;  // a stop is requested by RPC on this side
   /// Send rate of the master, as it reported it when it opened the session.
   double send_hz = 200.0;
   std::uint64_t rejected = 0;    // datagrams dropped so far, for telemetry

@@ -52,7 +52,8 @@ class SlaveSensing {
   [[nodiscard]] bool ready() const { return load_.ready(); }
   [[nodiscard]] bool free() const { return !contact_.in_contact() && !turn_contact_.in_contact(); }
   [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }  // measured
-  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }   // without tool, load and bias
+  /// Measured wrench without the effect of tool, load and bias.
+  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
   [[nodiscard]] const ForcePlausibility& plausibility() const { return plausibility_; }
   SlaveContact& contact() { return contact_; }

@@ -40,12 +40,12 @@ struct ContactForce {
   double lead_m = 0.0;
   /// Unit vector, direction in which the force grows unexpectedly; zero: none.
   Vector3 grows = Vector3::Zero();
-  double grows_lead_m = 0.0;  // lead of the setpoint in that direction
+  double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
   /// Unit vector, direction of the whole force, and its magnitude, if it is far from `reaction`; otherwise
   /// zero.
   Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;
-  double elsewhere_lead_m = 0.0;  // lead of the setpoint against that force
+  double elsewhere_lead_m = 0.0;  // lead of the setpoint against the force `elsewhere`
   bool trusted = true;            // false: the force is in doubt, and the tool does not retreat
   /// Speed of a retreat without a goal that tests whether the force responds.
   double ease_m_per_s = 0.0;

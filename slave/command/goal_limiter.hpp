@@ -61,7 +61,7 @@ class GoalLimiter {
   [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
     return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
   }
-  [[nodiscard]] const Vector3& centre_m() const { return centre_m_; }  // of the workspace, in W
+  [[nodiscard]] const Vector3& centre_m() const { return centre_m_; }  // centre of the workspace, in W
   [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
   [[nodiscard]] const Twist& velocity() const { return V_WE_; }
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
@@ -77,9 +77,9 @@ class GoalLimiter {
   CommandConfig config_;
   Vector3 centre_m_;
   Pose X_WE_{};
-  Pose X_WE_before_{};               // in the previous step
+  Pose X_WE_before_{};               // setpoint of the previous step
   Twist V_WE_{};                     // velocity of the setpoint
-  std::optional<Pose> X_WE_goal_{};  // in the previous step
+  std::optional<Pose> X_WE_goal_{};  // goal of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
   Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
   Twist V_WE_goal_{};                     // velocity of the goal, limited like that of the tool

@@ -42,7 +42,7 @@ class HeldBack {
 
   double least_;
   std::optional<Vector3> place_{};
-  Vector3 velocity_ = Vector3::Zero();  // of the tool, low-pass filtered
+  Vector3 velocity_ = Vector3::Zero();  // low-pass filtered velocity of the tool
   double far_s_ = 0.0, limited_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();
 };

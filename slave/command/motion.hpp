@@ -25,7 +25,7 @@ namespace longreach {
 constexpr double kSingularBand = 0.08;
 
 struct MotionInput {
-  std::optional<Pose> X_WE_goal{};  // none: the tool brakes and stays
+  std::optional<Pose> X_WE_goal{};  // none: the tool brakes and stays in place
   ContactForce contact{};
   double dt = 0.0;        // > 0, s, the same in every step
   bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit
@@ -78,9 +78,10 @@ class SlaveMotion {
   LimitWatch watch_;
   StallDetector stall_detector_;
   Pose X_WE_{};
-  std::optional<Clamps> stands_{};  // limits because of which the tool stopped before its goal
-  bool turning_ = false;            // the joints move along a joint path to another solution
-  double conditioning_ = 1.0;       // in the previous tick
+  /// Set while the tool is stopped before its goal, to the limits that stopped it.
+  std::optional<Clamps> stands_{};
+  bool turning_ = false;       // the joints move along a joint path to another solution
+  double conditioning_ = 1.0;  // conditioning in the previous tick
   /// Joint positions when the arm was last away from a singular pose; they identify its branch.
   JointVector home_rad_ = JointVector::Zero();
   std::uint64_t failures_ = 0;

@@ -12,8 +12,8 @@ namespace longreach {
 
 class StallDetector {
  public:
-  static constexpr double kMoved = 1e-3;  // of L: a goal that moves by less counts as at rest
-  static constexpr double kThere = 2e-3;  // of L: a tool at this distance has reached the goal
+  static constexpr double kMoved = 1e-3;  // a goal that moves by less than this share of L is at rest
+  static constexpr double kThere = 2e-3;  // a tool within this share of L has reached the goal
 
   explicit StallDetector(double length_m) : length_m_(length_m) {}
 
@@ -22,7 +22,7 @@ class StallDetector {
   /// Returns true if the tool has not reached a goal at rest and has not come closer to it for kStallS. `dt`
   /// in s.
   [[nodiscard]] bool ends(const Pose& X_WE, const Pose& X_WE_goal, double dt) {
-    constexpr double kStallS = 3.0, kNearer = 1e-4;  // kNearer: of L, minimum progress
+    constexpr double kStallS = 3.0, kNearer = 1e-4;  // kNearer: minimum progress, as a share of L
     if (!X_WE_goal_ || !(distance_m(*X_WE_goal_, X_WE_goal) <= kMoved * length_m_)) {
       X_WE_goal_ = X_WE_goal;
       least_m_ = std::numeric_limits<double>::infinity();

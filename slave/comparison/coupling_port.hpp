@@ -14,8 +14,8 @@ struct CouplingInput {
 };
 
 struct CouplingOutput {
-  Vector3 setpoint_m = Vector3::Zero();  // of the tool, relative to the anchor
-  ComparisonReport report{};             // to be sent in this tick
+  Vector3 setpoint_m = Vector3::Zero();  // position setpoint of the tool, relative to the anchor
+  ComparisonReport report{};             // report that must be sent in this tick
 };
 
 /// Returns the part of a step that an energy budget permits. A step against the force costs -F·dx; the part

@@ -17,7 +17,7 @@ enum class DhConvention : std::uint8_t { kStandard, kModified };
 enum class JointKind : std::uint8_t {
   kRevolute,
   kPrismatic,  // q is added to d instead of theta; fields named _rad are in m
-  kFixed       // does not move: q is 0
+  kFixed       // the joint does not move: q is 0
 };
 
 /// Criterion that selects one of the solutions within the joint limits.
@@ -47,7 +47,7 @@ struct JointConfig {
   double damping_nm_s_per_rad = 0.0;
   double friction_nm = 0.0;
   double inertia_kg_m2 = 1.0;
-  std::string name{};  // as its manufacturer calls it
+  std::string name{};  // name that the manufacturer uses
   /// Rotation Ry after Rx(alpha), with the standard convention only (Hayati).
   double beta_rad = 0.0;
 };

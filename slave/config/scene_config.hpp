@@ -23,7 +23,7 @@ struct MaterialConfig {
 /// Infinite plane; the solid lies behind it.
 struct PlaneConfig {
   Vector3 point_m = Vector3::Zero();
-  Vector3 normal = -Vector3::UnitX();  // outward; need not be a unit vector
+  Vector3 normal = -Vector3::UnitX();  // outward normal; need not be a unit vector
   /// `point_m` is relative to the start position of the tool.
   bool from_tool_start = true;
 };
@@ -53,7 +53,7 @@ struct CylinderConfig {
 /// Stop against rotation: a lever on the tool touches it when the tool has rotated from its start pose by the
 /// angle.
 struct HingeConfig {
-  Vector3 axis = Vector3::UnitZ();  // in W; need not be a unit vector
+  Vector3 axis = Vector3::UnitZ();  // axis in W; need not be a unit vector
   double angle_rad = 0.05;
   double arm_m = 0.1;  // length of the lever
 };

@@ -21,7 +21,7 @@ namespace longreach {
 struct ContactInput {
   Vector3 p_WE = Vector3::Zero();     // measured position of the tool, m
   Vector3 v_WE = Vector3::Zero();     // m/s
-  Vector3 force_n = Vector3::Zero();  // measured, in W, on the tool
+  Vector3 force_n = Vector3::Zero();  // measured force on the tool, in W
   double played_sequence = 0.0;       // sequence number of the goal being followed; 0: none
   double scale = 1.0;                 // k_scale: ratio of the force at the tool to the force at the hand
   double dt = 0.0;                    // s

@@ -40,8 +40,8 @@ struct IdentifierConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
   double exponent = 1.5;          // for FIXED_EXPONENT
   double forgetting = 1.0;        // factor by which older samples are discounted per sample
-  double force_noise_n = 0.0;     // sd; 0: estimated from the samples
-  double position_noise_m = 0.0;  // sd; 0: estimated from the samples
+  double force_noise_n = 0.0;     // standard deviation; 0: estimated from the samples
+  double position_noise_m = 0.0;  // standard deviation; 0: estimated from the samples
   bool surface_known = true;      // positions are relative to the surface
   /// Creates an external estimator that is used instead of the one of `kind`.
   std::unique_ptr<Estimator> (*make)(const IdentifierConfig&) = nullptr;
@@ -65,7 +65,7 @@ struct ContactAnswer {
   Identified secant;          // elastic force/depth at depth_m, N/m
   Identified stiffness;       // tangent d(elastic force)/dx at depth_m, N/m
   Identified surface;         // position of the surface, m
-  double correlation = 0.0;   // of the errors of k and λ
+  double correlation = 0.0;   // correlation of the errors of k and λ
   double depth_m = 0.0;       // depth to which secant and stiffness refer
   double force_sd_n = 0.0;    // standard deviation of a force sample
   std::uint32_t changes = 0;  // number of detected changes

@@ -43,7 +43,7 @@ class ReportedTangent {
   [[nodiscard]] double sd() const { return sd_; }
   [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value belongs
   [[nodiscard]] double foot_m() const { return foot_m_; }    // depth of the foot behind the surface, >= 0
-  [[nodiscard]] const Vector3& normal() const { return normal_; }  // at the last change
+  [[nodiscard]] const Vector3& normal() const { return normal_; }  // outward normal at the last change
 
  private:
   [[nodiscard]] bool surely_wrong(const ContactAnswer& answer) const;

@@ -25,7 +25,7 @@ namespace longreach {
 struct TouchSample {
   Vector3 p_WE = Vector3::Zero();     // position of the tool, m
   Vector3 v_WE = Vector3::Zero();     // m/s
-  Vector3 force_n = Vector3::Zero();  // on the tool, in W
+  Vector3 force_n = Vector3::Zero();  // measured force on the tool, in W
 };
 
 /// State at the start of a touch.

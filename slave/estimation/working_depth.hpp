@@ -53,9 +53,12 @@ class WorkingDepth {
 
  private:
   static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
-  static constexpr double kRests = 2.5;  // multiple of the memory without an oscillation: the tool rests
-  static constexpr double kSwing = 0.5;  // of the standard deviation of the depth: minimum amplitude
-  static constexpr double kThere = 0.3;  // of the mean depth: a tool that is farther away only passes
+  /// Duration without an oscillation after which the tool counts as resting, in multiples of the memory.
+  static constexpr double kRests = 2.5;
+  /// Minimum amplitude of an oscillation, in standard deviations of the depth.
+  static constexpr double kSwing = 0.5;
+  /// A tool farther from the mean depth than this share of it is only passing.
+  static constexpr double kThere = 0.3;
 
   bool hold(double depth_m) {
     if (!(depth_m > 0.0)) return false;
@@ -81,8 +84,8 @@ class WorkingDepth {
   double held_m_ = 0.0;  // depth that is held instead of the usual depth; 0: none
   double held_s_ = 0.0;  // time since the depth has been held
   double mean_m_ = 0.0, variance_m2_ = 0.0;
-  /// below_: the tool was below the mean in this period; whole_: the period started at the end of another
-  /// one.
+  /// The tool was below the mean in this period (`below_`); the period started at the end of another one
+  /// (`whole_`).
   bool below_ = false, whole_ = false;
   /// Integral of the depth over the present period, m s, and its duration, s.
   double swing_sum_ = 0.0, swing_s_ = 0.0;

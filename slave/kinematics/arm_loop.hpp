@@ -7,7 +7,7 @@
 // three special axes come last, d e f:
 //   spherical: they intersect in one point (the origin of d, e, f):  L_d = Rx(α_d), L_e = Rx(α_e)
 //   parallel:  L_d = Tx(a_d), L_e = Tx(a_e)
-// and so that L_a = Tx(a) Rx(α) does not contain the pose. If several orders are possible, one with a = 0 or
+// In addition, L_a = Tx(a) Rx(α) must not contain the pose. If several orders are possible, one with a = 0 or
 // sin α = 0 is preferred, because the position then leads to quadratic equations; otherwise it leads to one
 // of fourth degree.
 //
@@ -38,7 +38,7 @@ struct ArmLoop {
 
   ArmFamily family = ArmFamily::kNone;
   int first_joint = 0;      // first of the three special joints, from 0
-  bool triangular = false;  // a = 0 or sin α = 0, so the equations are quadratic
+  bool triangular = false;  // true: a = 0 or sin α = 0, so the equations are quadratic
   std::array<LoopJoint, 6> joint{};
   double a_m = 0.0, sin_alpha = 0.0, cos_alpha = 1.0;  // L_a; values within tolerance of 0 are 0
   std::array<Rigid, 6> link{};                         // L_b, L_c, L_f; the link with the pose is empty

@@ -67,7 +67,7 @@ class ClosedInverse {
   [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:
-  ArmLoop loop_;  // its lengths are in multiples of the reach
+  ArmLoop loop_;  // the loop, with lengths in multiples of the reach
   double per_m_ = 1.0;
 };
 

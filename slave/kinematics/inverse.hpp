@@ -9,13 +9,12 @@
 // be nearest to the measured joints, the preferred one is chosen. If there is none, the damped iteration of
 // numeric_inverse.hpp moves to the nearest pose within the limits.
 //
-// kFound     the tool reaches the goal kSingular  the tool reaches the goal, but cannot move from there in
-// the direction `lost` kNearest   the goal is out of reach, or reachable only beyond joint limits; the errors
-// give the deviation. A search
-//            (restarts_max > 0) never returns this if all() lists a solution within the limits
+//   kFound     the tool reaches the goal
+//   kSingular  the tool reaches the goal, but cannot move from there in the direction `lost`
+//   kNearest   the goal is out of reach, or reachable only beyond joint limits; the errors give the deviation
 //
-// A robot without a wrist (Cartesian) ignores the rotation of the goal and reports that in
-// `rotation_ignored`.
+// A search (restarts_max > 0) never returns kNearest if all() lists a solution within the limits. A robot
+// without a wrist (Cartesian) ignores the rotation of the goal and reports that in `rotation_ignored`.
 
 #include <cstdint>
 #include <string_view>
@@ -41,7 +40,7 @@ struct InverseResult {
   Pose X_WE{};                    // pose of the tool at joint_rad
   double position_error_m = 0.0;  // distance of X_WE from the goal
   double rotation_error_rad = 0.0;
-  double conditioning = 0.0;  // joint_step.hpp: 0 at a singular pose, about 0.3 at a good one
+  double conditioning = 0.0;  // 0 at a singular pose, about 0.3 at a well-conditioned one (joint_step.hpp)
   /// kSingular: unit vector [angular times length; linear] of the lost direction; otherwise zero.
   Vector6 lost = Vector6::Zero();
   bool at_joint_limit = false;  // a joint limit prevented a better result

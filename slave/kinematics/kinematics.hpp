@@ -72,7 +72,7 @@ class Kinematics {
   std::array<Link, kMaxJoints> link_{};
   std::array<JointRow, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
-  Rigid last_{};  // after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
+  Rigid last_{};  // transformation after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
   double motion_length_m_ = 0.0;
   bool all_revolute_ = true;

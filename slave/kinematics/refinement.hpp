@@ -11,14 +11,14 @@ namespace longreach {
 struct Placed {
   JointVector joint_rad = JointVector::Zero();
   RigidKinematics tool{};
-  Vector3 rotation_error_rad = Vector3::Zero();  // from the tool to the goal
-  Vector3 position_error_m = Vector3::Zero();
+  Vector3 rotation_error_rad = Vector3::Zero();  // rotation from the tool to the goal
+  Vector3 position_error_m = Vector3::Zero();    // displacement from the tool to the goal
   double miss = 0.0;  // the larger of the two errors, in rad and in multiples of the reach
 };
 
 class Refinement {
  public:
-  static constexpr double kExact = 1e-14;  // in rad, and in multiples of the reach
+  static constexpr double kExact = 1e-14;  // tolerance in rad, and in multiples of the reach
 
   Refinement(const Kinematics& kinematics, const Rigid& goal) : kinematics_(kinematics), goal_(goal) {}
 

@@ -15,7 +15,7 @@ namespace longreach {
 
 /// A step of the node. `input` does not contain the messages, which are recorded before it.
 struct SlaveTickRecord {
-  std::uint64_t tick = 0;    // from 0 at the node's first step
+  std::uint64_t tick = 0;    // number of the step, from 0 at the first step of the node
   std::uint32_t config = 0;  // number of the node's configuration
   std::uint32_t commands = 0;
   SlaveInput input{};

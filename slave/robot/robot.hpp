@@ -16,7 +16,7 @@ using JointVector = Eigen::Matrix<double, kMaxJoints, 1>;
 struct RobotState {
   JointVector joint_rad = JointVector::Zero();  // measured
   JointVector joint_rad_per_s = JointVector::Zero();
-  Wrench F_F_W{};  // measured by the force sensor, in W: wrench of the environment on the tool
+  Wrench F_F_W{};  // measured wrench of the environment on the tool, in W
   // false: the robot has failed, which latches a fault. A stop by its own watchdog is not a failure; it ends
   // with the next setpoint.
   bool ok = true;

@@ -2,11 +2,11 @@
 // Free-floating rigid bodies and their contacts, a gripper that holds one of them, and a latch. The motion of
 // the tool is given. Bodies move only by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
 // gravity. Each step solves one implicit equation for the mean wrenches (interaction.hpp) by Newton
-// iteration. For any stiffness and for several simultaneous contacts,
-//   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool,
-// momentum is conserved, and no contact pulls. Frame S: origin at the start of the tool, axes of W; the body
-// `tool` starts with the axes of S. There is no friction. A robot with flexible joints does not yield to
-// bodies.
+// iteration. For any stiffness and for several simultaneous contacts, momentum is conserved, no contact
+// pulls, and
+//   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool
+// Frame S: origin at the start of the tool, axes of W; the body `tool` starts with the axes of S. There is no
+// friction. A robot with flexible joints does not yield to bodies.
 
 #include <array>
 #include <cstdint>
@@ -41,7 +41,8 @@ class Bodies {
   [[nodiscard]] const BodiesContact& contact() const { return contact_; }
   [[nodiscard]] int count() const { return model_.tool(); }
   [[nodiscard]] const FreeBody& body(int i) const { return model_.bodies()[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }  // in S
+  /// State of a body, in S.
+  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }
   /// Displacement of a body from its start, in W.
   [[nodiscard]] Pose displaced(int i) const;
   void push(int i, const Vector3& v_m_per_s,
@@ -67,7 +68,7 @@ class Bodies {
     std::array<RigidState, kMost> to{};
     std::array<Mover, kMost + 2> mover{};
     Wrenches answer{};
-    Wrench on_tool{};  // about the middle of the tool's path
+    Wrench on_tool{};  // wrench about the middle of the tool's path
     double tool_work_j = 0.0;
     Stiffness stiffness{};
   };

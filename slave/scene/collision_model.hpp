@@ -28,7 +28,7 @@ struct GeomPair {
 struct FreeBody {
   std::string name;
   RigidMass mass{};
-  Pose X_start{};  // of the inertial frame at the start
+  Pose X_start{};  // pose of the inertial frame at the start
 };
 
 class CollisionModel {
@@ -57,7 +57,7 @@ class CollisionModel {
 
   struct Site {
     int body;
-    Pose X_B;  // in the body's inertial frame
+    Pose X_B;  // pose in the inertial frame of the body
   };
   /// Find a site or a geom by name. Both throw std::invalid_argument if the name is unknown.
   [[nodiscard]] Site site(const std::string& name) const;

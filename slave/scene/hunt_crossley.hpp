@@ -1,9 +1,9 @@
 #pragma once
 // The contact law of Hunt and Crossley (1975), with a = λ/k:
 //   F(x, v) = k xⁿ (1 + a v)   for a penetration x > 0 and a speed v inwards, at least 0; otherwise 0
-// In an impact of a mass m, the quantity
-//   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1),
-// is conserved while 1 + a v > 0. k is in N/mⁿ. Friction is not handled.
+// While 1 + a v > 0, an impact of a mass m conserves the quantity
+//   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1)
+// k is in N/mⁿ. Friction is not handled.
 
 #include <cmath>
 
@@ -33,7 +33,7 @@ struct HuntCrossley {
   [[nodiscard]] Mean mean_elastic(double x, double dx) const {
     const double deep = dx > 0.0 ? x + dx : x, way = std::abs(dx);
     if (!(deep > 0.0)) return {};
-    const double most = elastic_n(deep), share = way / deep;  // share: of the depth
+    const double most = elastic_n(deep), share = way / deep;  // share of the depth
     if (share < 1e-12) return {most, 0.5 * n * most / deep};
     double mean = most / ((n + 1.0) * share), end = dx > 0.0 ? most : 0.0;
     if (share < 1.0) {

@@ -13,14 +13,15 @@
 namespace longreach {
 
 struct RigidMass {
-  double mass_kg = 1.0;                     // > 0
-  Vector3 inertia_kg_m2 = Vector3::Ones();  // about the centre of mass, along the principal axes; > 0
+  double mass_kg = 1.0;  // > 0
+  Vector3 inertia_kg_m2 =
+      Vector3::Ones();  // moments of inertia about the centre of mass, along the principal axes; > 0
   Vector3 gravity_m_per_s2 = Vector3::Zero();
 };
 
 struct RigidState {
   Pose X{};                                    // frame at the centre of mass along the principal axes
-  Vector3 v_m_per_s = Vector3::Zero();         // of the centre of mass
+  Vector3 v_m_per_s = Vector3::Zero();         // velocity of the centre of mass
   Vector3 spin_kg_m2_per_s = Vector3::Zero();  // angular momentum about the centre of mass, in W
 };
 

@@ -82,8 +82,9 @@ class Scene {
   void plant_tree();
   // The nearest point of a body, or of the stop of a hinge.
   struct Nearest {
-    double depth_m;     // negative: no contact
-    Vector3 gradient;   // of the depth, with respect to position for a body, to rotation for a hinge
+    double depth_m;  // negative: no contact
+    /// Gradient of the depth with respect to position for a body, to rotation for a hinge.
+    Vector3 gradient;
     Vector3 by_m;       // displacement of the surface
     Vector3 v_m_per_s;  // velocity of the surface
     int surface;

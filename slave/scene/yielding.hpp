@@ -2,7 +2,7 @@
 // Motion of a tool that yields to contacts over one step. Under the mean wrench w the tool ends at
 //   free ∘ C w,   C symmetric, positive semidefinite: displacement by the wrench (a mass: dt²/(2 m),
 //                 joints: J c Jᵀ)
-// where `free` is its end pose without contact. w is the mean wrench of the scene over this move
+// The pose `free` is the end pose without contact. w is the mean wrench of the scene over this move
 // (Scene::mean_contact), so the equation for w is implicit; Newton iteration solves it. For any C, any
 // stiffness, and several simultaneous contacts, the contacts receive exactly the energy that the tool loses.
 

@@ -53,8 +53,8 @@ struct ForceAnswerInput {
 struct ForceAnswerLimits {
   double noise_n = 0.05;                // σ
   double stiffness_n_per_m = 2e4;       // k_max
-  double speed_m_per_s = 0.25;          // limit of the retreat
-  double acceleration_m_per_s2 = 1.25;  // limit of the retreat
+  double speed_m_per_s = 0.25;          // maximum speed of the retreat
+  double acceleration_m_per_s2 = 1.25;  // maximum acceleration of the retreat
 };
 
 class ForceAnswer {
@@ -104,9 +104,9 @@ class ForceAnswer {
   ForceAnswerLimits limits_;
   State state_ = State::kRest;
   bool gave_way_ = false, answered_ = false;
-  bool watches_ = false;     // monitors a retreat that the guard causes
-  bool tries_ = false;       // retreat after the check
-  bool follows_ = false;     // retreat after the check if the force grows at rest
+  bool watches_ = false;     // true while a retreat that the guard causes is monitored
+  bool tries_ = false;       // true: retreat after the check
+  bool follows_ = false;     // true: retreat after the check if the force grows at rest
   bool suspected_ = false;   // the previous retreat made the force grow
   Point older_{}, newer_{};  // start of this rest, or points of growth in it
   double rest_s_ = 0.0;      // duration of the present rest

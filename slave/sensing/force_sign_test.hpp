@@ -128,7 +128,7 @@ class ForceSignTest {
 
   Verdict verdict_ = Verdict::kNone;
   bool across_ = false, easing_ = false;
-  bool otherwise_ = false;  // the force did not change as it grew before
+  bool otherwise_ = false;  // the force changed differently than before the test
   double time_s_ = 0.0, slope_n_per_m_ = 0.0, n_per_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();  // direction of the growth, later of the retreat
   Point from_{}, last_{};

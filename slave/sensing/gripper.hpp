@@ -27,7 +27,7 @@ class Gripper {
   }
 
  private:
-  bool holds_ = false;           // as reported by the robot
+  bool holds_ = false;           // the robot reports that it holds a load
   std::optional<bool> asked_{};  // none: not requested yet
 };
 

@@ -45,7 +45,7 @@ class GrowthWatch {
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // time since the force last grew in this direction
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
-  [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of that growth
+  [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of the unexpected growth
   /// The growth is perpendicular to the force. A surface stiffer than k_max on which the tool slides could
   /// also cause it.
   [[nodiscard]] bool across() const { return across_; }
@@ -58,7 +58,8 @@ class GrowthWatch {
   struct Place {
     Vector3 p_m;
     double force_n;
-    double deepest_m;  // deepest position since then
+    /// Deepest approach since the tool was at this place.
+    double deepest_m;
     double time_s;
   };
   void smooth(const GrowthSample& sample);
@@ -79,7 +80,7 @@ class GrowthWatch {
   Vector3 seen_m_ = Vector3::Zero();
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
-  double slope_n_per_m_ = 0.0;  // slope, rate and direction of that growth
+  double slope_n_per_m_ = 0.0;  // slope of the unexpected growth
   double n_per_s_ = 0.0;
   bool across_ = false;
 };

@@ -87,7 +87,7 @@ struct LoadSample {
 /// treated as a contact. The guards receive every force beyond these bounds.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  double guard_n = kNone;  // bounds the tracked bias
+  double guard_n = kNone;  // upper bound on the tracked bias
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
@@ -140,7 +140,7 @@ class ToolCompensation {
   /// Returns false during the first zeroing: the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
-  [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the frame of the sensor
+  [[nodiscard]] const Wrench& bias() const { return bias_; }  // bias in the frame of the sensor
   [[nodiscard]] const LoadIdentifier& load() const { return load_; }
   /// Magnitude of the force, and of the moment, that an uncertain acceleration or load may cause.
   [[nodiscard]] double uncertainty_n() const;
@@ -158,8 +158,8 @@ class ToolCompensation {
   SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
-  std::optional<Pose> X_WF_{};        // pose at the previous sample
-  AccelerationPeak push_{}, turn_{};  // for the uncertainty of the load
+  std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
+  AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass

@@ -1,11 +1,10 @@
 #pragma once
-// A simulated six-axis force/torque sensor: its reading of the wrench that acts on it. For each of the six
-// channels, in the frame of the sensor:
+// A simulated six-axis force/torque sensor: its reading of the wrench w that acts on it. For each of the six
+// channels, in the frame of the sensor, with ξ normally distributed with standard deviation 1:
 //   y += (1 - exp(-2π f dt)) (w - y)                        bandwidth f
 //   b += drift √dt ξ                                        bias, a random walk from its initial value
 //   reading = clamp(round((y + b + noise ξ)/res) res)       resolution, range
-// where ξ is normally distributed with standard deviation 1. Cross talk, hysteresis and the effect of
-// temperature are not modelled separately from a bias.
+// Cross talk, hysteresis and the effect of temperature are not modelled separately from a bias.
 
 #include "common/core/random.hpp"
 #include "common/spatial/spatial.hpp"

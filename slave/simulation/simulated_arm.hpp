@@ -35,10 +35,10 @@ class SimulatedArm : public Robot {
     if (bodies_) bodies_->grip(closed);
   }
 
-  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }         // of the tool at start_rad
-  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }                // of the tool at the last read
-  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
-  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // on the tool, without noise
+  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // pose of the tool at start_rad
+  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // pose of the tool at the last read
+  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // velocity of E in W, m/s
+  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }  // wrench on the tool, without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
   /// Returns the static stiffness dF/dp of all contacts at `p_WE` along the outward direction, by
   /// differences, N/m; 0 in free space.

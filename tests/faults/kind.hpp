@@ -60,8 +60,7 @@ struct FaultKind {
   double longest_s = 5.0;
   double shortest_s = 0.005;
   /// Fraction of the seeds that have this fault once in addition to the drawn ones; 0: the kind is drawn.
-  double besides =
-      0.0;  // fraction of the seeds that have it once in addition to the drawn ones; 0: it is a drawn one
+  double besides = 0.0;
   void (*act)(World&, Active&) = nullptr;  // called before the tick
   void (*end)(World&, Active&) = nullptr;  // called when the fault ends
   void (*robot)(World&, Active&, RobotState&) = nullptr;

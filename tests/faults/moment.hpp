@@ -25,7 +25,7 @@ struct Moment {
   /// True state of the robot, before any falsification.
   RobotState truth{};
   RobotState reported{};                           // state of the robot that the slave received
-  JointVector setpoint_rad = JointVector::Zero();  // as written by the slave
+  JointVector setpoint_rad = JointVector::Zero();  // setpoint that the slave wrote
   bool moves = false;                              // the slave wrote a setpoint
   Pose X_WE{};                                     // true pose of the tool
   Vector3 v_WE = Vector3::Zero();
@@ -44,8 +44,8 @@ struct Moment {
   // Master side.
   Vector3 x_MH = Vector3::Zero();  // true position of the handle
   Quaternion q_MH = Quaternion::Identity();
-  HandleState handle{};                // as received by the master
-  Wrench F_H_M{};                      // as written by the master
+  HandleState handle{};                // state of the handle that the master received
+  Wrench F_H_M{};                      // wrench on the hand that the master wrote
   Vector3 goal_m = Vector3::Zero();    // commanded goal, relative to the anchor
   Vector3 anchor_m = Vector3::Zero();  // anchor of the engagement, in W
   double contact_n = 0.0;              // contribution of the contact to the force on the hand
@@ -61,7 +61,7 @@ struct Moment {
   /// Displayed reason for which the robot does not follow or an engagement is not granted.
   Reason reason{};
   bool reason_is_far = false;
-  std::uint32_t engaged_in = 0;  // number of the master's engagement
+  std::uint32_t engaged_in = 0;  // number of the master's present engagement
   /// The telemetry, if the master received one in this tick.
   std::optional<Telemetry> seen{};
 

@@ -17,9 +17,10 @@ struct Scenario {
   proto::LabConfig config{};  // complete configuration
   MasterConfig master{};
   SlaveConfig slave{};
-  std::vector<std::string> settings;  // as accepted by `longreach-lab run --set`
-  double round_trip_s = 0.0;          // round-trip time of the link without faults
-  bool metamorphic = false;           // the link has no random jitter, loss or reordering
+  /// Settings of the scenario, as `longreach-lab run --set` accepts them.
+  std::vector<std::string> settings;
+  double round_trip_s = 0.0;  // round-trip time of the link without faults
+  bool metamorphic = false;   // the link has no random jitter, loss or reordering
 };
 
 /// Offsets of the two clocks at the start of a run.

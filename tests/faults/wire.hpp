@@ -23,8 +23,8 @@ using Bytes = std::vector<std::byte>;
 struct DirectionFaults {
   bool cut = false;          // all datagrams are lost
   bool held = false;         // all datagrams are kept and arrive together when this ends
-  bool late = false;         // the same, but the newest one arrives first
-  double delay_s = 0.0;      // in addition to the delay of the link
+  bool late = false;         // like `held`, but the newest datagram arrives first
+  double delay_s = 0.0;      // delay in addition to that of the link
   std::uint32_t copies = 0;  // number of additional copies of each datagram
   bool swapped = false;      // the next datagram overtakes every other one
 };
