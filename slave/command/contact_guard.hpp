@@ -8,15 +8,15 @@
 // limited.
 //
 // For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
-// the contact is kept. k is the identified stiffness of the contact, or k_max if none is identified; after
-// the force has been far above G for a second, k is the stiffness that the decrease of the force shows.
+// the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.
+// After the force has been far above G for a second, k is estimated from the decrease of the force.
 //
 // Without a goal, for example in a hold, the setpoint retreats until F has reached the hold limit. This takes
-// at most 1 s if the limits of speed and acceleration permit; k is then the observed stiffness. Every retreat
-// ends if the force does not respond to it (retreat_budget.hpp).
+// at most 1 s if the limits of speed and acceleration permit; k is again estimated from the decrease of the
+// force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
 //
 // If the force grew in a direction other than into the contact, the speed in that direction is limited in the
-// same way, and the tool does not retreat in that direction. Otherwise, if the force is far from the
+// same way, and the tool does not retreat in that direction. Otherwise, if the force points far away from the
 // direction of the contact, the speed against the force is limited.
 //
 // For a moment, positions are rotation vectors, and N and m stand for N m and rad. At the speed w into a
@@ -97,7 +97,7 @@ class ContactGuard {
   /// Speed limit in the direction in which the force grows unexpectedly, or against the `elsewhere` force.
   [[nodiscard]] VelocityCap growth(const ContactForce& contact) const;
   /// Second call of a step with a goal. `v` is the velocity of the setpoint; `capped`: cap() limited it.
-  /// Returns true if the tool should retreat but the force has not responded to its retreat.
+  /// Returns true if the retreat distance is used up and the force has not responded to the retreat.
   bool advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt);
 
   /// First call of a step without a goal; `p` is the position of the setpoint. Returns its target velocity.

@@ -63,7 +63,7 @@ class ForcePlausibility {
   [[nodiscard]] bool rests() const {
     return answer_.rests() || sign_test_.verdict() != ForceSignTest::Verdict::kNone;
   }
-  /// The force grows along a motion that should reduce it: sign or frame of the sensor is wrong.
+  /// The force grows along a motion that should reduce it: the sign or the frame of the sensor is wrong.
   [[nodiscard]] bool wrong_sign() const {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
            sign_test_.verdict() == ForceSignTest::Verdict::kSign;

@@ -29,7 +29,7 @@ struct LimiterOutput {
   bool acceleration = false;
   bool workspace = false;
   bool force_guard = false;
-  /// The tool should retreat, but force or moment has not responded to its retreat.
+  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
   bool force_persists = false;
   bool moment_guard = false;
 };

@@ -56,7 +56,7 @@ class SlaveMotion {
   }
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
-  /// The tool should retreat, but force or moment has not responded to its retreat.
+  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
   [[nodiscard]] bool force_persists() const { return force_persists_; }
   /// Lag of the setpoint behind the joint path, which limits its jerk, s.
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }

@@ -4,8 +4,8 @@
 // its normal. A remainder perpendicular to them that opposes the motion of the tool and exceeds friction is
 // attributed to a further surface. A surface is remembered after its touch, so that the next touch continues
 // with its values. It is forgotten when the tool is, without force, so deep behind it that the surface would
-// press with twice the touch threshold. It is also forgotten at a new touch whose normal differs by less than
-// 60 degrees but which is not at its position: that is the same object, measured differently.
+// press with twice the touch threshold. It is also forgotten when a touch at another position has a normal
+// within 60 degrees of its own, because that touch is on the same object, measured differently.
 
 #include <array>
 #include <cstdint>

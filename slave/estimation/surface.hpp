@@ -123,7 +123,7 @@ class Surface {
   };
 
   void identify(const Press& press);
-  /// Depth at which the force is that of a hand that presses normally, m.
+  /// Depth at the usual pressing force of a hand, m.
   [[nodiscard]] double usual_m() const;
   /// Updates the report for the depth `asked_m`; `elsewhere`: it differs from the previous one. Returns true
   /// if the report changed.

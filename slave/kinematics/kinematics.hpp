@@ -42,7 +42,7 @@ class Kinematics {
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
   /// Sum of all link lengths, offsets and slides of the table including the tool, at least 1 mm. This is the
-  /// magnitude of the numbers that are added, and so of their rounding error.
+  /// magnitude of the numbers that are added, and therefore of their rounding error.
   [[nodiscard]] double reach_m() const { return reach_m_; }
   static constexpr double kMotion =
       1.1;  // chosen so that the motion length of a long arm is the sum of its links

@@ -1,9 +1,9 @@
 #pragma once
 // Interaction of two bodies A and B over one step, such that no step creates energy. The forces between them
 // are equal and opposite, act at one point, and do the work that is stored or dissipated (rigid_body.hpp
-// defines the motion of a point in a step). Dampers act by -D u/dt, where u is the motion of B relative to A
-// at that point. A potential U (of depth or stretch) between the bodies acts by a mean force F̄, corrected
-// along u such that F·u = -ΔU (Gonzalez 1996):
+// defines the motion of a point in a step). With the motion u of B relative to A at that point, a damper
+// exerts the force -D u/dt. A potential U (of depth or stretch) exerts a mean force F̄, corrected along u
+// such that F·u = -ΔU (Gonzalez 1996):
 //   F = F̄ + (-ΔU - F̄·u) u/|u|²
 
 #include "slave/config/bodies_config.hpp"

@@ -30,9 +30,9 @@ struct SensorZero {
   /// Number of zeros: the first one, and one each time that the bias has drifted by the touch threshold.
   std::uint32_t count = 0;
   double bias_n = 0.0;     // magnitude of the bias at the last zero
-  double refused_n = 0.0;  // magnitude of a zero that is being refused; 0: none
+  double refused_n = 0.0;  // magnitude of the zero that is currently refused; 0: none
   double missing_m = 0.0;  // free motion that is still needed for the first zero; 0: it is complete
-  double drift_n = 0.0;    // standard deviation of the bias because of drift
+  double drift_n = 0.0;    // standard deviation of the bias due to drift
   double touch_n = 0.0;    // present touch threshold
   double noise_n = 0.0;    // measured noise of the filtered force along an axis; 0: unknown
   bool derived = false;    // false: the thresholds are configured
@@ -71,7 +71,7 @@ class BiasTracker {
   [[nodiscard]] double logged_n() const { return logged_n_.norm(); }
   [[nodiscard]] double refused_n() const { return refused_n_; }
   [[nodiscard]] double missing_m() const;
-  /// Standard deviation of the bias because of drift since it was last updated, N.
+  /// Standard deviation of the bias due to drift since its last update, N.
   [[nodiscard]] double uncertainty_n() const { return drift_n_ * std::sqrt(age_s_); }
 
  private:

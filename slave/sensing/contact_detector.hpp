@@ -3,13 +3,13 @@
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact starts when |f̄| > touch, ends when |f̄| < release
 // To prevent contacts caused by a noisy sensor, `touch` is at least 8 standard deviations of f̄ along an
 // axis, which are estimated from the third differences of the last 20 ms (difference_noise.hpp describes
-// their limitations). Noise does not end a contact, either. The direction of the force on the tool, which is
-// the outward normal of a frictionless wall, is
+// their limitations). Noise does not end a contact, either. The direction of the force on the tool is the
+// outward normal of a frictionless wall:
 //   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact
 // Above ten times the touch threshold, w falls as 1/|f̄|, so that an earlier large force does not hide the
 // present one. Before the first zero, a part u of the force may be the bias of the sensor. A force is then a
-// contact only if both
-// f̄ - u| and |f̄| exceed the threshold. A sample that is not finite is skipped and counted.
+// contact only if |f̄| and also |f̄ - u| exceed the threshold. A sample that is not finite is skipped and
+// counted.
 
 #include <array>
 #include <cstdint>

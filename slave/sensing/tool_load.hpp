@@ -77,8 +77,8 @@ class AccelerationPeak {
 /// Sample for identifying a load.
 struct LoadSample {
   bool free = false;  // there is no contact
-  // Pose of the sensor, for a motion from displacements: a reported speed may be the instantaneous speed of a
-  // servo that stops between two setpoints.
+  // Pose of the sensor. Its motion is computed from displacements, because a reported speed may be the
+  // instantaneous speed of a servo that stops between two setpoints.
   Pose X_WF{};
   double touch_n = 0.3;  // touch threshold
 };
