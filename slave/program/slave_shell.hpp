@@ -40,7 +40,7 @@ struct SlaveChange {
 struct SlaveRecordingChange {
   SlaveRecordBuffer* record_buffer = nullptr;
 };
-/// A master requests control of the robot. `take`: even if another master has it.
+/// A master requests control of the robot. `take`: take control even if another master has it.
 struct SlaveLease {
   Session session{};
   bool take = false;
