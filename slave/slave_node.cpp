@@ -19,8 +19,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kDtMax = 0.02;                         // a later tick moves no further than this
-constexpr double kReachedM = 1e-3, kReachedRad = 0.01;  // a goal counts as reached
+constexpr double kDtMax = 0.02;  // a later tick does not move farther than a tick of this duration
+constexpr double kReachedM = 1e-3, kReachedRad = 0.01;  // distance within which a goal counts as reached
 
 }  // namespace
 
@@ -72,7 +72,7 @@ struct SlaveNode::State {
   bool robot_ok = true;
   Pose X_WE_anchor{};
   double scale = 1.0;   // k_scale as last sent
-  bool let_go = false;  // likewise
+  bool let_go = false;  // as last sent
   Gripper gripper;
   double played_sequence = 0.0, played_turn_sequence = 0.0;
   std::uint64_t reached_sequence = 0;
@@ -136,7 +136,7 @@ bool SlaveNode::stalled(Time now, double send_hz) const {
   return state_->time.stalls(now, gap_s(state_->safety.config(), send_hz));
 }
 
-// True if a new engagement begins.
+// Returns true if a new engagement starts.
 bool SlaveNode::State::decide(const SlaveInput& input) {
   SlaveSafetyInput in;
   in.now = input.now;
@@ -161,7 +161,7 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
     const MotionCommand& command = received.message;
     const bool valid = possible(command);
     if (!valid) ++rejected_values;
-    // A stop is a stop, whatever else is wrong with the command.
+    // A stop is obeyed even if the rest of the command is invalid.
     if (!received.newest || ((!valid || in.stalled_since) && command.request != Request::kStop)) continue;
     in.commanded = true;
     in.engagement = command.engagement;
@@ -186,21 +186,21 @@ void SlaveNode::State::accept_robot(const RobotState& robot, Time now) {
   view.robot_seen = view.robot_seen || robot_ok;
 }
 
-// From the second tick on: the setpoint before has been written, and this is what became of it.
+// Compares the measured state with the setpoint of the previous tick.
 void SlaveNode::State::watch_robot(const RobotState& robot) {
   if (robot_ok)
     watch.step(robot, motion.joint_setpoint_rad(), authority.commands(), motion.at_rest(), 1.0 / loop_hz,
                time.stalled_since().has_value());
 }
 
-// Nobody commands the robot: what would be the setpoint is where it is.
+// The robot is not commanded, so the setpoint follows its measured position.
 void SlaveNode::State::follow(const RobotState& robot) {
   motion.reset(robot.joint_rad);
   lead.reset(motion.X_WE());
 }
 
-// By the nominal period, however late the tick is: the limits then hold from setpoint to setpoint, and what
-// was missed is caught up within them.
+// Moves by the nominal period even if the tick is late, so the limits hold from setpoint to setpoint, and the
+// missed motion is caught up within them.
 Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
   const bool brakes = safety.brakes() || sensing.plausibility().rests();
@@ -271,7 +271,7 @@ void SlaveNode::State::sense(Time now, double dt) {
   sensing.step(in);
 }
 
-// Not while it is stopped, not ok, or its sensor is not believed.
+// The guards may not move a robot that is stopped or not ok, or whose force sensor is faulty.
 bool SlaveNode::State::reflexes_move() const { return safety.follows() && robot_ok && sensing.ok(); }
 
 void SlaveNode::State::book_reached() {

@@ -1,6 +1,6 @@
 #pragma once
-// Messages of the slave and their timing: reports on change, otherwise as a heartbeat; telemetry at its own
-// rate. Messages beyond the budget of the link wait.
+// Messages of the slave and their timing: reports on every change and otherwise as a heartbeat, telemetry at
+// its own rate. Messages beyond the budget of the link are delayed.
 
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// A constant rate: late calls do not shift it, and missed ones do not accumulate.
+/// Schedule at a constant rate: late calls do not shift it, and missed ones do not accumulate.
 class SendSchedule {
  public:
   bool due(Time now, double rate_hz);
@@ -20,16 +20,16 @@ class SendSchedule {
   std::optional<Time> next_{};
 };
 
-/// The goals among which a touch is located.
+/// The played goals, among which the goal of a touch is located.
 struct PlayedGoals {
   const Playout& positions;
   const Playout& turns;
   Vector3 anchor_m;
-  double sequence, turn_sequence;  // as played
+  double sequence, turn_sequence;  // sequence numbers of the goals being played
 };
 
-/// A contact in translation or in rotation, with the position of the tool from the anchor and the direction
-/// in which a limit holds it back.
+/// A contact in translation or in rotation, the position of the tool relative to the anchor, and the
+/// direction in which a limit holds the tool back.
 struct ContactAtPlace {
   SlaveContact& contact;
   Vector3 place, held_back;
@@ -41,11 +41,11 @@ class SlaveReports {
   explicit SlaveReports(const SlaveLinkConfig& link) : link_(link) {}
   void configure(const SlaveLinkConfig& link) { link_ = link; }
 
-  /// The haptic message, if it is due. Uses state, cause and engagement of `view`.
+  /// Adds the stiffness report to `output` if one is due. Uses state, cause and engagement of `view`.
   void report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
               const PlayedGoals& goals, const ContactAtPlace& translation, const ContactAtPlace& rotation,
               SlaveOutput& output);
-  /// For display and log, if it is due.
+  /// Adds the telemetry, for display and log, to `output` if it is due.
   void telemetry(const SlaveInput& input, const SlaveView& view, bool robot_ok, double penetration_m,
                  SlaveOutput& output);
 
@@ -57,7 +57,8 @@ class SlaveReports {
   Time reported_at_{};
   SendSchedule telemetry_;
   std::uint64_t telemetry_sequence_ = 0;
-  Clamps clamps_{};  // since the last telemetry
+  /// Limits that were active since the last telemetry.
+  Clamps clamps_{};
 };
 
 }  // namespace longreach

@@ -89,7 +89,8 @@ SensorZero SlaveSensing::sensor_zero() const {
           .noisy = threshold_.derived() && touch_n > touch_bound_n_};
 }
 
-// A wrong sign still presses on the guard; what is wrong in itself may be believed anew when it is right.
+// After a wrong sign, the present force still acts on the guard but is not a surface. After an impossible
+// reading, the detection restarts and accepts the force again once it is possible.
 void SlaveSensing::forget_lies() {
   for (SlaveContact* contact : {&contact_, &turn_contact_}) {
     if (!ok_) contact->restart();
@@ -113,7 +114,7 @@ void SlaveSensing::step(const SensingInput& in) {
     turn_contact_.step({turn, V_WE_.angular, moment_nm, in.played_turn_sequence, in.scale, in.dt,
                         in.clamps.moment_guard, load_.uncertainty_nm(), Vector3::Zero(), in.news_age_s});
   }
-  // Between engagements the zero is renewed.
+  // The zero is updated between engagements.
   if (in.state == SafetyState::kEngaged || !free()) return load_.abandon();
   if (!load_.zeroing()) load_.zero();
 }

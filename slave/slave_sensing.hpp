@@ -1,8 +1,8 @@
 #pragma once
-// Processing of the robot's force sensor: each sample is checked (sensor_watch.hpp), tool, load and bias are
-// compensated (tool_load.hpp), contacts are detected in the remainder (contact.hpp), and the plausibility of
-// the force is monitored (force_plausibility.hpp). If a sensor fault is detected, the surfaces from its force
-// are discarded.
+// Processes the samples of the robot's force sensor. Each sample is checked (sensor_watch.hpp). Tool, load
+// and bias are compensated (tool_load.hpp), contacts are detected in the remainder (contact.hpp), and the
+// plausibility of the force is monitored (force_plausibility.hpp). If a sensor fault is detected, the
+// surfaces that were identified from its force are discarded.
 
 #include <optional>
 
@@ -17,15 +17,16 @@
 
 namespace longreach {
 
-/// Conditions of the measurement.
+/// Conditions under which the force is measured.
 struct SensingInput {
   SafetyState state = SafetyState::kIdle;
-  bool let_go = false;  // no hand is on the handle
+  bool let_go = false;  // the operator has released the handle
   bool still = false;   // the setpoint is at rest, and the tool has reached it
-  double scale = 1.0;   // k_scale as last sent
+  double scale = 1.0;   // k_scale, as last received
   double played_sequence = 0.0, played_turn_sequence = 0.0;
-  double news_age_s = 0.0;  // age of the operator's information about this side when the goal was commanded
-  Clamps clamps{};          // of the last step
+  /// Age of the operator's information about the slave when the goal was commanded, s.
+  double news_age_s = 0.0;
+  Clamps clamps{};  // limits that were active in the last step
   Quaternion q_anchor = Quaternion::Identity();
   double dt = 0.0;  // s
 };
@@ -36,28 +37,31 @@ class SlaveSensing {
   void configure(const SlaveConfig& config);
 
   /// Checks the state of the robot before it is used. A sample that repeats the previous one while the arm
-  /// moves is ignored.
+  /// moves is ignored. `may_hold`: the gripper may hold a load.
   void update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now);
   void step(const SensingInput& input);
-  /// Starts an engagement; `q_before` is the previous reference of rotations.
+  /// Starts an engagement. `q_before`: previous reference of rotations, `q_anchor`: the new one.
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
+  /// Starts zeroing the sensor.
   void zero() { load_.zero(); }
-  /// Zeros and thresholds, for status and log.
+  /// Returns zero and thresholds, for status and log.
   [[nodiscard]] SensorZero sensor_zero() const;
 
   [[nodiscard]] bool ok() const { return ok_; }
+  /// The first zeroing is complete.
   [[nodiscard]] bool ready() const { return load_.ready(); }
   [[nodiscard]] bool free() const { return !contact_.in_contact() && !turn_contact_.in_contact(); }
   [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }  // measured
-  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }   // without tool, load and bias
+  /// Measured wrench without the effect of tool, load and bias.
+  [[nodiscard]] const Wrench& F_E_W() const { return F_E_W_; }
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
   [[nodiscard]] const ForcePlausibility& plausibility() const { return plausibility_; }
   SlaveContact& contact() { return contact_; }
-  /// positions are rotation vectors from the anchor, in W
+  /// Contact by rotation; its positions are rotation vectors from the anchor, in W.
   SlaveContact& turn_contact() { return turn_contact_; }
 
-  /// Information for the guards about force and moment. `moves`: the guards may move the robot; otherwise
-  /// they receive no force.
+  /// Return the inputs of the force guard and of the moment guard. `moves`: the guards may move the robot;
+  /// otherwise the force is set to zero.
   [[nodiscard]] ContactForce pressed(const SetpointLead& lead, bool moves) const;
   [[nodiscard]] ContactForce turned(const SetpointLead& lead, bool moves) const;
 
@@ -67,8 +71,10 @@ class SlaveSensing {
   void derive(double elapsed_s);
 
   double loop_hz_;
-  double touch_bound_n_;  // that the checks of the guards use
-  NeedsConfig needs_;     // components of contact, sensor and estimator that are not needed are absent
+  /// Touch threshold that the checks of the guards use.
+  double touch_bound_n_;
+  /// Components that the scene needs; the others do not run.
+  NeedsConfig needs_;
   SensorWatch watch_;
   ForcePlausibility plausibility_;
   ToolCompensation load_;
@@ -76,13 +82,13 @@ class SlaveSensing {
   SlaveContact contact_;
   SlaveContact turn_contact_;
 
-  RobotState before_{};  // its last new sample
+  RobotState before_{};  // last new sample
   std::optional<Time> sampled_at_{};
   ToolKinematics tool_{};
   Twist V_WE_{};
   Wrench F_E_W_{};
   bool ok_ = true;
-  bool zeroed_ = false;  // the contact knows of the first zero
+  bool zeroed_ = false;  // the first zero was subtracted from the contact force
 };
 
 }  // namespace longreach

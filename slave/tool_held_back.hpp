@@ -1,6 +1,6 @@
 #pragma once
-// Detects what keeps the tool from its goal (held_back.hpp), in position and rotation: which limit acts, and
-// its direction if it is a single limit.
+// Detects whether a limit keeps the tool from its goal (held_back.hpp), in position and in rotation, and the
+// direction of the limit if only one is active.
 
 #include "slave/command/held_back.hpp"
 #include "slave/estimation/contact.hpp"
@@ -36,12 +36,13 @@ class ToolHeldBack {
                log_rotation(in.X_WE_goal.q * in.X_WE.q.conjugate()), arm || clamps.moment_guard, about,
                in.dt);
   }
-  /// For each: unit, in W, towards the goal; zero: no limit holds the tool back.
+  /// Directions for position and rotation: unit vector in W towards the goal; zero: no limit holds the tool
+  /// back.
   [[nodiscard]] const Vector3& place() const { return place_.direction(); }
   [[nodiscard]] const Vector3& turn() const { return turn_.direction(); }
 
  private:
-  /// distance from its goal in m and rad above which the tool is held back
+  /// Distance from the goal, in m and in rad, above which the tool counts as held back.
   HeldBack place_{2e-3}, turn_{0.02};
 };
 

@@ -7,15 +7,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kBleed_s = 0.2;     // τ: of a servo's lag and a loop's delay many times
-constexpr double kHoldAim = 0.95;    // of the hold limit, so that it is met within five τ
-constexpr double kSofter = 0.1;      // of a known stiffness, that a contact may seem to have
-constexpr double kPushedIn = 1.35;   // of the guard, which does not let it come to more by itself,
-constexpr double kPushedIn_s = 1.0;  // and brings a force down sooner if its stiffness is as identified
-constexpr double kUnseen = 0.02;     // of a force: what of its fall may not be seen yet
-constexpr double kBraking = 0.8;     // of the acceleration, for the end of the way
-constexpr double kQuiet_s = 0.05;    // below the guard: the force has gone
-constexpr double kAlong = 0.3;       // cosine: not across
+constexpr double kBleed_s = 0.2;     // τ, many times the lag of a servo and the delay of a loop
+constexpr double kHoldAim = 0.95;    // of the hold limit, so that the force is below the limit within five τ
+constexpr double kSofter = 0.1;      // of a known stiffness: minimum stiffness that the force may show
+constexpr double kPushedIn = 1.35;   // of the guard: a force that the guard alone never permits
+constexpr double kPushedIn_s = 1.0;  // and that would decrease sooner if the stiffness were as identified
+constexpr double kUnseen = 0.02;     // of a force: decrease that may not be measurable yet
+constexpr double kBraking = 0.8;     // of the acceleration, for stopping when the retreat distance is used up
+constexpr double kQuiet_s = 0.05;    // time below the guard after which the force counts as gone
+constexpr double kAlong = 0.3;       // cosine of a direction that is not perpendicular
 
 }  // namespace
 
@@ -35,7 +35,8 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
   if (!contact.in_contact) return cap;
   cap.active = true;
   cap.direction = -contact.reaction;
-  // In braking distances of the stiffest surface: what is left, or what is too much of what is still coming.
+  // Distances for the stiffest surface: the remaining one or, beyond the guard, the part of the lead that is
+  // too much.
   const double k = limits_.stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
   const double left_m = (limits_.guard_n - contact.force_n) / k - coming_m;
   const double speed = braking(left_m, coming_m);
@@ -50,7 +51,7 @@ double ContactGuard::braking(double left_m, double coming_m) const {
                    std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
 }
 
-// Whatever the sensor says of the direction.
+// Limits the speed regardless of the direction that the sensor reports.
 VelocityCap ContactGuard::growth(const ContactForce& contact) const {
   VelocityCap cap;
   const bool grows = !contact.grows.isZero(0.0), elsewhere = !contact.elsewhere.isZero(0.0);
@@ -69,7 +70,7 @@ bool ContactGuard::advanced(const ContactForce& contact, const Vector3& v, bool 
   const bool in = v.dot(contact.reaction) < 0.0;
   if (capped || in) give_way(contact, v, dt);
   if (!(contact.force_n > limits_.guard_n || contact.gives_way)) return false;
-  // An operator who retreats by himself is not held up.
+  // A retreat by the operator is not stopped.
   return !retreat_budget_.may_go_on() && (capped || !(v.dot(contact.reaction) > 0.0));
 }
 
@@ -83,7 +84,7 @@ bool ContactGuard::backed_off(const ContactForce& contact, const Vector3& v, dou
   if (backs_off_) back_ = contact.reaction;
   if (!backs_off_ && !(v.dot(back_) > 0.0)) back_.setZero();
   if (back_.isZero(0.0)) return false;
-  // What it goes on while it brakes counts, too.
+  // The motion while the tool brakes also counts.
   retreat_budget_.go(v.dot(back_) * dt, contact.force_n, dt, contact.trend_n_per_s);
   return backs_off_ && !retreat_budget_.may_go_on();
 }
@@ -92,20 +93,20 @@ void ContactGuard::give_way(const ContactForce& contact, const Vector3& v, doubl
   retreat_budget_.go(v.dot(contact.reaction) * dt, contact.force_n, dt, contact.trend_n_per_s);
 }
 
-// Speed from which it can still end within what is left of its way.
+// Speed from which the tool can stop within the remaining retreat distance.
 double ContactGuard::give_way_max(const ContactForce& contact) const {
   if (!contact.trusted || contact.grows.dot(contact.reaction) > kAlong) return 0.0;
   const double left_m = retreat_budget_.may_go_on() ? retreat_budget_.left_m() : 0.0;
   return std::sqrt(kBraking * 2.0 * limits_.acceleration_m_per_s2 * left_m);
 }
 
-// In contact, the speed out of it that eases what is above the limit; 0: nothing is.
+// Returns the speed out of the contact that reduces a force above the limit; 0 if the force is below it.
 double ContactGuard::bleed_off(const ContactForce& contact, double limit_n) const {
   if (!(contact.force_n > limit_n)) return 0.0;
   return std::min((contact.force_n - limit_n) / (seen_n_per_m_ * kBleed_s), limits_.speed_m_per_s);
 }
 
-// Likewise in a hold.
+// The same in a hold.
 double ContactGuard::hold_off(const ContactForce& contact, const Vector3& p) {
   const double aim_n = kHoldAim * limits_.hold_n;
   const double k = contact.stiffness_n_per_m;
@@ -113,8 +114,9 @@ double ContactGuard::hold_off(const ContactForce& contact, const Vector3& p) {
   return bleed_ ? bleed_off(contact, aim_n) : 0.0;
 }
 
-// The stiffness that the force shows as the tool goes back: not known at a first touch, far too great where
-// the tool was pushed in, less than the surface's where the robot gives way, too.
+// Estimates the stiffness from the decrease of the force during a retreat. The identified stiffness is
+// unknown at a first touch, far too great if the tool was pushed into the surface, and greater than the
+// effective one if the robot yields, too.
 void ContactGuard::watch_bleed(const ContactForce& contact, const Down& down, const Vector3& p) {
   const bool known = contact.stiffness_n_per_m > 0.0;
   const double k = known ? contact.stiffness_n_per_m : limits_.stiffness_n_per_m;

@@ -1,18 +1,27 @@
 #pragma once
-// The guard of the force or moment of a contact:
-//   in contact, the speed into the contact is at most √(2 a r), r = (G - F)/k_max - l, where l is the lead of
-//   the setpoint over the tool by the lag of the servo; for r < 0 the setpoint turns back, at up to
-//   √(2 a min(-r, l)), while the tool only advances less; outward motion is free. From F = G on the setpoint
-//   retreats at (F - G)/(k τ), where k is the known stiffness of the contact, else k_max, or after a second
-//   far above G the stiffness that the force shows: the force falls to G with the time constant τ, and the
-//   contact is kept. Without a goal, as in a hold, it retreats down to the hold limit, within 1 s as far as
-//   speed and acceleration permit; k is then the observed stiffness. The retreat ends where the force does not
-//   respond to it (retreat_budget.hpp). If the force was observed to grow in a direction other than into the
-//   contact, the speed in that direction is bounded in the same way, and the tool does not retreat along it;
-//   otherwise the speed against a force far from the direction of the contact is bounded.
-// For a moment, positions are rotation vectors, N are N m, m are rad. With speed w on stiffness k <= k_max,
-// and the time τ_d from the moment to the setpoint, the guard is exceeded by at most k w τ_d; for k > k_max,
-//   k (w τ_d + w²/(2 a)).
+// Guards the force or the moment of a contact: the tool advances only while the contact force F is below the
+// guard G, and it retreats while F exceeds G.
+//
+// With a goal, the speed into the contact is at most √(2 a r) with r = (G - F)/k_max - l, where l is the
+// distance by which the setpoint leads the tool because of the servo lag. For r < 0 the setpoint moves back
+// at up to √(2 a min(-r, l)); this only shortens the advance of the tool. Motion out of the contact is not
+// limited.
+//
+// For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
+// the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.
+// After the force has been far above G for a second, k is estimated from the decrease of the force.
+//
+// Without a goal, for example in a hold, the setpoint retreats until F has reached the hold limit. This takes
+// at most 1 s if the limits of speed and acceleration permit; k is again estimated from the decrease of the
+// force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
+//
+// If the force grew in a direction other than into the contact, the speed in that direction is limited in the
+// same way, and the tool does not retreat in that direction. Otherwise, if the force points far away from the
+// direction of the contact, the speed against the force is limited.
+//
+// For a moment, positions are rotation vectors, and N and m stand for N m and rad. At the speed w into a
+// stiffness k up to k_max, F exceeds G by at most k w τ_d, where τ_d is the delay from the force to the
+// setpoint; for a stiffer contact by at most k (w τ_d + w²/(2 a)).
 
 #include <optional>
 
@@ -21,40 +30,46 @@
 
 namespace longreach {
 
-/// Information of the guard about the contact.
+/// What the guard needs to know about the contact.
 struct ContactForce {
   bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();  // unit, direction of the force on the tool
-  double force_n = 0.0;                // measured along it
-  double stiffness_n_per_m = 0.0;      // as identified; 0: unknown
-  double lead_m = 0.0;  // lead of the setpoint into the contact, which the lag of the servo has yet to add
-  Vector3 grows = Vector3::Zero();  // unit, direction in which the force grows unexpectedly; zero: none
-  double grows_lead_m = 0.0;        // lead of the setpoint in that direction
-  /// unit, direction of the whole force if it is far from `reaction`, and
+  Vector3 reaction = Vector3::Zero();  // unit vector, direction of the force on the tool
+  double force_n = 0.0;                // component of the force along `reaction`
+  double stiffness_n_per_m = 0.0;      // identified stiffness; 0: unknown
+  /// Distance that the tool will still move into the contact because the servo lags the setpoint.
+  double lead_m = 0.0;
+  /// Unit vector, direction in which the force grows unexpectedly; zero: none.
+  Vector3 grows = Vector3::Zero();
+  double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
+  /// Unit vector, direction of the whole force, and its magnitude, if it is far from `reaction`; otherwise
+  /// zero.
   Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;
-  double elsewhere_lead_m = 0.0;  // lead of the setpoint against it
-  bool trusted = true;            // false: the tool does not retreat
-  double ease_m_per_s = 0.0;      // speed of a retreat without a goal, to test the response of the force
-  bool gives_way = false;  // retreat from a force that grows at rest (force_answer.hpp), at this speed:
+  double elsewhere_lead_m = 0.0;  // lead of the setpoint against the force `elsewhere`
+  bool trusted = true;            // false: the force is in doubt, and the tool does not retreat
+  /// Speed of a retreat without a goal that tests whether the force responds.
+  double ease_m_per_s = 0.0;
+  /// The tool retreats from a force that grows at rest (force_answer.hpp), with the speed `retreat_m_per_s`.
+  bool gives_way = false;
   double retreat_m_per_s = 0.0;
-  bool gave_way = false;  // at any time in this contact: the retreat distance counts until the contact ends
-  double trend_n_per_s = 0.0;  // rate of growth at rest
+  /// `gives_way` was true in this contact, so the retreat distance counts until the contact ends.
+  bool gave_way = false;
+  double trend_n_per_s = 0.0;  // rate at which the force grows at rest
 };
 
 struct GuardLimits {
   double guard_n = 20.0;           // G
-  double hold_n = 10.0;            // hold limit
+  double hold_n = 10.0;            // limit of the force in a hold
   double stiffness_n_per_m = 2e4;  // k_max
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a
   double give_way_m = 1e9;              // maximum retreat distance
 };
 
-/// Parameters that differ between force and moment.
+/// Parameters whose values differ between a force and a moment.
 struct GuardScale {
-  double seen_n = 0.5;          // above the sensor noise
-  double soft_n_per_m = 100.0;  // minimum assumed for a contact of unknown stiffness
+  double seen_n = 0.5;          // decrease of the force that noise may hide
+  double soft_n_per_m = 100.0;  // minimum stiffness assumed for an unidentified contact
   RetreatBounds retreat_budget{};
 };
 inline constexpr GuardScale kForceScale{};
@@ -64,39 +79,41 @@ class ContactGuard {
  public:
   explicit ContactGuard(const GuardScale& scale) : scale_(scale), retreat_budget_(scale.retreat_budget) {}
 
-  /// Limits for the following calls.
+  /// Sets the limits for the following calls.
   void limit(const GuardLimits& limits) {
     limits_ = limits;
     retreat_budget_.limit(limits.give_way_m);
   }
-  /// Starts an engagement, which restores the retreat distance.
+  /// Starts an engagement, which resets the retreat distance and the observed stiffness.
   void renew() {
     retreat_budget_.reset();
     bleed_.reset();
   }
 
-  /// Towards a goal; first call of a step, with the setpoint at `p`.
+  /// First call of a step with a goal; `p` is the position of the setpoint.
   void approach(const ContactForce& contact, const Vector3& p, double dt);
+  /// Speed limit along the direction of the contact; negative if the setpoint must retreat.
   [[nodiscard]] VelocityCap cap(const ContactForce& contact) const;
+  /// Speed limit in the direction in which the force grows unexpectedly, or against the `elsewhere` force.
   [[nodiscard]] VelocityCap growth(const ContactForce& contact) const;
-  /// Second call, with the velocity of the setpoint, `capped` by cap(). Returns true if the tool would
-  /// retreat, but the force has not responded.
+  /// Second call of a step with a goal. `v` is the velocity of the setpoint; `capped`: cap() limited it.
+  /// Returns true if the retreat distance is used up and the force has not responded to the retreat.
   bool advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt);
 
-  /// Without a goal: returns the target velocity of the setpoint, now at `p`.
+  /// First call of a step without a goal; `p` is the position of the setpoint. Returns its target velocity.
   Vector3 back_off(const ContactForce& contact, const Vector3& p);
-  /// Second call, with the actual velocity. Returns the same.
+  /// Second call of a step without a goal; `v` is the actual velocity. Returns the same as advanced().
   bool backed_off(const ContactForce& contact, const Vector3& v, double dt);
 
  private:
-  /// A reduction of the force: from, to.
+  /// Reduction of the force: it begins above `from_n` and ends at `to_n`.
   struct Down {
     double from_n, to_n;
-    double least_n_per_m;  // minimum stiffness that the contact may seem to have
+    double least_n_per_m;  // lower bound on the observed stiffness
   };
   struct Bleed {
     double from_n, to_n;
-    Vector3 from;  // tool
+    Vector3 from;  // position of the tool when the reduction began
   };
   [[nodiscard]] double bleed_off(const ContactForce& contact, double limit_n) const;
   [[nodiscard]] double hold_off(const ContactForce& contact, const Vector3& p);
@@ -110,10 +127,11 @@ class ContactGuard {
   RetreatBudget retreat_budget_;
   std::optional<Bleed> bleed_{};
   double pushed_in_s_ = 0.0;
-  double seen_n_per_m_ = 0.0;       // while the tool retreats
-  bool backs_off_ = false;          // in a hold, in this step
-  Vector3 back_ = Vector3::Zero();  // unit: direction of the retreat, or of braking after it
-  double stable_s_ = 0.0;           // below the guard
+  double seen_n_per_m_ = 0.0;  // stiffness used for the speed of the retreat
+  bool backs_off_ = false;     // the tool retreats without a goal in this step
+  /// Unit vector, direction of the retreat and of the braking after it; zero: neither.
+  Vector3 back_ = Vector3::Zero();
+  double stable_s_ = 0.0;  // how long the force has been below the guard, s
 };
 
 }  // namespace longreach

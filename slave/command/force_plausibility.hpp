@@ -1,9 +1,10 @@
 #pragma once
-// Checks whether the force is plausible while the tool presses. If it grows while the setpoint is at rest,
-// the robot retreats, and the response of the force decides (force_answer.hpp). If it is near its bound and
-// grows unexpectedly (growth_watch.hpp), a test starts (force_sign_test.hpp), during which the robot rests. A
-// growth across the force that a surface stiffer than command.guard_stiffness_n_per_m could cause starts no
-// test; the guard still bounds the speed along it (goal_limiter.hpp).
+// Checks whether the measured force is plausible while the tool presses. If the force grows while the
+// setpoint is at rest, the robot retreats, and the response of the force is evaluated (force_answer.hpp). If
+// the force is close to its limit and grows unexpectedly (growth_watch.hpp), a test starts, during which the
+// robot rests (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface stiffer
+// than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that direction
+// (contact_guard.hpp).
 
 #include "common/link/stiffness_report.hpp"
 #include "slave/command/goal_limiter.hpp"
@@ -19,7 +20,7 @@ class ForcePlausibility {
  public:
   struct Robot {
     SafetyState state;
-    bool let_go = false;  // no hand is on the handle
+    bool let_go = false;  // the operator has released the handle
     bool still = false;   // the setpoint is at rest, and the tool has reached it
   };
 
@@ -30,14 +31,14 @@ class ForcePlausibility {
     growth_.configure(bounds(sensing, command));
     answer_.configure(limits(sensing, command));
   }
-  /// Starts an engagement.
+  /// Discards all observations at the start of an engagement.
   void reset() {
     growth_.reset();
     sign_test_.reset();
     answer_.reset();
   }
 
-  /// One tick with the measured force and the force used by the guard.
+  /// Processes one tick; `felt` is the measured force, `force` the one that the guard uses.
   void step(GrowthSample felt, const ContactForce& force, const Robot& robot) {
     felt.trend_n_per_s = answer_.trend_n_per_s();
     growth_.step(felt);
@@ -58,14 +59,17 @@ class ForcePlausibility {
     if (doubted && !rests()) growth_.forget();
   }
 
+  /// The robot must rest, because the force is being tested or was found to be wrong.
   [[nodiscard]] bool rests() const {
     return answer_.rests() || sign_test_.verdict() != ForceSignTest::Verdict::kNone;
   }
+  /// The force grows along a motion that should reduce it: the sign or the frame of the sensor is wrong.
   [[nodiscard]] bool wrong_sign() const {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
            sign_test_.verdict() == ForceSignTest::Verdict::kSign;
   }
-  /// The force has responded to the retreat: a surface is approaching, and this is the direction of retreat.
+  /// Reports an approaching surface, and the axis of the retreat from it, after the force has responded to a
+  /// retreat. Otherwise returns no reason.
   [[nodiscard]] Reason comes(const Vector3& reaction) const {
     if (!answer_.answered()) return {};
     Eigen::Index axis = 0;
@@ -73,10 +77,11 @@ class ForcePlausibility {
     const double along = static_cast<double>(axis + 1);
     return {HoldCause::kWallComes, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
   }
+  /// The test showed that the force grows independently of the motion of the robot.
   [[nodiscard]] bool force_persists() const {
     return sign_test_.verdict() == ForceSignTest::Verdict::kForcePersists;
   }
-  /// Adds the result for the guard.
+  /// Adds the results to `force`, the input of the guard; `lead_m` is the lead of the setpoint over the tool.
   void report(ContactForce& force, const Vector3& lead_m) const {
     force.grows = growth_.direction();
     force.grows_lead_m = force.grows.dot(lead_m);
@@ -89,11 +94,15 @@ class ForcePlausibility {
   }
 
  private:
-  /// of the guard or hold limit: retreat from a force that grows at rest
+  /// Fraction of the guard, or of the hold limit, at which the tool starts to retreat from a force that grows
+  /// at rest.
   static constexpr double kGiveWay = 0.8;
-  static constexpr double kNear = 0.9;       // of the guard, or of the target of a hold
-  static constexpr double kLately_s = 0.05;  // a growth that still continues
-  static constexpr double kHeld_s = 1.0;     // likewise, before the hold in which the robot rests
+  /// Fraction of the guard above which unexpected growth starts a test while the robot is engaged.
+  static constexpr double kNear = 0.9;
+  /// Maximum age of a growth that still counts as continuing.
+  static constexpr double kLately_s = 0.05;
+  /// The same in a hold, where the robot is at rest and no new growth can be observed.
+  static constexpr double kHeld_s = 1.0;
 
   static GrowthBounds bounds(const SensingConfig& sensing, const CommandConfig& command) {
     return {command.guard_stiffness_n_per_m, sensing.force_noise_n, sensing.bandwidth_hz};

@@ -10,8 +10,8 @@ Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
   return log_rotation(to * from.conjugate());
 }
 
-// The goal's velocity moves towards what was seen by no more than the limits: a jump of the goal is not a
-// velocity.
+// The velocity of the goal moves towards the observed one by no more than the limits permit: a jump of the
+// goal is not a velocity.
 Vector3 accept(const Vector3& before, const Vector3& seen, const VectorLimits& limits) {
   return before + clamp_norm(clamp_norm(seen, limits.speed) - before, limits.acceleration * limits.dt);
 }
@@ -85,7 +85,7 @@ void GoalLimiter::move(double dt) {
   turned_rad_ += V_WE_.angular * dt;
 }
 
-// True: the tool would give way, but the force or the moment has not answered.
+// Returns true if the retreat distance is used up and the force or the moment has not responded.
 bool GoalLimiter::brake(const LimiterInput& input) {
   Vector3 back = force_.back_off(input.contact, X_WE_.p);
   const VelocityCap edge = workspace(input.dt);
@@ -119,7 +119,7 @@ void GoalLimiter::observe_goal(const Pose& goal, double dt) {
   X_WE_goal_ = goal;
 }
 
-// Outwards, the tool can always stop at the sphere, whatever its goal did on the way.
+// Limits the outward speed such that the tool can always stop at the sphere, whatever the goal did before.
 VelocityCap GoalLimiter::workspace(double dt) const {
   VelocityCap cap;
   const Vector3 from_centre = X_WE_.p - centre_m_;

@@ -1,10 +1,10 @@
 #pragma once
-// Converts the goal of the operator to a setpoint pose that the robot can follow: limits speed and
-// acceleration of the tool in translation and rotation, a workspace sphere about the start of the tool, and
-// applies the guards of force and moment in contact (contact_guard.hpp). While the handle is released these
-// are the hold limits.
-// A still goal is reached without overshoot; a goal within the limits is followed exactly, without lag. Every
-// active limit is reported. A goal that is not finite counts as no goal: the tool brakes.
+// Converts the operator's goal to a setpoint pose that the robot can follow. It limits the speed and
+// acceleration of the tool in translation and rotation, keeps the tool in a sphere about its start pose (the
+// workspace), and applies the force and moment guards in contact (contact_guard.hpp). While the handle is
+// released, the guards use the hold limits. A goal at rest is reached without overshoot; a goal that moves
+// within the limits is followed exactly, without lag. Every active limit is reported. A goal that is not
+// finite is treated as no goal, so the tool brakes.
 
 #include <optional>
 
@@ -15,21 +15,22 @@
 namespace longreach {
 
 struct LimiterInput {
-  /// none: brake within the limits and stay, except for the retreat of a guard
+  /// None: the tool brakes within the limits and stays, unless a guard makes it retreat.
   std::optional<Pose> X_WE_goal{};
   ContactForce contact{};
   double dt = 0.0;        // s, > 0
-  bool let_go = false;    // no hand is on the handle: the guard is the hold limit
-  ContactForce moment{};  // of a contact by rotation: N are N m, m are rad
+  bool let_go = false;    // the operator has released the handle: the guards use the hold limits
+  ContactForce moment{};  // contact by rotation: N and m stand for N m and rad
 };
 
 struct LimiterOutput {
-  Pose X_WE{};                // setpoint
-  bool tool_speed = false;    // kept the setpoint from its goal
-  bool acceleration = false;  // likewise
+  Pose X_WE{};              // setpoint
+  bool tool_speed = false;  // true for each limit that kept the setpoint from its goal
+  bool acceleration = false;
   bool workspace = false;
   bool force_guard = false;
-  bool force_persists = false;  // the tool would retreat, but the force or the moment has not responded
+  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
+  bool force_persists = false;
   bool moment_guard = false;
 };
 
@@ -40,12 +41,13 @@ class GoalLimiter {
 
   void configure(const CommandConfig& config) { config_ = config; }
 
-  /// Starts at rest.
+  /// Restarts with the setpoint at rest at `X_WE`.
   void reset(const Pose& X_WE);
-  /// The robot could only be commanded to `X_WE` instead of the last setpoint, `dt` after the previous one.
+  /// Replaces the last setpoint by `X_WE` because the joints cannot reach that setpoint; `dt` is the time
+  /// since the previous one, s.
   void correct(const Pose& X_WE, double dt);
 
-  /// Starts an engagement, which restores the retreat distance.
+  /// Starts an engagement, which resets the retreat distances.
   void renew() {
     force_.renew();
     moment_.renew();
@@ -53,13 +55,13 @@ class GoalLimiter {
 
   LimiterOutput step(const LimiterInput& input);
 
-  [[nodiscard]] const std::optional<Pose>& goal() const {
-    return X_WE_goal_;
-  }  // of the last step, in the workspace
+  /// Of the last step, moved into the workspace.
+  [[nodiscard]] const std::optional<Pose>& goal() const { return X_WE_goal_; }
+  /// `p_WE` is in the workspace, or at most `margin_m` outside it.
   [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
     return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
   }
-  [[nodiscard]] const Vector3& centre_m() const { return centre_m_; }  // of the workspace
+  [[nodiscard]] const Vector3& centre_m() const { return centre_m_; }  // centre of the workspace, in W
   [[nodiscard]] const Pose& setpoint() const { return X_WE_; }
   [[nodiscard]] const Twist& velocity() const { return V_WE_; }
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
@@ -75,12 +77,12 @@ class GoalLimiter {
   CommandConfig config_;
   Vector3 centre_m_;
   Pose X_WE_{};
-  Pose X_WE_before_{};               // previous step
-  Twist V_WE_{};                     // of the setpoint
-  std::optional<Pose> X_WE_goal_{};  // of the previous step
+  Pose X_WE_before_{};               // setpoint of the previous step
+  Twist V_WE_{};                     // velocity of the setpoint
+  std::optional<Pose> X_WE_goal_{};  // goal of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
   Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
-  Twist V_WE_goal_{};                     // as far as the limits permit
+  Twist V_WE_goal_{};                     // velocity of the goal, limited like that of the tool
 };
 
 }  // namespace longreach

@@ -1,8 +1,8 @@
 #pragma once
-// Detects that a limit other than speed keeps the tool from its goal: the played goal has been farther from
-// the tool than `least` along the direction of the limit for 0.1 s while the limit was active and the tool
-// was at rest, which is not the case where the guard only slows it down. One instance for the position of the
-// tool (m), one for its rotation (rad).
+// Detects that a limit other than a speed limit keeps the tool from its goal: for 0.1 s the limit was active,
+// the tool was at rest along the direction of the limit, and the played goal was farther from it than `least`
+// in that direction. A tool that the guard only slows down is not at rest. One instance handles the position
+// of the tool (m), another handles its rotation (rad).
 
 #include <cmath>
 #include <optional>
@@ -17,9 +17,9 @@ class HeldBack {
 
   void reset() { *this = HeldBack(least_); }
 
-  /// `place`: position of the tool, relative to any fixed point; `missing`: from it to the goal, in W, m or
-  /// rotation vector; `limited`: such a limit is active in this tick; `along`: unit direction of the limit;
-  /// zero if unknown: towards the goal.
+  /// `place`: position of the tool, relative to any fixed point. `missing`: vector from the tool to its goal
+  /// in W, m or a rotation vector. `limited`: such a limit is active in this tick. `along`: unit direction of
+  /// the limit, or zero if it is unknown; the direction to the goal is then used.
   void step(const Vector3& place, const Vector3& missing, bool limited, const Vector3& along, double dt) {
     constexpr double kAfter_s = 0.1, kRemember_s = 0.05, kMean_s = 0.05;
     limited_s_ = limited ? kRemember_s : limited_s_ - dt;
@@ -33,15 +33,16 @@ class HeldBack {
     direction_ = far_s_ >= kAfter_s ? towards : Vector3::Zero();
   }
 
-  /// Unit, in W, towards the goal; zero: no limit holds the tool back.
+  /// Unit vector in W towards the goal; zero: no limit holds the tool back.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
 
  private:
-  static constexpr double kStands_share_per_s = 2.0;  // of `least`: 4 mm/s
+  /// Maximum speed of a tool at rest, in multiples of `least` per second: 4 mm/s for 2 mm.
+  static constexpr double kStands_share_per_s = 2.0;
 
   double least_;
   std::optional<Vector3> place_{};
-  Vector3 velocity_ = Vector3::Zero();  // of the tool, smoothed
+  Vector3 velocity_ = Vector3::Zero();  // low-pass filtered velocity of the tool
   double far_s_ = 0.0, limited_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();
 };

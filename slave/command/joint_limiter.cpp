@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kAlike = 0.5;  // of the acceleration, in what braking alike is counted on
+constexpr double kAlike = 0.5;  // of the acceleration, available for braking together
 
 }  // namespace
 
@@ -73,7 +73,7 @@ JointsLimited JointLimiter::step(const JointVector& wanted_rad, const ToolBound&
 }
 
 bool JointLimiter::reaches(const JointVector& wanted_rad, double dt) const {
-  constexpr double kSlowShare = 0.3;  // of the speed: no pose turns the tool quickly then
+  constexpr double kSlowShare = 0.3;  // of the speed: in no pose the tool then turns quickly
   const JointVector rad_per_s = (wanted_rad - path_rad_) / dt;
   for (int i = 0; i < kMaxJoints; ++i) {
     const Joint& j = joint_[static_cast<std::size_t>(i)];
@@ -83,7 +83,7 @@ bool JointLimiter::reaches(const JointVector& wanted_rad, double dt) const {
   return share(rad_per_s, {}).least() >= 1.0;
 }
 
-// In which all stop alike.
+// Time in which all joints can stop together.
 double JointLimiter::stop_s(const JointVector& rad_per_s) const {
   double s = 0.0;
   for (int i = 0; i < kMaxJoints; ++i) {
@@ -92,7 +92,8 @@ double JointLimiter::stop_s(const JointVector& rad_per_s) const {
   return s + 2.0 * dt_;
 }
 
-// What is left of these speeds so that all can stop alike, in the time T, and until then
+// Returns the factors by which the speeds must be scaled so that all joints can stop together, in the time T,
+// and until then
 //   |q̇| <= V,  |J q̇| <= V_tool,  |J̇ q̇| T <= V_tool (the tool gains no speed),  |q̇| T/2 <= left
 JointLimiter::JointsShare JointLimiter::share(const JointVector& rad_per_s, const ToolBound& tool) const {
   const Vector6 turn = tool.turn(rad_per_s);
@@ -106,7 +107,7 @@ JointLimiter::JointsShare JointLimiter::share(const JointVector& rad_per_s, cons
     const Joint& j = joint_[static_cast<std::size_t>(i)];
     const double v = std::abs(rad_per_s[i]);
     if (v > j.speed) share.speed = std::min(share.speed, j.speed / v);
-    if (!(v > j.acceleration * dt_)) continue;  // stops in a tick: the others need not notice
+    if (!(v > j.acceleration * dt_)) continue;  // stops within a tick and does not affect the others
     const double left = rad_per_s[i] > 0.0 ? j.max - path_rad_[i] : path_rad_[i] - j.min;
     if (0.5 * v * stop_s > left)
       share.position = std::min(share.position, std::sqrt(2.0 * left / (v * stop_s)));
@@ -114,7 +115,7 @@ JointLimiter::JointsShare JointLimiter::share(const JointVector& rad_per_s, cons
   return share;
 }
 
-// As far from the present speeds towards these as every joint's acceleration allows.
+// Moves from the present speeds towards these as far as the acceleration of every joint permits.
 JointVector JointLimiter::go_towards(const JointVector& rad_per_s) const {
   const JointVector change = rad_per_s - rad_per_s_;
   double most = 0.0;
@@ -154,7 +155,7 @@ JointsLimited JointLimiter::limit(JointVector& rad_per_s, const ToolBound& tool)
   return limited;
 }
 
-// As the newest plus the mean difference from it: exact when all are equal.
+// Computed as the newest point plus the mean difference from it, which is exact if all points are equal.
 void JointLimiter::average() {
   newest_ = newest_ + 1 < ticks_ ? newest_ + 1 : 0;
   before_.col(newest_) = path_rad_;

@@ -1,5 +1,5 @@
 #pragma once
-// Counts the ticks in which the setpoints exceeded each limit, and records the first violation.
+// Counts, for each limit, the ticks in which the setpoints exceeded it, and records the first violation.
 
 #include <array>
 #include <cstdint>
@@ -17,13 +17,13 @@ enum class Limit : std::uint8_t {
   kCount
 };
 
-/// "joint speed"
+/// For example "joint speed"; "none" for kCount.
 std::string_view name_of(Limit limit);
 
 struct LimitViolations {
   std::array<std::uint64_t, static_cast<std::size_t>(Limit::kCount)> ticks{};
-  Limit first = Limit::kCount;  // kCount: none
-  int joint = 0;                // joint of that violation, from 1; 0: none, or the tool
+  Limit first = Limit::kCount;  // limit that was violated first; kCount: none
+  int joint = 0;                // joint of the first violation, from 1; 0: none, or a limit of the tool
 
   [[nodiscard]] std::uint64_t of(Limit limit) const { return ticks[static_cast<std::size_t>(limit)]; }
 };

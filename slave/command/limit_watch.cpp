@@ -24,7 +24,7 @@ void LimitWatch::reset(const JointVector& joint_rad, const Pose& X_WE) {
   joint_rad_per_s2_.setZero();
 }
 
-// Once a tick for each limit.
+// Called once per tick for each limit.
 void LimitWatch::book(Limit limit, const JointFlags& exceeded) {
   if (!exceeded.any()) return;
   ++by_limit_.ticks[static_cast<std::size_t>(limit)];

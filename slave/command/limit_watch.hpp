@@ -1,6 +1,7 @@
 #pragma once
-// Monitors the setpoints: checks their differences against every limit, as the robot receives them. A limit
-// is violated by an excess of more than 1 %, a position limit by any excess.
+// Monitors the setpoints: computes speed, acceleration and jerk from their differences, as the robot receives
+// them, and compares them with every limit. A position limit is violated by any excess, another limit by an
+// excess of more than 1 %.
 
 #include <cstdint>
 
@@ -14,11 +15,11 @@ class LimitWatch {
  public:
   explicit LimitWatch(const RobotConfig& robot) : robot_(robot) {}
 
-  /// Starts at rest.
+  /// Restarts at rest at this setpoint.
   void reset(const JointVector& joint_rad, const Pose& X_WE);
   void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt);
 
-  [[nodiscard]] std::uint64_t violations() const { return violations_; }  // ticks
+  [[nodiscard]] std::uint64_t violations() const { return violations_; }  // ticks with at least one violation
   [[nodiscard]] const LimitViolations& by_limit() const { return by_limit_; }
 
  private:
@@ -27,7 +28,7 @@ class LimitWatch {
   void book(Limit limit, const JointFlags& exceeded);
 
   RobotConfig robot_;
-  // Of the previous tick.
+  // Values of the previous tick.
   Pose X_WE_{};
   Twist V_WE_{};
   JointVector joint_rad_ = JointVector::Zero();
@@ -35,7 +36,7 @@ class LimitWatch {
   JointVector joint_rad_per_s2_ = JointVector::Zero();
   std::uint64_t violations_ = 0;
   LimitViolations by_limit_{};
-  bool violated_ = false;  // in this tick
+  bool violated_ = false;  // a limit was violated in this tick
 };
 
 }  // namespace longreach

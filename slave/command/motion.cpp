@@ -7,9 +7,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kFarRad = 0.1;        // a solution farther off than this is not one tick away
-constexpr double kAside = 5e-3;        // of the length: so far the tool may leave its way there
-constexpr double kTurningShare = 0.8;  // of what a joint may do, on its way to another solution
+constexpr double kFarRad = 0.1;  // a solution farther away than this cannot be reached in one tick
+constexpr double kAside = 5e-3;  // of the motion length: permitted deviation of the tool from its path there
+constexpr double kTurningShare = 0.8;  // of the joint limits, on the way to another solution
 
 bool touches(const MotionInput& input) { return input.contact.in_contact || input.moment.in_contact; }
 
@@ -77,7 +77,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
       limiter_.correct(found.X_WE, input.dt);
     }
   } else {
-    const bool moves = !joints_.at_rest();  // the joints brake for a tool that has stopped
+    const bool moves = !joints_.at_rest();  // the joints still brake after the tool has stopped
     joints_.step(joints_.path_rad(), moves ? tool_bound() : ToolBound{}, input.dt);
     if (moves) limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
   }
@@ -90,7 +90,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   return clamps;
 }
 
-// In how many ticks the joints go this way alike, and can stop at its end.
+// Returns the number of ticks in which the joints move this way proportionally and can stop at its end.
 double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
   double ticks = 1.0;
   for (int i = 0; i < kMaxJoints; ++i) {
@@ -103,7 +103,7 @@ double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
   return ticks;
 }
 
-// True if the tool is nowhere on this way of the joints farther from the goal than it is now, by more than
+// Returns true if the tool is nowhere on this joint path farther from the goal than it is now by more than
 // `aside_m`.
 bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const {
   const Kinematics& arm = kinematics();
@@ -120,9 +120,10 @@ bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goa
   return true;
 }
 
-// The joints for a pose one tick away. At a singular pose, or where the arm is in its own way, the joints go
-// straight to those at the goal, or at the nearest pose, if the tool only comes nearer on that way and
-// touches nothing. At a singular pose the branch that the arm was last in goes before the nearest.
+// Returns the joints for a pose one tick away. At a singular pose, or where the arm cannot follow the path,
+// the joints move straight to the solution at the goal, or at the nearest pose, if the tool only approaches
+// the goal on that path and touches nothing. At a singular pose, the last branch of the arm is preferred to
+// the nearest one.
 InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
   const JointVector& q = joints_.path_rad();
@@ -135,7 +136,7 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
   if (touches(input)) return found;
   const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
   const double aside_m = singular || turned ? kAside * kinematics().motion_length_m() : 0.0;
-  const bool homes = singular && inverse_.closed().applies();  // a search would not come back in time
+  const bool homes = singular && inverse_.closed().applies();  // a search would take too long
   for (const bool home : {true, false}) {
     if (home && !homes) continue;
     const InverseResult there = inverse_.solve(X_WE_goal, home ? home_rad_ : q,
@@ -154,7 +155,8 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
 }
 
 ToolBound SlaveMotion::tool_bound() const {
-  constexpr double kMean = 0.98;  // the tool at a mean of joints may be so much swifter than at each of them
+  constexpr double kMean =
+      0.98;  // at the mean of joint positions the tool may be faster than at each of them
   return {kinematics().rigid_with_jacobian(joints_.path_rad()).J, kMean * command_.speed_max_rad_per_s,
           kMean * command_.speed_max_m_per_s};
 }

@@ -1,14 +1,14 @@
 #pragma once
 // Computes joint setpoints from a goal:
 //   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
-// Motion that the joints cannot perform is corrected in the tool limiter immediately: its pose and velocity
-// are those of the joint path, so there is no wind-up. The joints follow the straight path of the tool,
-// except near a singular pose and where the arm blocks itself: there they move straight to the solution at
-// the goal, or to the nearest pose, as long as the tool only approaches the goal, within half a per cent of
-// the distance. Of several solutions at a singular pose they take the branch that the arm was last in. In
-// contact the tool keeps its straight path. Every setpoint is monitored independently, by differences. The
-// joint limits always hold, the speed limits of the tool within 1 %; its acceleration limits only on a
-// straight path.
+// If the joints cannot perform a motion, the tool limiter is corrected at once: it continues from the pose
+// and velocity of the joint path, so there is no wind-up. The tool moves along its straight path, with two
+// exceptions: near a singular pose, and where the arm cannot follow that path. There the joints move straight
+// to the solution at the goal, or to that at the nearest pose, provided that the tool never moves farther
+// from the goal by more than 0.5 % of the motion length. At a singular pose with several solutions, the arm
+// keeps its last branch. In contact the tool always keeps its straight path. An independent monitor checks
+// every setpoint (limit_watch). The joint limits always hold, the speed limits of the tool within 1 %, its
+// acceleration limits only on a straight path.
 
 #include <cstdint>
 #include <optional>
@@ -21,15 +21,15 @@
 
 namespace longreach {
 
-/// Conditioning (joint_step.hpp) below which the arm is at a singular pose.
+/// Conditioning (joint_step.hpp) below which a pose counts as singular.
 constexpr double kSingularBand = 0.08;
 
 struct MotionInput {
-  std::optional<Pose> X_WE_goal{};  // none: brake and stay
+  std::optional<Pose> X_WE_goal{};  // none: the tool brakes and stays in place
   ContactForce contact{};
   double dt = 0.0;        // > 0, s, the same in every step
-  bool let_go = false;    // no hand is on the handle: the force is reduced to the hold limit
-  ContactForce moment{};  // of a contact by rotation: N are N m, m are rad
+  bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit
+  ContactForce moment{};  // contact by rotation: N and m stand for N m and rad
 };
 
 class SlaveMotion {
@@ -37,31 +37,32 @@ class SlaveMotion {
   SlaveMotion(const CommandConfig& command, const RobotConfig& robot);
 
   void configure(const CommandConfig& command);
-  /// At rest at these joints, moved into their limits.
+  /// Restarts at rest at these joint positions, clamped to the position limits.
   void reset(const JointVector& joint_rad);
 
-  /// Starts an engagement, which restores the retreat distance.
+  /// Starts an engagement, which resets the retreat distances.
   void renew() { limiter_.renew(); }
-  /// Returns the active limits.
+  /// Computes the setpoint of one tick. Returns the active limits.
   Clamps step(const MotionInput& input);
 
   [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joints_.setpoint_rad(); }
-  [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // of the setpoint
+  [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // pose of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
-  /// The tool at the setpoint is in the workspace or at most 1 mm outside: an arm may rest at the edge.
+  /// The setpoint is in the workspace or at most 1 mm outside, because an arm may rest at the edge.
   [[nodiscard]] bool in_workspace() const { return limiter_.within(X_WE_.p, 1e-3); }
-  /// Distance outside of the workspace.
+  /// The reason that the tool is outside its workspace, with its distance from the centre and the radius, m.
   [[nodiscard]] Reason outside() const {
     return {HoldCause::kToolOutside, 0, (X_WE_.p - limiter_.centre_m()).norm(), command_.workspace_m};
   }
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
-  /// The tool would retreat, but the force or moment has not responded.
+  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
   [[nodiscard]] bool force_persists() const { return force_persists_; }
-  [[nodiscard]] double lag_s() const { return joints_.lag_s(); }  // of the setpoint, by its jerk limit
+  /// Lag of the setpoint behind the joint path, which limits its jerk, s.
+  [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
-  [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without a solution
+  [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without an exact solution
 
  private:
   [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input);
@@ -77,10 +78,12 @@ class SlaveMotion {
   LimitWatch watch_;
   StallDetector stall_detector_;
   Pose X_WE_{};
-  std::optional<Clamps> stands_{};              // reason
-  bool turning_ = false;                        // moving along a joint path to another solution
-  double conditioning_ = 1.0;                   // of the previous tick
-  JointVector home_rad_ = JointVector::Zero();  // of the last branch of the arm, away from singular poses
+  /// Set while the tool is stopped before its goal, to the limits that stopped it.
+  std::optional<Clamps> stands_{};
+  bool turning_ = false;       // the joints move along a joint path to another solution
+  double conditioning_ = 1.0;  // conditioning in the previous tick
+  /// Joint positions when the arm was last away from a singular pose; they identify its branch.
+  JointVector home_rad_ = JointVector::Zero();
   std::uint64_t failures_ = 0;
   bool force_persists_ = false;
 };

@@ -1,24 +1,24 @@
 #pragma once
-// Limits the distance of a retreat from a force. On a distance s, from the largest force F_0 on it to the
-// present, smoothed force F,
-//   s <= 20 mm + (F_0 - F)/(100 N/m);   to a moment, 0.1 rad + (M_0 - M)/(1 N m/rad)
-// and s <= way_max. F_0 rises by the growth of the force at rest, so that an approaching surface counts as a
-// response. The force of each contact that pushes falls faster than that. Otherwise a retreat cannot relieve
-// the contact: the sensor is faulty, or the robot carries a body. A decrease of the force beyond the one
-// required for s is not credited: a faulty force that decreases by itself adds 20 mm at most. The distance
+// Limits the distance of a retreat from a force that does not respond. On a retreat of length s,
+//   s <= 20 mm + (F_0 - F)/(100 N/m);   for a moment, 0.1 rad + (M_0 - M)/(1 N m/rad)
+// and s <= way_max. F is the present, smoothed force, F_0 the maximum of the force during the retreat. F_0
+// rises at the rate at which the force grows at rest, so that an approaching surface counts as a response.
+// The force of every real contact decreases faster than required here. If the bound is reached, a retreat
+// cannot relieve the contact: the sensor is faulty, or the robot carries a body. A decrease beyond the one
+// required for s is not credited, so a faulty force that decreases by itself adds at most 20 mm. The distance
 // counts until the force has vanished.
 
 #include <algorithm>
 
 namespace longreach {
 
-/// For a force. For a moment N are N m, m are rad.
+/// Default values for a force. For a moment, N and m stand for N m and rad.
 struct RetreatBounds {
-  double unanswered_m = 0.02;
-  double answer_n_per_m = 100.0;
-  double noise_n = 0.5;  // below it, a decrease is not a response
-  double end_m = 1e-4;   // tolerance for reaching the end
-  double way_max_m = 1e9;
+  double unanswered_m = 0.02;     // distance that needs no response
+  double answer_n_per_m = 100.0;  // minimum decrease per distance of a force that responds
+  double noise_n = 0.5;           // a smaller decrease is not a response
+  double end_m = 1e-4;            // the budget is used up when less than this remains
+  double way_max_m = 1e9;         // maximum distance
 };
 
 class RetreatBudget {
@@ -26,7 +26,7 @@ class RetreatBudget {
   explicit RetreatBudget(const RetreatBounds& bounds = {}) : bounds_(bounds) {}
 
   void limit(double way_max_m) { bounds_.way_max_m = way_max_m; }
-  /// The tool has moved by `way_m` in `dt` s, into the contact if negative, and the force is now `force_n`;
+  /// Adds a motion of the tool by `way_m` (negative: into the contact) in `dt` s. The force is now `force_n`;
   /// at rest it grows by `trend_n_per_s`.
   void go(double way_m, double force_n, double dt, double trend_n_per_s = 0.0) {
     way_m_ = std::max(way_m_ + way_m, 0.0);
@@ -35,7 +35,7 @@ class RetreatBudget {
     const double asked_n = bounds_.noise_n + bounds_.answer_n_per_m * way_m_;
     most_n_ = std::min(std::max(most_n_, force_n_), force_n_ + asked_n);
   }
-  /// Remaining distance.
+  /// Remaining distance, m.
   [[nodiscard]] double left_m() const {
     const double answer_n = std::max(most_n_ - force_n_ - bounds_.noise_n, 0.0);
     const double answered_m = bounds_.unanswered_m + answer_n / bounds_.answer_n_per_m;

@@ -1,7 +1,7 @@
 #pragma once
-// Lead of a setpoint over a tool that follows it through a servo of known bandwidth:
+// Models how far a setpoint leads a tool that follows it through a first-order servo of bandwidth f:
 //   x' = 2π f (s - x),   lead = s - x
-// The deflection of the tool by the contact is not modelled; that part of the lead does not become motion.
+// The deflection of the tool by the contact is not modelled: that part of the lead never becomes motion.
 
 #include <cmath>
 #include <numbers>
@@ -12,17 +12,17 @@ namespace longreach {
 
 class ServoLag {
  public:
-  /// `servo_hz` = 0: the servo is ideal, the lead zero.
+  /// `servo_hz`: bandwidth; 0: the servo is ideal, and the lead is zero.
   explicit ServoLag(double servo_hz) : rate_per_s_(2.0 * std::numbers::pi * servo_hz) {}
 
-  /// The tool is at rest at this position.
+  /// Restarts with the tool at rest at `s_m`.
   void reset(const Vector3& s_m) {
     x_m_ = s_m;
     begun_ = true;
   }
 
-  /// The setpoint `s_m`, `dt` after the last one; the first one is the position of the tool. Returns the
-  /// lead, m.
+  /// Processes the setpoint `s_m`, `dt` s after the previous one; the first one is also the position of the
+  /// tool. Returns the lead, m.
   Vector3 step(const Vector3& s_m, double dt) {
     if (!begun_ || !(rate_per_s_ > 0.0)) x_m_ = s_m;
     begun_ = true;

@@ -1,5 +1,6 @@
 #pragma once
-// Lead of the setpoint over a tool that follows it through a servo (servo_lag.hpp), in position and rotation.
+// Models how far the setpoint leads a tool that follows it through a servo (servo_lag.hpp), in position and
+// rotation.
 
 #include "slave/command/servo_lag.hpp"
 
@@ -9,7 +10,7 @@ class SetpointLead {
  public:
   explicit SetpointLead(double servo_hz) : place_(servo_hz), turn_(servo_hz) {}
 
-  /// The tool is at rest at this setpoint.
+  /// Restarts with the tool at rest at this setpoint.
   void reset(const Pose& X_WE) {
     place_.reset(X_WE.p);
     turn_.reset(turned_rad_);
@@ -19,7 +20,7 @@ class SetpointLead {
     m_.setZero();
     rad_.setZero();
   }
-  /// The setpoint, `dt` > 0 after the last one.
+  /// Processes a setpoint, `dt` > 0 s after the previous one.
   void step(const Pose& X_WE, double dt) {
     turned_rad_ += log_rotation(X_WE.q * q_WE_.conjugate());
     q_WE_ = X_WE.q;
@@ -28,9 +29,11 @@ class SetpointLead {
     m_ = place_.step(X_WE.p, dt);
     rad_ = turn_.step(turned_rad_, dt);
   }
+  /// Lead of the position in W, m.
   [[nodiscard]] const Vector3& m() const { return m_; }
-  /// The setpoint is at rest except for rounding, and the remaining lead causes no measurable force.
+  /// The setpoint is at rest apart from rounding, and the remaining lead causes no measurable force.
   [[nodiscard]] bool still() const { return speed_m_per_s_ < 1e-4 && m_.norm() < 5e-6; }
+  /// Lead of the rotation, a rotation vector in W, rad.
   [[nodiscard]] const Vector3& rad() const { return rad_; }
 
  private:

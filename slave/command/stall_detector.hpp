@@ -1,6 +1,6 @@
 #pragma once
-// Detects that the tool no longer approaches a goal at rest. The distance is √((L angle)² + |p|²), L =
-// Kinematics::motion_length_m.
+// Detects that the tool no longer approaches a goal at rest. The distance between two poses is √((L φ)² +
+// |Δp|²) with the angle φ between them and L = Kinematics::motion_length_m.
 
 #include <cmath>
 #include <limits>
@@ -12,16 +12,17 @@ namespace longreach {
 
 class StallDetector {
  public:
-  static constexpr double kMoved = 1e-3;  // of L: a goal that moves by less is at rest
-  static constexpr double kThere = 2e-3;  // of L: within this distance the tool is at the goal
+  static constexpr double kMoved = 1e-3;  // a goal that moves by less than this share of L is at rest
+  static constexpr double kThere = 2e-3;  // a tool within this share of L has reached the goal
 
   explicit StallDetector(double length_m) : length_m_(length_m) {}
 
   void reset() { X_WE_goal_.reset(); }
 
-  /// Returns true if the tool is far from a goal at rest and has not approached it for kStallS. dt in s.
+  /// Returns true if the tool has not reached a goal at rest and has not come closer to it for kStallS. `dt`
+  /// in s.
   [[nodiscard]] bool ends(const Pose& X_WE, const Pose& X_WE_goal, double dt) {
-    constexpr double kStallS = 3.0, kNearer = 1e-4;  // of L
+    constexpr double kStallS = 3.0, kNearer = 1e-4;  // kNearer: minimum progress, as a share of L
     if (!X_WE_goal_ || !(distance_m(*X_WE_goal_, X_WE_goal) <= kMoved * length_m_)) {
       X_WE_goal_ = X_WE_goal;
       least_m_ = std::numeric_limits<double>::infinity();

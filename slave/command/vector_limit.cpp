@@ -7,12 +7,11 @@ namespace longreach {
 namespace {
 
 constexpr double kBrakingShare = 0.8;
-constexpr double kFull = 1.0 + 1e-9;     // of the speed, with its rounding
-constexpr double kAtLimit = 0.99;        // likewise: so fast is as fast as allowed
-constexpr double kGoalRounding = 1e-14;  // of a pose in metres and radians: so near a goal is reached
+constexpr double kFull = 1.0 + 1e-9;     // of the speed, with rounding
+constexpr double kAtLimit = 0.99;        // of the speed: faster counts as at the limit
+constexpr double kGoalRounding = 1e-14;  // of a pose in m and rad: a goal this near is reached
 
-// Brakes along the cap first and spends what acceleration is left on the rest: both moves end inside the
-// ball.
+// Brakes along the cap first and uses the remaining acceleration across it; both motions end inside the ball.
 Vector3 brake_for(const VelocityCap& cap, const Vector3& velocity, const Vector3& wanted,
                   const VectorLimits& limits) {
   const double reach = limits.acceleration * limits.dt;

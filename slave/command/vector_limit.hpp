@@ -1,10 +1,12 @@
 #pragma once
-// Velocity that moves a point to its goal as fast as speed and acceleration permit, without overshoot.
+// Computes the velocity that moves a point to its goal as fast as its speed and acceleration limits permit,
+// without overshoot. The maximum speed from which N equal steps of braking at a end exactly at the distance r
+// is
 //   u(r) = r/(N dt) + a dt (N - 1)/2,  N = ⌈(√(1 + 8 r/(a dt²)) - 1)/2⌉
-// is the maximum speed from which N equal steps of braking at a end exactly at distance r (discrete form of
-// √(2 a r)). It is applied to the motion relative to the goal, v = v_goal + u(|r|) r/|r|, so that a goal
-// within the limits is followed without lag once reached. Caps bound the component of the velocity in given
-// directions. Braking for distance uses 0.8 of the acceleration; the remainder turns the path.
+// This is the discrete form of √(2 a r). It is applied to the motion relative to the goal,
+// v = v_goal + u(|r|) r/|r|, so that a goal that moves within the limits is followed without lag once it is
+// reached. Caps limit the component of the velocity in given directions. Braking before the goal uses 0.8 of
+// the acceleration; the remainder is available for curved paths.
 
 #include <array>
 
@@ -12,11 +14,12 @@
 
 namespace longreach {
 
-/// Maximum speed (>= 0) from which steps of braking at `acceleration` end at `distance` (>= 0). Any unit of
-/// length.
+/// Returns the maximum speed (>= 0) from which braking at `acceleration`, in steps of `dt` s, ends at
+/// `distance` (>= 0). Any unit of length.
 double braking_speed(double distance, double acceleration, double dt);
 
-/// v · direction <= speed, direction a unit vector, speed >= 0.
+/// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed demands motion in the
+/// opposite direction.
 struct VelocityCap {
   Vector3 direction = Vector3::Zero();
   double speed = 0.0;
@@ -30,19 +33,20 @@ struct VectorLimits {
 };
 
 struct VectorPursuit {
-  Vector3 velocity = Vector3::Zero();       // of the last step
-  Vector3 goal_velocity = Vector3::Zero();  // of the goal in this step
-  Vector3 error = Vector3::Zero();          // goal now minus position before the step
+  Vector3 velocity = Vector3::Zero();       // velocity in the previous step
+  Vector3 goal_velocity = Vector3::Zero();  // velocity of the goal in this step
+  Vector3 error = Vector3::Zero();          // present goal minus position before the step
   std::array<VelocityCap, 3> caps{};
 };
 
 struct VectorStep {
-  Vector3 velocity = Vector3::Zero();  // for this step; changed by at most acceleration * dt
-  bool fast = false;                   // at the speed limit, below the requested speed
+  Vector3 velocity = Vector3::Zero();  // velocity in this step; it changes by at most acceleration * dt
+  bool fast = false;                   // limited by the speed
   bool hasty = false;                  // limited by the acceleration
-  std::array<bool, 3> capped{};        // caps that were active
+  std::array<bool, 3> capped{};        // caps that limited the velocity
 };
 
+/// Returns the velocity of the next step.
 VectorStep pursue(const VectorPursuit& pursuit, const VectorLimits& limits);
 
 }  // namespace longreach

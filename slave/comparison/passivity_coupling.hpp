@@ -1,12 +1,12 @@
 #pragma once
-// Time-domain passivity law at the slave: the tool moves to the delayed position of the handle as far as the
-// energy that entered at the master permits.
+// Time-domain passivity control at the slave: the tool moves to the delayed position of the handle as far as
+// the energy that entered at the master permits.
 //
 //   observer    E_out += max(e, 0), E_in += max(-e, 0),  e = -(F_e[k-1] + F_e[k])/2 · (x_s[k] - x_s[k-1])
 //   controller  a step costs -F_e·dx and may cost at most E_in,master[k-d] - E_out; the remainder is dropped
-//   drift       the dropped motion is recovered at a limited speed as soon as energy permits
+//   drift       the dropped motion is recovered at a limited speed as soon as the energy permits
 //
-// E_out exceeds the entered energy by at most the growth of the force in one step.
+// E_out exceeds the energy that entered by at most the growth of the force in one step, times the step.
 
 #include "common/link/comparison_config.hpp"
 #include "slave/comparison/coupling_port.hpp"

@@ -1,7 +1,8 @@
 #pragma once
-// Position-position at the slave: an admittance that a spring attracts to the delayed position of the handle.
+// Position-position coupling at the slave: a mass with a damper that a spring pulls to the delayed position
+// of the handle.
 //
-//   m a = Kc (x_m[k-d] - x_s) - Bs v_s + F_e       damping taken implicitly
+//   m a = Kc (x_m[k-d] - x_s) - Bs v_s + F_e       the damping is integrated implicitly
 
 #include "common/link/comparison_config.hpp"
 #include "slave/comparison/coupling_port.hpp"

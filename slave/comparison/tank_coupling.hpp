@@ -1,9 +1,10 @@
 #pragma once
-// Energy tank at the slave: the tool moves to the delayed position of the handle as far as its tank permits.
+// Energy tank at the slave: the tool moves to the delayed position of the handle as far as the energy H in
+// the tank permits.
 //
 //   H += (F_e[k-1] + F_e[k])/2 · (x_s[k] - x_s[k-1]) + received - sent,   sent = share · H · T
 //
-// H falls below zero by at most the growth of the force in one step.
+// H falls below zero by at most the growth of the force in one step, times the step.
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Free-floating bodies of a scene. proto/config.proto defines meaning, unit and range under the same names.
+// Free-floating bodies of a scene. proto/config.proto documents meaning, unit and range of these fields under
+// the same names.
 
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ struct LatchConfig {
 
 struct BodiesConfig {
   std::string mjcf_file;
-  std::vector<SceneFileConfig> file;  // the MJCF first, then the files that it names
+  std::vector<SceneFileConfig> file;  // the MJCF file first, then the files that it includes or refers to
   std::optional<GripperConfig> gripper{};
   std::optional<LatchConfig> latch{};
 };

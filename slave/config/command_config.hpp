@@ -1,6 +1,6 @@
 #pragma once
-// Limits of the commands to the robot. proto/config.proto defines meaning, unit and range under the same
-// names.
+// Limits of the commands to the robot. proto/config.proto documents meaning, unit and range of these fields
+// under the same names.
 
 #include <algorithm>
 #include <cstdint>
@@ -22,15 +22,15 @@ struct CommandConfig {
   double give_way_m = 0.2;
 };
 
-/// Maximum stiffness of a rotational stop that the moment guard assumes.
+/// Stiffness of a stop against rotation up to which the moment guard holds, N m/rad.
 constexpr double kGuardStiffness_nm_per_rad = 400.0;
 
-/// Contact force that a hold reduces to.
+/// Returns the contact force to which a hold reduces, N.
 inline double hold_limit_n(const CommandConfig& c) {
   return c.hold_force_n > 0.0 ? std::min(c.hold_force_n, c.force_guard_n) : 0.5 * c.force_guard_n;
 }
 
-/// The same for a moment.
+/// Returns the moment to which a hold reduces, N m.
 inline double hold_limit_nm(const CommandConfig& c) { return 0.5 * c.moment_guard_nm; }
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Parameters of the contact estimator. proto/config.proto defines meaning, unit and range under the same
-// names.
+// Parameters of the contact estimator. proto/config.proto documents meaning, unit and range of these fields
+// under the same names.
 
 #include <cstdint>
 
@@ -13,9 +13,10 @@ struct EstimatorConfig {
   double exponent = 1.0;
   double forgetting = 0.9999;  // per sample at 1 kHz
   double depth_memory_s = 2.0;
-  /// fraction; the error of first values is up to 6 % (p95); at 0.05: 11 %, which is perceptible
+  /// Relative standard deviation at which a first value is reported. Its error is then up to 6 % (95th
+  /// percentile); at 0.05 it would be 11 %, which is perceptible.
   double first_sd = 0.03;
-  double deadband = 0.08;  // fraction
+  double deadband = 0.08;  // relative change
 };
 
 }  // namespace longreach

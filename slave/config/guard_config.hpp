@@ -1,31 +1,34 @@
 #pragma once
-// The minimum force guard G that keeps the peak of a first touch below 1.35 G. With speed v on stiffness k
-// the tool advances by v T before it slows down, T the lag of loop and setpoint and the time to detect the
-// contact. Then the setpoint brakes at a, and turns back until the tool, delayed by the servo's τ, has come
-// to rest after t; or, for a high guard, it brakes from where the law of the guard begins (goal_limiter.hpp):
+// The smallest force guard G for which the force of a first touch stays below 1.35 G. At the speed v into the
+// stiffness k, the tool advances by v T before it slows down, where T includes the lag of the loop and the
+// setpoint and the time to detect the contact. Then the setpoint brakes at a and turns back until the tool,
+// which lags it by the time constant τ of the servo, has come to rest after the time t. If the guard is high,
+// the setpoint already brakes where the guard begins to limit the speed (contact_guard.hpp):
 //   peak = max(k (v T + v t - a t²/2 + v τ),  G + k v lag - (k_max - k) v²/(2 a))
 //   T = lag + touch/(k v) + √(2 τ_f touch/(k v)),   t = v/a + τ (1 - exp(-t/τ))
-// A bound for a rigid tool; one of up to 10 kg on a servo of 3 Hz or more stays below. The steady force
-// afterwards is the guard itself.
+// This is an upper bound for a rigid tool; a tool of up to 10 kg on a servo of at least 3 Hz also stays below
+// it. The steady force after the touch is G itself.
 
 #include <algorithm>
 #include <cmath>
 
 namespace longreach {
 
-constexpr double kGuardOvershoot = 1.35;  // bound on the force of a first touch, relative to the guard
+/// Upper bound on the force of a first touch, relative to the guard.
+constexpr double kGuardOvershoot = 1.35;
 
 struct FirstTouch {
   double stiffness_n_per_m = 5000.0;
   double guard_stiffness_n_per_m = 2e4;  // k_max >= k
   double speed_m_per_s = 0.05;
   double deceleration_m_per_s2 = 1.25;
-  double lag_s = 0.0;     // from the force to the setpoint
-  double servo_s = 0.0;   // τ, from there to the tool
-  double touch_n = 0.3;   // detection threshold of a contact
-  double filter_s = 0.0;  // τ_f, of the filtered force used for detection
+  double lag_s = 0.0;     // delay from the force to the setpoint
+  double servo_s = 0.0;   // τ, time constant from the setpoint to the tool
+  double touch_n = 0.3;   // force above which a contact is detected
+  double filter_s = 0.0;  // τ_f, time constant of the force filter of the detection
 };
 
+/// Returns the smallest guard for this touch, N.
 inline double least_guard_n(const FirstTouch& t) {
   constexpr int kIterations = 50;
   const double k = t.stiffness_n_per_m, v = t.speed_m_per_s, a = t.deceleration_m_per_s2;
@@ -33,7 +36,8 @@ inline double least_guard_n(const FirstTouch& t) {
   const double late_s = t.lag_s + notice_s + std::sqrt(2.0 * t.filter_s * notice_s);
   double rest_s = v / a + t.servo_s;
   for (int i = 0; i < kIterations && t.servo_s > 0.0; ++i) {
-    rest_s = v / a - t.servo_s * std::expm1(-rest_s / t.servo_s);  // a contraction, from above
+    rest_s =
+        v / a - t.servo_s * std::expm1(-rest_s / t.servo_s);  // fixed-point iteration, converges from above
   }
   const double peak_n = k * (v * (late_s + rest_s + t.servo_s) - 0.5 * a * rest_s * rest_s);
   const double over_n = k * v * t.lag_s - (t.guard_stiffness_n_per_m - k) * 0.5 * v * v / a;

@@ -1,5 +1,5 @@
 #pragma once
-// A robot as described by its file.
+// Description of a robot, as read from its file. proto/config.proto documents fields without a comment.
 
 #include <array>
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace longreach {
 
-/// Convention of the rows: A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha) (Denavit, Hartenberg 1955), or A =
-/// Rx(alpha) Tx(a) Rz(q + theta) Tz(d) (Craig).
+/// Convention of the rows of the table: A = Rz(q + theta) Tz(d) Tx(a) Rx(alpha) (Denavit, Hartenberg 1955),
+/// or A = Rx(alpha) Tx(a) Rz(q + theta) Tz(d) (Craig).
 enum class DhConvention : std::uint8_t { kStandard, kModified };
 
 enum class JointKind : std::uint8_t {
   kRevolute,
-  kPrismatic,  // q adds to d instead of theta: its fields _rad are in m
-  kFixed       // does not move: q counts as 0
+  kPrismatic,  // q is added to d instead of theta; fields named _rad are in m
+  kFixed       // the joint does not move: q is 0
 };
 
-/// Choice among the solutions within the joint limits.
+/// Criterion that selects one of the solutions within the joint limits.
 enum class BranchPreference : std::uint8_t {
-  kNearest,  // minimum distance in joint space from the present joints
-  kSoonest,  // minimum time of the slowest joint at its speed limit
-  kCentred   // maximum distance from the joint limits
+  kNearest,  // smallest distance in joint space from the present joint positions
+  kSoonest,  // shortest travel time of the slowest joint at its speed limit
+  kCentred   // largest distance from the joint limits
 };
 
-/// Row of a Denavit-Hartenberg table and the joint's limits.
+/// Row of a Denavit-Hartenberg table and the limits of the joint.
 struct JointConfig {
   double a_m = 0.0;
   double alpha_rad = 0.0;
@@ -39,18 +39,20 @@ struct JointConfig {
   double acceleration_max_rad_per_s2 = 5.0;
   double start_rad = 0.0;
   JointKind kind = JointKind::kRevolute;
-  double draw_radius_m = 0.0;  // of the drawn link after the joint; 0: in proportion to the robot
+  /// Radius with which the link after the joint is drawn; 0: in proportion to the robot.
+  double draw_radius_m = 0.0;
   double jerk_max_rad_per_s3 = 2500.0;
-  // Simulation only: a link on a spring behind its servo; 0: rigid.
+  // For the simulation only: the link is connected to its servo by a spring of this stiffness; 0: rigidly.
   double stiffness_nm_per_rad = 0.0;
   double damping_nm_s_per_rad = 0.0;
   double friction_nm = 0.0;
   double inertia_kg_m2 = 1.0;
-  std::string name{};     // as its maker calls it
-  double beta_rad = 0.0;  // Ry behind Rx(alpha), of the standard convention alone (Hayati)
+  std::string name{};  // name that the manufacturer uses
+  /// Rotation Ry after Rx(alpha), with the standard convention only (Hayati).
+  double beta_rad = 0.0;
 };
 
-/// Where one frame is in another.
+/// Pose of one frame in another.
 struct PlacementConfig {
   Vector3 position_m = Vector3::Zero();
   Vector3 rotation_rad = Vector3::Zero();  // rotation vector
@@ -61,13 +63,14 @@ struct RobotConfig {
   std::string basis;
   DhConvention convention = DhConvention::kStandard;
   std::array<JointConfig, kMaxJoints> joint{};
-  PlacementConfig base{};  // where the first row begins, in W
+  PlacementConfig base{};  // frame in which the first row starts, in W
   PlacementConfig tool{};  // E in the frame of the last row
   BranchPreference prefer = BranchPreference::kNearest;
   double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
   double load_max_kg = 30.0;
-  std::vector<double> start_rad{};  // instead of that of the joints; once files are read it is theirs
-  // Of a URDF: what was read, and what it lacks.
+  /// Start positions in place of those of the rows; moved to the rows when the file has been read.
+  std::vector<double> start_rad{};
+  // For a URDF: the links between which the arm was read, and the limits that a URDF does not contain.
   std::string base_link{}, tip_link{};
   double acceleration_max_rad_per_s2 = 5.0;
   double jerk_max_rad_per_s3 = 2500.0;

@@ -10,7 +10,8 @@
 
 namespace longreach {
 
-/// Hunt-Crossley F = k p^n (1 + a v); stiffness is the secant F/p at the reference depth.
+/// Hunt-Crossley material, F = k p^n (1 + a v) at the penetration p; `stiffness_n_per_m` is the secant F/p at
+/// the reference depth.
 struct MaterialConfig {
   std::string name;
   double stiffness_n_per_m = 1000.0;
@@ -22,8 +23,9 @@ struct MaterialConfig {
 /// Infinite plane; the solid lies behind it.
 struct PlaneConfig {
   Vector3 point_m = Vector3::Zero();
-  Vector3 normal = -Vector3::UnitX();  // outward; need not be unit
-  bool from_tool_start = true;         // the point is relative to the start of the tool
+  Vector3 normal = -Vector3::UnitX();  // outward normal; need not be a unit vector
+  /// `point_m` is relative to the start position of the tool.
+  bool from_tool_start = true;
 };
 
 struct SphereConfig {
@@ -34,23 +36,24 @@ struct SphereConfig {
 
 struct BoxConfig {
   Vector3 centre_m = Vector3::Zero();
-  Vector3 size_m = Vector3::Constant(0.04);  // lengths of the edges
+  Vector3 size_m = Vector3::Constant(0.04);  // edge lengths
   Vector3 rotation_rad = Vector3::Zero();    // rotation vector in W
   bool from_tool_start = true;
 };
 
-/// Solid, with flat ends.
+/// Solid cylinder with flat ends.
 struct CylinderConfig {
   Vector3 centre_m = Vector3::Zero();
-  Vector3 axis = Vector3::UnitZ();  // need not be unit
+  Vector3 axis = Vector3::UnitZ();  // need not be a unit vector
   double radius_m = 0.02;
   double length_m = 0.1;
   bool from_tool_start = true;
 };
 
-/// Stop against rotation: a lever on the tool touches it beyond an angle from the start of the tool.
+/// Stop against rotation: a lever on the tool touches it when the tool has rotated from its start pose by the
+/// angle.
 struct HingeConfig {
-  Vector3 axis = Vector3::UnitZ();  // in W; need not be unit
+  Vector3 axis = Vector3::UnitZ();  // axis in W; need not be a unit vector
   double angle_rad = 0.05;
   double arm_m = 0.1;  // length of the lever
 };
@@ -62,16 +65,17 @@ struct MovementConfig {
   double frequency_hz = 0.0;
 };
 
-/// One of the shapes is set.
+/// A surface; exactly one of the shapes is set.
 struct SurfaceConfig {
   std::string name;
-  std::string material;  // by name
+  std::string material;  // name of the material
   std::optional<PlaneConfig> plane{};
   std::optional<SphereConfig> sphere{};
   std::optional<BoxConfig> box{};
   std::optional<CylinderConfig> cylinder{};
   std::optional<HingeConfig> hinge{};
-  std::string body{};  // surfaces of one body are a union; empty: on its own
+  /// Surfaces with the same body form a union; empty: the surface is a body of its own.
+  std::string body{};
   std::optional<MovementConfig> movement{};
 };
 
@@ -85,7 +89,7 @@ struct WaypointConfig {
   Vector3 point_m = Vector3::Zero();
 };
 
-/// Straight segments with quarter turns between them.
+/// Path of straight segments, with a rounded turn at each inner waypoint.
 struct PathConfig {
   std::vector<WaypointConfig> waypoint;
   double turn_radius_m = 0.02;
@@ -97,14 +101,15 @@ struct SceneConfig {
   std::vector<MaterialConfig> material;
   std::vector<SurfaceConfig> surface;
   std::string basis;
-  std::optional<NeedsConfig> needs{};  // none: as required by the surfaces
-  std::string robot_file;              // robot for which the scene is made
-  double tool_radius_m = 0.0;          // 0: the tool is a point
+  /// None: the components that the surfaces require.
+  std::optional<NeedsConfig> needs{};
+  std::string robot_file;      // robot for which the scene was made
+  double tool_radius_m = 0.0;  // 0: the tool is a point
   std::optional<PathConfig> path{};
   std::optional<BodiesConfig> bodies{};
 };
 
-/// Components to build: those that the scene states, else those that its surfaces require.
+/// Returns the components to build: those that the scene states, otherwise those that its surfaces require.
 NeedsConfig needs(const SceneConfig& scene);
 
 }  // namespace longreach

@@ -1,10 +1,10 @@
 #pragma once
-// Parameters of the force/torque sensor and of contact detection. proto/config.proto defines meaning, unit
-// and range under the same names. With touch_n = 0 the touch threshold is derived from the noise σ of the
-// filtered force along an axis and from the drift d of the sensor:
+// Parameters of the force/torque sensor and of contact detection. proto/config.proto documents meaning, unit
+// and range of these fields under the same names. If touch_n is 0, the touch threshold is derived from the
+// noise σ of the filtered force along an axis and from the drift d of the sensor:
 //   touch = 8 σ + d √(10 s),   release = 0.4 touch
-// Until σ has been measured (slave/sensing/touch_threshold.hpp), that of the configured noise is used, at
-// least 0.3 N; the checks of the guards use it, too.
+// Until σ has been measured (slave/sensing/touch_threshold.hpp), the configured noise determines σ, and the
+// threshold is at least 0.3 N. The configuration checks of the guards use that threshold, too.
 
 #include <algorithm>
 #include <cmath>
@@ -37,19 +37,19 @@ struct SensingConfig {
   double release_nm = 0.012;
 };
 
-/// Drift of the force that the thresholds reckon with: standard deviation after a second, N.
+/// Returns the drift of the force that the thresholds allow for: its standard deviation after one second, N.
 inline double expected_drift_n(const SensingConfig& c) {
-  constexpr double kUsualDrift_n = 0.05;  // of a sensor whose drift is not configured
+  constexpr double kUsualDrift_n = 0.05;  // if the drift is not configured
   return std::max(c.force_drift_n, kUsualDrift_n);
 }
 
-/// By the standard deviation of the filtered force along an axis, N.
+/// Returns the touch threshold for this standard deviation of the filtered force along an axis, N.
 inline double derived_touch_n(const SensingConfig& c, double filtered_noise_n) {
   constexpr double kTouchSds = 8.0, kDriftTime_s = 10.0;
   return kTouchSds * filtered_noise_n + expected_drift_n(c) * std::sqrt(kDriftTime_s);
 }
 
-/// The touch threshold as configured; derived, that of the configured noise of samples at 1 kHz.
+/// Returns the configured touch threshold or, if it is derived, the one for the configured noise at 1 kHz, N.
 inline double configured_touch_n(const SensingConfig& c) {
   constexpr double kMinimum_n = 0.3, kPeriod_s = 1e-3;
   if (c.touch_n > 0.0) return c.touch_n;
@@ -58,12 +58,13 @@ inline double configured_touch_n(const SensingConfig& c) {
   return std::max(kMinimum_n, derived_touch_n(c, noise_n * std::sqrt(share / (2.0 - share))));
 }
 
+/// Returns the release threshold that belongs to `touch_n`, N.
 inline double release_of_n(const SensingConfig& c, double touch_n) {
   constexpr double kReleaseShare = 0.4;
   return c.touch_n > 0.0 ? c.release_n : kReleaseShare * touch_n;
 }
 
-/// With both thresholds, before anything has been measured.
+/// Returns the configuration with both thresholds set to the values before any measurement.
 inline SensingConfig with_thresholds(SensingConfig c) {
   const double touch_n = configured_touch_n(c);
   c.release_n = release_of_n(c, touch_n);

@@ -1,6 +1,6 @@
 #pragma once
-// All parameters of the slave as plain values. proto/config.proto defines meaning, unit, default and range
-// under the same names.
+// All parameters of the slave as plain values. proto/config.proto documents meaning, unit, default and range
+// of these fields under the same names.
 
 #include <algorithm>
 #include <cstdint>
@@ -34,7 +34,7 @@ struct SlaveSafetyConfig {
   double delay_rise_max_s = 1.0;
 };
 
-/// Gap timer for a master that sends `send_hz` times a second.
+/// Returns the timeout of the gap timer for a master that sends `send_hz` times per second, s.
 inline double gap_s(const SlaveSafetyConfig& c, double send_hz) {
   return c.gap_s > 0.0 ? c.gap_s : std::clamp(30.0 / send_hz, 0.1, 2.0);
 }

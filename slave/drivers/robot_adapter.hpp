@@ -1,9 +1,10 @@
 #pragma once
-// A real robot, connected by its adapter, the program that drives its controller
-// (common/link/adapter_datagram.hpp). The watchdog of the adapter stops the robot when this side is silent;
-// silence of the adapter, or a reported failure of the robot, is a fault of this side. No setpoint is sent
-// before the robot has reported its position, nor while it is not ok.
-//   F_F_W = R_WE(q) F_E: the adapter reports the wrench along the axes of the tool
+// A real robot, connected by its adapter: a program that drives the controller of the robot
+// (common/link/adapter_datagram.hpp). If no setpoint arrives, the watchdog of the adapter stops the robot. If
+// no datagram of the adapter arrives, or if it reports a failure of the robot, the robot counts as failed.
+// Setpoints are sent only after the robot has reported its position, and only while it is ok. The adapter
+// reports the wrench along the axes of the tool; read() rotates it into W:
+//   F_F_W = R_WE(q) F_E
 
 #include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
@@ -13,21 +14,22 @@ namespace longreach {
 
 class RobotAdapter : public Robot {
  public:
-  /// `channel` must outlive it. `session`: random at each start, not 0.
+  /// `channel` must outlive the object. `session`: random number, not 0, that differs at each start.
   RobotAdapter(Channel& channel, const AdapterConfig& config, const RobotConfig& robot, std::uint64_t session)
       : port_(channel, session, config.silence_s), kinematics_(robot) {}
 
-  /// Returns the content of the newest datagram, with its time of arrival. Before the first datagram: a
-  /// failed robot.
+  /// Returns the content of the newest datagram, with its age. Before the first datagram, the robot counts as
+  /// failed.
   RobotState read(Time now) override;
-  /// A setpoint that is not finite is ignored and counted: the joints rest.
+  /// A setpoint that is not finite is ignored and counted; the robot then receives no setpoint.
   void write(const std::optional<JointVector>& joint_setpoint_rad) override;
   void grip(bool closed) override { grip_ = closed; }
-  /// Contacts the adapter before the first setpoint.
+  /// Sends an empty datagram, so that the adapter replies before the first setpoint.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }
-  /// Although setpoints have been sent for a while.
+  /// Returns whether the watchdog of the adapter has stopped the robot although the last kLong setpoints were
+  /// sent.
   [[nodiscard]] bool watchdog_stopped() const {
     return moved_ == kLong && (port_.newest().flags & adapter::RobotDatagram::kStopped) != 0;
   }
@@ -37,9 +39,9 @@ class RobotAdapter : public Robot {
   AdapterPort<adapter::SetpointDatagram, adapter::RobotDatagram> port_;
   Kinematics kinematics_;
   RobotState measured_{.ok = false};
-  std::optional<bool> grip_{};  // none: not requested
+  std::optional<bool> grip_{};  // none: never requested
   static constexpr int kLong = 50;
-  int moved_ = 0;  // consecutive setpoints, at most kLong
+  int moved_ = 0;  // number of consecutive setpoints, at most kLong
   std::uint64_t rejected_ = 0;
 };
 

@@ -8,15 +8,17 @@ namespace longreach {
 namespace {
 
 constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
-constexpr std::size_t kBefore = 256;  // samples before the touch that are kept: a slow one takes so long
-constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured otherwise
-constexpr double kAcross = 0.5;    // sine, 30 degrees: of another surface's force with those that are pressed
-constexpr double kUnknown = 3.0;   // sd of the normal: as much of the force may be across it by that alone
-constexpr double kFriction = 0.6;  // the greatest coefficient of friction
-constexpr double kStickM = 5e-4;   // by which friction is at its greatest
-constexpr double kGrown = 1.5;     // of what is no friction, though as small, as the way doubles
+constexpr std::size_t kBefore = 256;  // samples before the touch that are kept, enough for a slow touch
+constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured differently
+constexpr double kAcross =
+    0.5;  // sine, 30 degrees, between the force of another surface and the pressed ones
+constexpr double kUnknown =
+    3.0;  // sd of the normal: this part of the force may be across it by that error alone
+constexpr double kFriction = 0.6;  // maximum coefficient of friction
+constexpr double kStickM = 5e-4;   // motion after which friction has reached its maximum
+constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a small force that is not friction
 constexpr double kOtherSide = 0.8;   // cosine, 37 degrees: more than friction turns a force
-constexpr double kLeastShare = 0.1;  // of the largest, that an error of its normal may make
+constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
 
 }  // namespace
 
@@ -91,7 +93,7 @@ Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, co
   for (Surface& s : surfaces_) {
     if (s.pressed()) continue;
     if (!s.there()) return &s;
-    if (place == nullptr || s.touch() < place->touch()) place = &s;  // the one that was left longest ago
+    if (place == nullptr || s.touch() < place->touch()) place = &s;  // the one that was left first
   }
   return place;
 }
@@ -102,7 +104,7 @@ void SlaveContact::press(const ContactInput& input) {
   } else {
     for (Surface& s : surfaces_) {
       if (!s.pressed()) continue;
-      if (s.normal().dot(reading_.filtered_n) < 0.0) {  // from the other side
+      if (s.normal().dot(reading_.filtered_n) < 0.0) {  // the tool touches from the other side
         s.release();
         begin(input, reading_.filtered_n, input.p_WE);
         break;
@@ -113,7 +115,7 @@ void SlaveContact::press(const ContactInput& input) {
     }
   }
   look_aside(input);
-  // The greater of both: the guard shall neither be late by the filter nor be fooled by one low sample.
+  // The greater of the two: the filter must not delay the guard, and a single low sample must not deceive it.
   const Vector3& normal = reading_.normal;
   force_ = {true, normal, std::max(normal.dot(input.force_n), normal.dot(reading_.filtered_n)),
             stiffness_along(normal)};
@@ -143,7 +145,7 @@ void SlaveContact::press_several(const ContactInput& input) {
   }
 }
 
-/// Each by what the laws of the others leave.
+/// Turns each normal by the force that the laws of the other surfaces do not explain.
 void SlaveContact::turn_several(double dt) {
   for (Surface& s : surfaces_) {
     if (!s.pressed()) continue;
@@ -169,8 +171,8 @@ Vector3 SlaveContact::shares(const Vector3& force_n) const {
   return gram.llt().solve(normals.transpose() * force_n);
 }
 
-// What the laws of the surfaces do not foresee. On a ball the force turns with the way, on another surface
-// against it.
+// Finds a force that the laws of the surfaces do not predict. On a ball the force turns with the motion, on
+// another surface against it.
 void SlaveContact::look_aside(const ContactInput& input) {
   turning_ = true;
   if (pressed() == 0 || pressed() == kSurfaces) return;
@@ -204,7 +206,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
   if (further) aside_.way_m = way_m, aside_.share = share;
 }
 
-// The filtered force lags behind a tool that comes fast.
+// The filtered force lags behind a tool that moves fast.
 void SlaveContact::forget_what_is_free(const ContactInput& input) {
   const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
   const auto beside = [](const Surface& one) {

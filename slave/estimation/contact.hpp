@@ -1,11 +1,11 @@
 #pragma once
-// Contacts of the tool, in translation or in rotation: up to three surfaces, pressed or remembered. A touch
-// begins when the force exceeds the noise. The force is attributed to the pressed surfaces, each along its
-// normal; a remainder across them that opposes the motion of the tool and exceeds friction is a further
-// surface. A surface is remembered after its touch, so that the next touch continues with its values. It is
-// discarded when the tool moves without force so deep behind it that it would press with twice the touch
-// threshold; a touch less than 60 degrees beside it, or elsewhere along its normal, is of the same object,
-// measured differently.
+// Contacts of the tool, in translation or in rotation: up to three surfaces that are pressed or remembered. A
+// touch begins when the force exceeds the noise. The force is attributed to the pressed surfaces, each along
+// its normal. A remainder perpendicular to them that opposes the motion of the tool and exceeds friction is
+// attributed to a further surface. A surface is remembered after its touch, so that the next touch continues
+// with its values. It is forgotten when the tool is, without force, so deep behind it that the surface would
+// press with twice the touch threshold. It is also forgotten when a touch at another position has a normal
+// within 60 degrees of its own, because that touch is on the same object, measured differently.
 
 #include <array>
 #include <cstdint>
@@ -19,20 +19,22 @@
 namespace longreach {
 
 struct ContactInput {
-  Vector3 p_WE = Vector3::Zero();     // measured tool, m
+  Vector3 p_WE = Vector3::Zero();     // measured position of the tool, m
   Vector3 v_WE = Vector3::Zero();     // m/s
-  Vector3 force_n = Vector3::Zero();  // measured, in W, on the tool
-  double played_sequence = 0.0;       // sequence number of the followed goal; 0: none
+  Vector3 force_n = Vector3::Zero();  // measured force on the tool, in W
+  double played_sequence = 0.0;       // sequence number of the goal being followed; 0: none
   double scale = 1.0;                 // k_scale: ratio of the force at the tool to the force at the hand
   double dt = 0.0;                    // s
-  bool guarded = false;               // the force guard held the tool in the last step
-  double uncertainty_n = 0.0;         // uncertain part of the force
+  bool guarded = false;               // the force guard held the tool back in the last step
+  double uncertainty_n = 0.0;         // magnitude of the uncertain part of the force
   Vector3 bias_n =
-      Vector3::Zero();      // part of the force that may be the bias of a sensor before its first zero
-  double news_age_s = 0.0;  // age of the operator's information about this side when the goal was commanded
+      Vector3::Zero();  // part of the force that may be the bias of a sensor that was never zeroed
+  /// Age of the operator's information about the slave when the goal was commanded, s.
+  double news_age_s = 0.0;
 };
 
-/// For a contact by rotation: positions are rotation vectors, N are N m, m are rad.
+/// Returns the parameters for a contact by rotation. There, positions are rotation vectors, and N and m stand
+/// for N m and rad.
 SensingConfig rotational(SensingConfig sensing);
 
 class SlaveContact {
@@ -41,64 +43,68 @@ class SlaveContact {
 
   void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
   void step(const ContactInput& input);
-  /// As derived from the noise. Not while something is touched: then they stay.
+  /// Sets derived thresholds. Ignored while the tool is in contact.
   void set_thresholds(double touch_n, double release_n);
-  /// The sensor has been zeroed: its force is smaller by this from now on.
+  /// Call it when the sensor has been zeroed: from now on, its force is smaller by `force_n`.
   void subtract(const Vector3& force_n) { detector_.subtract(force_n); }
 
-  /// Finds the followed goals that are at the surfaces.
+  /// Finds, for each surface, the followed goal at its position; `anchor`: origin of the goals, in W.
   void locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence);
-  /// The goals restart: they did not cross the known surfaces.
+  /// Call it when the goals restart: the new ones did not cross the known surfaces.
   void forget_goals();
-  /// The sensor was faulty: surfaces from its force are discarded. The present force is not a surface until
-  /// it has vanished, or
+  /// Forgets all surfaces, because the force that they were identified from was wrong. The present force
+  /// becomes a surface only after it has vanished, or after restart().
   void forget_surfaces();
-  /// restarts.
+  /// Forgets all surfaces and restarts the detection.
   void restart();
-  /// Shifts the origin of all positions.
+  /// Shifts the origin of all positions by `by`.
   void move_origin(const Vector3& by);
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
-  [[nodiscard]] std::uint32_t touch() const { return touches_; }           // counts from 1
-  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }  // of the whole force
-  [[nodiscard]] const ContactForce& force() const { return force_; }       // for the force guard
-  /// The surface with the largest force; if none is pressed, the last one.
+  [[nodiscard]] std::uint32_t touch() const { return touches_; }  // number of touches so far
+  /// Unit direction of the whole force.
+  [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
+  [[nodiscard]] const ContactForce& force() const { return force_; }  // input of the force guard
+  /// The surface with the largest force; if none is pressed, the one that was pressed last.
   [[nodiscard]] const Surface& foremost() const { return surfaces_[foremost_]; }
-  /// `anchor`: origin of positions. Pressed surfaces come first.
+  /// Returns the surfaces for the report, pressed ones first. `anchor`: origin of their positions, in W.
   [[nodiscard]] std::array<ReportedSurface, kSurfaces> report(const Vector3& anchor) const;
 
  private:
-  /// Force across the pressed surfaces.
+  /// Observation of a force perpendicular to the normals of the pressed surfaces.
   struct Aside {
-    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force was last in the noise
+    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force last was within the noise
     double way_m = 0.0,
-           /// share of the motion against it, and of the force on the pressed surfaces, as last evaluated
+           /// Motion of the tool against that force, and ratio of that force to the force on the pressed
+        /// surfaces, at the last evaluation.
         share = 0.0;
   };
 
-  /// Starts a touch by `force_n`, of a known or new surface.
+  /// Starts a touch of a known or a new surface by the force `force_n`.
   void begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset);
   Surface* place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool, bool& again);
   void press(const ContactInput& input);
   void press_several(const ContactInput& input);
   void turn_several(double dt);
   void look_aside(const ContactInput& input);
-  /// The part of `force_n` on each pressed surface; zero for the others.
+  /// Decomposes `force_n` into the forces along the normals of the pressed surfaces; zero for the others.
   [[nodiscard]] Vector3 shares(const Vector3& force_n) const;
   void forget_what_is_free(const ContactInput& input);
-  [[nodiscard]] std::size_t pressed() const;  // number of pressed surfaces
+  /// Number of pressed surfaces.
+  [[nodiscard]] std::size_t pressed() const;
   [[nodiscard]] double stiffness_along(const Vector3& n) const;
 
   SensingConfig sensing_;
   ContactDetector detector_;
   std::array<Surface, kSurfaces> surfaces_;
   std::size_t foremost_ = 0;
-  Ring<TouchSample> before_;  // samples just before the touch
+  Ring<TouchSample> before_;  // samples shortly before the touch
   ContactReading reading_{};
   ContactForce force_{};
-  std::optional<Vector3> onset_{};  // position of the tool when the force was last in the noise
+  std::optional<Vector3> onset_{};  // position of the tool when the force last was within the noise
   Aside aside_{};
-  bool turning_ = true;  // the direction of the force is that of the only pressed surface
+  /// The only pressed surface determines the direction of the force, so its normal follows the force.
+  bool turning_ = true;
   std::uint32_t touches_ = 0;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-// Stores the samples of a contact in bounded memory, for a fit that must try other surfaces and exponents:
-// sums over narrow bins of the position. A bin is located at the mean of its samples and stores how the speed
-// varied with the position in it, so only the curvature within a bin is lost: at n = 1.5 and 64 bins 1e-4 of
-// the force at the maximum depth. The bins double their width, merging in pairs, when a sample is outside.
-// Weights grow by 1/forgetting per sample.
+// Stores the samples of a contact in bounded memory for a fit that tries various surface positions and
+// exponents: sums over narrow bins of the position. A bin is located at the mean position of its samples and
+// stores how the speed varied with the position in it, so only the curvature within a bin is lost. At n = 1.5
+// and with 64 bins, that is 1e-4 of the force at the maximum depth. When a sample is outside, the bins are
+// merged in pairs, which doubles their width. The weights grow by 1/forgetting per sample.
 
 #include <array>
 #include <cmath>
@@ -66,8 +66,8 @@ class DepthBins {
   }
   [[nodiscard]] const std::array<DepthBin, kBins>& bins() const { return bins_; }
   [[nodiscard]] double weight() const { return weight_; }  // of the last sample
-  /// Σ w²/Σ w relative to the last sample: the variance of the fit relative to that of equally weighted
-  /// samples.
+  /// Σ w²/Σ w relative to the weight of the last sample: the ratio of the variance of the fit to that of a
+  /// fit of equally weighted samples.
   [[nodiscard]] double variance_share() const { return sum_ > 0.0 ? square_sum_ / sum_ : 1.0; }
 
  private:
@@ -76,7 +76,7 @@ class DepthBins {
   static constexpr double kWeightMax = 1e6;
 
   [[nodiscard]] bool within(double x) const { return x >= first_m_ && x < first_m_ + kBins * width_m_; }
-  // Towards smaller or larger positions.
+  // Doubles the width of the bins, towards smaller (`down`) or larger positions.
   void double_width(bool down) {
     std::array<DepthBin, kBins> wide{};
     const int first = down ? kBins / 2 : 0;
@@ -92,7 +92,7 @@ class DepthBins {
   double first_m_ = 0.0;
   double width_m_ = 0.0;  // 0: no sample yet
   double weight_ = 1.0;
-  double sum_ = 0.0, square_sum_ = 0.0;  // of the weights and their squares, relative to the last one
+  double sum_ = 0.0, square_sum_ = 0.0;  // sums of the weights and of their squares, relative to the last one
 };
 
 }  // namespace longreach

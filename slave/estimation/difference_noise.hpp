@@ -1,7 +1,7 @@
 #pragma once
-// Variance of the white noise on a smooth signal, from its third differences: E[(Δ³s)²] = 20 σ². Motion
-// slower than a tenth of the sample rate hardly contributes; the contribution of a jump or a kink is limited
-// so that the next samples outweigh it.
+// Estimates the variance of white noise on a smooth signal from its third differences: E[(Δ³s)²] = 20 σ².
+// Motion slower than a tenth of the sample rate contributes very little. The contribution of a jump or a kink
+// is limited, so that the following samples outweigh it.
 
 #include <algorithm>
 #include <cmath>
@@ -21,18 +21,19 @@ class DifferenceNoise {
     const double usual = std::max(kOutlier * variance_, kStart * kStart * largest_ * largest_);
     variance_ += (std::min(difference * difference / 20.0, usual) - variance_) / (samples_ - 3.0);
   }
-  /// Overestimated while there are few samples; `first` is the sd without samples.
+  /// Variance, deliberately overestimated while there are few samples; `first` is the standard deviation
+  /// assumed without samples.
   [[nodiscard]] double cautious_variance(double first) const {
     const double differences = std::max(samples_ - 3.0, 0.0);
     const double of_few = differences < kFew ? first * first : 0.0;
     return std::max(of_few, variance_ * (1.0 + kFew / std::max(differences, 1.0)));
   }
-  /// 0 with fewer than four samples.
+  /// Variance; 0 with fewer than four samples.
   [[nodiscard]] double variance() const { return variance_; }
 
  private:
-  static constexpr double kOutlier = 25.0;  // of the variance
-  static constexpr double kStart = 0.01;    // of the largest value, sd
+  static constexpr double kOutlier = 25.0;  // limit of a contribution, relative to the variance
+  static constexpr double kStart = 0.01;    // initial standard deviation, relative to the largest value
   static constexpr double kFew = 20.0;
   static constexpr double kMemory = 2000.0;  // samples
   double last_[3] = {0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
 #pragma once
-// Interface of an estimator of a contact from outside the slave: of the laboratory, or your own.
+// Interface for contact estimators that are not part of the slave: those of the laboratory, or your own.
 
 #include <memory>
 #include <utility>
@@ -15,15 +15,15 @@ class Estimator {
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
-  /// Starts another contact: discards everything of the previous one.
+  /// Starts a new contact and discards everything about the previous one.
   virtual void reset() = 0;
-  /// A sample in contact and the variance of its force, N². Returns the force minus the force predicted by
-  /// the fit, N; NaN while there is no fit.
+  /// Processes a sample in contact; `force_variance_n2` is the variance of its force, N². Returns the force
+  /// minus the force predicted by the fit, N; NaN while there is no fit.
   virtual double step(const PenetrationSample& sample, double force_variance_n2) = 0;
   [[nodiscard]] virtual const ContactFit& fit() const = 0;
 };
 
-/// Wrapper that holds it like the estimators of this folder.
+/// Wraps an external estimator in a value type, like the estimators of this folder.
 class BroughtEstimator {
  public:
   explicit BroughtEstimator(std::unique_ptr<Estimator> estimator) : it_(std::move(estimator)) {}

@@ -1,11 +1,12 @@
 #pragma once
-// The sums over all samples that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs for every
+// The sums over all samples that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs, for every
 // exponent n at once:
 //   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
-// are smooth functions of n, so no linearisation about an unknown n is necessary. They are stored either on a
-// grid, for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Weights w grow by
-// 1/forgetting per sample: this forgets without changing the sums. Samples with ξ below 0.02 have a
-// negligible weight and are skipped. Not handled: a depth, force or speed that is not finite.
+// They are smooth functions of n, so no linearization about an unknown n is necessary. They are stored either
+// on a grid for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Growing the
+// weight w of each sample by 1/forgetting discounts older samples without changing the sums. Samples with ξ
+// below 0.02 have a negligible weight and are skipped. A depth, force or speed that is not finite is not
+// handled.
 
 #include <array>
 #include <cstddef>
@@ -14,27 +15,27 @@
 
 namespace longreach {
 
-/// The sums at one n and their derivatives with respect to n.
+/// The sums at one n, and their derivatives with respect to n.
 struct ExponentSums {
   alignas(16) std::array<std::array<double, 6>, 3> S{};  // [p][order]
   alignas(16) std::array<std::array<double, 4>, 2> R{};
 };
 
-/// One sample in the form used by the sums.
+/// A sample in the form that the sums use.
 struct WeighedSample {
   double log_depth = 0.0;  // ln ξ
   double v_m_per_s = 0.0;
-  double force_n = 0.0;  // times √w
+  double force_n = 0.0;  // multiplied by √w
   double root_weight = 1.0;
 };
 
-/// Chooses x_ref, the maximum depth within a factor of 2, and the weights.
+/// Chooses x_ref, which is the maximum depth within a factor of 2, and the weights.
 class SampleScale {
  public:
   struct Change {
-    bool counts = false;        // otherwise the sample is too shallow
+    bool counts = false;        // false: the sample is too shallow to count
     double log_ratio = 0.0;     // ln(previous x_ref/new x_ref); 0: unchanged
-    double weight_ratio = 1.0;  // factor by which the sums must be multiplied
+    double weight_ratio = 1.0;  // factor by which the stored sums must be multiplied
     WeighedSample sample;
   };
   Change step(const PenetrationSample& sample, double forgetting);
@@ -47,8 +48,8 @@ class SampleScale {
   double root_weight_ = 1.0;
 };
 
-/// The sums at ten nodes, interpolated by the polynomial through them. Error at n in 1..2.5 and ξ in 0.1..2:
-/// 1e-3.
+/// The sums at ten nodes, interpolated by the polynomial through them. For n from 1 to 2.5 and ξ from 0.1 to
+/// 2 the error is 1e-3.
 class ExponentGrid {
  public:
   static constexpr std::size_t kNodes = 10;
@@ -57,9 +58,9 @@ class ExponentGrid {
 
   void add(const WeighedSample& sample);
   void rescale(double log_ratio, double weight_ratio);
-  /// With derivatives up to `order`, at most 5.
+  /// Returns the sums with derivatives up to `order`, at most 5.
   [[nodiscard]] ExponentSums at(double n, std::size_t order) const;
-  /// Without derivatives.
+  /// Returns the sums at a node, without derivatives.
   [[nodiscard]] ExponentSums at_node(std::size_t j) const;
 
  private:
@@ -68,13 +69,14 @@ class ExponentGrid {
   std::array<Nodes, 2> R_{};
 };
 
-/// Taylor series about `n0`. Error of S at n0 + δ: (2 δ ln ξ)⁶/720 of it, less for R.
+/// The sums as a Taylor series about `n0`. The relative error of S at n0 + δ is (2 δ ln ξ)⁶/720; that of R is
+/// smaller.
 class ExponentSeries {
  public:
   ExponentSeries() = default;
   ExponentSeries(const ExponentSums& sums, double n0) : sums_(sums), n0_(n0) {}
 
-  /// Returns ξⁿ of the sample, for an n close to n0.
+  /// Adds a sample. Returns its ξⁿ for an n close to n0.
   double add(const WeighedSample& sample, double n);
   void rescale(double log_ratio, double weight_ratio);
   [[nodiscard]] ExponentSums at(double n) const;

@@ -1,7 +1,7 @@
 #pragma once
-// Hunt-Crossley with a given exponent, by recursive least squares of F = c0 ξⁿ + c1 ξⁿ v, as described in the
-// source paper. Exact if the exponent is correct; with an error of 0.1, k is 33 % wrong for depths in
-// millimetres, and the sd does not include that.
+// Hunt-Crossley law with a given exponent, identified by recursive least squares of F = c0 ξⁿ + c1 ξⁿ v. The
+// estimate is exact if the exponent is correct. If the exponent is wrong by 0.1, k is wrong by 33 % for
+// depths of millimetres, and the standard deviation does not include this error.
 
 #include "slave/estimation/linear_contact.hpp"
 

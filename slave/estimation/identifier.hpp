@@ -1,20 +1,23 @@
 #pragma once
-// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with an estimator of this folder, or an external one
-// (estimator.hpp), and states which parameters are reliable. The surface is known, or identified with the
-// parameters; in that case positions count from any fixed point, samples before the touch are included, and
-// all depths are relative to the present estimate of the surface. Common to the estimators:
-//   noise: of the force as given, or from differences of the samples; then from the residuals.
-//   hold: resolution, bias and drift repeat in each sample of a still hold, so only 25 samples within 0.05 %
-//   of a depth, or 3 sd of the position, count: there is no wind-up, however long the hold lasts.
-//   change: the force differs by over 8 % for 20 samples and far beyond its noise: another object or layer;
-//   the fit restarts. MAXIMUM_LIKELIHOOD only: the other estimators have larger errors by themselves, and
-//   are notified (watched_identifier.hpp).
-//   slow touch: secant and stiffness assume that a v at the maximum speed is 0.01 ± 0.01 unless the samples
-//   contradict. Until the speed has changed, elastic and damping force are not distinguishable otherwise.
-//   verdict: a parameter is identified if its sd is below 5 % (k, stiffness), 0.05 (n), 20 % (λ), 5 %/3
-//   (secant), after 50 ms of contact; it is not identifiable if 1000 samples or a hold did not suffice, or if
-//   the noise of the position is above 10 % of the depth, which biases every method.
-// Samples outside 1e-12..1e6 m, 1e6 m/s, 1e12 N, or not finite, are ignored and counted.
+// Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with an estimator of this folder, or with an external
+// one (estimator.hpp), and states which parameters are reliable. The surface is either known or identified
+// with the parameters. If it is identified, positions count from any fixed point, samples before the touch
+// are included, and all depths are relative to the present estimate of the surface. All estimators have in
+// common:
+//   noise: the noise of the force is given, or it is estimated from differences of the samples and later from
+//       the residuals.
+//   hold: in a hold at rest, resolution, bias and drift repeat in every sample. Therefore only 25 of the
+//       samples whose depths agree within 0.05 % or 3 sd of the position count, and a long hold causes no
+//       wind-up.
+//   change: if the force deviates by more than 8 % for 20 samples, and by much more than its noise, the tool
+//       is on another object or layer, and the fit restarts. Only MAXIMUM_LIKELIHOOD detects this; the other
+//       estimators have larger errors even without a change and are notified (watched_identifier.hpp).
+//   slow touch: until the speed has changed, elastic and damping force are not distinguishable. Secant and
+//       stiffness therefore assume a v = 0.01 ± 0.01 at the maximum speed unless the samples contradict.
+//   verdict: a parameter is identified if its sd is below 5 % (k, stiffness), 0.05 (n), 20 % (λ) or 5 %/3
+//       (secant) after 50 ms of contact. It is not identifiable if 1000 samples or a hold did not suffice, or
+//       if the noise of the position exceeds 10 % of the depth, because such noise biases every method.
+// Samples outside 1e-12..1e6 m, 1e6 m/s or 1e12 N, or that are not finite, are ignored and counted.
 
 #include <cstdint>
 #include <string_view>
@@ -35,12 +38,12 @@ inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponen
 
 struct IdentifierConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
-  double exponent = 1.5;          // of FIXED_EXPONENT
-  double forgetting = 1.0;        // share of the past that is kept per sample
-  double force_noise_n = 0.0;     // sd; 0: estimated from the samples
-  double position_noise_m = 0.0;  // sd; 0: estimated from the samples
-  bool surface_known = true;      // positions count from it
-  /// Creates an estimator in place of the one of `kind`.
+  double exponent = 1.5;          // for FIXED_EXPONENT
+  double forgetting = 1.0;        // factor by which older samples are discounted per sample
+  double force_noise_n = 0.0;     // standard deviation; 0: estimated from the samples
+  double position_noise_m = 0.0;  // standard deviation; 0: estimated from the samples
+  bool surface_known = true;      // positions are relative to the surface
+  /// Creates an external estimator that is used instead of the one of `kind`.
   std::unique_ptr<Estimator> (*make)(const IdentifierConfig&) = nullptr;
 
   [[nodiscard]] bool by_likelihood() const {
@@ -59,37 +62,37 @@ struct ContactAnswer {
   Identified k;        // N/mⁿ; Kelvin-Voigt: N/m
   Identified lambda;   // N s/m^(n+1); Kelvin-Voigt: N s/m
   Identified n;
-  Identified secant;          // elastic force over depth, N/m, at depth_m
-  Identified stiffness;       // tangent, d(elastic force)/dx, N/m
-  Identified surface;         // m, in the coordinate of the positions
-  double correlation = 0.0;   // of k and λ
-  double depth_m = 0.0;       // depth of these values
-  double force_sd_n = 0.0;    // of a sample
-  std::uint32_t changes = 0;  // detected changes
+  Identified secant;          // elastic force/depth at depth_m, N/m
+  Identified stiffness;       // tangent d(elastic force)/dx at depth_m, N/m
+  Identified surface;         // position of the surface, m
+  double correlation = 0.0;   // correlation of the errors of k and λ
+  double depth_m = 0.0;       // depth to which secant and stiffness refer
+  double force_sd_n = 0.0;    // standard deviation of a force sample
+  std::uint32_t changes = 0;  // number of detected changes
 };
 
 class Identifier {
  public:
   explicit Identifier(const IdentifierConfig& config);
 
-  /// Starts another contact: discards everything of the previous one.
+  /// Starts a new contact and discards everything about the previous one.
   void begin();
-  /// The space in front of a known surface is free space. `dt` since the previous sample, s.
+  /// Processes a sample, `dt` s after the previous one. Samples in front of a known surface are not used.
   void step(const PenetrationSample& sample, double dt);
-  /// Restarts the fit for another object or layer under the tool.
+  /// Restarts the fit, because another object or layer is under the tool.
   void renew();
   [[nodiscard]] std::uint32_t changes() const { return changes_; }  // number of detected changes
-  /// At the depth of the last sample in contact. Includes all samples; with an unknown surface all but the
-  /// last 128 at most.
+  /// Returns the estimate at the depth of the last sample in contact. It includes all samples or, if the
+  /// surface is unknown, all except at most the last 128.
   [[nodiscard]] ContactAnswer answer();
-  /// The same for another depth, > 0.
+  /// Returns the estimate at another depth, > 0.
   [[nodiscard]] ContactAnswer answer_at(double depth_m) const;
-  /// Returns false if the force deviates from the law by more than its noise: no power law fits.
-  /// MAXIMUM_LIKELIHOOD only.
+  /// Returns false if the force deviates from the law by more than its noise, so no power law fits.
+  /// MAXIMUM_LIKELIHOOD only; always true for the other estimators.
   [[nodiscard]] bool law_fits() const;
-  /// Returns the depth nearest to `depth_m` that the samples of the fit have reached.
+  /// Returns the depth nearest to `depth_m` that the samples of the fit reached.
   [[nodiscard]] double visited(double depth_m) const;
-  /// Depth at which the elastic force is `force_n` > 0; 0 without a fit.
+  /// Returns the depth at which the elastic force is `force_n` > 0; 0 without a fit.
   [[nodiscard]] double depth_of(double force_n) const;
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
@@ -100,7 +103,8 @@ class Identifier {
   [[nodiscard]] double force_variance() const;
   [[nodiscard]] double position_sd() const;
   bool still(double x_m);
-  [[nodiscard]] bool settled() const;  // the force at the present depth is known within 5 %
+  /// The standard deviation of the force at the present depth is below 5 %.
+  [[nodiscard]] bool settled() const;
   [[nodiscard]] double foreseen_variance(const PenetrationSample& sample) const;
   void watch(const PenetrationSample& sample, double innovation_n);
   void restart();
@@ -109,25 +113,25 @@ class Identifier {
   Held estimator_;
   DifferenceNoise force_noise_;
   DifferenceNoise position_noise_;
-  PenetrationSample last_{};  // in contact
-  double contact_s_ = 0.0;    // since the start of the fit
-  double speed_max_ = 0.0;    // since then
+  PenetrationSample last_{};  // last sample in contact
+  double contact_s_ = 0.0;    // time in contact since the start of the fit
+  double speed_max_ = 0.0;    // maximum speed since the start of the fit
   double force_max_n_ = 0.0;
   double residual_squares_ = 0.0;
   double residuals_ = 0.0;
   double drift_n_ = 0.0;                         // mean innovation of the last 20 samples
-  double deepest_m_ = 0.0, shallowest_m_ = 0.0;  // positions in contact
+  double deepest_m_ = 0.0, shallowest_m_ = 0.0;  // range of the positions in contact
   double hold_m_ = 0.0;                          // position of the present hold
-  int held_ = 0;                                 // samples in it
-  int samples_ = 0;                              // in the fit
-  std::uint32_t steps_ = 0;                      // since the start of the fit
-  double variance_n2_ = 0.0;                     // of the force, as last evaluated
-  bool settled_ = false;                         // likewise
+  int held_ = 0;                                 // number of samples in the present hold
+  int samples_ = 0;                              // number of samples in the fit
+  std::uint32_t steps_ = 0;                      // number of samples since the start of the fit
+  double variance_n2_ = 0.0;                     // variance of the force, at the last evaluation
+  bool settled_ = false;                         // settled() at the last evaluation
   std::uint32_t changes_ = 0;
   std::uint64_t ignored_ = 0;
 };
 
-/// "maximum-likelihood" and so on.
+/// For example "maximum-likelihood".
 std::string_view name_of(EstimatorKind kind);
 std::string_view text_of(Verdict verdict);
 

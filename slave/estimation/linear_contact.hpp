@@ -1,6 +1,6 @@
 #pragma once
-// Common part of the contact laws with two parameters: F = c0 φ0 + c1 φ1 by least squares, and its fit with f
-// = c0, a = c1/c0.
+// Common part of the contact laws with two parameters: least squares fit of F = c0 φ0 + c1 φ1, with the
+// result f = c0 and a = c1/c0.
 
 #include "slave/estimation/contact_fit.hpp"
 #include "slave/estimation/normal_equations.hpp"
@@ -12,7 +12,8 @@ struct LinearContact {
   NormalEquations<2> equations;
   ContactFit fit{};
 
-  /// Returns the force minus the predicted force, N; NaN without a fit.
+  /// Processes a sample with the regressors `phi`. Returns the force minus the predicted force, N; NaN while
+  /// there is no fit.
   double step(const Eigen::Vector2d& phi, const PenetrationSample& sample, double forgetting,
               double variance_n2, double n, bool kelvin_voigt) {
     const double innovation =
@@ -26,7 +27,7 @@ struct LinearContact {
     fit.kelvin_voigt = kelvin_voigt;
     fit.force_n = c[0];
     fit.a_s_per_m = a;
-    Eigen::Matrix<double, 3, 2> J;  // of (ln f, n, a) by c
+    Eigen::Matrix<double, 3, 2> J;  // derivative of (ln f, n, a) with respect to c
     J << 1.0 / c[0], 0.0, 0.0, 0.0, -a / c[0], 1.0 / c[0];
     fit.covariance.topLeftCorner<3, 3>() = variance_n2 * J * inverse * J.transpose();
     fit.valid = c[0] > 0.0 && fit.covariance.allFinite();

@@ -1,7 +1,8 @@
 #pragma once
-// The tangent of a contact without a law: least squares of the force on depth and on depth times speed about
-// the mean depth of the last seconds, F = c + S (x - x̄) + b (x - x0) v. It is used where no power law fits:
-// a progressive foam, a pad on steel, a material with hysteresis. It is valid only within the probed band.
+// Tangent stiffness of a contact without a force law: least squares fit of the force over depth, and over
+// depth times speed, about the mean depth x̄ of the last seconds, F = c + S (x - x̄) + b (x - x0) v. It is
+// used where no power law fits, for example for a progressive foam, a pad on steel or a material with
+// hysteresis. It is valid only in the range of depths that the tool covered.
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -16,7 +17,8 @@ class LocalTangent {
  public:
   void begin() { *this = LocalTangent(); }
 
-  /// `surface_m`: estimate of the surface; `memory_s` > 0.
+  /// Processes a sample. `surface_m`: estimated position of the surface, m. `memory_s` > 0: time constant of
+  /// forgetting.
   void step(const PenetrationSample& s, double surface_m, double memory_s, double dt) {
     const double depth_m = s.x_m - surface_m;
     if (!std::isfinite(depth_m) || !std::isfinite(s.force_n) || !(depth_m > 0.0) || !(dt > 0.0)) return;
@@ -29,7 +31,8 @@ class LocalTangent {
     samples_ = kept * samples_ + 1.0;
   }
 
-  /// Tangent and secant at the mean depth, with their accuracy; not valid while the band is too narrow.
+  /// Returns tangent and secant at the mean depth with their standard deviations; not valid while the range
+  /// of depths is too narrow.
   [[nodiscard]] ContactAnswer answer(double surface_m) const {
     ContactAnswer a;
     if (samples_ < kSamplesLeast) return a;
@@ -59,7 +62,7 @@ class LocalTangent {
 
  private:
   static constexpr double kSamplesLeast = 500.0, kRidge = 1e-9, kSmallest = 1e-300;
-  Eigen::Matrix3d A_ = Eigen::Matrix3d::Zero();  // sums of the rows (1, x, depth v)
+  Eigen::Matrix3d A_ = Eigen::Matrix3d::Zero();  // sums over the rows (1, x, depth v)
   Eigen::Vector3d b_ = Eigen::Vector3d::Zero();
   double squares_ = 0.0, samples_ = 0.0, origin_m_ = 0.0;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// Least squares of y = φᵀθ with forgetting, in information form: A = Σ w φφᵀ, b = Σ w φ y. Solved with the
-// diagonal scaled to one, so that units do not matter. Not handled: a singular A, whose solution is not
-// finite.
+// Least squares fit of y = φᵀθ with forgetting, in information form: A = Σ w φφᵀ, b = Σ w φ y. The matrix is
+// inverted with its diagonal scaled to one, so the units do not matter. A singular A is not handled: its
+// solution is not finite.
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -18,7 +18,7 @@ class NormalEquations {
     A_ = forgetting * A_ + phi * phi.transpose();
     b_ = forgetting * b_ + phi * y;
   }
-  /// Changes the units of the parameters: θ' = unit θ, elementwise.
+  /// Changes the units of the parameters elementwise: θ' = unit θ.
   void rescale(const Vector& unit) {
     const Vector inverse = unit.cwiseInverse();
     A_ = (inverse.asDiagonal() * A_ * inverse.asDiagonal()).eval();

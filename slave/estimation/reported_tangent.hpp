@@ -1,16 +1,18 @@
 #pragma once
 // The part of the estimate that is reported to the operator: the tangent of the contact law at a depth, held
-// constant between changes. It is the line through the force at that depth with the local slope, and begins
-// at its foot, depth - F/F' behind the surface. Each change moves the displayed wall slightly, so the value
-// appears when its sd is below `first_sd`, and then changes only
-//   by more than max(deadband, 3 sd);
-//   by more than max(2 %, 3 sd), of the value or of its direction, at most three times per touch, when its sd
-//       has halved since the last change;
-//   when it is computed for another depth,
-// in the Frobenius norm of S n nᵀ: a more accurate direction is a change as well. A value is never replaced
-// by one that is farther from the requested depth, unless it is certainly wrong: by over 30 % and 5 sd from
-// any power law through it at the depth of a value known within 30 %. A second touch of the same surface
-// continues with it.
+// constant between changes. It is the line through the force F at that depth with the local slope F'. The
+// point at which this line has zero force is called its foot; it is depth - F/F' behind the surface. Each
+// change moves the displayed wall slightly. Therefore a first value is reported only when its sd is below
+// `first_sd`, and it then changes only
+//   if it differs by more than max(deadband, 3 sd);
+//   if its sd has halved since the last change and it differs by more than max(2 %, 3 sd) in value or
+//       direction, at most three times per touch;
+//   or if it is computed for another depth.
+// Differences are in the Frobenius norm of S n nᵀ, so a more accurate direction also counts as a change. A
+// value that is farther from the requested depth, or not known within `first_sd`, replaces the held value
+// only if the held value is certainly wrong. That is the case if the new value is known within 30 % and
+// deviates, by more than 30 % and 5 sd, from every slope that a power law through the held value permits. A
+// second touch of the same surface continues with the held value.
 
 #include "common/spatial/spatial.hpp"
 #include "slave/estimation/identifier.hpp"
@@ -22,25 +24,26 @@ class ReportedTangent {
   explicit ReportedTangent(const EstimatorConfig& config) : config_(config) {}
 
   void configure(const EstimatorConfig& config) { config_ = config; }
-  /// Starts a touch; `again`: of a surface whose value is still valid.
+  /// Starts a touch. `again`: of a surface whose value is still valid.
   void begin(bool again) {
     if (!again) stiffness_n_per_m_ = sd_ = depth_m_ = foot_m_ = 0.0;
     renewals_ = 0;
   }
 
-  /// `asked_m`: requested depth of the value; `elsewhere`: it differs from the previous one. Returns true if
-  /// the reported value has changed.
+  /// Updates the value from an estimate. `asked_m`: requested depth of the value; `elsewhere`: it differs
+  /// from the previous one. Returns true if the reported value changed.
   bool step(const ContactAnswer& answer, const Vector3& normal, double asked_m, bool elsewhere);
 
-  /// The surface is reported at another position: the line keeps its slope and passes through the force of
-  /// the answer at its depth.
+  /// Call it when the surface is reported at another position: the line keeps its slope and is moved through
+  /// the force of `answer` at its depth.
   void place(const ContactAnswer& answer);
 
-  [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: none yet
-  [[nodiscard]] double sd() const { return sd_; }  // its standard deviation as a fraction, at the last change
-  [[nodiscard]] double depth_m() const { return depth_m_; }        // its depth
-  [[nodiscard]] double foot_m() const { return foot_m_; }          // behind the surface, >= 0
-  [[nodiscard]] const Vector3& normal() const { return normal_; }  // at the last change
+  [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: no value yet
+  /// Relative standard deviation of the value at the last change.
+  [[nodiscard]] double sd() const { return sd_; }
+  [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value belongs
+  [[nodiscard]] double foot_m() const { return foot_m_; }    // depth of the foot behind the surface, >= 0
+  [[nodiscard]] const Vector3& normal() const { return normal_; }  // outward normal at the last change
 
  private:
   [[nodiscard]] bool surely_wrong(const ContactAnswer& answer) const;
@@ -50,7 +53,7 @@ class ReportedTangent {
   double depth_m_ = 0.0, foot_m_ = 0.0;
   Vector3 normal_ = Vector3::Zero();
   double sd_ = 0.0;
-  int renewals_ = 0;  // in this touch
+  int renewals_ = 0;  // changes because the sd halved, in this touch
 };
 
 }  // namespace longreach

@@ -7,21 +7,21 @@ namespace longreach {
 namespace {
 
 constexpr double kDirectionMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
-constexpr std::size_t kLast = 64;          // samples before the touch that count in any case
-constexpr double kStraight = 1.33;         // squared, way over its depth: 30 degrees
-constexpr double kSamePlaceM = 0.003;      // the surface that was met before is met again
+constexpr std::size_t kLast = 64;          // samples before the touch that always count
+constexpr double kStraight = 1.33;         // squared ratio of distance to depth, 30 degrees
+constexpr double kSamePlaceM = 0.003;      // tolerance for touching a known surface again
 constexpr double kSameNormal = 0.9;
-constexpr double kHistoryGoals = 4000.0;  // that the playout surely still has (it keeps 8192)
-constexpr double kStepMaxM = 1.0;         // between two samples; more, or none, is no measurement
-constexpr double kReplacedSd = 3.0;       // sd: the surface is not where it was at the touch before
-constexpr double kSlideM = 1e-3;          // along the surface: its place is another one
-constexpr double kRefined = 0.1;          // rad, by which a normal becomes better known
-constexpr double kSharpestM = 2e-3;       // radius of curvature
-constexpr double kUsualPress = 10.0;      // times the touch threshold, a hand presses with
-constexpr double kLocal = 2.0;            // times the memory of the depth
-constexpr double kGoalAtM = 1e-3;         // of a goal that lies at the surface
-constexpr double kValidSd = 0.5;          // fraction
-constexpr double kBeforeM = 5e-3;         // deeper than the tool has gone; that twice
+constexpr double kHistoryGoals = 4000.0;  // goals that the playout certainly still stores (it keeps 8192)
+constexpr double kStepMaxM = 1.0;         // maximum motion between two samples; more is not a measurement
+constexpr double kReplacedSd = 3.0;       // sd: the surface is not where it was at the previous touch
+constexpr double kSlideM = 1e-3;      // motion along the surface after which its position is reported again
+constexpr double kRefined = 0.1;      // rad by which a normal may become more accurate
+constexpr double kSharpestM = 2e-3;   // minimum radius of curvature
+constexpr double kUsualPress = 10.0;  // usual pressing force of a hand, in touch thresholds
+constexpr double kLocal = 2.0;        // times the memory of the depth
+constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
+constexpr double kValidSd = 0.5;      // fraction
+constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 
 WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
   return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
@@ -76,7 +76,7 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     const TouchSample& at = before[i];
     const Vector3 way_m = tool_m_ - at.p_WE;
     const double x_m = normal_.dot(way_m);
-    // A normal that is known roughly makes a depth of what the tool went across.
+    // With an inaccurate normal, sideways motion would count as depth.
     const bool across = before.size() - i > kLast && way_m.squaredNorm() > kStraight * x_m * x_m;
     if (x_m >= first_m && !across)
       identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
@@ -89,9 +89,8 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   touch_sequence_ = 0.0;
 }
 
-// What the tool goes against the force is depth, so that neither a slide along
-// the surface nor its curvature counts as that, which a mean direction would
-// have a long lever for.
+// Depth is the motion of the tool against the force. Neither a slide along the surface nor its curvature
+// counts as depth, which with a mean direction would have a long lever.
 void Surface::press(const Press& press) {
   const Vector3 outward = pushes_.accepted_value(press.outward, press.p_WE, known_);
   const double out_m = outward.dot(press.p_WE - tool_m_);
@@ -120,8 +119,8 @@ void Surface::identify(const Press& press) {
     working_.begin_at(present_m);
     settled_ = true;
   }
-  // A depth that the operator has gone to before feeling the surface, or at
-  // which the guard holds the tool, is not the operator's choice.
+  // A depth that was reached before the operator felt the surface, or at which the guard holds the tool, is
+  // not the choice of the operator.
   const double usual_m = this->usual_m();
   bool elsewhere = false;
   if (reported_.stiffness_n_per_m() > 0.0) reported_s_ += press.dt;
@@ -132,11 +131,11 @@ void Surface::identify(const Press& press) {
   if (!fits) elsewhere = beside(possible(answer_.surface.value) ? answer_.surface.value : least_m_);
   double asked_m = working_.depth_m(usual_m);
   ContactAnswer reported = fits ? identifier_.reported().answer_at(asked_m) : local_reported_;
-  // Rather than to extrapolate far, the nearest depth that was visited.
+  // Uses the nearest depth that was reached, instead of extrapolating far.
   if (fits && reported.valid && !well_known(reported))
     reported = identifier_.reported().answer_at(identifier_.reported().visited(reported.depth_m));
   if (!possible(reported.surface.value)) reported.valid = false;
-  // What is told of another contact does not count.
+  // A value reported for another contact does not count.
   if (!fits || reported_changes_ != changes_) asked_m = reported.depth_m;
   const bool anew = update_report(reported, asked_m, elsewhere);
   if (!well_known(answer_)) return;
@@ -166,8 +165,8 @@ bool Surface::update_report(const ContactAnswer& answer, double asked_m, bool el
   return true;
 }
 
-/// Where no law fits, the line by the samples alone, held until the mean depth
-/// has gone elsewhere. True when it is another one.
+/// Where no law fits, uses the tangent of the samples alone, held until the mean depth has changed. Returns
+/// true if it changed.
 bool Surface::beside(double surface_m) {
   const ContactAnswer now = local_.answer(surface_m);
   if (!now.valid) return false;
@@ -189,8 +188,8 @@ void Surface::place() {
 
 double Surface::across_m(const Vector3& from) const { return Vector3(tool_m_ - from).cross(normal_).norm(); }
 
-// A force that turns more than a tool can have slid round an edge is not the
-// surface's: the sensor's zero.
+// A force that turns by more than a slide around an edge permits is not that of the surface: the zero of the
+// sensor has changed.
 Vector3 Surface::Direction::accepted_value(const Vector3& n, const Vector3& tool, bool known) {
   const double way_m = Vector3(tool - at_m).cross(normal).norm();
   if (known && normal.cross(n).norm() > kRefined + way_m / kSharpestM) return normal;
@@ -227,8 +226,8 @@ void Surface::move_origin(const Vector3& by) {
     *place -= by;
 }
 
-/// Noise and a change of the material may leave a fit without a sample in front of the surface, and so with a
-/// surface anywhere.
+/// After noise or a change of the material, a fit may contain no sample in front of the surface, so its
+/// surface may be anywhere.
 bool Surface::possible(double surface_m) const {
   return inward_m_ - surface_m < kBeforeM + 2.0 * (most_m_ - least_m_);
 }
@@ -244,7 +243,8 @@ void Surface::locate(const Playout& playout, const Vector3& anchor, double playe
   const bool placed = placed_sd_m_ > 0.0;
   const Vector3 normal = placed ? reported_.normal() : normal_, at = placed ? place_m_ : point();
   const auto crossing = playout.crossing(-normal, at - anchor, played_at_touch_, kGoalAtM);
-  touch_sequence_ = crossing.value_or(0.0);  // none: it was met before the goals began, or it moves
+  touch_sequence_ =
+      crossing.value_or(0.0);  // none: the touch was before the first goal, or the surface moves
 }
 
 double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface_m_, 0.0) : 0.0; }

@@ -1,8 +1,8 @@
 #pragma once
-// An identifier that detects another object or layer under the tool with any estimator. If the law of an
-// estimator does not fit, its error grows with the depth, which indicates nothing. A maximum likelihood fit,
-// which assumes no particular law, therefore runs in parallel: when the force contradicts it, the estimate
-// restarts as well.
+// An identifier that detects, with any estimator, that another object or layer is under the tool. If the law
+// of the estimator does not fit, its residual grows with the depth, so the residual is no evidence of a
+// change. A maximum likelihood fit, whose exponent is free, therefore runs in parallel: when the force
+// contradicts that fit, the estimate restarts.
 
 #include "slave/estimation/identifier.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
-// The depth for which the stiffness is reported: the working depth of the hand. At first it is the depth of a
-// usual force, so that the value does not follow the approach. Then it is the mean depth of about the last
-// `memory_s`, held until the tangent there differs by over 8 %, unless the hand swings about the held depth.
-// For a swinging hand it is the mean of a whole swing, for a resting one the limit of the mean, each held
-// within 2 %.
+// The depth for which the stiffness is reported: the depth at which the operator works. At first it is the
+// depth at the usual force of a hand, so that the value does not follow the approach. Later it is the mean
+// depth over about the last `memory_s`, held until the tangent at the mean differs by more than 8 %, unless
+// the tool oscillates about the held depth. While the tool oscillates, it is the mean depth of a whole
+// period; while the tool rests, it is the limit of the mean. These two are held within 2 %.
 
 #include <algorithm>
 #include <cmath>
@@ -13,24 +13,25 @@ namespace longreach {
 class WorkingDepth {
  public:
   void begin() { *this = WorkingDepth(); }
-  /// For a contact that has changed under the hand: starts at the present depth.
+  /// For a contact that changed while it was pressed: restarts at the present depth.
   void begin_at(double present_m) {
     begin();
     held_m_ = std::max(present_m, 0.0);
   }
-  /// The tool has left and may return. It does not start deeper than usual: a line from there is displayed
-  /// too late, and a spring that grows in the hand takes energy that is not available.
+  /// The tool has left the surface and may return. The depth is then limited to the usual depth: a tangent at
+  /// a greater depth has its foot farther behind the surface and would be displayed too late, and stiffening
+  /// the spring while it is pressed takes energy that is not available.
   void leave(double usual_m) {
     const double held_m = std::min(held_m_, usual_m);
     begin();
     held_m_ = held_m;
   }
 
-  /// `usual_m`: depth of the usual force.
+  /// Returns the depth to report; `usual_m`: depth at the usual force of a hand, m.
   [[nodiscard]] double depth_m(double usual_m) const { return held_m_ > 0.0 ? held_m_ : usual_m; }
 
-  /// Call it while the contact is known, with this exponent. `present_m`: present depth; `memory_s` > 0.
-  /// Returns true if the held depth has changed.
+  /// Call it in every tick in which the contact is known. `exponent`: of its law; `present_m`: present depth;
+  /// `memory_s` > 0. Returns true if the held depth changed.
   bool follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
     const double held_m = depth_m(usual_m), now_m = std::max(present_m, 0.0);
     if (!begun_) mean_m_ = now_m;
@@ -52,9 +53,12 @@ class WorkingDepth {
 
  private:
   static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
-  static constexpr double kRests = 2.5;  // times the memory
-  static constexpr double kSwing = 0.5;  // of the depth's sd about its mean
-  static constexpr double kThere = 0.3;  // of the mean depth: otherwise the tool only passes
+  /// Duration without an oscillation after which the tool counts as resting, in multiples of the memory.
+  static constexpr double kRests = 2.5;
+  /// Minimum amplitude of an oscillation, in standard deviations of the depth.
+  static constexpr double kSwing = 0.5;
+  /// A tool farther from the mean depth than this share of it is only passing.
+  static constexpr double kThere = 0.3;
 
   bool hold(double depth_m) {
     if (!(depth_m > 0.0)) return false;
@@ -63,7 +67,7 @@ class WorkingDepth {
     return true;
   }
 
-  /// Returns the mean depth of a swing that ends now, upwards through the mean; otherwise 0.
+  /// Returns the mean depth of the period that ends now by an upward crossing of the mean; otherwise 0.
   double swing(double now_m, double swing_m, double dt) {
     swing_sum_ += now_m * dt;
     swing_s_ += dt;
@@ -77,12 +81,14 @@ class WorkingDepth {
   }
 
   bool begun_ = false;
-  double held_m_ = 0.0;  // held instead of the depth of the usual force; 0: none
-  double held_s_ = 0.0;  // since then
+  double held_m_ = 0.0;  // depth that is held instead of the usual depth; 0: none
+  double held_s_ = 0.0;  // time since the depth has been held
   double mean_m_ = 0.0, variance_m2_ = 0.0;
-  /// the swing has been below the mean; it started at the end of another one
+  /// The tool was below the mean in this period (`below_`); the period started at the end of another one
+  /// (`whole_`).
   bool below_ = false, whole_ = false;
-  double swing_sum_ = 0.0, swing_s_ = 0.0;  // m s and s, since its start
+  /// Integral of the depth over the present period, m s, and its duration, s.
+  double swing_sum_ = 0.0, swing_s_ = 0.0;
 };
 
 }  // namespace longreach

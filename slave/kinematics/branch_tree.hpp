@@ -1,7 +1,7 @@
 #pragma once
-// Search of the branches of a closed form: two alternatives at each square root, and six angles at each end.
-// If only the nearest branch is wanted, the nearer alternative is tried first, and another one is skipped if
-// its angle alone is farther away than the best result.
+// Search for the branches of a closed form: each square root has two alternatives, and each leaf has six
+// angles. If only the nearest branch is wanted, the nearer alternative is tried first, and another one is
+// skipped if one of its angles alone is farther away than the best result.
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ class BranchTree {
     out.count = 0;
   }
 
-  /// Both signs of the sine of `aside` (>= 0), first the one on the side of `here`, the previous angle
-  /// relative to the middle of both.
+  /// Tries both signs of the sine of `aside` (>= 0). The first one is on the side of `here`, which is the
+  /// previous angle relative to the angle midway between the two alternatives.
   template <typename Then>
   void fork(const Turn& here, const Turn& aside, const Then& then) {
     const Turn nearer{aside.c, std::copysign(aside.s, here.s)};
@@ -38,7 +38,7 @@ class BranchTree {
     return nearest_ && too_far(likeness(t, before(role)));
   }
 
-  /// The rotation from one vector to another; if one of them vanishes, the previous angle.
+  /// Returns the rotation from one vector to another, or the previous angle if one of them vanishes.
   [[nodiscard]] Turn direction(const Plane& from, const Plane& to, Role role) const {
     const double square = from.x * from.x + from.y * from.y, other = to.x * to.x + to.y * to.y;
     if (!(std::min(square, other) > kFreeSquare)) return before(role);
@@ -48,7 +48,7 @@ class BranchTree {
 
   [[nodiscard]] Turn before(Role role) const { return {before_.cos[role], before_.sin[role]}; }
 
-  /// Minimum miss of the branches that `then` finds; these are not kept.
+  /// Returns the minimum miss of the branches that `then` finds; these branches are not kept.
   template <typename Then>
   [[nodiscard]] double probe(const Then& then) {
     const double before = std::exchange(least_miss_, std::numeric_limits<double>::infinity());
@@ -60,6 +60,7 @@ class BranchTree {
 
   void set(Role role, const Turn& t) { cos_[role] = t.c, sin_[role] = t.s; }
 
+  /// Adds the branch with the present angles, unless it is worse than the best one.
   void add(double miss) {
     least_miss_ = std::min(least_miss_, miss);
     if (probing_) return;
@@ -82,11 +83,11 @@ class BranchTree {
     ++out_.count;
   }
 
-  /// Every branch is wanted, and kept.
+  /// All branches are wanted, and branches that are found are kept.
   [[nodiscard]] bool all() const { return !nearest_ && !probing_; }
 
-  /// The last branch with its wrist the other way round, d + π, -e and f + π: what a wrist of right angles can
-  /// do too.
+  /// Adds the last branch with a flipped wrist, d + π, -e, f + π, which a wrist with perpendicular axes also
+  /// permits.
   void add_flipped() {
     if (out_.count == 0 || out_.count == Branches::kMax) return;
     Branch& flipped = out_.branch[static_cast<std::size_t>(out_.count)];
@@ -101,7 +102,7 @@ class BranchTree {
   }
 
  private:
-  // From the previous joints: near them a sine is sufficient.
+  // Angles relative to the previous joints. Near these joints, the sine is sufficient.
   void angles(double (&angle)[6]) const {
     double s[6], c[6];
     for (std::size_t role = 0; role < 6; ++role) {
@@ -113,7 +114,7 @@ class BranchTree {
     for (std::size_t role = 0; role < 6; ++role) angle[role] = arc_of_small_sine(s[role]);
   }
 
-  static constexpr double kLike = 0.996;  // the sine is within kSmallSine
+  static constexpr double kLike = 0.996;  // above this cosine, the sine is within kSmallSine
   [[nodiscard]] bool too_far(double likeness) const { return 2.0 * (1.0 - likeness) >= found_; }  // <= x²
   const std::array<LoopJoint, 6>& joint_;
   const KnownJoints& before_;

@@ -1,19 +1,19 @@
 #pragma once
-// All joint angles for a tool pose in closed form, for arms whose loop arm_loop.hpp recognises.
+// All joint angles for a tool pose in closed form, for arms whose loop arm_loop.hpp recognizes.
 //
-// The loop leaves two equations in one angle c and one more, β:
+// The loop leaves two equations in one angle c and one more angle β:
 //   a X = x(c),  sin α Y = y(c),  (X, Y) = Rot(β) r(c)          x, y, r: k + k' cos c + k'' sin c
-// (spherical: the intersection point of the axes, seen from the axes a and b, β = φ_b; parallel: the common
-// direction, likewise, β = -φ_a). With a = 0 or sin α = 0 one of them contains only c: two roots by the phase
-// formula, then two of β; otherwise X² + Y² = r² is a trigonometric polynomial of second degree in c: up to
-// four roots. The remainder is a wrist (two solutions) or a planar arm (two solutions): at most eight in
-// total.
+// (spherical: X and Y belong to the intersection point of the axes, seen from the axes a and b, β = φ_b;
+// parallel: to the common direction of the axes, β = -φ_a). With a = 0 or sin α = 0, one equation contains
+// only c: it has two roots by the phase formula, and each gives two values of β. Otherwise X² + Y² = r² is a
+// trigonometric polynomial of second degree in c with up to four roots. What remains is a wrist or a planar
+// arm, each with two solutions, so there are at most eight solutions in total.
 //
-// Angles are computed as the direction of a vector, lengths as hypot, differences of squares as products: no
-// acos. Where such a vector vanishes (below kFree) the pose does not determine the angle, and the previous
-// joints do. Where the discriminant of a root is negative, the nearest real root is taken and `miss` gives
-// the deviation. Near a singular pose a square root halves the digits of an angle: the caller improves the
-// result by Newton steps (inverse.hpp). Joint limits are not considered.
+// Angles are computed as the direction of a vector, lengths as hypot, differences of squares as products;
+// acos is not used. Where such a vector vanishes (below kFree), the pose does not determine the angle, and
+// the previous joints do. Where the discriminant of a root is negative, the nearest real root is used, and
+// `miss` gives the deviation. Near a singular pose, a square root halves the number of correct digits of an
+// angle; the caller improves the result by Newton steps (inverse.hpp). Joint limits are not considered.
 
 #include <array>
 #include <numbers>
@@ -23,25 +23,26 @@
 
 namespace longreach {
 
-/// The present joints, which determine the branch. Computed once for all poses near them: the angles of
-/// solutions near them need no arc tangent.
+/// The present joints, which determine the branch. They are computed once for all poses near them. The angles
+/// of solutions near them need no arc tangent.
 struct KnownJoints {
   JointVector joint_rad;
-  double cos[6], sin[6];  // of the angles of the loop, a to f
+  double cos[6], sin[6];  // cosines and sines of the loop angles, a to f
 };
 
 struct Branch {
-  JointVector joint_rad;  // each angle on the turn nearest to the previous joints
-  double miss;  // 0: reached; otherwise the residual of an equation, in sines and shares of the reach
+  JointVector joint_rad;  // each angle shifted by full turns to be nearest to the previous joints
+  /// 0: the pose is reached; otherwise the residual of an equation, as a sine or in multiples of the reach.
+  double miss;
 };
 
 struct Branches {
-  static constexpr int kMax = 28;  // eight, and double roots of the quartic
+  static constexpr int kMax = 28;  // eight solutions, and double roots of the quartic
   int count = 0;
   std::array<Branch, kMax> branch;
 };
 
-/// x modulo whole turns, in [-π, π], for |x| < 1e6: adding the constant rounds to an integer.
+/// Returns x modulo full turns, in [-π, π], for |x| < 1e6. Adding the constant rounds to an integer.
 inline double nearest_turn(double x) {
   constexpr double kTwoPi = 2.0 * std::numbers::pi, kRound = 0x1.8p52;
   return x - kTwoPi * ((x / kTwoPi + kRound) - kRound);
@@ -56,16 +57,17 @@ class ClosedInverse {
   [[nodiscard]] bool applies() const { return loop_.family != ArmFamily::kNone; }
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
-  /// `X_WE` must be finite. `nearest`: of all branches that miss by at most ArmLoop::miss_max only the one nearest to
-  /// `before` (minimum Σ Δq², each angle on the nearest turn). Others are skipped as soon as one angle alone
-  /// is farther away: near known joints, all except their own branch.
+  /// `X_WE` must be finite. `nearest`: returns only the branch nearest to `before` (minimum Σ Δq², each angle
+  /// shifted by full turns), among those that miss by at most ArmLoop::miss_max. A branch is skipped as soon
+  /// as one of its angles alone is farther away than the best result; near known joints, these are all
+  /// branches except the present one.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
 
-  /// `joint_rad` must be finite.
+  /// Prepares the present joints; `joint_rad` must be finite.
   [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:
-  ArmLoop loop_;  // its lengths in shares of the reach
+  ArmLoop loop_;  // the loop, with lengths in multiples of the reach
   double per_m_ = 1.0;
 };
 

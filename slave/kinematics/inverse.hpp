@@ -1,20 +1,20 @@
 #pragma once
-// Joint angles for a tool pose: the inverse kinematics of the slave. Closed form if the arm has one
-// (closed_inverse.hpp), linear for a Cartesian robot, numeric search otherwise.
+// Inverse kinematics of the slave: joint angles for a tool pose. It uses the closed form if the arm has one
+// (closed_inverse.hpp), linear equations for a Cartesian robot, and a numeric search otherwise.
 //
-// An arm that is nearly one with a closed form, as calibrated rows describe it, is solved by that form, too:
-// its solutions are where the Newton steps begin.
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
-// the tool is within Refinement::kExact of the goal (rad, and share of the reach). Of those within the joint
-// limits, with each angle on the turn nearest to the measured joints, the preferred one is chosen. If there
-// is none, the damped iteration of numeric_inverse.hpp moves to the nearest pose within the limits.
+// the tool is within Refinement::kExact of the goal (rad, and multiples of the reach). For an arm that has
+// the closed form only approximately, such as a calibrated one, the solutions of that form are the starting
+// points of the Newton steps. Of the solutions within the joint limits, each angle shifted by full turns to
+// be nearest to the measured joints, the preferred one is chosen. If there is none, the damped iteration of
+// numeric_inverse.hpp moves to the nearest pose within the limits.
 //
-// kFound     the tool reaches the goal
-// kSingular  the tool reaches the goal, but cannot move from there in the direction `lost`
-// kNearest   the goal is out of reach, or only beyond joint limits; the errors give the deviation. A search
-//            (restarts_max > 0) never returns this while all() lists a solution within the limits
-// A robot without a wrist (Cartesian) ignores the rotation of the goal and reports that in
-// `rotation_ignored`.
+//   kFound     the tool reaches the goal
+//   kSingular  the tool reaches the goal, but cannot move from there in the direction `lost`
+//   kNearest   the goal is out of reach, or reachable only beyond joint limits; the errors give the deviation
+//
+// A search (restarts_max > 0) never returns kNearest if all() lists a solution within the limits. A robot
+// without a wrist (Cartesian) ignores the rotation of the goal and reports that in `rotation_ignored`.
 
 #include <cstdint>
 #include <string_view>
@@ -35,19 +35,21 @@ constexpr std::string_view to_string(InverseStatus status) {
 
 struct InverseResult {
   InverseStatus status = InverseStatus::kNearest;
-  JointVector joint_rad = JointVector::Zero();  // within the joint limits; finite if `near_rad` was
-  Pose X_WE{};                                  // of joint_rad
-  double position_error_m = 0.0;                // of X_WE from the goal
+  /// Within the joint limits; finite if the start of the search was finite.
+  JointVector joint_rad = JointVector::Zero();
+  Pose X_WE{};                    // pose of the tool at joint_rad
+  double position_error_m = 0.0;  // distance of X_WE from the goal
   double rotation_error_rad = 0.0;
-  double conditioning = 0.0;       // joint_step.hpp: 0 at a singular pose, about 0.3 at a good one
-  Vector6 lost = Vector6::Zero();  // kSingular: unit vector [angular times length; linear]; otherwise zero
-  bool at_joint_limit = false;     // limited by a joint limit
+  double conditioning = 0.0;  // 0 at a singular pose, about 0.3 at a well-conditioned one (joint_step.hpp)
+  /// kSingular: unit vector [angular times length; linear] of the lost direction; otherwise zero.
+  Vector6 lost = Vector6::Zero();
+  bool at_joint_limit = false;  // a joint limit prevented a better result
   bool rotation_ignored = false;
-  std::uint32_t iterations = 0;  // of the numeric inverse
+  std::uint32_t iterations = 0;  // iterations of the numeric inverse
 };
 
-/// All solutions for one pose, regardless of joint limits, each angle on the turn nearest to the previous
-/// joints.
+/// All solutions for one pose, regardless of joint limits, with each angle shifted by full turns to be
+/// nearest to the previous joints.
 struct InverseSolutions {
   static constexpr int kMax = 16;  // maximum for any arm with six revolute joints (Primrose 1986)
   int count = 0;
@@ -56,25 +58,27 @@ struct InverseSolutions {
 
 class Inverse {
  public:
-  static constexpr double kSingular = 1e-7;  // conditioning below which a direction is lost
+  static constexpr double kSingular = 1e-7;  // conditioning below which a direction counts as lost
 
   explicit Inverse(const RobotConfig& robot);
 
-  /// `near_rad`: finite start of the search. `tolerance` is for the numeric inverse. For a goal that is not
-  /// finite it returns `near_rad` and kNearest.
+  /// Returns the joint angles for a goal. `near_rad`: start of the search, finite. `tolerance` is for the
+  /// numeric inverse. If the goal is not finite, returns `near_rad` and kNearest.
   [[nodiscard]] InverseResult solve(const Pose& X_WE_goal, const JointVector& near_rad,
                                     const InverseTolerance& tolerance) const;
 
-  /// Like solve, for a goal one tick ahead: a solution farther away than a joint can move (another branch, or
-  /// the other side of a singular pose) is not jumped to but approached by the damped iteration.
+  /// Like solve, for a goal one tick ahead. If the solution is farther away than a joint can move (another
+  /// branch, or the other side of a singular pose), the damped iteration approaches it instead of jumping to
+  /// it.
   [[nodiscard]] InverseResult follow(const Pose& X_WE_goal, const JointVector& joint_rad,
                                      const InverseTolerance& tolerance) const;
 
-  /// All solutions in closed form; otherwise those that `tolerance.restarts_max` runs of the search find.
+  /// Returns all solutions of the closed form. Without a closed form, returns those that
+  /// `tolerance.restarts_max` runs of the search find.
   [[nodiscard]] InverseSolutions all(const Pose& X_WE_goal, const JointVector& near_rad,
                                      const InverseTolerance& tolerance) const;
 
-  /// Description of the kind of inverse.
+  /// Returns a description of the kind of inverse kinematics.
   [[nodiscard]] std::string_view words() const;
   [[nodiscard]] const Kinematics& kinematics() const { return numeric_.kinematics(); }
   [[nodiscard]] const ClosedInverse& closed() const { return closed_; }
@@ -98,10 +102,11 @@ class Inverse {
   NumericInverse numeric_;
   ClosedInverse closed_;
   BranchPreference prefer_;
-  JointVector per_speed_s_;                  // 1 / speed limit, s/rad
-  bool cartesian_ = false;                   // three prismatic joints, the others fixed
-  std::array<int, 3> slider_{};              // which
-  Matrix3 from_position_ = Matrix3::Zero();  // m of the sliders per m of the tool
+  JointVector per_speed_s_;      // 1 / speed limit, s/rad
+  bool cartesian_ = false;       // three prismatic joints, the others fixed
+  std::array<int, 3> slider_{};  // indices of the prismatic joints
+  /// Maps a displacement of the tool (m) to displacements of the prismatic joints (m).
+  Matrix3 from_position_ = Matrix3::Zero();
 };
 
 }  // namespace longreach

@@ -1,10 +1,10 @@
 #pragma once
-// Pose and velocity of the tool of a chain of six joints.
+// Pose and velocity of the tool at the end of a chain of six joints.
 //   X_WE = B A₁(q₁) ... A₆(q₆) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
-//   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] of the axis z through o, [0; z] of a prismatic joint
-// β = 0 (Denavit, Hartenberg 1955) except between axes that are nearly parallel (Hayati 1983). B is the base,
-// E the tool frame. A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved to the previous
-// joint, and that of the first row to B. Rows with a distant common normal, as calibration produces them, are
+//   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] for the axis z through o, [0; z] for a prismatic joint
+// B is the base, E the tool frame. β is 0 (Denavit, Hartenberg 1955) except between nearly parallel axes
+// (Hayati 1983). A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved to the previous
+// joint, that of the first row to B. Calibration can produce rows whose common normal is far away; these are
 // rewritten (joint_rows.hpp), because lengths much greater than the arm would cost digits. The base S of the
 // robot is the world W. Limits, speeds and singularities are not considered.
 
@@ -23,13 +23,13 @@ struct ToolKinematics {
   Jacobian J;
 };
 
-/// The same with the rotation as a matrix, for solvers.
+/// The same with the rotation as a matrix, for the solvers.
 struct RigidKinematics {
   Rigid X_WE{};
   Jacobian J;
 };
 
-/// Joint values at which the robot starts, rad or m.
+/// Returns the joint positions at which the robot starts, rad or m.
 JointVector start_joints(const RobotConfig& robot);
 
 class Kinematics {
@@ -41,15 +41,16 @@ class Kinematics {
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths, offsets and slides of the table, tool included, at least 1 mm: the magnitude of
-  /// the summed numbers, and so of their rounding error.
+  /// Sum of all link lengths, offsets and slides of the table including the tool, at least 1 mm. This is the
+  /// magnitude of the numbers that are added, and therefore of their rounding error.
   [[nodiscard]] double reach_m() const { return reach_m_; }
-  static constexpr double kMotion = 1.1;  // for a long arm it is the sum of its links
-  /// The length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean
-  /// square of the tool motion per rad, over all joints and all their angles; for a slide, its travel. It
+  static constexpr double kMotion =
+      1.1;  // chosen so that the motion length of a long arm is the sum of its links
+  /// Length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean square
+  /// of the tool motion per rad, over all joints and all their angles; for a prismatic joint, its travel. It
   /// depends only on the motion of the tool, not on the position of the base or the convention of the table.
   [[nodiscard]] double motion_length_m() const { return motion_length_m_; }
-  /// In the standard convention, whatever the file's.
+  /// The rows in the standard convention, regardless of the convention of the file.
   [[nodiscard]] const std::array<JointRow, kMaxJoints>& links() const { return row_; }
   [[nodiscard]] const Rigid& base() const { return base_; }  // B
   [[nodiscard]] const Rigid& tool() const { return tool_; }  // E
@@ -71,7 +72,7 @@ class Kinematics {
   std::array<Link, kMaxJoints> link_{};
   std::array<JointRow, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
-  Rigid last_{};  // after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
+  Rigid last_{};  // transformation after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
   double reach_m_ = 0.0;
   double motion_length_m_ = 0.0;
   bool all_revolute_ = true;

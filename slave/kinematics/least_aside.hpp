@@ -1,13 +1,14 @@
 #pragma once
-// The minimum change of an undetermined angle that brings the remainder of an arm within reach. It takes some
-// 150 evaluations: for singular poses only.
+// Finds the smallest change of an undetermined angle that brings the remaining joints of an arm within reach.
+// It needs about 150 evaluations and is used only at singular poses.
 
 #include <cmath>
 
 namespace longreach {
 
-/// Returns the h in [-width, width] nearest to 0 with miss(h) <= 0; if there is none, the one with the
-/// minimum miss. `miss` must be continuous; narrow valleys are found from samples width / 24 apart.
+/// Returns the h in [-width, width] nearest to 0 with miss(h) <= 0 or, if there is none, the h with the
+/// minimum miss. `miss` must be continuous. Minima narrower than width / 24, the distance between samples,
+/// may be missed.
 template <typename Miss>
 double least_aside(double width, const Miss& miss) {
   constexpr int kSamples = 24, kHalvings = 50;

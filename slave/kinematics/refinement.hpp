@@ -1,31 +1,31 @@
 #pragma once
-// Improves joint angles that almost place the tool at a goal to full accuracy: Newton steps with the exact
-// kinematics, also near singular poses, where the closed form has lost half of its digits. Not for starts
-// farther away than about 1e-3.
+// Improves joint angles that place the tool almost at a goal to full accuracy, by Newton steps with the exact
+// kinematics. This also works near singular poses, where the closed form has lost half of its digits. The
+// start must be within about 1e-3 of the solution.
 
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {
 
-/// Joint angles and the corresponding exact kinematics.
+/// Joint angles, and the exact kinematics at these angles.
 struct Placed {
   JointVector joint_rad = JointVector::Zero();
   RigidKinematics tool{};
-  Vector3 rotation_error_rad = Vector3::Zero();  // from the tool to the goal
-  Vector3 position_error_m = Vector3::Zero();
-  double miss = 0.0;  // the larger of both errors, rad and share of the reach
+  Vector3 rotation_error_rad = Vector3::Zero();  // rotation from the tool to the goal
+  Vector3 position_error_m = Vector3::Zero();    // displacement from the tool to the goal
+  double miss = 0.0;  // the larger of the two errors, in rad and in multiples of the reach
 };
 
 class Refinement {
  public:
-  static constexpr double kExact = 1e-14;  // rad, and share of the reach
+  static constexpr double kExact = 1e-14;  // tolerance in rad, and in multiples of the reach
 
   Refinement(const Kinematics& kinematics, const Rigid& goal) : kinematics_(kinematics), goal_(goal) {}
 
   [[nodiscard]] Placed at(const JointVector& joint_rad) const;
 
-  /// From `placed.joint_rad`. Returns true if the tool is within kExact of the goal. All of `placed` is
-  /// filled in.
+  /// Starts from `placed.joint_rad` and fills in all of `placed`. Returns true if the tool is within kExact
+  /// of the goal.
   [[nodiscard]] bool improve(Placed& placed) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Rotations about z and their action on vectors: the algebra of closed_inverse.cpp.
+// Rotations about z and their action on vectors: the algebra that closed_inverse.cpp uses.
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ struct Plane {
 };
 inline Plane flat(const Vector3& v) { return {v.x(), v.y()}; }
 
-/// Rz(t) v and Rz(-t) v.
+/// turned() returns Rz(t) v, turned_back() Rz(-t) v.
 inline Vector3 turned(const Turn& t, const Vector3& v) {
   return {t.c * v.x() - t.s * v.y(), t.s * v.x() + t.c * v.y(), v.z()};
 }
@@ -26,27 +26,28 @@ inline Vector3 turned_back(const Turn& t, const Vector3& v) {
   return {t.c * v.x() + t.s * v.y(), t.c * v.y() - t.s * v.x(), v.z()};
 }
 
-/// Two rows of a rotation.
+/// Two rows of a rotation matrix.
 using Rows = Eigen::Matrix<double, 2, 3>;
 
-/// Times Rz(t).
+/// Multiplies the rows by Rz(t) from the right.
 inline void turn_back(Rows& rows, const Turn& t) {
   const Eigen::Vector2d x = rows.col(0);
   rows.col(0) = t.c * x + t.s * rows.col(1);
   rows.col(1) = t.c * rows.col(1) - t.s * x;
 }
 
-/// g·Rz(φ) v as a function of φ.
+/// Returns g·Rz(φ) v as a function of φ.
 inline Trig turned_part(const Vector3& g, const Vector3& v) {
   return {g.z() * v.z(), g.x() * v.x() + g.y() * v.y(), g.y() * v.x() - g.x() * v.y()};
 }
 
+/// Returns `t` normalized to unit length.
 inline Turn unit(const Turn& t) {
   const double scale = 1.0 / std::sqrt(t.c * t.c + t.s * t.s);
   return {t.c * scale, t.s * scale};
 }
 
-/// Cosine of the angle between.
+/// Cosine of the angle between two rotations.
 inline double likeness(const Turn& a, const Turn& b) { return a.c * b.c + a.s * b.s; }
 
 }  // namespace longreach

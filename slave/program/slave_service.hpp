@@ -1,6 +1,6 @@
 #pragma once
-// Operations of the slave for RPC clients: queries, tightening of limits, impairment, stop. The master
-// decides about engagement, mode and scale.
+// Operations of the slave for RPC clients: queries, tighter limits, an artificial impairment of the link, and
+// stop. Engagement, mode and scale can be changed only at the master.
 
 #include <chrono>
 #include <mutex>
@@ -12,12 +12,12 @@
 
 namespace longreach {
 
-/// Returns why the robot cannot be engaged, and a remedy, or empty.
+/// Returns why the robot cannot be engaged, and a remedy; empty if it can.
 std::string robot_trouble(const SlaveView& view);
 
 class SlaveService : public ControlBackend {
  public:
-  /// `config`: as loaded, files resolved; its limits are upper bounds for later changes.
+  /// `config`: as loaded, with the contents of its files; its limits are upper bounds for later changes.
   SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
@@ -36,14 +36,14 @@ class SlaveService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Call it before the loop starts, so that its first tick is recorded, as a replay requires. Throws
-  /// RecordingError.
+  /// Starts a recording. Call it before the loop starts, so that the first tick is recorded, as a replay
+  /// requires. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Address of the master that has control of the robot; empty: none.
+  /// Address of the master that controls the robot; empty: none.
   [[nodiscard]] std::string lease() const;
 
-  /// Newest snapshot of the loop; callable from any thread except the loop's.
+  /// Returns the newest snapshot of the loop. May be called from any thread except that of the loop.
   SlaveSnapshot snapshot();
 
  private:
@@ -51,19 +51,19 @@ class SlaveService : public ControlBackend {
   void set_lease(const std::string& holder);
 
   SideRecording<SlaveRecordBuffer>::Request recording_request(double max_mb) const;
-  /// Passes a record buffer to the loop; false: it did not respond.
+  /// Passes a record buffer to the loop. Returns false if the loop did not respond.
   bool attach(SlaveRecordBuffer* record_buffer);
 
   SlaveShell& shell_;
   SideConfig<proto::SlaveConfig> config_;
-  std::uint32_t config_number_ = 0;  // of the configurations passed to the loop
+  std::uint32_t config_number_ = 0;  // number of the last configuration passed to the loop
   RecordingPlace recordings_;
   SideRecording<SlaveRecordBuffer> recording_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::mutex reading_;  // for readers of snapshots
+  std::mutex reading_;  // protects reading of snapshots
   mutable std::mutex leasing_;
   std::string lease_;
-  std::string refused_;  // the last refused master
+  std::string refused_;  // address of the last master that was refused
 };
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// The loop of the slave with real sockets and a robot: one tick receives, steps the node, moves the robot,
-// sends. It runs only in the thread of the loop; other threads communicate with it by mailbox, stops and
-// snapshots, which never block it.
+// The loop of the slave with real sockets and a robot. One tick receives, steps the node, moves the robot and
+// sends. It runs only in the thread of the loop. Other threads communicate with it through the mailbox, the
+// stop level and snapshots, which never block the loop.
 
 #include <variant>
 
@@ -24,27 +24,29 @@ struct SlaveSnapshot {
   SlaveView view{};
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
-  double send_hz = 300.0;  // of the master, as reported
+  double send_hz = 300.0;  // send rate of the master, as it reported it
   AdapterFigures adapter{};
 };
 
 struct SlaveChange {
   SlaveConfig config{};
-  bool only_disengaged = false;  // a field changes that cannot change while engaged
-  bool impairment = false;       // config.link.impairment has changed
-  std::uint32_t number = 0;      // of the configuration, for a recording
+  /// A field changed that must not change while engaged.
+  bool only_disengaged = false;
+  bool impairment = false;   // config.link.impairment changed
+  std::uint32_t number = 0;  // number of the configuration, for a recording
 };
-/// Record buffer from now on; none: no recording. The loop no longer uses the previous one.
+/// Sets the record buffer; null: no recording. After the command has been processed, the loop does not use
+/// the previous buffer any more.
 struct SlaveRecordingChange {
   SlaveRecordBuffer* record_buffer = nullptr;
 };
-/// A master requests control of the robot. `take`: also if another one has it.
+/// A master requests control of the robot. `take`: take control even if another master has it.
 struct SlaveLease {
   Session session{};
   bool take = false;
   double send_hz = 300.0;
 };
-/// A master returns control.
+/// A master releases control of the robot.
 struct SlaveReturn {
   std::uint64_t session = 0;
 };
@@ -53,16 +55,16 @@ using SlaveCommand =
 
 class SlaveShell {
  public:
-  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: of the artificial
-  /// impairment and of the simulated arm.
+  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: for the random
+  /// numbers of the artificial impairment and of the simulated arm.
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
-  /// Waits until the adapter of the robot answers, at most 2 s; returns at once if there is none. Call it
+  /// Waits for a reply of the robot adapter, for at most 2 s; returns at once if there is no adapter. Call it
   /// before the first tick.
   void wait_for_robot();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Call it before the first tick; later use SlaveRecordingChange.
+  /// Sets the record buffer. Call it only before the first tick; later use SlaveRecordingChange.
   void record(SlaveRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
@@ -71,22 +73,22 @@ class SlaveShell {
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
-  /// `taken`: whether another master has control of the robot from this tick on.
+  /// Executes a command. Sets `taken` if another master has taken control of the robot in this tick.
   LoopAnswer obey(const SlaveCommand& command, Time now, bool& taken);
   [[nodiscard]] bool occupied(Time now) const;
   void write_down(const SlaveInput& in, const SlaveOutput& out);
 
   UdpChannel channel_;
   SlavePort port_;
-  SimulatedArm arm_;  // simulated while there is no adapter
+  SimulatedArm arm_;  // the robot if there is no adapter
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<RobotAdapter> adapter_;
   Robot& robot_;
   SlaveNode node_;
   SideObserver observer_;
-  SlaveRecordBuffer* record_buffer_ = nullptr;  // none: no recording
-  std::uint64_t ticks_ = 0;                     // steps of the node
-  std::uint32_t config_number_ = 0;             // number of its configuration
+  SlaveRecordBuffer* record_buffer_ = nullptr;  // null: no recording
+  std::uint64_t ticks_ = 0;                     // number of steps of the node
+  std::uint32_t config_number_ = 0;             // number of the node's configuration
   SlaveSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;

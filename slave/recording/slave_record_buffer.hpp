@@ -1,7 +1,8 @@
 #pragma once
-// Records of the slave's loop for a recording: exact inputs and outputs of each tick, so that a node can be
-// replayed, and, less often, its view. The calls of the loop copy into preallocated memory: they do not wait,
-// allocate or make system calls. A tick for which there is no space is dropped and counted.
+// Buffers the records of the slave's loop for a recording: the exact inputs and outputs of each tick, so that
+// the node can be replayed, and, less often, its view. The functions for the loop copy into preallocated
+// memory; they do not wait, allocate or make system calls. A tick for which there is no space is dropped and
+// counted.
 
 #include <cstdint>
 #include <variant>
@@ -12,9 +13,9 @@
 
 namespace longreach {
 
-/// A step of the node. `input` is without the messages, which are recorded before it.
+/// A step of the node. `input` does not contain the messages, which are recorded before it.
 struct SlaveTickRecord {
-  std::uint64_t tick = 0;    // from 0 at the node's first step
+  std::uint64_t tick = 0;    // number of the step, from 0 at the first step of the node
   std::uint32_t config = 0;  // number of the node's configuration
   std::uint32_t commands = 0;
   SlaveInput input{};
@@ -25,10 +26,10 @@ class SlaveRecordBuffer : public RecordBuffer {
  public:
   SlaveRecordBuffer(double rate_hz, Duration to_log_time);
 
-  /// Loop: adds a step and the resulting view of the node.
+  /// For the loop: adds a step and the resulting view of the node.
   void add_tick(std::uint64_t tick, std::uint32_t config, const SlaveInput& input, const SlaveOutput& output,
                 const SlaveView& view);
-  /// Loop: returns whether a record of the link is due after this tick.
+  /// For the loop: returns whether a record of the link is due after this tick.
   [[nodiscard]] bool link_due(std::uint64_t tick) const { return tick % link_every_ == 0; }
   void add_link(const LinkSample& sample);
 
@@ -55,7 +56,7 @@ class SlaveRecordBuffer : public RecordBuffer {
   recording::SlaveView view_;
 };
 
-/// Without the messages, whose number is already in `out`.
+/// Writes the input without the messages; the caller sets their number in `out`.
 void write(const SlaveInput& input, recording::SlaveInput& out);
 void write(const SlaveOutput& output, recording::SlaveOutput& out);
 void write(const SlaveView& view, recording::SlaveView& out);

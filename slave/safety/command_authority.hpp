@@ -1,13 +1,13 @@
 #pragma once
 // Decides whether the robot is commanded in this tick:
 //   Engaged, Holding  yes
-//   Stopped, Fault    while it brakes, and 0.5 s longer until its servos have settled; not if the robot
-//                     itself is at fault
-//   otherwise         no: its own brakes hold it, anyone may move it, and the setpoint follows the
-//                     measurement
-// An engagement of an uncommanded robot starts at its measured position, so it must be at rest, in its
-// workspace (checked by the node), and within 1 mrad (mm) of its position limits; an engagement of a
-// commanded robot continues from its setpoint, so it must be there.
+//   Stopped, Fault    yes, while it brakes and for another 0.5 s until its servos have settled;
+//                     no, if the robot itself has failed
+//   otherwise         no: its own brakes hold it, it may be moved externally, and the setpoint follows the
+//                     measured position
+// An engagement of an uncommanded robot starts at its measured position. The robot must then be at rest, in
+// its workspace (checked by the node), and within 1 mrad (or mm) of its position limits. An engagement of a
+// commanded robot starts at its setpoint, so the robot must be at that setpoint.
 
 #include <cmath>
 
@@ -22,8 +22,8 @@ class CommandAuthority {
 
   struct Input {
     SafetyState state = SafetyState::kIdle;
-    bool robot_ok = true;         // and follows its setpoints
-    bool setpoint_rests = false;  // as last sent
+    bool robot_ok = true;         // the robot is ok and follows its setpoints
+    bool setpoint_rests = false;  // the last setpoint is at rest
     double dt = 0.0;              // s
   };
   void step(const Input& in) {
@@ -37,7 +37,8 @@ class CommandAuthority {
   }
   [[nodiscard]] bool commands() const { return commands_; }
 
-  /// Returns why no engagement may start; kNone: it may. `setpoint_rad`: of a commanded robot.
+  /// Returns why no engagement may start; kNone: it may. `setpoint_rad`: present setpoint of a commanded
+  /// robot.
   [[nodiscard]] Reason why_not(const RobotState& robot, const JointVector& setpoint_rad) const {
     if (commands_) {
       const bool there = (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
@@ -57,8 +58,9 @@ class CommandAuthority {
 
  private:
   static constexpr double kRest_s = 0.5;
-  static constexpr double kSetpointLost = 0.05;  // rad: more than any servo lag
-  static constexpr double kStillShare = 0.02;    // share of its speed limit that a joint at rest may report
+  static constexpr double kSetpointLost = 0.05;  // rad; larger than the lag of any servo
+  /// Fraction of its speed limit that a joint at rest may report.
+  static constexpr double kStillShare = 0.02;
   static constexpr double kOutside = 1e-3;
 
   RobotConfig robot_;

@@ -1,10 +1,11 @@
 #pragma once
-// Checks whether the reported joint positions are possible. Between samples at an interval T,
+// Checks whether the reported joint positions and speeds are possible. Between two samples at an interval T
+// they must satisfy
 //   |Δq| <= 1.5 V (T + 20 ms) + 0.02 rad (or m),   |q̇| <= 10 V + 0.1 rad/s,   V the joint's speed limit
-// and within 0.1 rad of their position limits, which is more than the oscillation of a link on a spring.
-// After a jump the joints are accepted again when they return to the last accepted position, or when the
-// robot has failed and works again: it may then be anywhere. Not detected: jumps below the bound, and
-// constant readings (robot_watch detects those once a setpoint has moved).
+// Positions must also be within 0.1 rad of their limits, a margin larger than the oscillation of a link on a
+// spring. After a jump, the joints are accepted again only when they return to the last accepted position, or
+// when the robot has failed and works again, since it may then be anywhere. Jumps below the bound are not
+// detected, nor are constant readings; robot_watch detects the latter once the setpoint has moved.
 
 #include <cmath>
 #include <cstdint>
@@ -20,7 +21,8 @@ class JointPlausibility {
  public:
   explicit JointPlausibility(const RobotConfig& robot) : robot_(robot) {}
 
-  /// `robot`: ok and finite. Returns the first problem of its joints.
+  /// Returns the reason for the first implausible joint; no reason if all joints are plausible. `robot` must
+  /// be ok and finite.
   Reason check(const RobotState& robot, Time now) {
     const Time measured = now - from_seconds(robot.age_s);
     Reason found;
@@ -32,7 +34,7 @@ class JointPlausibility {
     leapt_ = leapt_ || found == HoldCause::kJointLeapt;
     return found;
   }
-  /// The robot has failed: it may be moved meanwhile.
+  /// Call it when the robot has failed: it may be moved before it works again.
   void forget() {
     accepted_.reset();
     leapt_ = false;
@@ -67,7 +69,7 @@ class JointPlausibility {
 
   RobotConfig robot_;
   std::optional<Sample> accepted_{};
-  bool leapt_ = false;  // and has not returned
+  bool leapt_ = false;  // the joints jumped and have not returned
 };
 
 }  // namespace longreach

@@ -1,13 +1,13 @@
 #pragma once
-// Checks from the measured joints q alone whether the robot follows its setpoints:
-//   x' = 2π f (s - x)   for a joint with a servo of bandwidth f, s the setpoint
+// Checks, using only the measured joint positions q, whether the robot follows its setpoints:
+//   x' = 2π f (s - x)   expected position of a joint with a servo of bandwidth f, s the setpoint
 //   tracking_lost       a joint deviates from x by more than 0.1 rad (or m) for half a second
 //   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f),
 //                       while its setpoint is at rest
-// These bounds exceed the deflection of a joint, and the duration of a stop by the robot's own watchdog after
-// a late tick. A joint with such a deviation after a stall of this side was moved meanwhile: it is
-// tracking_lost immediately, so that it is not moved back. Deviations in between are not detected: a slow
-// drift is detected only when it is tracking_lost.
+// These bounds are larger than the deflection of a joint, and longer than a stop by the robot's own watchdog
+// after a late tick. If a joint deviates that much after a stall of this side, it was moved during the stall;
+// tracking_lost is then set immediately, so that the joint is not moved back. Smaller deviations are not
+// detected: a slow drift is detected only when it reaches the bound of tracking_lost.
 
 #include <cmath>
 #include <numbers>
@@ -25,8 +25,9 @@ class RobotWatch {
       brisk_rad_per_s_[i] = 0.1 * robot.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s;
   }
 
-  /// `commanded`: the setpoint matters; otherwise the robot may be anywhere. `rests`: it does not change.
-  /// `dt` > 0, s, since the previous setpoint. `stood`: no setpoint for longer than the gap timer.
+  /// `commanded`: the robot must follow the setpoint; otherwise it may be anywhere. `rests`: the setpoint
+  /// does not change. `dt` > 0, s, since the previous setpoint. `stood`: there was no setpoint for longer
+  /// than the gap timer.
   void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt,
             bool stood = false) {
     if (!commanded) expected_rad_ = robot.joint_rad;

@@ -76,8 +76,8 @@ bool SlaveSafety::step(const SlaveSafetyInput& input) {
     return (rule.from & in(state_)) != 0 && demanded(rule.demand, input);
   };
   const Rule* rule = std::ranges::find_if(kTable, applies);
-  // What is asked for when a stop comes is stopped, too, in whatever state, and whether or not it is asked
-  // for in this very tick.
+  // A stop also ends the engagement that is being requested, in every state, even if the request arrived in
+  // an earlier tick.
   if (demanded(Demand::kStop, input))
     used_ = std::max({used_, requested_, input.commanded ? input.engagement : 0});
   const bool changes = rule != std::end(kTable);
@@ -137,7 +137,7 @@ bool SlaveSafety::demanded(Demand demand, const SlaveSafetyInput& in) const {
   return true;
 }
 
-// What the master says, until it says something else.
+// Stores the request of the master until the next one.
 void SlaveSafety::observe(const SlaveSafetyInput& in) {
   if (in.peer_session_count != sessions_) {
     restarted_ = sessions_ != 0;
@@ -162,8 +162,8 @@ bool SlaveSafety::silent(const SlaveSafetyInput& in, double longer_s) const {
 
 bool SlaveSafety::asks(const SlaveSafetyInput& in) { return in.commanded && in.request == Request::kEngage; }
 
-// An engagement that is asked for; kNone: it is the present one, or may begin. One whose number is used up
-// was stopped before it began.
+// Returns why a requested engagement is not granted; kNone: it is the present one, or it may start. An
+// engagement whose number is used up was stopped before it started.
 Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
   if (in.engagement <= used_) {
     if (in.engagement == engagement_) return {};

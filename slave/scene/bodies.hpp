@@ -1,11 +1,12 @@
 #pragma once
-// Free-floating rigid bodies and their contacts, a gripper that holds one, and a latch. The motion of the
-// tool is given; bodies move only by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
+// Free-floating rigid bodies and their contacts, a gripper that holds one of them, and a latch. The motion of
+// the tool is given. Bodies move only by contact (Hunt-Crossley), by the bonds of gripper and latch, and by
 // gravity. Each step solves one implicit equation for the mean wrenches (interaction.hpp) by Newton
-// iteration, so that, for any stiffness and several simultaneous contacts,
-//   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool,
-// momentum is conserved, and no contact pulls. Frame S: origin at the start of the tool, axes of W; `tool`
-// has the axes of S at start. No friction. A robot with flexible joints does not yield to bodies.
+// iteration. For any stiffness and for several simultaneous contacts, momentum is conserved, no contact
+// pulls, and
+//   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool
+// Frame S: origin at the start of the tool, axes of W; the body `tool` starts with the axes of S. There is no
+// friction. A robot with flexible joints does not yield to bodies.
 
 #include <array>
 #include <cstdint>
@@ -16,41 +17,46 @@
 namespace longreach {
 
 struct BodiesContact {
-  Wrench F_E_W{};        // mean over the step, on the tool at E, by contacts and by the held body
-  double depth_m = 0.0;  // of the deepest contact of the tool or of the held body
-  int contacts = 0;      // pairs of geoms in contact
-  bool holds = false;    // the gripper holds a body
+  /// Mean wrench over the step on the tool at E, by the contacts and the held body.
+  Wrench F_E_W{};
+  /// Depth of the deepest contact of the tool or of the held body.
+  double depth_m = 0.0;
+  int contacts = 0;    // number of pairs of geoms in contact
+  bool holds = false;  // the gripper holds a body
   bool latched = false;
 };
 
 class Bodies {
  public:
-  /// Throws std::invalid_argument like CollisionModel. scene.bodies must be set.
+  /// `scene.bodies` must be set. Throws std::invalid_argument like CollisionModel.
   Bodies(const SceneConfig& scene, const Pose& X_WE_start);
 
-  /// State of the gripper. When closing, it holds a fixture within reach; when open, it releases it.
+  /// Closes or opens the gripper. When it closes, it holds the fixture if that is within reach; when it
+  /// opens, it releases it.
   void grip(bool closed) { closed_ = closed; }
 
-  /// Moves the tool to its pose after dt s, in W. dt = 0 changes nothing.
+  /// Moves the tool to its pose in W after `dt` s. `dt` = 0 changes nothing.
   const BodiesContact& step(const Pose& X_WE, double dt);
 
   [[nodiscard]] const BodiesContact& contact() const { return contact_; }
   [[nodiscard]] int count() const { return model_.tool(); }
   [[nodiscard]] const FreeBody& body(int i) const { return model_.bodies()[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }  // in S
-  /// Motion of a body relative to its start: [0] in W.
+  /// State of a body, in S.
+  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }
+  /// Displacement of a body from its start, in W.
   [[nodiscard]] Pose displaced(int i) const;
-  void push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s);  // sets its velocities, in W
-  void place(int i, const Pose& X_S);                                      // its inertial frame
-  /// Distance from E to the gripper's fixture, in W; zero without a gripper.
+  void push(int i, const Vector3& v_m_per_s,
+            const Vector3& w_rad_per_s);  // sets the velocities of a body, in W
+  void place(int i, const Pose& X_S);     // sets the pose of its inertial frame in S
+  /// Vector from E to the fixture of the gripper, in W; zero without a gripper.
   [[nodiscard]] Vector3 to_fixture_m() const;
 
-  [[nodiscard]] double energy_j() const;  // kinetic and gravitational energy, energy in contacts and bonds
-  [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // done by the tool so far
-  [[nodiscard]] double spent_j() const { return spent_j_; }          // released by gripper and latch so far
-  [[nodiscard]] std::uint64_t unconverged() const {
-    return unconverged_;
-  }  // steps that were subdivided to the limit
+  /// Kinetic and gravitational energy of the bodies, and energy in contacts and bonds.
+  [[nodiscard]] double energy_j() const;
+  [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // work of the tool so far
+  [[nodiscard]] double spent_j() const { return spent_j_; }  // energy released by gripper and latch so far
+  /// Number of steps that were subdivided to the limit.
+  [[nodiscard]] std::uint64_t unconverged() const { return unconverged_; }
 
  private:
   static constexpr int kMost = CollisionModel::kBodiesMax;
@@ -62,7 +68,7 @@ class Bodies {
     std::array<RigidState, kMost> to{};
     std::array<Mover, kMost + 2> mover{};
     Wrenches answer{};
-    Wrench on_tool{};  // about the middle of the tool's path
+    Wrench on_tool{};  // wrench about the middle of the tool's path
     double tool_work_j = 0.0;
     Stiffness stiffness{};
   };
@@ -75,11 +81,11 @@ class Bodies {
   void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
   void answer(double dt, Attempt& out);
   void find_contacts(double dt, Attempt& out);
-  /// Upper bound on the approach of any two geoms.
+  /// Returns an upper bound on the approach of any two geoms in the step.
   [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);
-  void find_near_pairs();  // pairs that are near each other now
+  void find_near_pairs();  // finds the pairs that are near each other in the present state
   void close_gripper();
   void close_latch();
   [[nodiscard]] bool off(const GeomPair& pair) const;
@@ -92,17 +98,17 @@ class Bodies {
   int striker_ = -1, keeper_ = -1;
   Pose X_WE_start_;
   std::array<RigidState, kMost> state_{};
-  Pose X_tool_{};               // in S
-  std::vector<GeomPair> near_;  // at the state
+  Pose X_tool_{};               // pose of the tool in S
+  std::vector<GeomPair> near_;  // pairs near each other in the present state
   double clear_m_ = 0.0;        // lower bound on the distance of any two geoms
   bool closed_ = false;
   std::optional<Held> held_{}, latched_{};
-  Wrench impulse_{};  // on the tool in this step
+  Wrench impulse_{};  // impulse on the tool in this step
   BodiesContact contact_{};
   double tool_work_j_ = 0.0;
   double spent_j_ = 0.0;
   std::uint64_t unconverged_ = 0;
-  Wrenches last_{};  // of the last step
+  Wrenches last_{};  // mean wrenches of the last step
   Attempt best_{}, next_{};
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// Finds which of many boxes contain a point: a tree of bounds, split at the median of the longest side. Built
-// once; the cost of a query is the logarithm of the number of boxes plus its results.
+// Finds which of many boxes contain a point: a tree of bounds that is split at the median of the longest
+// side. It is built once. The cost of a query grows with the logarithm of the number of boxes and with the
+// number of results.
 
 #include <cstdint>
 #include <span>
@@ -13,11 +14,11 @@ namespace longreach {
 class BoundsTree {
  public:
   BoundsTree() = default;
-  /// Finite bounds.
+  /// All bounds must be finite.
   explicit BoundsTree(std::span<const Bounds> bounds);
 
-  /// Calls visit(index) for each of the bounds within reach of p, in an order that depends only on the
-  /// bounds, possibly also for others near it.
+  /// Calls visit(index) for each of the bounds within reach of p, and possibly for others near it, in an
+  /// order that depends only on the bounds.
   template <class Visit>
   void find(const Vector3& p, double reach_m, Visit&& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {
@@ -31,12 +32,12 @@ class BoundsTree {
  private:
   struct Node {
     Bounds bounds{};
-    std::uint32_t first = 0, last = 0;  // of order_, in a leaf
-    std::uint32_t next = 0;             // the node after this one's children
+    std::uint32_t first = 0, last = 0;  // range of order_ in a leaf
+    std::uint32_t next = 0;             // node after the descendants of this one
   };
   void build(std::span<const Bounds> bounds, std::uint32_t first, std::uint32_t last);
 
-  std::vector<Node> nodes_;  // depth first
+  std::vector<Node> nodes_;  // in depth-first order
   std::vector<std::uint32_t> order_;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
 // The contact law of Hunt and Crossley (1975), with a = λ/k:
-//   F(x, v) = k xⁿ (1 + a v)   for penetration x > 0 and speed v inwards, never below 0; else 0
-// and the quantity that is conserved in an impact of a mass m,
-//   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1),
-// which holds while 1 + a v > 0. Units of k: N/mⁿ. Friction is not handled.
+//   F(x, v) = k xⁿ (1 + a v)   for a penetration x > 0 and a speed v inwards, at least 0; otherwise 0
+// While 1 + a v > 0, an impact of a mass m conserves the quantity
+//   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1)
+// k is in N/mⁿ. Friction is not handled.
 
 #include <cmath>
 
@@ -20,20 +20,20 @@ struct HuntCrossley {
     return force > 0.0 ? force : 0.0;
   }
   [[nodiscard]] double elastic_n(double x) const { return x > 0.0 ? k * std::pow(x, n) : 0.0; }
-  /// F/x and dF/dx of the elastic part, N/m; x > 0.
+  /// F/x and dF/dx of the elastic force, N/m; x > 0.
   [[nodiscard]] double secant_n_per_m(double x) const { return k * std::pow(x, n - 1.0); }
   [[nodiscard]] double tangent_n_per_m(double x) const { return n * secant_n_per_m(x); }
   [[nodiscard]] double energy_j(double x) const { return x > 0.0 ? elastic_n(x) * x / (n + 1.0) : 0.0; }
 
   struct Mean {
-    double force_n = 0.0;        // (U(x + dx) - U(x))/dx, without cancellation; it grows with dx
-    double slope_n_per_m = 0.0;  // its derivative by dx
+    double force_n = 0.0;        // (U(x + dx) - U(x))/dx, without cancellation; increases with dx
+    double slope_n_per_m = 0.0;  // derivative of force_n with respect to dx
   };
   /// Mean elastic force over the motion from x to x + dx.
   [[nodiscard]] Mean mean_elastic(double x, double dx) const {
     const double deep = dx > 0.0 ? x + dx : x, way = std::abs(dx);
     if (!(deep > 0.0)) return {};
-    const double most = elastic_n(deep), share = way / deep;  // of the depth
+    const double most = elastic_n(deep), share = way / deep;  // share of the depth
     if (share < 1e-12) return {most, 0.5 * n * most / deep};
     double mean = most / ((n + 1.0) * share), end = dx > 0.0 ? most : 0.0;
     if (share < 1.0) {
@@ -41,11 +41,11 @@ struct HuntCrossley {
       mean *= -spent;
       if (dx < 0.0) end = most * (1.0 + spent) / (1.0 - share);
     }
-    // Uses the limit where the quotient would cancel.
+    // Where the quotient would cancel, its limit is used.
     return {mean, share < 1e-4 ? 0.5 * n * mean / deep : (end - mean) / dx};
   }
 
-  /// G(v), m²/s²; 1 + a v > 0.
+  /// G(v), m²/s², for 1 + a v > 0.
   [[nodiscard]] double impact_energy(double v) const {
     const double av = a * v;
     if (std::abs(av) > 0.1) return (av - std::log1p(av)) / (a * a);

@@ -12,13 +12,13 @@ namespace longreach {
 
 struct SurfaceSide {
   double distance_m = 0.0;
-  Vector3 normal = Vector3::UnitZ();  // unit, outwards
+  Vector3 normal = Vector3::UnitZ();  // unit vector, outwards
 };
 
-/// Everything behind the plane.
+/// The half space behind a plane.
 struct HalfSpace {
   Vector3 point_m = Vector3::Zero();
-  Vector3 normal = Vector3::UnitZ();  // unit, outwards
+  Vector3 normal = Vector3::UnitZ();  // unit vector, outwards
   [[nodiscard]] SurfaceSide side(const Vector3& p) const { return {normal.dot(p - point_m), normal}; }
 };
 
@@ -30,15 +30,15 @@ struct Ball {
 
 struct Block {
   Vector3 centre_m = Vector3::Zero();
-  Matrix3 R = Matrix3::Identity();   // of the block in W
-  Vector3 half_m = Vector3::Ones();  // half of the edges
+  Matrix3 R = Matrix3::Identity();   // orientation of the block in W
+  Vector3 half_m = Vector3::Ones();  // half of the edge lengths
   [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 
-/// With flat ends.
+/// Cylinder with flat ends.
 struct Rod {
   Vector3 centre_m = Vector3::Zero();
-  Vector3 axis = Vector3::UnitZ();  // unit
+  Vector3 axis = Vector3::UnitZ();  // unit vector
   double radius_m = 1.0;
   double half_m = 1.0;  // half of the length
   [[nodiscard]] SurfaceSide side(const Vector3& p) const;
@@ -50,12 +50,12 @@ inline SurfaceSide side(const Shape& shape, const Vector3& p) {
   return std::visit([&p](const auto& solid) { return solid.side(p); }, shape);
 }
 
-/// Axis-aligned box in W that holds the shape; infinite for a half space.
+/// Axis-aligned box in W that contains the shape; infinite for a half space.
 struct Bounds {
   Vector3 low = Vector3::Constant(-std::numeric_limits<double>::infinity());
   Vector3 high = Vector3::Constant(std::numeric_limits<double>::infinity());
   [[nodiscard]] bool finite() const { return low.allFinite() && high.allFinite(); }
-  /// False also for a point that is not finite.
+  /// Returns whether `p` is inside or at most `reach_m` away along each axis; false if `p` is not finite.
   [[nodiscard]] bool within(const Vector3& p, double reach_m) const {
     return ((p - low).array() >= -reach_m).all() && ((high - p).array() >= -reach_m).all();
   }

@@ -1,24 +1,26 @@
 #pragma once
-// A tool that yields to contacts, over one step: under the mean wrench w it ends at
+// Motion of a tool that yields to contacts over one step. Under the mean wrench w the tool ends at
 //   free ∘ C w,   C symmetric, positive semidefinite: displacement by the wrench (a mass: dt²/(2 m),
 //                 joints: J c Jᵀ)
-// and w is the mean wrench of the scene over this move (Scene::mean_contact): an implicit equation in w,
-// solved by Newton iteration. For any C the contacts therefore receive exactly the energy that the tool
-// loses, for any stiffness, also for several contacts at once.
+// The pose `free` is the end pose without contact. w is the mean wrench of the scene over this move
+// (Scene::mean_contact), so the equation for w is implicit; Newton iteration solves it. For any C, any
+// stiffness, and several simultaneous contacts, the contacts receive exactly the energy that the tool loses.
 
 #include "slave/scene/scene.hpp"
 
 namespace longreach {
 
-using Compliance = Eigen::Matrix<double, 6, 6>;  // of [turn; way] by [moment; force], rad and m, in W at E
+/// Derivative of [turn; way] with respect to [moment; force], in rad and m, in W at E.
+using Compliance = Eigen::Matrix<double, 6, 6>;
 
 struct Yielded {
-  Vector6 wrench = Vector6::Zero();  // mean over the step, by the scene on the tool
-  ToolMotion to{};                   // resulting motion of the tool
-  bool converged = true;  // false: `wrench` acts, but differs from the response of the scene to the move
+  Vector6 wrench = Vector6::Zero();  // mean wrench of the scene on the tool over the step
+  ToolMotion to{};                   // motion of the tool at the end of the step
+  /// false: `wrench` was applied, but differs from the response of the scene to the move.
+  bool converged = true;
 };
 
-/// dt > 0, s.
+/// Computes one step of `dt` > 0 s; `free`: motion of the tool at its end without contact.
 Yielded yield(const Scene& scene, const ToolMotion& from, const ToolMotion& free,
               const Compliance& compliance, double dt);
 

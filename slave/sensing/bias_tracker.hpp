@@ -1,16 +1,18 @@
 #pragma once
-// Bias of the force sensor from free motion alone: there is no contact, the tool moves faster than 5 mm/s, and
-// the gripper is open (the mass of a load is not known well enough: the error of its inertia would count as
-// bias, and the force could exceed the guard by as much).
+// Estimates the bias of the force sensor from free motion: there is no contact, the tool moves faster than
+// 5 mm/s, and the gripper is open. (With a closed gripper, the error of the load's mass would count as bias,
+// and the force could exceed the guard by that error.)
 //
-// First zero: the mean over 10 mm and 0.2 s of motion in which the force stays within the touch threshold of
-// that mean. One that is taken at rest could be a force that presses. Until then the bias counts as zero, so
-// the guards see every force; but as much as was there at the start may be the bias, and is no contact while
-// it does not change (contact_detector.hpp).
-// Then b follows the force with a time constant of 1 s, by at most three times the drift of a second each
-// second. A contact whose force grows more slowly than that while the tool moves at over 5 mm/s cannot be
-// distinguished from drift; one that the tool meets at less than 5 mm/s is never taken for it.
-// What is above 0.6 of the guard at the first zero, or 0.75 later, is refused: it would hide too much.
+// The first zero is the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
+// threshold of that mean. A zero at rest is not permitted, because it could be the force of a contact. Until
+// the first zero the bias counts as zero, so the guards receive the whole force. The force at the start may
+// be the bias, however; it is not a contact while it does not change (contact_detector.hpp).
+//
+// After the first zero, the bias follows the force with a time constant of 1 s, each second by at most three
+// times the drift of a second. A contact whose force grows more slowly, while the tool moves faster than
+// 5 mm/s, is not distinguishable from drift. A contact that the tool touches at less than 5 mm/s never counts
+// as drift. A bias above 0.6 of the guard at the first zero, or above 0.75 of it later, is refused, because
+// it would hide too much force.
 //
 // Pure; allocates nothing.
 
@@ -23,28 +25,30 @@
 
 namespace longreach {
 
-/// For status and log.
+/// State of the zero and of the touch threshold, for status and log.
 struct SensorZero {
-  std::uint32_t count = 0;  // zeros so far: the first, and each time that the bias has drifted by a touch
-  double bias_n = 0.0;      // at the last of them
-  double refused_n = 0.0;   // size of a zero that is refused now; 0: none
-  double missing_m = 0.0;   // of free motion, until the first zero; 0: it is taken
-  double drift_n = 0.0;     // by which the bias may be off: standard deviation
-  double touch_n = 0.0;     // threshold now
-  double noise_n = 0.0;     // as measured, of the filtered force along an axis; 0: not known
-  bool derived = false;     // false: thresholds are as configured
-  bool noisy = false;       // the threshold is above that which the guards reckon with
+  /// Number of zeros: the first one, and one each time that the bias has drifted by the touch threshold.
+  std::uint32_t count = 0;
+  double bias_n = 0.0;     // magnitude of the bias at the last zero
+  double refused_n = 0.0;  // magnitude of the zero that is currently refused; 0: none
+  double missing_m = 0.0;  // free motion that is still needed for the first zero; 0: it is complete
+  double drift_n = 0.0;    // standard deviation of the bias due to drift
+  double touch_n = 0.0;    // present touch threshold
+  double noise_n = 0.0;    // measured noise of the filtered force along an axis; 0: unknown
+  bool derived = false;    // false: the thresholds are configured
+  bool noisy = false;      // the threshold is above the one that the checks of the guards use
 };
 
 class BiasTracker {
  public:
   struct Sample {
-    Vector3 force_n = Vector3::Zero();  // without tool and load, in the sensor's frame
+    /// Force without tool and load, in the frame of the sensor.
+    Vector3 force_n = Vector3::Zero();
     double speed_m_per_s = 0.0;
     bool free = false;           // there is no contact
-    bool load_known = true;      // what is held, if anything
-    double uncertainty_n = 0.0;  // what of the force may be by an acceleration
-    double touch_n = 0.0;        // threshold
+    bool load_known = true;      // the gripper holds nothing, or its load is known
+    double uncertainty_n = 0.0;  // part of the force that an acceleration may cause
+    double touch_n = 0.0;        // touch threshold
     double dt = 0.0;             // s
   };
 
@@ -58,16 +62,16 @@ class BiasTracker {
   void step(const Sample& sample);
 
   [[nodiscard]] const Vector3& bias_n() const { return bias_n_; }
-  /// What of the force may be the bias besides, before the first zero.
+  /// Part of the force that may be bias in addition to bias_n(); zero after the first zero.
   [[nodiscard]] const Vector3& possible_n() const { return possible_n_; }
-  /// What may be the bias is not known yet, and so no contact.
+  /// possible_n() is not determined yet, so no force is a contact.
   [[nodiscard]] bool starting() const { return start_s_ < kStart_s; }
   [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] std::uint32_t zeros() const { return zeros_; }
   [[nodiscard]] double logged_n() const { return logged_n_.norm(); }
   [[nodiscard]] double refused_n() const { return refused_n_; }
   [[nodiscard]] double missing_m() const;
-  /// Of the bias, by drift since it was last followed: standard deviation, N.
+  /// Standard deviation of the bias due to drift since its last update, N.
   [[nodiscard]] double uncertainty_n() const { return drift_n_ * std::sqrt(age_s_); }
 
  private:
@@ -78,8 +82,9 @@ class BiasTracker {
 
   double drift_n_, guard_n_;
   Vector3 bias_n_ = Vector3::Zero(), possible_n_ = Vector3::Zero(), logged_n_ = Vector3::Zero();
-  Vector3 mean_n_ = Vector3::Zero();    // before the first zero, over way_m_
-  Vector3 smooth_n_ = Vector3::Zero();  // force, or later what it is off the bias
+  Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zero
+  /// Smoothed force before the first zero; afterwards its difference from the bias.
+  Vector3 smooth_n_ = Vector3::Zero();
   double way_m_ = 0.0, time_s_ = 0.0, start_s_ = 0.0, age_s_ = 0.0, refused_n_ = 0.0;
   bool known_ = false;
   std::uint32_t zeros_ = 0;

@@ -1,15 +1,15 @@
 #pragma once
-// Detects contact of the tool, and the direction of its force.
-//   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact begins when |f̄| > touch, ends when |f̄| < release
-// A noisy sensor does not cause contacts: touch is at least 8 standard deviations of f̄ along an axis, from
-// the third differences of the last 20 ms (difference_noise.hpp describes their limits). Noise does not end a
-// contact either.
-//   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact: the direction of the force on the tool (outward
-//   normal of a frictionless wall); above ten times the touch threshold w falls as 1/|f̄|, so that an earlier
-//   large force does not hide the present one
-// Before the first zero a part u of the force may be the bias of the sensor: a contact is then a force that
-// is a contact with and without it, |f̄ - u| and |f̄|.
-// A sample that is not finite is skipped and counted.
+// Detects contact of the tool and the direction of its force.
+//   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact starts when |f̄| > touch, ends when |f̄| < release
+// To prevent contacts caused by a noisy sensor, `touch` is at least 8 standard deviations of f̄ along an
+// axis, which are estimated from the third differences of the last 20 ms (difference_noise.hpp describes
+// their limitations). Noise does not end a contact, either. The direction of the force on the tool is the
+// outward normal of a frictionless wall:
+//   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact
+// Above ten times the touch threshold, w falls as 1/|f̄|, so that an earlier large force does not hide the
+// present one. Before the first zero, a part u of the force may be the bias of the sensor. A force is then a
+// contact only if |f̄| and also |f̄ - u| exceed the threshold. A sample that is not finite is skipped and
+// counted.
 
 #include <array>
 #include <cstdint>
@@ -21,11 +21,12 @@ namespace longreach {
 
 struct ContactReading {
   bool in_contact = false;
-  bool began = false;                    // in this step
-  bool ended = false;                    // in this step
-  Vector3 filtered_n = Vector3::Zero();  // N, in the frame of the input
-  double touch_n = 0.0;                  // present threshold of a contact, N
-  Vector3 normal = Vector3::Zero();      // unit, during contact; otherwise zero
+  bool began = false;                    // the contact started in this step
+  bool ended = false;                    // the contact ended in this step
+  Vector3 filtered_n = Vector3::Zero();  // filtered force, N, in the frame of the input
+  double touch_n = 0.0;                  // present touch threshold, N
+  /// Unit vector, direction of the force during contact; otherwise zero.
+  Vector3 normal = Vector3::Zero();
 };
 
 class ContactDetector {
@@ -33,29 +34,30 @@ class ContactDetector {
   explicit ContactDetector(const SensingConfig& config) : config_(with_thresholds(config)) {}
 
   void configure(const SensingConfig& config) { config_ = with_thresholds(config); }
-  /// As derived.
+  /// Sets derived thresholds.
   void set_thresholds(double touch_n, double release_n) {
     config_.touch_n = touch_n;
     config_.release_n = release_n;
   }
 
-  /// `uncertainty_n`: uncertain part of the force, which is added to the threshold. `bias_n`: u.
+  /// Processes a sample. `uncertainty_n`: uncertain part of the force, which is added to the threshold.
+  /// `bias_n`: u.
   ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0,
                       const Vector3& bias_n = Vector3::Zero());
-  /// Subtracts `force_n` from the filtered force: the sensor has been zeroed.
+  /// Subtracts `force_n` from the filtered force, because the sensor has been zeroed.
   void subtract(const Vector3& force_n);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
-  /// Standard deviation of f̄ along an axis, N.
+  /// Returns the standard deviation of f̄ along an axis, N.
   double noise_n(const Vector3& force_n, double dt);
 
   SensingConfig config_;
   std::array<Vector3, 3> last_n_{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   int samples_ = 0;
   bool begun_ = false;
-  double variance_n2_ = 0.0;  // of f along an axis
+  double variance_n2_ = 0.0;  // variance of f along an axis
   Vector3 filtered_n_ = Vector3::Zero();
   Vector3 sum_n_ = Vector3::Zero();
   bool in_contact_ = false;

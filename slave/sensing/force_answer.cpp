@@ -7,27 +7,30 @@
 namespace longreach {
 namespace {
 
-constexpr double kSettled_s = 0.008;  // after the touch: the force is smooth, and late as it will be
+constexpr double kSettled_s = 0.008;  // after the touch, the force is smooth and has its usual delay
 constexpr double kTrendRest_s = 0.04;
-constexpr double kFast_s = 0.008, kFast = 0.5;       // of the bound: there is no time for more
-constexpr double kGrown_n = 0.4, kGrownNoise = 8.0;  // that noise does not make
-constexpr double kTrend_s = 0.25, kMuch_n = 1.6;     // a trend is of so long a rest, or of so much growth
-constexpr double kNoGrowth_s = 0.5;                  // of rest without that
-constexpr double kStale_s = 1.0;                     // of motion, after which a trend is no longer known
+constexpr double kFast_s = 0.008, kFast = 0.5;  // of the bound: there is no time for a longer observation
+constexpr double kGrown_n = 0.4, kGrownNoise = 8.0;  // growth that noise does not cause
+constexpr double kTrend_s = 0.25, kMuch_n = 1.6;     // duration or growth over which a trend is determined
+constexpr double kNoGrowth_s = 0.5;                  // rest without growth
+constexpr double kStale_s = 1.0;                     // duration of motion after which a trend is obsolete
 constexpr double kStep_m = 1e-4;
-constexpr double kFollows_m = 5e-3;  // a way after which each wall at rest would have answered
-constexpr double kComes_n = 0.25, kComesNoise = 5.0;     // of growth at the rest after it, smooth: it comes
-constexpr double kAsideShare = 0.2, kRounding_m = 1e-5;  // of a way straight back
+constexpr double kFollows_m = 5e-3;  // distance after which every wall at rest would have responded
+constexpr double kComes_n = 0.25,
+                 kComesNoise = 5.0;  // smooth growth during the rest after that distance: an approaching wall
+constexpr double kAsideShare = 0.2,
+                 kRounding_m =
+                     1e-5;  // sideways motion, relative to the distance, that still counts as straight back
 constexpr double kAnswer_n = 0.5, kAnswerNoise = 10.0;
-constexpr double kOfAnswer = 0.7;          // what is left of one when g is known better
-constexpr double kAnswer_n_per_m = 100.0;  // that a contact has at least
+constexpr double kOfAnswer = 0.7;          // fraction of a response that suffices when g is known better
+constexpr double kAnswer_n_per_m = 100.0;  // minimum stiffness of a contact
 constexpr double kHardest_n_per_m = 1e7;   // steel on steel
-constexpr double kCheckMax_s = 0.5;        // a tool at its greatest speed has come to rest by then
-constexpr double kHaste_n_per_s = 250.0;   // growth at which the whole acceleration is used
+constexpr double kCheckMax_s = 0.5;        // a tool at its maximum speed has come to rest by then
+constexpr double kHaste_n_per_s = 250.0;   // growth at which the full acceleration is used
 constexpr double kLeastHaste = 0.05;
-constexpr double kRefined_s = 0.1;         // after the answer: the stiffness becomes better by more way
-constexpr double kRetreat_s = 0.1;         // τ
-constexpr double kFastest_m_per_s = 10.0;  // of a wall: more is noise
+constexpr double kRefined_s = 0.1;  // after the response, while a longer distance improves the stiffness
+constexpr double kRetreat_s = 0.1;  // τ
+constexpr double kFastest_m_per_s = 10.0;  // maximum speed of a wall; more is noise
 constexpr double kWall_s = 0.05;           // time constant of v
 
 }  // namespace
@@ -72,7 +75,7 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
   before_ = now;
 }
 
-// By more than noise and what the tool's own way could make.
+// Returns whether the force grew by more than the noise and the motion of the tool can cause.
 bool ForceAnswer::grown(const Point& from, const Point& now, const ForceAnswerInput& in) const {
   const double nearer_m = std::max(-in.reaction.dot(now.p_m - from.p_m), 0.0);
   const double grown_n = now.force_n - from.force_n - limits_.stiffness_n_per_m * nearer_m;
@@ -81,7 +84,7 @@ bool ForceAnswer::grown(const Point& from, const Point& now, const ForceAnswerIn
   return (passed_s >= kTrendRest_s || fast) && grown_n >= std::max(kGrown_n, kGrownNoise * limits_.noise_n);
 }
 
-// Two points of the rest, so that a trend is neither of a moment nor of long ago.
+// Uses two points of the rest, so that a trend covers neither a moment nor a time long ago.
 void ForceAnswer::rest(const Point& now, const ForceAnswerInput& in) {
   if (!in.still || now.t_s < kSettled_s) {
     rest_s_ = 0.0;
@@ -128,7 +131,8 @@ bool ForceAnswer::decides(double change_n, double way_m, double share) const {
          change_n >= share * std::max({kAnswer_n, kAnswerNoise * limits_.noise_n, kAnswer_n_per_m * way_m});
 }
 
-// The tool goes back because the guard is exceeded. Only straight back counts: what slides may meet more.
+// Monitors a tool that retreats because the guard is exceeded. Only straight motion counts, because a tool
+// that slides may touch something else.
 void ForceAnswer::watch_retreat(const Point& now, const ForceAnswerInput& in) {
   const Vector3 way_m = now.p_m - from_.p_m;
   const double out_m = along_.dot(way_m), aside_m = (way_m - out_m * along_).norm();
@@ -166,8 +170,8 @@ void ForceAnswer::look_for_answer(const Point& now) {
   }
 }
 
-// The tool has rested as long as it went, so that the two growths are known alike; or there is no time for
-// that.
+// Returns whether the tool has rested for as long as it moved, so that both growths are known equally well,
+// or whether there is no time for that.
 bool ForceAnswer::seen_enough(const Point& now) const {
   if (rest_s_ == 0.0) return false;
   const double much_n = std::max(kMuch_n, 2.0 * kAnswerNoise * limits_.noise_n);
@@ -175,8 +179,9 @@ bool ForceAnswer::seen_enough(const Point& now) const {
   return fast || rest_s_ >= std::clamp(begun_.t_s - from_.t_s, kTrendRest_s, kTrend_s);
 }
 
-// A wall that comes faster than it did, or is stiffer deeper, looks like a wrong sign; at rest it shows how
-// fast the force grows now. What grew by more than before and after is suspicious; the next way decides.
+// A wall that accelerates, or that is stiffer deeper, looks like a wrong sign. At rest it shows the present
+// growth of the force. Growth beyond that before and after is suspicious; the next retreat then shows whether
+// the sign is wrong.
 void ForceAnswer::check(const Point& now, const ForceAnswerInput& in) {
   if (!seen_enough(now) && checked_s_ < kCheckMax_s) return;
   if (!in.still) begun_ = now;

@@ -1,16 +1,17 @@
 #pragma once
 // Tests whether the sensor or the contact causes an unexpected growth of the force. The robot brakes, and the
-// force decides: a wall pressed by a robot with a faulty sensor is at rest with the robot; an approaching
-// wall keeps pushing; the force of a carried body ends with the motion. After 60 ms, over the whole time and
-// over the last 20 ms,
-//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)   as it grew before: sign or frame of the sensor, once an
-//                                                 approaching wall would differ by twice that tolerance
-//   else it grows at rest (force_answer.hpp)      approaching wall: its response decides
-//   else, after 150 ms or that duration           force persists
-// Growth across the force can also come from a surface stiffer than k_max on which the tool slides. If it
-// stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm: from such a surface
-// the force falls by more than k_max does over half of that distance, or the contact ends. This clears the
-// sensor at any time.
+// test observes how the force changes. If the sensor is faulty, the pressed wall is at rest with the robot.
+// An approaching wall continues to push. The force of a carried body ends with the motion. The change of the
+// force is evaluated after 60 ms, over the whole time and over the last 20 ms:
+//   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the
+//                                                    sensor is wrong; this is decided as soon as an
+//                                                    approaching wall would differ by twice that tolerance
+//   otherwise, it grows at rest (force_answer.hpp)   approaching wall: the response to a retreat is evaluated
+//   otherwise, after 150 ms or that duration         force persists
+// Growth perpendicular to the force can also come from a surface stiffer than k_max on which the tool slides.
+// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. With
+// such a surface, the force then falls by more than k_max times half of that distance, or the contact ends.
+// Either result clears the sensor at any time.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,8 @@ class ForceSignTest {
  public:
   enum class Verdict : std::uint8_t { kNone, kPending, kSign, kForcePersists };
 
-  /// Starts the test unless it is running. While it is pending the robot must brake, except for
-  /// ease_m_per_s().
+  /// Starts the test unless it is running. While the test is pending, the robot must brake, except for the
+  /// motion at ease_m_per_s().
   void begin(const GrowthWatch& growth) {
     if (verdict_ != Verdict::kNone) return;
     verdict_ = Verdict::kPending;
@@ -37,8 +38,8 @@ class ForceSignTest {
   }
   void reset() { *this = {}; }
 
-  /// `reaction`: unit direction of the force on the tool; `bounds` are those of `growth`; dt in s. `grows`:
-  /// the force grows at rest.
+  /// Processes one tick. `reaction`: unit vector, direction of the force on the tool. `bounds`: those of
+  /// `growth`. `dt` in s. `grows`: the force grows at rest.
   void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt,
             bool grows = false) {
     if (verdict_ != Verdict::kPending) return;
@@ -53,18 +54,20 @@ class ForceSignTest {
     }
   }
   [[nodiscard]] Verdict verdict() const { return verdict_; }
-  /// Speed of the retreat along the force.
+  /// Speed of the retreat along the force that the test requires, m/s.
   [[nodiscard]] double ease_m_per_s() const { return pending() && easing_ ? kEase_m_per_s : 0.0; }
 
  private:
   static constexpr double kTrial_s = 0.06;
   static constexpr double kLast_s = 0.02;
-  static constexpr double kGrows_s = 0.15;  // time to detect a growth at rest
+  static constexpr double kGrows_s = 0.15;  // time needed to detect growth at rest
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
-  static constexpr double kShown = 2.0;  // tolerances between an approaching and a resting wall
-  static constexpr double kGrown = 4.0;  // changes to detect a growth at rest
+  /// Required difference between an approaching wall and a wall at rest, in tolerances.
+  static constexpr double kShown = 2.0;
+  /// Required growth at rest, in multiples of change().
+  static constexpr double kGrown = 4.0;
   static constexpr double kEase_m = 1e-4;
   static constexpr double kEase_m_per_s = 2e-3;
   static constexpr double kEaseMax_s = 0.5;
@@ -86,8 +89,9 @@ class ForceSignTest {
     const double expected_n = expected(then, now);
     return std::abs(now.force_n - then.force_n - expected_n) <= tolerance(expected_n, noise_n);
   }
-  /// The force of an approaching wall grows at rest by no less than before, while the tool moved back:
-  /// clearly more than that of a wall at rest with a wrong sign.
+  /// Returns whether the two cases are distinguishable. At rest the force of an approaching wall grows at
+  /// least as before although the tool moved back, so it grows clearly more than that of a wall at rest with
+  /// a wrong sign.
   [[nodiscard]] bool distinguishes(const Point& now, double noise_n) const {
     const double expected_n = expected(from_, now);
     return n_per_s_ * time_s_ - expected_n >= kShown * tolerance(expected_n, noise_n);
@@ -124,9 +128,9 @@ class ForceSignTest {
 
   Verdict verdict_ = Verdict::kNone;
   bool across_ = false, easing_ = false;
-  bool otherwise_ = false;  // than it grew before
+  bool otherwise_ = false;  // the force changed differently than before the test
   double time_s_ = 0.0, slope_n_per_m_ = 0.0, n_per_s_ = 0.0;
-  Vector3 direction_ = Vector3::Zero();  // of the growth; then of the retreat
+  Vector3 direction_ = Vector3::Zero();  // direction of the growth, later of the retreat
   Point from_{}, last_{};
 };
 

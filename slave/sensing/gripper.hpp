@@ -1,6 +1,6 @@
 #pragma once
-// State of the gripper, which belongs to the robot: as last requested, and before any request as reported by
-// the robot.
+// State of the gripper, which is part of the robot: the last requested state or, before any request, the
+// state that the robot reports.
 
 #include <optional>
 
@@ -13,13 +13,13 @@ namespace longreach {
 class Gripper {
  public:
   void see(const RobotState& robot) { holds_ = robot.load; }
-  /// None: no request. A hold or a silence requests nothing, and releases nothing.
+  /// Requests a state; none: no request. A hold or a silent link changes no request.
   void ask(const std::optional<bool>& closed) {
     if (closed) asked_ = closed;
   }
   [[nodiscard]] const std::optional<bool>& asked() const { return asked_; }
   [[nodiscard]] bool closed() const { return asked_.value_or(holds_); }
-  /// Closed, or the robot reports that it holds something.
+  /// The gripper is closed, or the robot reports that it holds a load.
   [[nodiscard]] bool may_hold() const { return closed() || holds_; }
   [[nodiscard]] GripperState state(const LoadIdentifier& load) const {
     const bool known = load.known();
@@ -27,8 +27,8 @@ class Gripper {
   }
 
  private:
-  bool holds_ = false;           // as reported by the robot
-  std::optional<bool> asked_{};  // none: no request yet
+  bool holds_ = false;           // the robot reports that it holds a load
+  std::optional<bool> asked_{};  // none: not requested yet
 };
 
 }  // namespace longreach

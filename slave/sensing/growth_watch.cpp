@@ -7,17 +7,17 @@
 namespace longreach {
 namespace {
 
-constexpr double kSmooth_s = 4e-3;  // a quarter of the noise's variance at 1 kHz
-constexpr double kApart_m = 25e-6;  // of places: 24 of them are half a millimetre, or 24 ticks
+constexpr double kSmooth_s = 4e-3;  // leaves a quarter of the variance of the noise at 1 kHz
+constexpr double kApart_m = 25e-6;  // distance of places: 24 of them span half a millimetre, or 24 ticks
 constexpr double kAtRest_m_per_s = 2e-5;
-constexpr double kGrowthSeen_n = 0.4;  // that the noise does not make
-constexpr double kNoise = 8.0;         // likewise, deviations
-constexpr double kRest_s = 0.02;       // on end: the tool rests
-constexpr double kRemembered_s = 0.5;  // of a place
-constexpr double kOwn = 10.0;          // times k_max: what grows faster is not by the way gone
-constexpr double kAgainst = 0.5;       // cosine, of a way against the force
-constexpr double kTrend = 1.3;         // of the trend at rest, which is not known exactly
-constexpr double kInnocent_m = 1e-3;   // on a way of this the force did not grow again
+constexpr double kGrowthSeen_n = 0.4;  // growth that noise does not cause
+constexpr double kNoise = 8.0;         // standard deviations that noise does not exceed
+constexpr double kRest_s = 0.02;       // duration after which the tool counts as at rest
+constexpr double kRemembered_s = 0.5;  // time for which a place is stored
+constexpr double kOwn = 10.0;          // times k_max: faster growth is not caused by the distance moved
+constexpr double kAgainst = 0.5;       // cosine of a motion against the force
+constexpr double kTrend = 1.3;         // factor on the trend at rest, which is not known exactly
+constexpr double kInnocent_m = 1e-3;   // distance over which the force must not grow again
 
 double share_of(double dt, double tau_s) { return tau_s > 0.0 ? -std::expm1(-dt / tau_s) : 1.0; }
 
@@ -35,7 +35,7 @@ void GrowthWatch::forget() {
   direction_.setZero();
 }
 
-// Force and place are equally late, so that a growth is compared with the way that made it.
+// Gives force and place the same delay, so that growth is compared with the motion that caused it.
 void GrowthWatch::smooth(const GrowthSample& s) {
   if (!begun_) {
     lagged_m_ = p_m_ = s.p_WE;
@@ -102,7 +102,7 @@ void GrowthWatch::look_back(const Vector3& normal, double trend_n_per_s) {
   }
 }
 
-// It goes on that way, and the force does not.
+// Clears the direction if the tool continues to move in it and the force does not grow.
 void GrowthWatch::doubt_again() {
   if (direction_.dot(p_m_ - seen_m_) > kInnocent_m && size_n_ <= seen_n_) direction_.setZero();
 }

@@ -1,14 +1,14 @@
 #pragma once
-// Detects a direction in which the tool's own motion increases the force although the reported force does not
-// oppose it. A surface at rest, with a stiffness of at most k_max, pushes harder only where the tool moves
-// against its force:
+// Detects a direction in which the motion of the tool increases the force although the reported force does
+// not oppose that motion. A surface at rest, with a stiffness of at most k_max, pushes harder only if the
+// tool moves against its force:
 //   |F| - |F_i| <= k_max max(0, -n (p - p_i)) + 1.3 g (t - t_i),   n = F/|F|
-// for every position p_i of the last half millimetre and half second, to the deepest approach since; g is the
-// known growth at rest (force_answer.hpp), which the tool does not cause. A force that grows by more than
-// that and the noise, and not faster than ten times k_max over the distance, grows along d = p - p_i: the
-// sign or the frame of the sensor is wrong, or the surface is approaching. Growth while the tool is at rest
-// is not attributed to its motion; growth within 60 degrees of the direction against the force only indicates
-// a stiffer surface.
+// This holds for every position p_i of the last half millimetre and half second. The k_max term uses the
+// deepest position p since then; g is the known growth at rest (force_answer.hpp), which the tool does not
+// cause. If the force grows by more than that and the noise, but not faster than ten times k_max over the
+// distance, it grows along d = p - p_i: the sign or the frame of the sensor is wrong, or the surface is
+// approaching. Growth while the tool is at rest is not attributed to its motion. Growth within 60 degrees of
+// the direction against the force only indicates a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -16,7 +16,7 @@
 namespace longreach {
 
 struct GrowthSample {
-  Vector3 p_WE = Vector3::Zero();     // measured tool, m
+  Vector3 p_WE = Vector3::Zero();     // measured position of the tool, m
   Vector3 force_n = Vector3::Zero();  // in W
   bool in_contact = false;
   double dt = 0.0;             // s
@@ -26,7 +26,7 @@ struct GrowthSample {
 struct GrowthBounds {
   double stiffness_n_per_m = 2e4;  // k_max
   double noise_n = 0.05;
-  double bandwidth_hz = 0.0;  // of the sensor; 0: no lag
+  double bandwidth_hz = 0.0;  // bandwidth of the sensor; 0: no lag
 };
 
 class GrowthWatch {
@@ -35,21 +35,22 @@ class GrowthWatch {
   void configure(const GrowthBounds& bounds) { bounds_ = bounds; }
   [[nodiscard]] const GrowthBounds& bounds() const { return bounds_; }
   void reset();
-  /// Discards the observations, because the tool retreats.
+  /// Discards the observations. Call it when the tool retreats.
   void forget();
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
-  /// Unit; zero: the force grows in no unexpected direction. Kept until the contact ends, or the tool moves
-  /// in this direction and the force does not grow.
+  /// Unit vector, direction in which the force grows unexpectedly; zero: none. It is kept until the contact
+  /// ends, or until the tool moves in this direction and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
-  [[nodiscard]] double age_s() const { return age_s_; }  // since it last grew
+  [[nodiscard]] double age_s() const { return age_s_; }  // time since the force last grew in this direction
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
-  [[nodiscard]] double n_per_s() const { return n_per_s_; }  // of that growth
-  /// It grows across the force, which a surface stiffer than k_max, on which the tool slides, could also
-  /// cause.
+  [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of the unexpected growth
+  /// The growth is perpendicular to the force. A surface stiffer than k_max on which the tool slides could
+  /// also cause it.
   [[nodiscard]] bool across() const { return across_; }
-  [[nodiscard]] double size_n() const { return size_n_; }  // |F|, filtered
+  [[nodiscard]] double size_n() const { return size_n_; }  // filtered |F|
+  /// Filtered position of the tool, with the delay of the force.
   [[nodiscard]] const Vector3& place_m() const { return p_m_; }
 
  private:
@@ -57,7 +58,8 @@ class GrowthWatch {
   struct Place {
     Vector3 p_m;
     double force_n;
-    double deepest_m;  // deepest approach since
+    /// Deepest approach since the tool was at this place.
+    double deepest_m;
     double time_s;
   };
   void smooth(const GrowthSample& sample);
@@ -67,18 +69,20 @@ class GrowthWatch {
 
   GrowthBounds bounds_;
   Ring<Place> places_;
-  Vector3 lagged_m_ = Vector3::Zero(), p_m_ = Vector3::Zero();  // with the delay of the sensor; and filtered
+  /// Position with the delay of the sensor; and in addition filtered like the force.
+  Vector3 lagged_m_ = Vector3::Zero(), p_m_ = Vector3::Zero();
   Vector3 force_n_ = Vector3::Zero();
-  double size_n_ = 0.0;  // |F|, filtered
+  double size_n_ = 0.0;  // filtered |F|
   bool begun_ = false;
   double time_s_ = 0.0, rest_s_ = 0.0;
   Vector3 direction_ = Vector3::Zero();
-  Vector3 seen_m_ = Vector3::Zero();  // position of the last growth, and the force there
+  /// Position at the last growth; seen_n_ is the force there.
+  Vector3 seen_m_ = Vector3::Zero();
   double seen_n_ = 0.0;
   double age_s_ = 0.0;
-  double slope_n_per_m_ = 0.0;  // of that growth
-  double n_per_s_ = 0.0;        // likewise
-  bool across_ = false;         // likewise
+  double slope_n_per_m_ = 0.0;  // slope of the unexpected growth
+  double n_per_s_ = 0.0;
+  bool across_ = false;
 };
 
 }  // namespace longreach

@@ -1,19 +1,21 @@
 #pragma once
-// Plausibility of the force sensor: each sample is checked before it is used. A fault is a reading that no
-// contact can cause; T is the time since the previous sample, v the tool speed, σ noise, r resolution, R
-// range as configured, G force_guard_n, k_max guard_stiffness_n_per_m, m the mass of the tool:
+// Plausibility check of the force sensor. Each sample is checked before it is used. A fault is a reading that
+// no contact can cause. T is the time since the previous sample, v the speed of the tool; σ noise, r
+// resolution and R range are as configured; G is force_guard_n, k_max guard_stiffness_n_per_m, m the mass of
+// the tool:
 //
-//   kind       checked                       a fault when                                         reported after
-//   nonsense   each sample                   a number is not finite                               1 sample
-//   range      each channel of a sample      beyond R + r; R = 0: beyond 1e5 N + 2 m (|g| + a)    1 sample
-//   jump       compensated force, relative   more than G + 10 σ + 2 r + u + T (k_hard v + k_max   1 sample
-//              to the previous one           0.1 m/s), k_hard = 1e7 N/m: steel on steel
-//   saturated  each channel                  continuously at its range                            50 ms
-//   frozen     all channels, σ > r/2         constant to the last digit, not zero, while the      50 ms and 1 mm
+//   kind       checked                       a fault if                                         reported after
+//   nonsense   each sample                   a number is not finite                             1 sample
+//   range      each channel of a sample      beyond R + r; R = 0: beyond 1e5 N + 2 m (|g| + a)  1 sample
+//   jump       compensated force, relative   more than G + 10 σ + 2 r + u + T (k_hard v +       1 sample
+//              to the previous one           k_max 0.1 m/s), k_hard = 1e7 N/m: steel on steel
+//   saturated  each channel                  continuously at its range                          50 ms
+//   frozen     all channels, σ > r/2         constant to the last digit, not zero, while the    50 ms and 1 mm
 //                                            tool moves
+//
 // u is the effect of an uncertain acceleration of the tool (tool_load.hpp). A force may vanish at once, for
-// example at a latch or an edge. Not detected: a sensor that is frozen in free space or at rest, a bias, a
-// drift, a scale error. Their effect on the robot is limited by the retreat distance (retreat_budget.hpp).
+// example at a latch or an edge. Not detected are a sensor that is frozen in free space or at rest, a bias, a
+// drift, and a scale error. The retreat distance limits their effect on the robot (retreat_budget.hpp).
 
 #include <optional>
 
@@ -29,14 +31,14 @@ class SensorWatch {
   void configure(const SensingConfig& sensing, const CommandConfig& command);
 
   struct Motion {
-    Vector3 p_WE = Vector3::Zero();  // measured, m
+    Vector3 p_WE = Vector3::Zero();  // measured position of the tool, m
     double speed_m_per_s = 0.0;
-    double elapsed_s = 0.0;  // since the previous sample
+    double elapsed_s = 0.0;  // time since the previous sample
   };
 
-  /// The reading, along the axes of the tool. Returns true if it is plausible.
+  /// Checks a reading, which is along the axes of the tool. Returns true if it is plausible.
   bool read(const Wrench& reading, const Motion& motion);
-  /// The force without tool and bias, in W; `uncertainty_n` is u. Returns true if it is plausible.
+  /// Checks the force without tool and bias, in W; `uncertainty_n` is u. Returns true if it is plausible.
   bool felt(const Vector3& force_n, const Motion& motion, double uncertainty_n);
 
  private:
@@ -47,8 +49,8 @@ class SensorWatch {
 
   SensingConfig sensing_;
   CommandConfig command_;
-  std::optional<Wrench> read_{};   // last
-  std::optional<Vector3> felt_{};  // last, N
+  std::optional<Wrench> read_{};   // last reading
+  std::optional<Vector3> felt_{};  // last force, N
   double saturated_s_ = 0.0;
   double same_s_ = 0.0, same_m_ = 0.0;
   Vector3 p_WE_ = Vector3::Zero();

@@ -1,5 +1,5 @@
 #pragma once
-// Zero and touch threshold of the force sensor, for status and log.
+// Descriptions of the zero and the touch threshold of the force sensor, for status and log.
 
 #include <string>
 
@@ -7,9 +7,10 @@
 
 namespace longreach {
 
-/// Threshold, noise and bias, or what is missing for them; empty where they are as configured.
+/// Returns threshold, noise and bias, or what is missing for the zero; empty if the thresholds are
+/// configured.
 std::string in_words(const SensorZero& zero);
-/// Why contacts may be missed or invented, and what to do; empty: no problem.
+/// Returns why contacts may be missed or falsely detected, and a remedy; empty: no problem.
 std::string sensor_warning(const SensorZero& zero);
 
 }  // namespace longreach

@@ -1,17 +1,19 @@
 #pragma once
-// Effect of the tool on the force sensor that carries it, and its compensation. With the mass m, centre of
-// mass c and inertia I of the tool about it, in the frame of the sensor; g gravity, a the acceleration of the
-// origin of the sensor, ω, α its rotation, all in that frame:
+// Effect of the tool on the force sensor that carries it, and its compensation. All vectors are in the frame
+// of the sensor. With the mass m of the tool, its centre of mass c, its inertia I about c, gravity g, the
+// acceleration a of the origin of the sensor, and its rotation ω, α,
 //   a_c = a + α × c + ω × (ω × c)
 //   f = m (g - a_c),   τ = c × f - I α - ω × I ω
-// The remainder is the wrench by the environment plus the bias of the sensor. Zeroing estimates the bias as
-// the mean of the remainder over `zero_s` without contact, limited by a bound; later zeros may change it by
-// at most a fifth of the bound, so that zeroing cannot hide a larger force. With irregular samples the
-// acceleration is uncertain by its changes between them, and the uncertainty is its effect on the tool. The
-// load of the gripper is compensated likewise, as far as it is known (load_identifier.hpp), by an
-// acceleration filtered like the bond; its unknown part counts as uncertainty while the tool accelerates, and
-// 0.3 s longer. Where the touch threshold is derived, the bias is also tracked in free motion
-// while the gripper is open (bias_tracker.hpp), and the mass of the tool counts as known to 15 %.
+// The remainder of the reading is the wrench of the environment plus the bias of the sensor. Zeroing
+// estimates the bias as the mean of the remainder over `zero_s` without contact, limited by a bound. Later
+// zeros may change it by at most a fifth of the bound, so that zeroing cannot hide a larger force.
+//
+// With irregular samples, the acceleration is uncertain by its changes between samples; the uncertainty of
+// the force is the effect of these changes on the tool. The load in the gripper is compensated in the same
+// way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered like the bond. Its
+// unknown part counts as uncertainty while the tool accelerates and for another 0.3 s. If the touch threshold
+// is derived, the bias is also tracked in free motion with an open gripper (bias_tracker.hpp), and the mass
+// of the tool counts as known to 15 %.
 
 #include <limits>
 #include <optional>
@@ -24,15 +26,15 @@
 
 namespace longreach {
 
-/// Wrench by the tool on the sensor, at its origin.
+/// Returns the wrench of the tool on the sensor, at the origin of the sensor.
 Wrench tool_wrench(const ToolLoadConfig& tool, const SensorMotion& motion);
 
-/// Motion of a sensor from its velocities: their differences, filtered with the bandwidth of the sensor, so
-/// that both have the same delay.
+/// Estimates the motion of a sensor from differences of its velocity, filtered with the bandwidth of the
+/// sensor, so that motion and reading have the same delay.
 class SensorMotionEstimate {
  public:
-  /// Velocity `V_WF` of the origin of the sensor in W, `dt` after the last one; bandwidth 0: not filtered.
-  /// The acceleration is zero at first.
+  /// Processes the velocity `V_WF` of the origin of the sensor in W, `dt` s after the previous one.
+  /// `bandwidth_hz` = 0: not filtered. The first acceleration is zero.
   SensorMotion step(const Quaternion& q_WF, const Twist& V_WF, const Vector3& gravity_W, double bandwidth_hz,
                     double dt);
 
@@ -41,10 +43,10 @@ class SensorMotionEstimate {
   Twist acceleration_{};  // in W
 };
 
-/// Uncertainty of an acceleration from irregular velocities.
+/// Uncertainty of an acceleration that is computed from irregularly sampled velocities.
 class AccelerationUncertainty {
  public:
-  /// V_WF, `dt` after the last one.
+  /// Processes the velocity `V_WF`, `dt` s after the previous one.
   void step(const Twist& V_WF, double dt);
   [[nodiscard]] double m_per_s2() const { return m_per_s2_; }
   [[nodiscard]] double rad_per_s2() const { return rad_per_s2_; }
@@ -72,30 +74,30 @@ class AccelerationPeak {
   double most_ = 0.0, age_s_ = 0.0;
 };
 
-/// Sample for the identification of a load.
+/// Sample for identifying a load.
 struct LoadSample {
   bool free = false;  // there is no contact
-  // Motion of the sensor from displacements, because a reported speed may be an instantaneous value of a
-  // servo that stops between two setpoints.
+  // Pose of the sensor. Its motion is computed from displacements, because a reported speed may be the
+  // instantaneous speed of a servo that stops between two setpoints.
   Pose X_WF{};
-  double touch_n = 0.3;  // threshold
+  double touch_n = 0.3;  // touch threshold
 };
 
-/// Upper bounds of a force that may be treated as bias, and of the effect of an unknown load that is not
-/// treated as a contact, so that the guards receive every larger force.
+/// Upper bounds of the force that may be treated as bias, and of the force of an unknown load that is not
+/// treated as a contact. The guards receive every force beyond these bounds.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  double guard_n = kNone;  // bounds the bias that is followed
+  double guard_n = kNone;  // upper bound on the tracked bias
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
-  /// From the guards of force and moment.
+  /// Returns the limits that belong to the force and moment guards.
   static CompensationLimits of(const CommandConfig& c) {
     return {c.force_guard_n, 0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
   }
 };
 
-/// Compensates the tool.
+/// Compensates tool, load and bias.
 class ToolCompensation {
  public:
   explicit ToolCompensation(const SensingConfig& config, const CompensationLimits& limits = {},
@@ -115,32 +117,32 @@ class ToolCompensation {
     if (!(config.zero_s > 0.0)) abandon();
   }
 
-  /// Starts averaging; there must be no contact until it is complete. The previous zero is used until then.
-  /// Does nothing if zero_s = 0.
+  /// Starts to zero the sensor: averages the readings; there must be no contact until this is complete. The
+  /// previous zero is used until then. Does nothing if zero_s = 0.
   void zero();
-  /// Call it when there is contact or contact becomes possible: the previous zero is kept.
+  /// Stops averaging and keeps the previous zero. Call it when there is contact or contact becomes possible.
   void abandon() { zeroing_ = first_ = false; }
 
-  /// Returns the wrench by the environment on the tool, W: `reading` (in W) minus tool and bias, for a sensor
-  /// of orientation `q_WF` and velocity `V_WF`, `dt` after the last one. Values that are not finite are
-  /// passed through and not averaged.
+  /// Returns the wrench of the environment on the tool, in W: `reading` (in W) without tool, load and bias,
+  /// for a sensor of orientation `q_WF` and velocity `V_WF`, `dt` s after the previous one. Values that are
+  /// not finite are passed through and not averaged.
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
               const LoadSample& load = {});
-  /// State of the gripper: closed.
+  /// Sets the state of the gripper.
   void grip(bool closed) {
     load_.grip(closed);
     closed_ = closed;
   }
-  /// Returns whether the load of the gripper is known, or there is none.
+  /// Returns whether the load in the gripper is known or there is none.
   [[nodiscard]] bool load_known() const { return !closed_ || !loads_ || load_.known(); }
   [[nodiscard]] const BiasTracker& tracker() const { return tracker_; }
 
   /// Returns false during the first zeroing: the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
-  [[nodiscard]] const Wrench& bias() const { return bias_; }  // in the sensor's frame
+  [[nodiscard]] const Wrench& bias() const { return bias_; }  // bias in the frame of the sensor
   [[nodiscard]] const LoadIdentifier& load() const { return load_; }
-  /// Part of force and moment that an uncertain acceleration or load may cause.
+  /// Magnitude of the force, and of the moment, that an uncertain acceleration or load may cause.
   [[nodiscard]] double uncertainty_n() const;
   [[nodiscard]] double uncertainty_nm() const;
 
@@ -156,12 +158,13 @@ class ToolCompensation {
   SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
-  std::optional<Pose> X_WF_{};        // at the last sample of a load
-  AccelerationPeak push_{}, turn_{};  // of a load
+  std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
+  AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
-  double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre
-  // As a bond transmits it; as the stiffest bond does; and that, filtered like the force that decides on a touch.
+  double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
+  /// Motion as the bond transmits it, as the stiffest possible bond transmits it, and the latter after the filter of
+  /// the force that decides about contact.
   SensorMotion slow_{}, quick_{}, decided_{};
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias of the first zero

@@ -1,11 +1,10 @@
 #pragma once
-// A simulated six-axis force/torque sensor: its reading of the wrench that acts on it. Each of the six
-// channels, in the frame of the sensor:
+// A simulated six-axis force/torque sensor: its reading of the wrench w that acts on it. For each of the six
+// channels, in the frame of the sensor, with ξ normally distributed with standard deviation 1:
 //   y += (1 - exp(-2π f dt)) (w - y)                        bandwidth f
 //   b += drift √dt ξ                                        bias, a random walk from its initial value
 //   reading = clamp(round((y + b + noise ξ)/res) res)       resolution, range
-// with ξ normal, of deviation 1. Cross talk, hysteresis and temperature are not modelled separately from a
-// bias.
+// Cross talk, hysteresis and the effect of temperature are not modelled separately from a bias.
 
 #include "common/core/random.hpp"
 #include "common/spatial/spatial.hpp"
@@ -17,8 +16,8 @@ class ForceSensor {
  public:
   ForceSensor(const SensingConfig& config, Random random);
 
-  /// Returns the reading, `dt` (>= 0, s) after the last one. A wrench that is not finite gives the previous
-  /// one.
+  /// Returns the reading `dt` >= 0 s after the previous one. If the wrench is not finite, the previous wrench
+  /// is used.
   Wrench step(const Wrench& wrench, double dt);
 
   [[nodiscard]] const Wrench& bias() const { return bias_; }

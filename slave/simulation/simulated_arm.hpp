@@ -1,14 +1,14 @@
 #pragma once
 // A simulated robot: six joints with first-order servos, the tool by forward kinematics, the force of the
-// scene on the tool, a force sensor at E that carries the tool.
+// scene on the tool, and a force sensor at E that carries the tool.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
-//                                                                   0 Hz: q̇ only limited
-// A joint with a stiffness has its link on a spring behind the servo (flexible_joint.hpp), and that link
-// yields to contacts, so that the contact creates no energy for any stiffness (yielding.hpp); the other
-// joints do not yield. Joints are measured at the link, exactly. Its time is the argument of read(). Without
-// a setpoint, or without a write for 20 ms, its servos brake at their acceleration limits and then hold their
-// position until the next setpoint. The accessors that begin with true_ and displace() are for the laboratory
-// only.
+//                                                                   0 Hz: q̇ is only limited
+// The link of a joint with a stiffness is on a spring behind the servo (flexible_joint.hpp) and yields to
+// contacts, such that the contact creates no energy for any stiffness (yielding.hpp); the other joints do not
+// yield. The measured joint positions are those of the links, without error. The time is the argument of
+// read(). Without a setpoint, or without a call of write() for 20 ms, the servos brake at their acceleration
+// limits and then hold their position until the next setpoint. Accessors named true_ and displace() are for
+// the laboratory only.
 
 #include <cstdint>
 #include <optional>
@@ -35,18 +35,18 @@ class SimulatedArm : public Robot {
     if (bodies_) bodies_->grip(closed);
   }
 
-  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // forward kinematics of start_rad
-  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // at the last read
-  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // of E in W, m/s
-  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }           // without noise
+  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // pose of the tool at start_rad
+  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // pose of the tool at the last read
+  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // velocity of E in W, m/s
+  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }  // wrench on the tool, without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
-  /// Static dF/dp of all contacts at `p_WE`, along the outward direction, by differences; N/m, 0 in free
-  /// space.
+  /// Returns the static stiffness dF/dp of all contacts at `p_WE` along the outward direction, by
+  /// differences, N/m; 0 in free space.
   [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
-  /// Free-floating bodies; null for a scene without.
+  /// The free-floating bodies; null if the scene has none.
   [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
   [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
-  /// Moves the joints externally: they are at this position now, at rest.
+  /// Moves the joints externally; afterwards they are at rest at this position.
   void displace(const JointVector& joint_rad);
   /// Replaces the scene. Throws std::invalid_argument like Scene.
   void surround(const SceneConfig& scene) { scene_ = Scene(scene, X_WE_start_); }
@@ -67,14 +67,14 @@ class SimulatedArm : public Robot {
   ForceSensor sensor_;
   SensorMotionEstimate motion_{};
   std::optional<Time> now_{};
-  double t_s_ = 0.0;  // since the first read
+  double t_s_ = 0.0;  // time since the first read
   std::optional<Time> written_{};
   JointVector joint_rad_;
   JointVector joint_rad_per_s_ = JointVector::Zero();
   JointVector servo_rad_;
   JointVector servo_rad_per_s_ = JointVector::Zero();
   std::optional<JointVector> setpoint_rad_{};
-  bool flexible_;  // has joints with a stiffness
+  bool flexible_;  // some joint has a stiffness
   Pose X_WE_{};
   Twist V_WE_{};
   Wrench F_E_W_{};

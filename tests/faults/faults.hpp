@@ -1,17 +1,17 @@
 #pragma once
-// The fault campaign: program `faults`. Its parts:
+// The fault campaign, program `faults`. Its parts:
 //
 //   schedule   faults and their times, drawn from a seed; a list that can be printed, read and shortened
 //   scenario   robot, scene, device, link, limits and behaviour of the operator
-//   kind       the table of all kinds of fault; *_kinds.cpp, one per group, a few lines per kind
-//   world      a laboratory with the faults of a schedule; it is between the nodes and their environment
-//              (deploy/lab/fault_hooks.hpp), with wire (the network and its attacker) and person
-//   sent_log   what the master sent and the slave received: who was permitted to move the robot
-//   moment     one tick as seen from outside; the only input of the oracle
+//   kind       the table of all kinds of fault; *_kinds.cpp, one file per group, a few lines per kind
+//   world      a laboratory with the faults of a schedule, which are applied between the nodes and their
+//              environment (deploy/lab/fault_hooks.hpp); with wire (the network and its attacker) and person
+//   sent_log   what the master sent and the slave received: whether the robot was permitted to move
+//   moment     one tick as observed from outside; the only input of the oracle
 //   invariant  the oracle; *_invariants.cpp and liveness.cpp, one class per invariant
-//   trial      one schedule under the oracle; shrink: the few faults that cause a failure
-//   tally      results of many trials; faults.cpp runs them on all cores, in blocks stored in the folder
-//              --out, so that an interrupted campaign can resume; faults_table writes the results
+//   trial      one schedule under the oracle; shrink: reduces it to the few faults that cause a failure
+//   tally      the results of many trials; faults.cpp runs them on all cores, in blocks that are stored in the
+//              folder --out, so that an interrupted campaign can resume; faults_table writes the results
 //
 // Tests that need real programs are in tests/process: kill -9 and restarts, descriptors, disks, pipes, RPC,
 // certificates, idle connections, source addresses, wall clocks, local users.
@@ -26,18 +26,18 @@
 
 namespace longreach {
 
-/// Runs the seeds `first` to `first + count - 1` on all cores.
+/// Runs the seeds `first` to `first + count - 1` on all cores; `progress` receives the completed fraction.
 Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<void(double)>& progress = {});
 
-/// Runs the whole campaign from `run.seed` on: half an hour of virtual time, or 400 hours with
-/// LONGREACH_FULL.
+/// Runs the whole campaign, starting with the seed `run.seed`: half an hour of virtual time, or 400 hours if
+/// LONGREACH_FULL is set.
 std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
 std::vector<Plot> faults_plots();
 
-/// Prints the first failures to standard error, each with the command that repeats it.
+/// Prints the first failures to standard error, each with the command that reproduces it.
 void say_failures(const Tally& tally);
 
-/// Repeats one seed or a given schedule; reports the violations and a minimum set of faults that causes them.
+/// Runs a schedule again. Reports in `said` the violations and a minimal set of faults that causes them.
 /// Returns false if there is a violation.
 bool repeat_faults(const Schedule& schedule, std::string& said);
 

@@ -1,6 +1,7 @@
 #pragma once
-// Writes the results of a fault campaign as faults.csv and faults.svg: kinds of fault and the number of
-// injections, guards and the number of activations, invariants and the numbers of checks and violations.
+// Writes the results of a fault campaign to faults.csv and faults.svg: each kind of fault with its number of
+// injections, each guard with its number of activations, and each invariant with its numbers of checks and
+// violations.
 
 #include <filesystem>
 
@@ -8,7 +9,7 @@
 
 namespace longreach {
 
-/// Throws std::runtime_error if a file cannot be written.
+/// Writes the two files to `folder`. Throws std::runtime_error if a file cannot be written.
 void write_faults(const std::filesystem::path& folder, const Tally& tally);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// Counts how often each guard of the product acted, from outside: causes in the reports, clamps in the
-// telemetry, refusals in the counters of the ports. A campaign in which a guard never acted has not tested
-// it.
+// Counts how often each guard of the product acted, as observed from outside: causes in the reports, clamps
+// in the telemetry, and refusals in the counters of the ports. A campaign in which a guard never acted has
+// not tested it.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace longreach {
 
-/// Names of all guards that a campaign must activate.
+/// Returns the names of all guards that a campaign must activate.
 std::vector<std::string> guard_names();
 
 class GuardWatch {

@@ -1,6 +1,7 @@
 #pragma once
-// Controls: a product in which a guard is missing or a limit does not hold. This is simulated by falsifying
-// data at its boundary, without the knowledge of the oracle. The campaign must find each of them.
+// Control experiments: a product with a missing guard or a limit that does not hold. Such a defect is
+// simulated by falsifying data at the boundary of the product, where the oracle does not observe it. The
+// campaign must detect each defect.
 
 #include <array>
 #include <cstdint>
@@ -14,26 +15,26 @@ namespace longreach {
 
 enum class InjectedDefect : std::uint8_t {
   kNone,
-  kSilenceUnnoticed,     // the slave assumes that it has just received the master
-  kRequestsNotReceived,  // requests for hold and stop are removed
-  kStopNotReceived,      // a stop at the slave does not reach its node
+  kSilenceUnnoticed,     // the slave always counts a datagram as just received
+  kRequestsNotReceived,  // requests for a hold or a stop are removed
+  kStopNotReceived,      // a stop that is requested at the slave does not reach its node
   kForceNotRendered,     // the force sensor reports zero
   kForgeriesTaken,       // a command that was never sent is accepted
   kLimitsFree,           // clients may loosen all limits
-  kSetpointsShake,       // beyond the limits of the joints
-  kPictureFrozen,        // the display shows the first tick for ever
-  kHandPushed,           // with ten times the rendered force
+  kSetpointsShake,       // setpoints oscillate beyond the limits of the joints
+  kPictureFrozen,        // the display always shows the pose of the first tick
+  kHandPushed,           // the hand receives ten times the rendered force
   kCauseWrong,           // the cause of each hold is reported as preempted
-  kContactUnreported,    // contacts, and what limits the robot, are not reported
-  kRefusalUnreported,    // the reason why an engagement is not granted is missing
-  kTouchedEarly,         // surfaces are reported too near, and always as touched
+  kContactUnreported,    // contacts and active limits of the robot are not reported
+  kRefusalUnreported,    // the reason for which an engagement is not granted is missing
+  kTouchedEarly,         // surfaces are reported too near, and always as pressed
   kCount
 };
 
 struct DefectFacts {
   std::string_view name;
   std::string_view invariant;  // the invariant that must detect it
-  std::string_view fault{};    // a fault that makes it visible
+  std::string_view fault{};    // fault that makes the defect visible; empty: none is needed
 };
 constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCount)> kInjectedDefects = {{
     {"none", ""},
@@ -52,14 +53,14 @@ constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCoun
     {"touched early", "I32"},
 }};
 
-/// Applies the defect to a side in a tick, with its state.
+/// Applies the defect to the inputs and outputs of a side in each tick.
 class DefectInjector {
  public:
   explicit DefectInjector(InjectedDefect what) : what_(what) {}
 
   [[nodiscard]] bool frees_limits() const { return what_ == InjectedDefect::kLimitsFree; }
   void apply(RobotState& reported) const;
-  void before_sent_log(SlaveInput& input);  // before the sent log records it
+  void before_sent_log(SlaveInput& input);  // called before the sent log records the input
   void ask(SlaveInput& input);
   void answer(SlaveOutput& out);
   void answer(MasterOutput& out) const;

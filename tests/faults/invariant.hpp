@@ -1,7 +1,7 @@
 #pragma once
-// Invariants: what must hold under all faults. They are checked on data from outside (moment.hpp), never on
-// internal data of a node; reported states and causes are claims, which are checked too. Each counts its
-// checks, since an invariant without checks proves nothing.
+// Invariants: properties that must hold under all faults. They are checked on data that is observed from
+// outside (moment.hpp), never on internal data of a node. Reported states and causes are claims, which are
+// checked as well. Each invariant counts its checks, because an invariant without checks proves nothing.
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace longreach {
 
 struct Breach {
-  std::string invariant;  // its name
+  std::string invariant;  // name of the invariant
   double t_s = 0.0;
   std::string words;
 };
@@ -25,17 +25,20 @@ class Invariant {
   Invariant(std::string_view name, std::string_view says) : name_(name), says_(says) {}
   virtual ~Invariant() = default;
 
+  /// Checks one tick.
   virtual void see(const Moment& moment) = 0;
 
   [[nodiscard]] std::string_view name() const { return name_; }
   [[nodiscard]] std::string_view says() const { return says_; }
+  /// Number of checks.
   [[nodiscard]] std::uint64_t judged() const { return judged_; }
   [[nodiscard]] std::uint64_t violated() const { return violated_; }
   [[nodiscard]] const Breach& first() const { return first_; }
 
  protected:
-  /// Checks that `value` is at most `bound`; NaN fails.
+  /// Checks that `value` is at most `bound`; NaN violates the invariant.
   void at_most(const Moment& moment, double value, double bound, const char* what);
+  /// Checks that `good` is true.
   void that(const Moment& moment, bool good, const char* what);
 
  private:
@@ -48,7 +51,7 @@ class Invariant {
 
 using Invariants = std::vector<std::unique_ptr<Invariant>>;
 
-// Each file adds its own.
+// Each file of invariants adds its own to `all`.
 void add_joint_invariants(const Scenario& scenario, Invariants& all);
 void add_tool_invariants(const Scenario& scenario, Invariants& all);
 void add_authority_invariants(const Scenario& scenario, Invariants& all);

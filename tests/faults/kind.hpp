@@ -1,6 +1,6 @@
 #pragma once
-// A kind of fault: its effect on a world while it is active. One row of a table; the tables are in
-// *_kinds.cpp, one per group. Each function is called once per tick, in the order of the tick.
+// A kind of fault: its effect on a world while it is active. Each kind is one row of a table; the tables are
+// in *_kinds.cpp, one per group. The functions of a kind are called once per tick, in the order of the tick.
 
 #include <cstdint>
 #include <deque>
@@ -17,8 +17,7 @@ namespace longreach {
 
 class World;
 
-/// Data that a fault falsifies while it is active, or parts that it disturbs; the oracle takes them into
-/// account.
+/// Signals that a fault falsifies or disturbs while it is active. The oracle takes them into account.
 enum class AffectedSignal : std::uint16_t {
   kSensor = 1,       // the force that the slave receives
   kJoints = 2,       // the joint positions that the slave receives
@@ -28,10 +27,10 @@ enum class AffectedSignal : std::uint16_t {
   kSlaveTime = 32,   // the slave runs late
   kMasterTime = 64,  // the master runs late
   kScene = 128,      // the touched object changes by itself
-  kMaster = 256,     // the master sends data that no master may send
-  kSlave = 512,      // the slave sends data that no slave may send
+  kMaster = 256,     // the master sends what no master may send
+  kSlave = 512,      // the slave sends what no slave may send
   kOperator = 1024,  // the operator prevents the engagement
-  kLease = 2048      // the control of the robot passes to another master
+  kLease = 2048      // another master takes control of the robot
 };
 constexpr std::uint16_t operator|(AffectedSignal a, AffectedSignal b) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -43,9 +42,9 @@ constexpr std::uint16_t only(AffectedSignal a) { return static_cast<std::uint16_
 struct Active {
   Fault fault;
   Random random;
-  double age_s = 0.0;  // since its start
-  bool begins = true;  // true in its first tick
-  // Its state.
+  double age_s = 0.0;  // time since its start
+  bool begins = true;  // true in its first tick only
+  // State of the fault, used as its kind requires.
   RobotState robot{};
   HandleState handle{};
   Vector3 direction = Vector3::Zero();
@@ -60,10 +59,10 @@ struct FaultKind {
   std::uint16_t affects = 0;
   double longest_s = 5.0;
   double shortest_s = 0.005;
-  double besides =
-      0.0;  // share of the seeds that have it once in addition to the drawn ones; 0: it is a drawn one
-  void (*act)(World&, Active&) = nullptr;  // before the tick
-  void (*end)(World&, Active&) = nullptr;  // at its end
+  /// Fraction of the seeds that have this fault once in addition to the drawn ones; 0: the kind is drawn.
+  double besides = 0.0;
+  void (*act)(World&, Active&) = nullptr;  // called before the tick
+  void (*end)(World&, Active&) = nullptr;  // called when the fault ends
   void (*robot)(World&, Active&, RobotState&) = nullptr;
   void (*slave)(World&, Active&, SlaveInput&) = nullptr;
   void (*setpoint)(World&, Active&, JointVector&) = nullptr;
@@ -72,7 +71,7 @@ struct FaultKind {
   void (*command)(World&, Active&, MasterOutput&) = nullptr;
 };
 
-/// Maps `size` from 0 to 1 to `low` to `high` on a logarithmic scale.
+/// Maps `size` in 0..1 to `low`..`high` on a logarithmic scale.
 double log_scale(double size, double low, double high);
 
 std::span<const FaultKind> datagram_kinds();
@@ -87,7 +86,7 @@ std::span<const FaultKind> contact_kinds();
 
 /// All kinds, in the order of the groups.
 const std::vector<FaultKind>& fault_kinds();
-/// Index in fault_kinds(). Throws ConfigError for an unknown kind.
+/// Returns the index in fault_kinds(). Throws ConfigError if the kind is unknown.
 std::size_t fault_kind(std::string_view name);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Fields that can weaken a guard, as lists of the oracle: the campaign changes each of them and checks the
-// result. A test compares the lists with the schema, so that no field is missing.
+// The configuration fields that can weaken a guard, as lists for the oracle. The campaign changes each of
+// these fields and checks the result. A test compares the lists with the schema, so that no field is missing.
 
 #include <cstdint>
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace longreach {
 
-/// Which values are less restrictive than that of the start.
+/// Which values are less restrictive than the value at the start.
 enum class Loose : std::uint8_t { kAbove, kBelow, kOther };
 
 struct GuardedField {
   const char* path;
   Loose looser = Loose::kAbove;
-  double automatic = 0.0;  // value for which 0 stands
+  double automatic = 0.0;  // value that is used if the field is 0
 };
 
 std::span<const GuardedField> slave_limits();
 std::span<const GuardedField> master_limits();
 
-/// Returns the limit that is less restrictive than at the start; empty: none.
+/// Returns the name of a limit that is less restrictive now than at the start; empty: none.
 std::string looser(const proto::SlaveConfig& start, const proto::SlaveConfig& now);
 std::string looser(const proto::MasterConfig& start, const proto::MasterConfig& now);
 

@@ -1,7 +1,7 @@
 #pragma once
-// The simulated operator of a run: moves the handles, presses where the wall is, rests, and requests an
-// engagement whenever the display shows that there is none. Between two positions the hand follows
-// minimum-jerk trajectories.
+// The simulated operator of a run: moves the handle, presses on the wall, pauses, and requests an engagement
+// whenever the display shows that there is none. Between two positions the hand moves on minimum-jerk
+// trajectories.
 
 #include "common/core/random.hpp"
 #include "master/devices/hand_target.hpp"
@@ -13,13 +13,13 @@ class Person {
  public:
   Person(Random random, const MasterConfig& master, double round_trip_s);
 
-  /// Returns the target of the hand; a request to engage goes into `requests`.
+  /// Returns the target of the hand. A request to engage is added to `requests`.
   HandTarget step(double now_s, const MasterView& shown, OperatorRequests& requests);
 
-  /// Holds the hand still from now on.
+  /// Keeps the hand at rest from now on.
   void rest() { resting_ = true; }
-  [[nodiscard]] bool asked() const { return asked_; }  // in this tick
-  /// Requests an engagement again and again instead of waiting for an answer.
+  [[nodiscard]] bool asked() const { return asked_; }  // an engagement was requested in this tick
+  /// Makes the operator request an engagement repeatedly instead of waiting for a reply.
   void be_impatient(bool impatient) { impatient_ = impatient; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Scenario of a run: robot, scene, device, link, limits and behaviour of the operator, drawn from the seed.
+// Scenario of a run, drawn from its seed: robot, scene, device, link, limits and behaviour of the operator.
 
 #include <cstdint>
 #include <string>
@@ -14,22 +14,23 @@
 namespace longreach {
 
 struct Scenario {
-  proto::LabConfig config{};  // complete
+  proto::LabConfig config{};  // complete configuration
   MasterConfig master{};
   SlaveConfig slave{};
-  std::vector<std::string> settings;  // as accepted by `longreach-lab run --set`
-  double round_trip_s = 0.0;          // of the link without faults
-  bool metamorphic = false;           // the link of the scenario is not random
+  /// Settings of the scenario, as `longreach-lab run --set` accepts them.
+  std::vector<std::string> settings;
+  double round_trip_s = 0.0;  // round-trip time of the link without faults
+  bool metamorphic = false;   // the link has no random jitter, loss or reordering
 };
 
-/// Offsets of the clocks of both sides at the start of a run.
+/// Offsets of the two clocks at the start of a run.
 struct Clocks {
   Duration slave_ahead{0}, master_ahead{0};
 };
 
 Scenario draw_scenario(std::uint64_t seed);
 
-/// Pose of the tool in W at the start.
+/// Returns the pose of the tool in W at the start.
 Pose start_pose(const Scenario& scenario);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Records what the master sent and what the slave received, with times, outside of both. From it follows
-// whether the robot is permitted to move.
+// Records what the master sent and what the slave received, with times, independently of both. This
+// determines whether the robot is permitted to move.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,12 +20,14 @@ struct SentCommand {
   MotionCommand command{};
 };
 
-/// Whether the newest command that the slave received permits motion of the robot.
+/// Permission to move the robot, as it follows from the commands that the slave received.
 struct MotionAuthority {
-  bool engaged = false;      // it requests this engagement, which has not been ended since
+  /// The newest command requests this engagement, which has not ended.
+  bool engaged = false;
   double received_s = -1e9;  // arrival of the newest command
-  double sent_s = -1e9;      // send time of that command
-  double had_s = -1e9;       // its previous value
+  double sent_s = -1e9;      // time at which that command was sent
+  /// Last time at which the robot was permitted to move.
+  double had_s = -1e9;
   std::uint32_t engagement = 0;
   Request request = Request::kHold;
   const SentCommand* newest = nullptr;
@@ -33,32 +35,33 @@ struct MotionAuthority {
 
 class SentLog {
  public:
-  /// Times of the slave's safety: it holds after `gap_s`, and resumes by itself within `resume_s`.
+  /// `gap_s`, `resume_s`: times of the slave's safety. It holds after a silence of `gap_s` and may resume by
+  /// itself within `resume_s`.
   SentLog(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
-  /// From now on the slave follows this session, and so does the master if it was given to it.
+  /// From now on the slave follows `session`; if `to_master`, the master sends in this session.
   void lease(double t_s, std::uint64_t session, bool to_master);
   void master_sent(double t_s, std::uint64_t sequence, const MotionCommand& command);
-  /// The operator requested an engagement: the next new number of the master is one.
+  /// The operator requested an engagement, so the next new number of the master may be an engagement.
   void asked() { ++asks_; }
 
-  /// Checks the commands that the slave received. Returns false if one of them was never sent so, its number
-  /// does not increase, or it belongs to another session.
-  /// `slept_s`: time between the previous tick of the slave and this one. Commands that queued up in between
-  /// are ignored, except a stop.
+  /// Checks the commands that the slave received. Returns false if a command was not sent in this form, has a
+  /// number that does not increase, or belongs to another session. `slept_s`: time between the previous tick
+  /// of the slave and this one. If it exceeds the gap timer, commands that queued up are ignored, except a
+  /// stop.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
-  [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this one have ended
-  /// The slave reports that it is engaged in it: from now on a long silence ends it. An engagement that has
-  /// not started may wait.
+  [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this number have ended
+  /// The slave reports that it is in this engagement. From now on a long silence ends the engagement; before
+  /// that, it does not.
   void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
-  /// An event at the slave ended all engagements so far.
+  /// An event at the slave ended all engagements up to now.
   void ended(double t_s);
 
   [[nodiscard]] const MotionAuthority& authority() const { return authority_; }
   [[nodiscard]] std::uint64_t given() const { return given_; }
   [[nodiscard]] std::uint64_t asks() const { return asks_; }
   [[nodiscard]] const std::deque<SentCommand>& sent() const { return sent_; }
-  /// Highest engagement that the master has sent.
+  /// Highest engagement number that the master has sent.
   [[nodiscard]] std::uint32_t numbers() const { return numbers_; }
 
  private:
@@ -67,9 +70,9 @@ class SentLog {
 
   double gap_s_, resume_s_;
   std::uint64_t session_ = 1, master_session_ = 1;
-  std::deque<SentCommand> sent_;  // numbers increase
+  std::deque<SentCommand> sent_;  // ordered by sequence number
   std::uint64_t newest_ = 0;
-  std::uint32_t ended_ = 0;  // engagements up to this one have ended
+  std::uint32_t ended_ = 0;  // engagements up to this number have ended
   std::uint32_t entered_ = 0;
   std::uint32_t numbers_ = 0;
   std::uint64_t asks_ = 0, given_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
-// Sum of the results of many trials: kinds of fault and the number of injections, guards and the number of
-// activations, invariants and the numbers of checks and violations. It can be written, read and added.
+// Sum of the results of many trials: each kind of fault with its number of injections, each guard with its
+// number of activations, and each invariant with its numbers of checks and violations. Tallies can be
+// written, read and added.
 
 #include <cstdint>
 #include <map>
@@ -21,20 +22,20 @@ struct Tally {
   double virtual_s = 0.0, engaged_s = 0.0;
   std::map<std::string, std::uint64_t> kinds, guards, judged, violated;  // by name
   std::vector<Failure> failures;
-  std::uint64_t trajectories = 0;  // hash of all
+  std::uint64_t trajectories = 0;  // hash of the trajectories of all trials
 
   void add(std::uint64_t seed, const Trial& trial);
   void add(const Tally& other);
-  /// Adds the result of a check outside of trials (twin.hpp).
+  /// Adds the result of a check that is not part of a trial (twin.hpp).
   void judge(std::uint64_t seed, const char* invariant, bool good, const char* words);
 };
 
 std::string to_text(const Tally& tally);
-/// Throws ConfigError for any other text.
+/// Parses the output of to_text(). Throws ConfigError for any other text.
 Tally parse_tally(const std::string& text);
 
-/// What a complete campaign lacks: kinds without injection, guards without activation, invariants without a
-/// check.
+/// Returns what is missing for a complete campaign: kinds without an injection, guards without an activation,
+/// and invariants without a check.
 std::vector<std::string> never_seen(const Tally& tally);
 
 }  // namespace longreach

@@ -19,24 +19,24 @@ struct Judged {
 };
 
 struct Trial {
-  std::vector<std::uint64_t> injected;  // by kind
-  std::vector<Judged> judged;           // by invariant
+  std::vector<std::uint64_t> injected;  // number of injections of each kind
+  std::vector<Judged> judged;           // checks of each invariant
   std::map<std::string, std::uint64_t> guards;
-  std::vector<Breach> violations;  // the first one of each invariant
+  std::vector<Breach> violations;  // first violation of each invariant
   double virtual_s = 0.0, engaged_s = 0.0;
   std::uint64_t trajectory = 0;  // hash of all setpoints and wrenches
 };
 
-/// The schedule of a seed, with its scenario.
+/// Returns the schedule of a seed for the scenario of that seed.
 Schedule schedule_of(std::uint64_t seed);
 
 Trial run_trial(const Schedule& schedule, InjectedDefect injected_defect = InjectedDefect::kNone);
 Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks);
 
-/// Returns the time at which a schedule fails; none if it does not.
+/// Returns the time at which a schedule fails; none if it does not fail.
 using Fails = std::function<std::optional<double>(const Schedule&)>;
 
-/// Returns the fewest and shortest faults of a schedule that still fail.
+/// Returns a minimal schedule that still fails: the fewest and shortest faults.
 Schedule shrink(const Schedule& schedule, const Fails& fails);
 /// The same for a violation of `invariant`.
 Schedule shrink(const Schedule& schedule, std::string_view invariant);

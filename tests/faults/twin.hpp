@@ -1,6 +1,6 @@
 #pragma once
-// Checks by running a seed twice: changes that must have no effect leave the trajectories of robot and hand
-// the same, bit for bit. Also checks that a run without faults has no alarm.
+// Runs a seed twice, with and without a change that must have no effect, and compares the trajectories of
+// robot and hand bit for bit. Also checks that a run without faults raises no alarm.
 
 #include <cstdint>
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace longreach {
 
-/// I17: forged, repeated, damaged and foreign datagrams are added all the time. Returns none for a random
-/// link, whose random numbers the added datagrams would use.
+/// I17: forged, repeated, damaged and foreign datagrams, added during the whole run, change nothing. Returns
+/// none if the link is random, because the added datagrams would consume its random numbers.
 std::optional<bool> refused_changes_nothing(std::uint64_t seed);
 
-/// Both clocks are shifted by hours.
+/// Shifting both clocks by hours changes nothing.
 bool clocks_change_nothing(std::uint64_t seed);
 
 /// L4: runs the scenario of a seed without a fault, over a link that loses 1 %, for `seconds`.
 Trial run_fault_free(std::uint64_t seed, double seconds);
-/// Returns the number of holds, stops and faults; all are false.
+/// Returns the number of holds, stops and faults. Without a fault, each of them is a false alarm.
 std::uint64_t false_alarms(const Trial& stable);
 
 }  // namespace longreach

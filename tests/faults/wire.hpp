@@ -1,7 +1,7 @@
 #pragma once
-// The network between the two sides, under the control of an attacker who receives everything and can delay,
-// drop, repeat and add datagrams, but does not know the secrets. Each side has a socket that buffers
-// datagrams while the side does not run, up to a limit, as an operating system does.
+// The network between the two sides, controlled by an attacker who receives every datagram and can delay,
+// drop, repeat and add datagrams, but does not know the secrets. Each side has a socket. While a side does
+// not run, its socket buffers datagrams up to a limit, as an operating system does.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,12 +21,12 @@ using Bytes = std::vector<std::byte>;
 
 /// Faults of one direction in this tick.
 struct DirectionFaults {
-  bool cut = false;          // everything is lost
-  bool held = false;         // everything is kept until this ends, then arrives at once
-  bool late = false;         // likewise, but the newest arrives first
-  double delay_s = 0.0;      // in addition to the delay of the link
-  std::uint32_t copies = 0;  // additional copies
-  bool swapped = false;      // every other datagram is overtaken by the next one
+  bool cut = false;          // all datagrams are lost
+  bool held = false;         // all datagrams are kept and arrive together when this ends
+  bool late = false;         // like `held`, but the newest datagram arrives first
+  double delay_s = 0.0;      // delay in addition to that of the link
+  std::uint32_t copies = 0;  // number of additional copies of each datagram
+  bool swapped = false;      // the next datagram overtakes every other one
 };
 
 /// One direction of the network.
@@ -34,18 +34,18 @@ class WireDirection {
  public:
   explicit WireDirection(Random random) : random_(random) {}
 
-  /// Accepts what a side has just sent.
+  /// Accepts a datagram that a side has just sent.
   void take(double now_s, Bytes datagram);
   /// Adds a datagram that was never sent.
   void inject(Bytes datagram);
-  /// Passes what has arrived by now to the socket of the side.
+  /// Passes the datagrams that have arrived by now to the socket of the side.
   void pass(double now_s);
-  /// Delivers everything that is kept; there are no faults from now on.
+  /// Delivers all kept datagrams. Call it when no faults follow.
   void release();
-  /// Returns whether a sent datagram arrives later than the link would deliver it. This outlasts the cause of
-  /// the delay, since later datagrams queue behind it.
+  /// Returns whether a sent datagram arrives later than the link alone would deliver it. This outlasts the
+  /// cause of the delay, because later datagrams queue behind the delayed ones.
   [[nodiscard]] bool keeps_back(double now_s) const { return now_s < kept_until_s_ || !held_.empty(); }
-  /// The side reads its socket, with its limit per read.
+  /// Reads the socket for the side: calls read() for each datagram, at most kRead times.
   template <class Read>
   void empty(Read&& read) {
     const std::size_t count = std::min(socket_.size(), kRead);
@@ -57,8 +57,10 @@ class WireDirection {
   }
 
   DirectionFaults direction_faults{};
-  [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }  // a part of what arrived
-  [[nodiscard]] std::uint64_t oversized() const { return oversized_; }         // of those that were read
+  /// A sample of the datagrams that arrived.
+  [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }
+  /// Number of oversized datagrams among those read.
+  [[nodiscard]] std::uint64_t oversized() const { return oversized_; }
 
  private:
   static constexpr std::size_t kSocket = 2048, kRead = kDatagramsPerReceive, kReceived = 512, kKept = 20000;
@@ -71,12 +73,12 @@ class WireDirection {
   void store(Bytes datagram);
 
   Random random_;
-  std::deque<Kept> line_;  // in the order of their due times
+  std::deque<Kept> line_;  // ordered by due time
   std::deque<Bytes> held_;
   std::vector<Bytes> socket_;
   std::vector<Bytes> received_;
   std::optional<Bytes> swapped_;
-  double release_s_ = 0.0;      // of what is held
+  double release_s_ = 0.0;      // due time of held datagrams
   double kept_until_s_ = -1e9;  // due time of the last delayed datagram
   std::uint64_t oversized_ = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// A laboratory with faults: it is between the nodes and their environment, applies the faults of a schedule
-// there, and records what really happened.
+// A laboratory with faults: applies the faults of a schedule between the nodes and their environment, and
+// records what really happened.
 
 #include <map>
 #include <utility>
@@ -16,12 +16,12 @@
 
 namespace longreach {
 
-/// Sum of the effects of all faults of a tick; reset in each tick.
+/// Combined effect of all faults in a tick; reset before each tick.
 struct Levels {
-  ImpairmentConfig up{}, down{};  // the settings of the link, made worse
+  ImpairmentConfig up{}, down{};  // impairments of the link, increased by the active faults
   DirectionFaults wire_up{}, wire_down{};
   bool slave_skips_tick = false, master_skips_tick = false;
-  double slave_ppm = 0.0, master_ppm = 0.0;  // of the clocks
+  double slave_ppm = 0.0, master_ppm = 0.0;  // rate errors of the clocks
   bool let_go = false, impatient = false, clutch = false;
 };
 
@@ -30,10 +30,10 @@ class World : public FaultHooks {
   World(const Scenario& scenario, const Schedule& schedule,
         InjectedDefect injected_defect = InjectedDefect::kNone, const Clocks& clocks = {});
 
-  /// Runs one tick; returns what happened.
+  /// Runs one tick and returns what happened.
   const Moment& step();
 
-  // For the kinds of fault.
+  // Interface for the kinds of fault.
   Levels levels{};
   OperatorRequests requests{};
   bool stop_slave = false;
@@ -45,15 +45,16 @@ class World : public FaultHooks {
   [[nodiscard]] const Moment& moment() const { return moment_; }
   [[nodiscard]] const std::vector<Bytes>& past_life() const { return past_life_; }
   SentLog& sent_log() { return sent_log_; }
-  /// Both sides, or only the slave, follow another session from now on.
+  /// From now on the slave follows another session; so does the master if `to_master`.
   void lease(bool to_master);
-  /// A client requests a change of a side; the rules of the programs decide.
+  /// Requests a change of a setting as a client of this side would; the rules of the programs decide.
   void set_slave(std::string_view path, const std::string& value);
   void set_master(std::string_view path, const std::string& value);
   [[nodiscard]] std::uint64_t refused_changes() const { return refused_changes_; }
   void surround(const SceneConfig& scene) { lab_.arm().surround(scene); }
 
-  [[nodiscard]] const std::vector<std::uint64_t>& injected() const { return injected_; }  // by kind
+  /// Number of injections of each kind.
+  [[nodiscard]] const std::vector<std::uint64_t>& injected() const { return injected_; }
   Person& person() { return person_; }
   [[nodiscard]] const Laboratory& laboratory() const { return lab_; }
 
@@ -75,7 +76,7 @@ class World : public FaultHooks {
   };
   void begin_faults(double now_s);
   void act();
-  /// Marks these signals as affected in this tick.
+  /// Marks the signal of the lowest set bit as affected in this tick.
   void mark_affected(unsigned first);
   void apply_levels();
   void end_faults();
@@ -100,7 +101,7 @@ class World : public FaultHooks {
   MemoryChannelPair* channels_ = nullptr;
   Random sessions_;
   std::uint64_t leases_ = 1;
-  /// highest number by session and type
+  /// Highest number of each session and type of datagram.
   std::map<std::pair<std::uint64_t, std::byte>, std::uint64_t> numbers_;
   std::size_t next_fault_ = 0;
   std::vector<Running> running_;
@@ -109,7 +110,7 @@ class World : public FaultHooks {
   Duration slave_ahead_, master_ahead_;
   ImpairmentConfig up_now_{}, down_now_{};
   Moment moment_{};
-  std::map<std::uint64_t, double> reports_s_;  // send time of the last reports, by number
+  std::map<std::uint64_t, double> reports_s_;  // time at which each of the last reports was sent, by number
   double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
   std::uint64_t refused_changes_ = 0;
   bool slave_turn_ = true;  // the side whose datagrams are processed next
