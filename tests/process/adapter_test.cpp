@@ -138,19 +138,19 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
     const char* advice;
   };
   const Case cases[] = {
-      {Flaw::kNoWatchdog, "it continues for 0.6 s of silence as if longreach were connected", "rule 4"},
-      {Flaw::kMute, "it stops sending when longreach is silent", "rule 4"},
-      {Flaw::kNoCount, "number 1 follows 1", "count every sent datagram"},
-      {Flaw::kNoEcho, "is 0 after", "echo the number"},
-      {Flaw::kNotFinite, "a number is not finite", "compare with"},
-      {Flaw::kShort, "191 bytes instead of 192", "compare with"},
-      {Flaw::kSlow, "99 % of gaps", "500 to 4000 times a second"},
+      {Flaw::kNoWatchdog, "it does not react to 0.6 s without datagrams", "rule 4"},
+      {Flaw::kMute, "it stops sending when it receives no datagrams", "rule 4"},
+      {Flaw::kNoCount, "number 1 follows 1", "increase the sequence number by one"},
+      {Flaw::kNoEcho, "is 0 after", "echo the sequence number"},
+      {Flaw::kNotFinite, "a value is not finite", "compare its layout with"},
+      {Flaw::kShort, "191 bytes instead of 192", "compare its layout with"},
+      {Flaw::kSlow, "99 % of the gaps", "500 to 4000 datagrams per second"},
       {Flaw::kTakesAnything, "it accepts a wrong magic", "rules 1 and 3"},
-      {Flaw::kTakesOldNumbers, "it accepts an old number", "rules 1 and 3"},
+      {Flaw::kTakesOldNumbers, "it accepts an old sequence number", "rules 1 and 3"},
       {Flaw::kTakesNoRestart, "a restarted program is not accepted", "rule 3"},
-      {Flaw::kNoWrench, "asked 0.5 N along z, but force_n is 0 0 0", "report in force_n"},
+      {Flaw::kNoWrench, "commanded to render 0.5 N along z, but force_n is 0 0 0", "generated wrench in force_n"},
       {Flaw::kFailed, "it reports a failure", "set kOk"},
-      {Flaw::kTakesAnyone, "it answers a program of another user", "getsockopt(SO_PEERCRED)"}};
+      {Flaw::kTakesAnyone, "it responds to a program of another user", "getsockopt(SO_PEERCRED)"}};
   const auto found = [](const Case& c, const Tried& tried) {
     if (c.flaw == Flaw::kTakesAnyone && ::geteuid() != 0) return true;  // root alone can try that
     return tried.status == 1 && tried.output.find(c.reported) != std::string::npos &&
@@ -203,7 +203,7 @@ TEST_F(Adapters, ASocketThatOthersMayUseIsReported) {
   ::chmod(address.substr(5).c_str(), 0777);
   const Tried tried = try_adapter({"--device", address});
   EXPECT_EQ(tried.status, 1);
-  EXPECT_NE(tried.output.find("other users may connect to its path"), std::string::npos) << tried.output;
+  EXPECT_NE(tried.output.find("other users can connect to its socket"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
@@ -237,7 +237,7 @@ TEST_F(Adapters, ASecondProgramIsNotHeardWhileTheFirstHasTheAdapter) {
   const Tried tried = try_adapter({"--robot", robot_address_, "--move", "0.1"});
   slave_program_->signal(SIGCONT);
   EXPECT_EQ(tried.status, 1);
-  EXPECT_NE(tried.output.find("no datagram has arrived in 2 s"), std::string::npos) << tried.output;
+  EXPECT_NE(tried.output.find("no datagram arrived within 2 s"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
@@ -300,7 +300,7 @@ Tried pushed(SensorFlaw flaw) {
   std::optional<int> status;
   while (!(status = check.wait(std::chrono::milliseconds(10)))) {
     const std::string said = check.output();
-    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("release it");
+    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("release the tool");
     const bool turns = turn != std::string::npos;
     const auto asked = turns ? turn : push;
     std::array<double, 3> force_n{}, moment_nm{};
@@ -324,11 +324,11 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
     const char* advice;
   };
   const Case cases[] = {
-      {SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
+      {SensorFlaw::kSign, "has the wrong sign", "the environment exerts on the tool"},
       {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
       {SensorFlaw::kExchanged, "the reported x, y, z are y, x, z of the tool", "in the order"},
-      {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N without contact", "sensing.tool"},
-      {SensorFlaw::kDead, "reports nothing along y of the base", "a channel is dead"}};
+      {SensorFlaw::kWeight, "is 15.0 0.0 0.0 N without contact", "sensing.tool"},
+      {SensorFlaw::kDead, "does not respond to a push along y of the base", "a channel is dead"}};
   // A person each, all at once.
   auto uncorrupted = std::async(std::launch::async, pushed, SensorFlaw::kNone);
   std::vector<std::future<Tried>> persons;

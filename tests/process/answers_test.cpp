@@ -103,8 +103,8 @@ TEST_F(Answers, ImprovedLinkDoesNotHoldAndWorseLinkIsReported) {
   const Said worse = client({"link", "set", "--delay", "650ms"});
   EXPECT_EQ(worse.status, 0) << worse.text;
   EXPECT_TRUE(
-      worse.has("the round trip rises by 1.3 s, more than safety.delay_rise_max_s = 1: the robot holds, and "
-                "`longreach engage` accepts the new delay"))
+      worse.has("the round trip rises by 1.3 s, more than safety.delay_rise_max_s = 1: the robot holds; accept the "
+                "new delay with `longreach engage`"))
       << worse.text;
   ASSERT_TRUE(eventually([this] { return master_.state() == "Holding"; })) << outputs();
   EXPECT_TRUE(eventually([this] { return client({"engage"}).text.starts_with("engaged"); })) << outputs();

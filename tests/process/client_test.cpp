@@ -80,13 +80,13 @@ TEST(Client, ASideThatIsDownIsNamedWithItsAddressAndWhatToStart) {
   FakeStation station;
   station.slave_server->stop();
   const Ended status = run(station.arguments({"status"}));
-  expect_one_sentence(status, 1, "the slave does not answer at " + station.slave_address);
+  expect_one_sentence(status, 1, "the slave does not respond at " + station.slave_address);
   expect_contains(status.err, "longreach-slave");
   expect_contains(status.out, "Engaged");  // the master is shown all the same
   expect_one_sentence(run(station.arguments({"get", "slave"})), 1, station.slave_address);
   const Ended json = run(station.arguments({"get", "slave", "--json"}));
   EXPECT_EQ(json.status, 1);
-  EXPECT_TRUE(json.out.starts_with("{\"error\":\"the slave does not answer at")) << json.out;
+  EXPECT_TRUE(json.out.starts_with("{\"error\":\"the slave does not respond at")) << json.out;
 }
 
 TEST(Client, ShowsAConfigurationOfManyMegabytes) {
@@ -130,7 +130,7 @@ TEST(Client, DoesNotWaitLongerThanItsTimeout) {
     command.insert(command.begin(), front.begin(), front.end());
     return run(command);
   };
-  expect_one_sentence(with({"status"}), 1, "does not answer at " + silent.address() + " within 0.3 s");
+  expect_one_sentence(with({"status"}), 1, "does not respond at " + silent.address() + " within 0.3 s");
   expect_one_sentence(with({"link", "set", "--delay", "1s"}), 1, silent.address());
   EXPECT_TRUE(station.slave.calls().empty());
   const Ended watch = with({"watch", "--hz", "20", "--count", "2"});
@@ -249,7 +249,7 @@ TEST(Client, StopAsksBothSidesAndIsDoneWithOne) {
   expect_contains(half.out, "stopped at the slave");
   expect_contains(half.out, station.master_address);
   station.slave_server->stop();
-  expect_one_sentence(run(station.arguments({"stop"})), 1, "nothing was stopped");
+  expect_one_sentence(run(station.arguments({"stop"})), 1, "neither side was stopped");
 }
 
 TEST(Client, WatchWritesALineAnUpdateAndEndsAfterItsCount) {

@@ -94,7 +94,7 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   EXPECT_NE(sentence.find("the token is invalid"), std::string::npos) << sentence;
   const auto [empty, advice] = there({"pair", "--slave", offer.address, "--token-file", "-", "--replace"});
   EXPECT_EQ(empty, 2);  // the input of these programs is empty
-  EXPECT_NE(advice.find("the token is missing: the input is empty"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("the token is missing, because the input is empty"), std::string::npos) << advice;
   const auto [done, said] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(done, 0) << said;
   EXPECT_NE(said.find(":47020 --site " + site_ + " status\n"), std::string::npos) << said;
