@@ -51,9 +51,9 @@ std::string law_in_words(const ContactEstimate& e) {
 }
 
 std::string in_words(const GripperState& gripper) {
-  if (!gripper.closed) return gripper.holds ? "open, but holds something" : "open";
+  if (!gripper.closed) return gripper.holds ? "open, but holds an object" : "open";
   if (!gripper.holds) return "closed";
-  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
+  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds an object";
   return "closed, holds " + number(gripper.load_kg, 3) + " kg (standard deviation " +
          number(gripper.load_sd_kg, 2) + ")";
 }

@@ -11,53 +11,53 @@ using By = HoldAttribution;
 
 constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCauses = {{
     {"", "", "", By::kSystem},
-    {"operator", "the operator or a client requested it", "engage to resume", By::kOperator},
-    {"link silent", "no datagram arrives from the other side", "check the link, then engage", By::kOutage},
+    {"operator", "requested by the operator or a client", "engage to resume", By::kOperator},
+    {"link silent", "no datagrams arrive from the other side", "check the link, then engage", By::kOutage},
     {"link stale", "the data that the other side acts on is too old",
      "wait for the link, or start the slave with a larger safety.age_max_s; then engage", By::kOutage},
-    {"peer restarted", "the other side has restarted", "engage", By::kSystem},
+    {"peer restarted", "the other side restarted", "engage to resume", By::kSystem},
     {"peer holds", "the other side holds", "check the other side, then engage", By::kSystem},
-    {"robot fault", "the robot reports a fault", "clear the fault or restart its adapter, then engage",
+    {"robot fault", "the robot reports a fault", "clear the fault or restart the adapter of the robot, then engage",
      By::kSystem},
     {"device fault", "the haptic device reports a fault",
-     "reconnect it, or restart its adapter or the master; then engage", By::kSystem},
+     "reconnect the device, or restart its adapter or the master; then engage", By::kSystem},
     {"handle released", "no hand is on the handle", "grasp the handle, then engage", By::kOperator},
-    {"preempted", "another master has taken control of the robot",
-     "take control back with longreach-master --take, if it is yours", By::kOperator},
+    {"preempted", "another master took control of the robot",
+     "to take control back, start longreach-master with --take", By::kOperator},
     {"uncommanded motion", "the robot moves although its setpoint is at rest",
      "check the robot and its adapter, then engage", By::kSystem},
     {"tracking lost", "the robot does not follow its setpoints",
      "check the robot, its adapter and robot_file, then engage", By::kSystem},
-    {"unanswered", "the slave has not answered", "check the link and the slave's log, then engage again",
+    {"unanswered", "the slave did not respond to the request to engage", "check the link and the slave's log, then engage again",
      By::kSystem},
     {"stalled", "the control loop of one side stalled",
-     "its machine is busy: run longreach doctor; then engage", By::kMachine},
+     "the machine is busy: run longreach doctor there, then engage", By::kMachine},
     {"overrun", "the control loop of one side does not keep its rate",
-     "its machine is too slow or busy: run longreach doctor; then engage", By::kMachine},
-    {"delay rose", "the delay of the link has increased", "engage to accept the new delay", By::kSystem},
-    {"hand stale", "no new data arrives from the input device", "move it, or reconnect it; then engage",
+     "the machine is too slow or busy: run longreach doctor there, then engage", By::kMachine},
+    {"delay rose", "the delay of the link increased", "engage to accept the new delay", By::kSystem},
+    {"hand stale", "no new data arrives from the input device", "move or reconnect the device, then engage",
      By::kSystem},
     {"sensor fault", "the force sensor reports values that no contact can cause",
-     "check it with longreach adapter check --push, then engage", By::kSystem},
+     "check the sensor with longreach adapter check --push, then engage", By::kSystem},
     {"sensor sign", "the force grows while the robot retreats",
      "check the sign and frame of the force sensor with longreach adapter check --push, then engage",
      By::kSystem},
     {"force persists", "the force does not fall while the robot retreats",
-     "check whether an object approaches the robot or is carried by it, or raise "
+     "check whether an object is moving towards the robot or is attached to it, or raise "
      "command.guard_stiffness_n_per_m; then engage",
      By::kSystem},
-    {"joint jumped", "a joint position has changed faster than the joint can move",
-     "check its encoder, then restart the robot's adapter", By::kSystem},
+    {"joint jumped", "a joint position changed faster than the joint can move",
+     "check the encoder of the joint, then restart the adapter of the robot", By::kSystem},
     {"joint outside", "a joint position is far beyond its limits",
-     "check robot_file and the units of the adapter, or move it back with the robot's own controls; then "
-     "engage",
+     "check robot_file and the units of the adapter, or move the joint back with the robot's own controls; "
+     "then engage",
      By::kSystem},
-    {"joint too fast", "a joint reports an impossible speed", "check its encoder, then engage", By::kSystem},
-    {"joint limit", "a joint is beyond its limit", "move it back with the robot's own controls, then engage",
+    {"joint too fast", "a joint reports an impossible speed", "check the encoder of the joint, then engage", By::kSystem},
+    {"joint limit", "a joint is beyond its limit", "move the joint back with the robot's own controls, then engage",
      By::kSystem},
     {"robot moves", "the robot is not at rest", "wait until it is at rest, then engage", By::kSystem},
     {"tool outside", "the tool is outside its workspace",
-     "move it back with the robot's own controls, or start the slave with a larger command.workspace_m; "
+     "move the tool back with the robot's own controls, or start the slave with a larger command.workspace_m; "
      "then engage",
      By::kSystem},
     {"sensor zeroing", "the force sensor is being zeroed",
@@ -94,11 +94,11 @@ std::string sentence(const Reason& r) {
     return "the tool is " + rounded(r.value) + " m from the centre of its workspace, whose radius is " +
            rounded(r.limit) + " m";
   const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
-  if (!out.empty()) return std::string(text_of(r.cause).sentence) + ", the direction of retreat is " + out;
+  if (!out.empty()) return std::string(text_of(r.cause).sentence) + "; the direction of retreat is " + out;
   if (r.joint == 0) return std::string(text_of(r.cause).sentence);
   switch (r.cause) {
     case HoldCause::kJointLeapt:
-      return joint + "has jumped from " + rounded(r.limit) + " to " + rounded(r.value) +
+      return joint + "jumped from " + rounded(r.limit) + " to " + rounded(r.value) +
              " rad (or m), faster than the joint can move";
     case HoldCause::kJointOutside:
     case HoldCause::kJointLimit:

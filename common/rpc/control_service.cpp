@@ -133,7 +133,7 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
   if (std::optional<Refusal> refusal = wrong(wanted)) return *refusal;
   std::optional<Refusal> refusal = backend_.set_link(wanted);
   if (!refusal) link_set_at_ = Clock::now();
-  return outcome(std::move(refusal), request.replace() ? "the link is replaced" : "the link is changed");
+  return outcome(std::move(refusal), request.replace() ? "the impairment of the link is replaced" : "the impairment of the link is changed");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {
@@ -169,7 +169,7 @@ ControlService::Result<proto::OpenSessionResponse> ControlService::open_session(
 ControlService::Result<proto::Outcome> ControlService::close_session(
     const proto::CloseSessionRequest& request) {
   const std::lock_guard lock(changing_);
-  return outcome(backend_.close_session(request.session()), "the robot is returned");
+  return outcome(backend_.close_session(request.session()), "control of the robot is returned");
 }
 
 ControlService::Result<proto::Outcome> ControlService::start_recording(

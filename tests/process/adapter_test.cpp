@@ -93,8 +93,8 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_EQ(master_.status()->cause(), "device fault");
   expect_prompt_report(master_);
   const std::string why = master_.engage();
-  EXPECT_NE(why.find("sends nothing any more; if this persists, restart it"), std::string::npos) << why;
-  EXPECT_TRUE(says(*master_program_, "sends nothing any more; if this persists, restart it")) << outputs();
+  EXPECT_NE(why.find("stopped sending; if this persists, restart the adapter"), std::string::npos) << why;
+  EXPECT_TRUE(says(*master_program_, "stopped sending; if this persists, restart the adapter")) << outputs();
   // Back again, it is not engaged by itself.
   start(device_, "device");
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
@@ -110,7 +110,7 @@ TEST_F(Adapters, KilledRobotAdapterIsFaultAndRobotResumesInPlace) {
       << outputs();
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
   expect_prompt_report(slave_);
-  EXPECT_NE(slave_.status()->trouble().find("sends nothing any more; if this persists, restart it"),
+  EXPECT_NE(slave_.status()->trouble().find("stopped sending; if this persists, restart the adapter"),
             std::string::npos);
   start(robot_, "robot");
   ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
@@ -211,7 +211,7 @@ TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
     start_master({"--adapter", address});
     EXPECT_EQ(master_program_->wait(seconds(20)), 2);
     EXPECT_NE(master_program_->output().find("device_adapter.address = " + address +
-                                             " is not an address of an adapter: write unix:/PATH"),
+                                             " is not the address of an adapter: write unix:/PATH"),
               std::string::npos)
         << outputs();
     start_slave({"--adapter", address});
@@ -247,9 +247,9 @@ TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
       << outputs();
   EXPECT_TRUE(
       says(*slave_program_,
-           "the adapter of the robot at unix:/nowhere does not answer: there is no such file; start it"))
+           "the adapter of the robot at unix:/nowhere does not respond: there is no such file; start the adapter"))
       << outputs();
-  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not answer"))
+  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not respond"))
       << outputs();
 }
 

@@ -135,7 +135,7 @@ TEST(Client, DoesNotWaitLongerThanItsTimeout) {
   EXPECT_TRUE(station.slave.calls().empty());
   const Ended watch = with({"watch", "--hz", "20", "--count", "2"});
   EXPECT_EQ(watch.status, 1);
-  expect_contains(watch.out, "master does not answer");
+  expect_contains(watch.out, "master does not respond");
   // Here the slave must answer in time, on a busy machine too.
   EXPECT_EQ(with({"stop"}, "3s").status, 0);
   EXPECT_EQ(station.slave.calls(), std::vector<std::string>{"stop"});
@@ -276,7 +276,7 @@ TEST(Client, WatchSeesASideComeBack) {
   FakeStation station;
   station.slave_server->stop();
   ClientRun client(station.arguments({"watch", "--hz", "20"}));
-  client.read("slave does not answer");
+  client.read("slave does not respond");
   station.slave_server =
       std::make_unique<RpcServer>(station.slave_address, station.slave, "slave", test_site(RpcRole::kSlave));
   client.read("slave Engaged");

@@ -115,7 +115,7 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
     for (const auto& table : written.tables) rows += table.rows;
     tables += written.tables.size();
     for (const std::string& what : written.damaged)
-      lost += "; " + file.string() + " is damaged and was skipped: " + what;
+      lost += "; damaged data in " + file.string() + " was skipped: " + what;
     if (!written.whole) lost += "; " + file.string() + formatted_cut(written.last_s);
     for (const std::string& topic : written.skipped) skipped += (skipped.empty() ? "" : ", ") + topic;
     if (folders.find(folder.string()) == std::string::npos)

@@ -35,7 +35,7 @@ TEST(HoldCauses, ThePlaceIsInTheSentence) {
   EXPECT_EQ(sentence({HoldCause::kJointLimit, 5, 2.15, 2.0944}),
             "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094");
   EXPECT_EQ(sentence({HoldCause::kJointLeapt, 3, 1.5, 0.25}),
-            "joint 3 of the robot has jumped from 0.25 to 1.5 rad (or m), faster than the joint can move");
+            "joint 3 of the robot jumped from 0.25 to 1.5 rad (or m), faster than the joint can move");
   EXPECT_EQ(sentence({HoldCause::kToolOutside, 0, 0.612, 0.5}),
             "the tool is 0.612 m from the centre of its workspace, whose radius is 0.5 m");
   EXPECT_EQ(sentence({HoldCause::kWallComes, 0, -1.0, 0.0}),

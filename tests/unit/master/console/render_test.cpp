@@ -236,7 +236,7 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   s.view.silent = s.view.resumes = true;
   EXPECT_EQ(happening(s), "holding: nothing received from the slave for 0.7 s");
   EXPECT_TRUE(
-      contains(render(s, 80, false), "Holding, slave Engaged (no datagram arrives from the other side)"));
+      contains(render(s, 80, false), "Holding, slave Engaged (no datagrams arrive from the other side)"));
   s.view.resumes = false;
   EXPECT_EQ(happening(s),
             "holding: nothing received from the slave for 0.7 s; engage when the link has "
@@ -279,7 +279,7 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   s.view.refusal = {HoldCause::kJointLimit, 5, 2.15, 2.094};
   s.view.refusal_is_far = true;
   const std::string why =
-      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move it back "
+      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move the joint back "
       "with the robot's own controls, then engage";
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
@@ -287,7 +287,7 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   EXPECT_EQ(happening(s), "engaging, not yet granted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
-  EXPECT_TRUE(contains(happening(s), "the slave has not answered; check")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "the slave did not respond to the request to engage; check")) << happening(s);
   s.view.far_state = SafetyState::kIdle;
   EXPECT_TRUE(contains(happening(s), "the slave does not receive what this master sends")) << happening(s);
 }
@@ -311,7 +311,7 @@ TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
   ConsoleSnapshot s = touching();
   s.view.state = SafetyState::kHolding;
   s.view.cause = HoldCause::kDelayRose;
-  EXPECT_EQ(happening(s), "holding: the delay of the link has increased; engage to accept the new delay");
+  EXPECT_EQ(happening(s), "holding: the delay of the link increased; engage to accept the new delay");
   s.view.rtt_least_s = 0.05;
   s.view.rtt_s = 25.05;
   EXPECT_EQ(happening(s), "holding: the round trip has risen from 0.05 to 25.05 s; engage to accept that");
