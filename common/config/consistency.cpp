@@ -42,8 +42,7 @@ Finding is_direction(const Message& message, const char* field,
   if (length >= 1e-9 && length <= 1e9) return std::nullopt;
   return at(message, field,
             " has length " + format_number(length) +
-                ", which is outside 1e-9 to 1e9, so it does not define a "
-                "direction");
+                ", which is outside 1e-9 to 1e9, so it does not define a direction");
 }
 
 // A rotation vector; one of more than a whole turn is meant in degrees.
@@ -67,7 +66,8 @@ Finding check_names(const Message& parent, const char* list, const List& element
         name.find_first_not_of("0123456789") == std::string::npos) {
       return at_element(
           parent, list, i, "name",
-          " = \"" + name + "\" cannot be part of a path; use at least one letter, and neither \".\" nor \"=\"");
+          " = \"" + name +
+              "\" cannot be part of a path; use at least one letter, and neither \".\" nor \"=\"");
     }
     if (!seen.insert(name).second) {
       return at_element(parent, list, i, "name",
@@ -85,8 +85,9 @@ Finding check_shape(const proto::Surface& surface) {
   for (const FieldDescriptor* field : fields) {
     if (!holds_messages(*field) || field->message_type() == proto::Movement::descriptor()) continue;
     if (first) {
-      return Violation{{{field, -1}},
-                       " is a second shape in addition to " + std::string(first->name()) + "; a surface has only one"};
+      return Violation{
+          {{field, -1}},
+          " is a second shape in addition to " + std::string(first->name()) + "; a surface has only one"};
     }
     first = field;
   }
@@ -110,8 +111,8 @@ Finding check_surfaces(const proto::Scene& scene) {
     const auto [body, first] = material_of_body.try_emplace(surface.body(), wanted);
     if (!first && body->second != wanted) {
       return at_element(scene, "surface", i, "material",
-                        " = \"" + wanted + "\" differs from the material \"" + body->second + "\" of the body \"" +
-                            surface.body() + "\"; a body has only one material");
+                        " = \"" + wanted + "\" differs from the material \"" + body->second +
+                            "\" of the body \"" + surface.body() + "\"; a body has only one material");
     }
   }
   return std::nullopt;
@@ -209,7 +210,8 @@ Finding check_guarded(const proto::SlaveConfig& config) {
 
 // The laboratory is virtual time, which nothing real keeps.
 Finding check_laboratory(const proto::LabConfig& lab) {
-  const char* const why = " applies only to longreach-master and longreach-slave; the laboratory simulates devices and robots";
+  const char* const why =
+      " applies only to longreach-master and longreach-slave; the laboratory simulates devices and robots";
   const auto adapted = [&](const char* side, const Message& config, const char* field,
                            const proto::Adapter& adapter) -> Finding {
     if (adapter.address().empty()) return std::nullopt;

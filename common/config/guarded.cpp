@@ -44,9 +44,8 @@ std::string advice(const proto::SlaveConfig& config, FirstTouch touch, double le
     (least_guard_n(touch) <= guard_n ? below : above) = touch.speed_m_per_s;
   }
   below = std::floor(1e4 * below) / 1e4;
-  const std::string slower = below >= kSpeedMin
-                                 ? "lower command.speed_max_m_per_s to " + format_number(below)
-                                 : std::string("lower command.guard_stiffness_n_per_m");
+  const std::string slower = below >= kSpeedMin ? "lower command.speed_max_m_per_s to " + format_number(below)
+                                                : std::string("lower command.guard_stiffness_n_per_m");
   if (allowed) return "; set it to that value, or " + slower;
   return ", which " +
          (rounded_n > kGuardMaxN ? "is above " + format_number(kGuardMaxN)
@@ -83,7 +82,8 @@ std::string unguarded(const proto::SlaveConfig& config) {
   if (guard_n >= least_n) return "";
   return " = " + format_number(guard_n) + " cannot be kept when the tool touches a surface of " +
          format_number(touch.stiffness_n_per_m) + " N/m at " + format_number(touch.speed_m_per_s) +
-         " m/s; the minimum is " + format_number(std::ceil(10.0 * least_n) / 10.0) + advice(config, touch, least_n);
+         " m/s; the minimum is " + format_number(std::ceil(10.0 * least_n) / 10.0) +
+         advice(config, touch, least_n);
 }
 
 std::string unmeasured_force(const proto::SlaveConfig& config) {

@@ -82,7 +82,8 @@ void load_text(const std::string& name, const std::string& whole, Message& messa
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw ConfigError(name + ": the file is empty; if it only uses defaults it must contain at least a comment");
+    throw ConfigError(name +
+                      ": the file is empty; if it only uses defaults, it must contain at least a comment");
   const std::unique_ptr<Message> loaded(message.New());
   TextFormat::Parser parser;
   TextFormat::ParseInfoTree locations;

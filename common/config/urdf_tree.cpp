@@ -72,7 +72,9 @@ void UrdfTree::fail(int line, const std::string& sentence) const {
 void UrdfTree::refuse_xacro(const XMLElement& element) const {
   const std::string expanded = name_.ends_with(".urdf") ? name_ : name_ + ".urdf";
   const auto refuse = [&](int line, const std::string& what) {
-    fail(line, what + " belongs to xacro, and macros are not expanded here; expand them first: xacro FILE.xacro > " +
+    fail(line, what +
+                   " belongs to xacro, and macros are not expanded here; expand them first: xacro "
+                   "FILE.xacro > " +
                    expanded);
   };
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
@@ -138,7 +140,8 @@ void UrdfTree::read_links(const XMLElement& robot) {
     const std::string name = text_of(*e, "name");
     const auto [had, added] = links_.emplace(name, e->GetLineNum());
     if (!added)
-      fail(e->GetLineNum(), "link \"" + name + "\" is already defined in line " + std::to_string(had->second));
+      fail(e->GetLineNum(),
+           "link \"" + name + "\" is already defined in line " + std::to_string(had->second));
   }
   if (links_.empty()) fail(robot.GetLineNum(), "<robot> has no <link>");
 }
@@ -178,7 +181,8 @@ std::string UrdfTree::root() const {
     if (!edge_to_.contains(link)) roots.push_back(link);
   }
   if (roots.size() == 1) return roots.front();
-  if (roots.empty()) fail(1, "each link is the child of a joint, so the tree has no root; closed chains are not supported");
+  if (roots.empty())
+    fail(1, "each link is the child of a joint, so the tree has no root; closed chains are not supported");
   fail(1, "there are " + std::to_string(roots.size()) + " roots (" + joined(roots) +
               "); name the base of the arm in robot.base_link");
 }
@@ -198,8 +202,8 @@ std::vector<const UrdfTree::Edge*> UrdfTree::chain(const std::string& base, cons
   while (link != base) {
     const auto above = edge_to_.find(link);
     if (above == edge_to_.end())
-      fail(links_.at(tip), "link \"" + tip + "\" is not connected to \"" + base +
-                               "\": its chain begins at \"" + link + "\"");
+      fail(links_.at(tip),
+           "link \"" + tip + "\" is not connected to \"" + base + "\": its chain begins at \"" + link + "\"");
     if (chain.size() > edge_to_.size())
       fail(above->second.element->GetLineNum(),
            "joint \"" + above->second.name + "\" is part of a closed chain; closed chains are not supported");

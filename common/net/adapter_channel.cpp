@@ -31,11 +31,10 @@ std::string adapter_trouble(const AdapterFigures& figures, const std::string& de
            " as root or as the user that runs longreach";
   if (!figures.present || (!figures.silent && !figures.failed)) return "";
   const std::string adapter = "the adapter of the " + device + " at " + address;
-  if (figures.failed) return adapter + " reports that the " + device + " failed; repair the " + device + ", then engage";
+  if (figures.failed)
+    return adapter + " reports that the " + device + " failed; repair the " + device + ", then engage";
   if (figures.accepted > 0)
-    return adapter +
-           " stopped sending; if this persists, restart the adapter, then "
-           "engage";
+    return adapter + " stopped sending; if this persists, restart the adapter, then engage";
   if (figures.malformed > 0)
     return adapter + " sends invalid datagrams; run `longreach adapter check` for details";
   const std::string why = no_socket_there(unix_path(address));

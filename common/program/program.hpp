@@ -70,7 +70,8 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--recordings", options.recordings,
                  "Folder for recordings of `longreach record start` ($XDG_STATE_HOME/longreach/recordings)")
       ->type_name("DIR");
-  app.add_option("--record-max-mb", options.record_max_mb, "Maximum size of the recording that --record starts, MB")
+  app.add_option("--record-max-mb", options.record_max_mb,
+                 "Maximum size of the recording that --record starts, MB")
       ->type_name("N")
       ->check(number_between(1.0, 1e6))
       ->capture_default_str();
@@ -93,7 +94,8 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
     put(STDERR_FILENO,
-        "INSECURE: RPC is neither encrypted nor authenticated; every user of this machine can take control of the robot\n");
+        "INSECURE: RPC is neither encrypted nor authenticated; every user of this machine can take control of "
+        "the robot\n");
     return {};
   }
   RpcSecurity security{site_credentials(site_of(options), role)};

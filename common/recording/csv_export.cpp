@@ -280,9 +280,9 @@ class Tables {
     for (const auto& [channel, table] : tables_) {
       if (!table) continue;
       if (table->bad() > 0)
-        out.damaged.push_back(std::to_string(table->bad()) + " message" + (table->bad() == 1 ? "" : "s") + " of " +
-                              reader_.channels().at(channel).topic + (table->bad() == 1 ? " that does" : " that do") +
-                              " not match the schema");
+        out.damaged.push_back(std::to_string(table->bad()) + " message" + (table->bad() == 1 ? "" : "s") +
+                              " of " + reader_.channels().at(channel).topic +
+                              (table->bad() == 1 ? " that does" : " that do") + " not match the schema");
       const CsvTable written = table->finish();
       if (table->empty()) table->undo();
       if (!table->empty()) out.tables.push_back(written);
@@ -326,8 +326,10 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
   McapReader reader(recording);
   auto message = reader.next();
   if (!message)
-    throw RecordingError(recording.string() + (reader.whole() ? " contains no messages" : " is truncated before its first message") +
-                         ": nothing can be exported");
+    throw RecordingError(
+        recording.string() +
+        (reader.whole() ? " contains no messages" : " is truncated before its first message") +
+        ": nothing can be exported");
   const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);
@@ -345,8 +347,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       throw RecordingError(recording.string() +
                            " is damaged and cannot be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() +
-                         " contains no protobuf messages, and only these can be exported; "
-                         "skipped: " +
+                         " contains no protobuf messages, and only these can be exported; skipped: " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

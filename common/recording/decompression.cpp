@@ -18,7 +18,8 @@ class Library {
   Function* function(const char* name) const {
     void* found = handle_ == nullptr ? nullptr : ::dlsym(handle_, name);
     if (found == nullptr)
-      throw RecordingError(std::string("its chunks are compressed; to read them, install the Debian package ") + package_);
+      throw RecordingError(
+          std::string("its chunks are compressed; to read them, install the Debian package ") + package_);
     return reinterpret_cast<Function*>(found);
   }
 

@@ -28,7 +28,8 @@ McapReader::McapReader(const std::filesystem::path& path) : path_(path), file_(p
   std::array<char, kMagic.size()> magic{};
   if (left_ < magic.size() || !file_.read(magic.data(), magic.size()) ||
       std::string_view(magic.data(), magic.size()) != kMagic)
-    throw RecordingError(path.string() + " is not a recording: it does not begin with the magic bytes of an MCAP file");
+    throw RecordingError(path.string() +
+                         " is not a recording: it does not begin with the magic bytes of an MCAP file");
   left_ -= magic.size();
 }
 

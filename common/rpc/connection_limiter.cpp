@@ -170,9 +170,7 @@ void ConnectionLimiter::receive() {
 
 void ConnectionLimiter::expire() {
   while (!silent_.empty() && Clock::now() - silent_.front().since > kSilent)
-    close_oldest(
-        "no data arrived "
-        "on the connection");
+    close_oldest("no data arrived on the connection");
 }
 
 void ConnectionLimiter::let_in(int fd) {

@@ -133,7 +133,8 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
   if (std::optional<Refusal> refusal = wrong(wanted)) return *refusal;
   std::optional<Refusal> refusal = backend_.set_link(wanted);
   if (!refusal) link_set_at_ = Clock::now();
-  return outcome(std::move(refusal), request.replace() ? "the impairment of the link is replaced" : "the impairment of the link is changed");
+  return outcome(std::move(refusal), request.replace() ? "the impairment of the link is replaced"
+                                                       : "the impairment of the link is changed");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {

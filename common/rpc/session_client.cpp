@@ -163,10 +163,9 @@ std::string SessionClient::connect(std::uint64_t present) {
   wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn
   adopted_at_ = std::chrono::steady_clock::now();
-  return adopt_(session) ? ""
-                         : "no session with the slave at " + address_ +
-                               ": the control loop did not accept "
-                               "the session";
+  return adopt_(session)
+             ? ""
+             : "no session with the slave at " + address_ + ": the control loop did not accept the session";
 }
 
 /// The slave knows the session, and nothing comes of it: datagrams do not get through where RPC does.

@@ -153,8 +153,8 @@ void require_origin(const fs::path& folder) {
   if (fs::exists(folder / "authority.key") || !fs::exists(folder / "master.key")) return;
   throw SiteError(
       folder.string() +
-      " was created by pairing, so it has certificates only for a master and its client, and no slave can use it; "
-      "choose another folder with --site DIR");
+      " was created by pairing, so it has certificates only for a master and its client, and no slave can use "
+      "it; choose another folder with --site DIR");
 }
 
 }  // namespace
@@ -171,7 +171,8 @@ fs::path default_site() {
   if (const passwd* user = ::getpwuid(::geteuid()); home.empty() && user != nullptr) home = user->pw_dir;
   if (!home.empty()) return fs::path(home) / ".config" / "longreach";
   throw SiteError(
-      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site DIR");
+      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site "
+      "DIR");
 }
 
 std::string file_stem(RpcRole role) {

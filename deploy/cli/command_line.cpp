@@ -127,8 +127,8 @@ void Grammar::declare_fields() {
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; default: all");
-  CLI::App* set =
-      declare(app_, "set", "change fields of the configuration of a side; if one is refused, none changes", kSetMore);
+  CLI::App* set = declare(
+      app_, "set", "change fields of the configuration of a side; if one is refused, none changes", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   set->add_option("PATH VALUE", words_.assignments, "field and its new value; repeatable")->required();
 }
@@ -143,13 +143,14 @@ CLI::Option* Grammar::declare_direction(CLI::App& command) {
 
 void Grammar::declare_link() {
   link_ = declare(app_, "link", "show or change the artificial impairment of the link",
-                  "Up is from master to slave and is impaired at the slave; down is from slave to master and is\nimpaired at the "
-                  "master.\n"
+                  "Up is from master to slave and is impaired at the slave; down is from slave to master and "
+                  "is\nimpaired at the master.\n"
                   "Example: longreach link set --profile moon");
   link_->require_subcommand(0, 1);
   declare(*link_, "show", "print the impairment of both directions", "Example: longreach link show");
   CLI::App* set = declare(*link_, "set", "change the impairment", kLinkSetMore);
-  set->add_option("--profile", words_.profile, "profile of a real link, by its name in deploy/links")->type_name("NAME");
+  set->add_option("--profile", words_.profile, "profile of a real link, by its name in deploy/links")
+      ->type_name("NAME");
   for (std::size_t i = 0; i < std::size(kFieldOptions); ++i)
     set->add_option(kFieldOptions[i].name, field_words_[i], kFieldOptions[i].help)
         ->type_name(kFieldOptions[i].value);
@@ -164,10 +165,12 @@ void Grammar::declare_link() {
 }
 
 void Grammar::declare_motion() {
-  declare(app_, "mode", "set the mode of motion",
-          "rate: the deflection of the handle commands a speed, for long distances; position: the displacement of the\n"
-          "handle, scaled, is the displacement of the robot, for fine work.\n"
-          "Example: longreach mode position")
+  declare(
+      app_, "mode", "set the mode of motion",
+      "rate: the deflection of the handle commands a speed, for long distances; position: the displacement "
+      "of the\n"
+      "handle, scaled, is the displacement of the robot, for fine work.\n"
+      "Example: longreach mode position")
       ->add_option("MODE", words_.mode, "rate or position")
       ->required()
       ->transform(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
@@ -175,9 +178,10 @@ void Grammar::declare_motion() {
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1; up or down changes it by 0.05")
       ->required();
-  declare(app_, "engage", "make the robot follow the hand",
-          "The first goal is the current pose of the robot, so the robot does not jump. The request is sent to the "
-          "master.\nExample: longreach engage");
+  declare(
+      app_, "engage", "make the robot follow the hand",
+      "The first goal is the current pose of the robot, so the robot does not jump. The request is sent to "
+      "the master.\nExample: longreach engage");
   declare(app_, "stop", "stop the robot until it is engaged again",
           "The request is sent to both sides; the command succeeds if one of them confirms it.\nExample: "
           "longreach stop");
@@ -204,19 +208,22 @@ void Grammar::declare_adapter() {
   adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
                      "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
-  CLI::App* check =
-      declare(*adapter_, "check", "check that the adapter follows the rules of the protocol", kAdapterCheckMore);
+  CLI::App* check = declare(*adapter_, "check", "check that the adapter follows the rules of the protocol",
+                            kAdapterCheckMore);
   check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
   check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check->add_option("--force", words_.force, "force that the device is commanded to render, 0.01 to 10 N [0.5]")
+  check
+      ->add_option("--force", words_.force,
+                   "force that the device is commanded to render, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check
       ->add_option("--move", words_.move,
                    "displacement that the first joint of the robot is commanded to make, -0.5 to 0.5 rad "
                    "or m [0]")
       ->type_name("RAD");
-  check->add_flag("--push", words_.push,
-                  "instead check sign, axes and zero of the force sensor; prompts you to push and turn the tool");
+  check->add_flag(
+      "--push", words_.push,
+      "instead check sign, axes and zero of the force sensor; prompts you to push and turn the tool");
   check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
   check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");

@@ -68,7 +68,8 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   if (!command.value) {
     const proto::Status status = master.status();
     if (!status.has_scale())
-      throw SideError(SideError::Kind::kRefused, "the master does not report the scale: give a number instead of up or down");
+      throw SideError(SideError::Kind::kRefused,
+                      "the master does not report the scale: give a number instead of up or down");
     // To the grid of 1e-6, so that steps up and down come back to where they began.
     const double stepped = status.scale() + command.steps * kScaleStep;
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
@@ -131,8 +132,8 @@ std::string stop_sides(const Options& options) {
   const auto master_error = try_stop(Side::kMaster, options);
   const auto slave_error = slave.get();
   if (master_error && slave_error)
-    throw SideError(SideError::Kind::kDown,
-                    "neither side was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
+    throw SideError(SideError::Kind::kDown, "neither side was stopped: " + std::string(slave_error->what()) +
+                                                "; " + master_error->what());
   if (slave_error)
     return "stopped at the master, which forwards the stop to the slave; " + std::string(slave_error->what());
   if (master_error) return "stopped at the slave; " + std::string(master_error->what());

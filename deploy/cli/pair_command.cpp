@@ -110,8 +110,8 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command) {
   std::string all;
   for (const std::string& one : gone) all += " " + one;
   print_done(options, "revoked: programs that use the site " + site_of(options).string() +
-                          " refuse these certificates from now on; on every other host that runs a master of this site, run "
-                          "longreach unpair" +
+                          " refuse these certificates from now on; on every other host that runs a master of "
+                          "this site, run longreach unpair" +
                           all);
   return ExitStatus::kDone;
 }
@@ -126,8 +126,8 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   const std::string text = read_token(command.token_file);
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(
-        "the token is missing, because the input is empty: enter the token that longreach-slave --pair printed, or give "
-        "its file with --token-file");
+        "the token is missing, because the input is empty: enter the token that longreach-slave --pair "
+        "printed, or give its file with --token-file");
   const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(

@@ -112,7 +112,8 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
       std::cout << (options.json ? status_json(reports) : status_line(reports)) << std::endl;
     }
     if (!std::cout)
-      throw SideError(SideError::Kind::kRefused, "the output cannot be written, because it is closed or full");
+      throw SideError(SideError::Kind::kRefused,
+                      "the output cannot be written, because it is closed or full");
     if (++shown == command.count)
       return reports.master.status && reports.slave.status ? ExitStatus::kDone : ExitStatus::kFailed;
     due = std::max(due + period, Clock::now());

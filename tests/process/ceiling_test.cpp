@@ -45,7 +45,8 @@ TEST_F(Station, AMasterDoesNotStartWithALawToCompareWith) {
     RunningProgram program("longreach-master", {"--set", "rendering.law=" + law, "--view", "none"});
     EXPECT_NE(program.wait(std::chrono::seconds(20)), 0);
     EXPECT_NE(program.output().find("rendering.law = " + law +
-                                    " is a law for comparison, available only in the laboratory; set it to STIFFNESS"),
+                                    " is a law for comparison, available only in the laboratory; set it to "
+                                    "STIFFNESS"),
               std::string::npos)
         << program.output();
   }

@@ -228,8 +228,8 @@ TEST(Client, ModeAndEngageAreAskedOfTheMaster) {
 TEST(Client, APreconditionIsStatus1AndABadValueStatus2) {
   FakeStation station;
   station.master.refuse(
-      Refusal{Refusal::Kind::kPrecondition, "no datagram arrives from the slave: wait for it"});
-  expect_one_sentence(run(station.arguments({"engage"})), 1, "no datagram arrives from the slave");
+      Refusal{Refusal::Kind::kPrecondition, "no datagrams arrive from the slave: wait for it"});
+  expect_one_sentence(run(station.arguments({"engage"})), 1, "no datagrams arrive from the slave");
   station.master.refuse(Refusal{Refusal::Kind::kUnavailable, "the loop did not answer"});
   const Ended unavailable = run(station.arguments({"engage"}));
   expect_one_sentence(unavailable, 1, "the loop did not answer");

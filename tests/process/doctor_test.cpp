@@ -79,8 +79,8 @@ TEST_F(Doctor, FindsBothSidesWell) {
   EXPECT_EQ(visit.status, 0) << visit.text;
   for (const std::string words :
        {"0 failures", "of 1000 Hz", "5 of 5 datagrams of 508 bytes arrived",
-        "Engaged; the robot is controlled by the master at 127.0.0.1:", "the same as this program", "round trip",
-        "signed by the authority, valid until 9999-12-31"})
+        "Engaged; the robot is controlled by the master at 127.0.0.1:", "the same as this program",
+        "round trip", "signed by the authority, valid until 9999-12-31"})
     EXPECT_TRUE(visit.says(words)) << words << "\n" << visit.text;
   EXPECT_EQ(slave_.state(), "Engaged");
   EXPECT_EQ(slave_.counter("rejected_version"), 5U);

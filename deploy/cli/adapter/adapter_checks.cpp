@@ -131,7 +131,8 @@ class AdapterCheck {
     const std::string text =
         in_text("%.0f datagrams/s", hz) + in_text(", 99 %% of the gaps are at most %.1f ms", 1e3 * p99_s);
     add(hz >= kLeast_hz && hz <= kMost_hz && p99_s <= kLongGap_s, "rate", text,
-        "send 500 to 4000 datagrams per second at a constant rate: use real-time priority and absolute deadlines");
+        "send 500 to 4000 datagrams per second at a constant rate: use real-time priority and absolute "
+        "deadlines");
     add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
     if (longest_s < kWatchdog_s) return;
     section_.findings.back().verdict = FindingVerdict::kWarning;
@@ -144,15 +145,18 @@ class AdapterCheck {
       const adapter::Header &before = seen[i - 1].in.header, &h = seen[i].in.header;
       if (h.session != before.session) trouble = "the session number changed during the run";
       if (h.sequence != before.sequence + 1)
-        trouble = "sequence number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
+        trouble =
+            "sequence number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
     }
-    add(trouble.empty(), "sequence", trouble.empty() ? "increases by one per datagram, within one session" : trouble,
+    add(trouble.empty(), "sequence",
+        trouble.empty() ? "increases by one per datagram, within one session" : trouble,
         "draw a random session number once, at the start, and increase the sequence number by one per datagram");
     const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
-        follows ? "names a recent datagram"
-                : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " sent datagrams",
+        follows
+            ? "names a recent datagram"
+            : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " sent datagrams",
         "echo the sequence number of the newest accepted datagram");
   }
 
@@ -160,7 +164,8 @@ class AdapterCheck {
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, Subject::kAsk,
-        does ? "follows the command: " + subject_.asked() : "commanded to " + subject_.asked() + ", but " + said(seen),
+        does ? "follows the command: " + subject_.asked()
+             : "commanded to " + subject_.asked() + ", but " + said(seen),
         subject_.advice());
   }
 

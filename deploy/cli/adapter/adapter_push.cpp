@@ -37,8 +37,9 @@ class Pushing {
   Section run() {
     rest_ = listen(1.0);
     if (rest_.count == 0) {
-      section_.findings.push_back({FindingVerdict::kFailure, "answers", nothing_came(),
-                                   "start the adapter, and first run `longreach adapter check` without --push"});
+      section_.findings.push_back(
+          {FindingVerdict::kFailure, "answers", nothing_came(),
+           "start the adapter, and first run `longreach adapter check` without --push"});
       return std::move(section_);
     }
     judge_joints();
@@ -81,7 +82,8 @@ class Pushing {
   }
 
   Push ask(const char* what, const char* how, std::size_t i, bool turn) {
-    std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and keep the force constant" << std::endl;
+    std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and keep the force constant"
+              << std::endl;
     const double least = turn ? kFelt_nm : kFelt_n;
     Push push;
     for (double t_s = 0.0; t_s < timeout_s_; t_s += kStep_s) {
@@ -109,7 +111,8 @@ class Pushing {
     if (moved_ <= kMoved) return;
     section_.findings.push_back({FindingVerdict::kWarning, "motion",
                                  in_text("the joints moved by up to %.3f rad (or m)", moved_),
-                                 "while kMove is not set, the robot must stay in place however hard it is pushed"});
+                                 "while kMove is not set, the robot must stay in place however hard it is "
+                                 "pushed"});
   }
 
   DescribedRobot robot_;

@@ -97,12 +97,11 @@ class RobotSubject {
   }
   [[nodiscard]] bool rests(const In& in) const { return (in.flags & In::kStopped) != 0; }
   [[nodiscard]] std::string asked() const {
-    return move_rad_ == 0.0 ? "stay in place"
-                            : in_text("move the first joint by %g rad (or m)", move_rad_);
+    return move_rad_ == 0.0 ? "stay in place" : in_text("move the first joint by %g rad (or m)", move_rad_);
   }
   [[nodiscard]] std::string reported(const In& in) const {
-    return in_text("the first joint is at %g", in.joint_rad[0]) + in_text(" after %g at the start", start_rad_[0]) +
-           (rests(in) ? ", and it reports kStopped" : "");
+    return in_text("the first joint is at %g", in.joint_rad[0]) +
+           in_text(" after %g at the start", start_rad_[0]) + (rests(in) ? ", and it reports kStopped" : "");
   }
   [[nodiscard]] std::string advice() const {
     return "follow joint_rad while kMove is set, and clear kStopped";

@@ -63,11 +63,10 @@ Finding judge_direction(const PushedSensor& sensor) {
   if (fits(sensor, in_tool)) {
     if (!fits(sensor, in_base))
       return {FindingVerdict::kOk, sensor.what, "has the correct sign, in the axes of the tool"};
-    return {
-        FindingVerdict::kWarning, sensor.what,
-        "has the correct sign, but the axes of tool and base coincide in this pose",
-        "turn the tool by 90 degrees and repeat the check: this pose does not show whether the " + name +
-            " is reported in the axes of the tool"};
+    return {FindingVerdict::kWarning, sensor.what,
+            "has the correct sign, but the axes of tool and base coincide in this pose",
+            "turn the tool by 90 degrees and repeat the check: this pose does not show whether the " + name +
+                " is reported in the axes of the tool"};
   }
   if (fits(sensor, against))
     return wrong(sensor, "has the wrong sign",
@@ -85,8 +84,10 @@ Finding judge_direction(const PushedSensor& sensor) {
   std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
     reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + ": " + in_text(sensor.push[i].reported);
-  return wrong(sensor, "matches no axes: pushes along the axes of the base were reported as " + reported + " " + sensor.unit,
-               "check how the sensor is mounted, and that the robot file describes this robot and this tool");
+  return wrong(
+      sensor,
+      "matches no axes: pushes along the axes of the base were reported as " + reported + " " + sensor.unit,
+      "check how the sensor is mounted, and that the robot file describes this robot and this tool");
 }
 
 Finding judge_rest(const PushedSensor& sensor) {
@@ -103,9 +104,10 @@ std::vector<Finding> judge_pushes(const PushedSensor& sensor) {
   std::vector<Finding> found{judge_rest(sensor)};
   for (std::size_t i = 0; i < 3; ++i) {
     if (!sensor.push[i].reported.isZero(0.0)) continue;
-    found.push_back(
-        wrong(sensor, std::string("does not respond to a push along ") + kAxis[i] + " of the base",
-              "push harder; if this does not help, a channel is dead or its unit is not " + std::string(sensor.unit)));
+    found.push_back(wrong(sensor,
+                          std::string("does not respond to a push along ") + kAxis[i] + " of the base",
+                          "push harder; if this does not help, a channel is dead or its unit is not " +
+                              std::string(sensor.unit)));
   }
   if (found.size() == 1) found.push_back(judge_direction(sensor));
   return found;

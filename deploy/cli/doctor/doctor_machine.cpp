@@ -45,7 +45,8 @@ Finding examine_clock() {
   out.text += "; wall clock " + std::string(text.data()) + ", used only in the log";
   if (resolution_s > 1e-5) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "select another clock source of the kernel: a loop at 1 kHz needs a resolution of 10 us or better";
+    out.advice =
+        "select another clock source of the kernel: a loop at 1 kHz needs a resolution of 10 us or better";
   }
   return out;
 }

@@ -61,8 +61,7 @@ Watched watch(SideClient& client, double seconds) {
 Finding not_running(Side side, const std::string& address) {
   const std::string program = "longreach-" + std::string(name_of(side));
   if (is_loopback(address))
-    return {FindingVerdict::kWarning, "RPC",
-            "no program listens at " + address + " on this machine",
+    return {FindingVerdict::kWarning, "RPC", "no program listens at " + address + " on this machine",
             "start " + program + ", or give its address with --" + std::string(name_of(side)) + " HOST:PORT"};
   return {FindingVerdict::kFailure, "RPC", "no response from " + address,
           "start " + program +
@@ -77,15 +76,15 @@ Finding unanswered(Side side, const std::string& address, const std::string& err
   return {FindingVerdict::kFailure, "RPC", error,
           "a program accepts connections at this address: if the link is slow, allow more time with "
           "--timeout 120; if longreach-" +
-              std::string(name_of(side)) + " does not run there, find the program that uses the port with "
-              "ss -ltnp 'sport = :" + port_of(address) + "'"};
+              std::string(name_of(side)) +
+              " does not run there, find the program that uses the port with ss -ltnp 'sport = :" +
+              port_of(address) + "'"};
 }
 
 Finding rpc_finding(const Watched& seen, bool insecure) {
   return {FindingVerdict::kOk, "RPC",
           std::string(insecure ? "responds, without encryption"
-                               : "responds, with a certificate of the same "
-                                 "site") +
+                               : "responds, with a certificate of the same site") +
               "; median response time " + with_unit(median(seen.rpc_s), "s"),
           "", histogram_of(seen.rpc_s)};
 }
@@ -171,9 +170,7 @@ Finding link_finding(const Watched& seen, Side side) {
   Finding out{FindingVerdict::kOk, "link", text, "", histogram_of(seen.udp_s)};
   if (link.loss() > kLoss) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice =
-        "lost datagrams delay the motion: if the link has too little bandwidth, lower "
-        "link.send_hz";
+    out.advice = "lost datagrams delay the motion: if the link has too little bandwidth, lower link.send_hz";
   }
   return out;
 }
@@ -220,13 +217,14 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
   const std::string mtu = probe.mtu > 0 ? "; path MTU " + std::to_string(probe.mtu) : "";
   if (arrived > 0)
     return {FindingVerdict::kOk, "datagrams",
-            std::to_string(arrived) + " of " + std::to_string(probe.sent) + " datagrams of 508 bytes arrived at " +
-                address + mtu};
+            std::to_string(arrived) + " of " + std::to_string(probe.sent) +
+                " datagrams of 508 bytes arrived at " + address + mtu};
   return {FindingVerdict::kFailure, "datagrams",
           "none of " + std::to_string(probe.sent) + " datagrams of 508 bytes arrived at " + address + mtu +
               (probe.error.empty() ? "" : " (" + probe.error + ")"),
           "allow UDP port " + port_of(address) +
-              " through the firewalls; the path needs an MTU of at least 536, because datagrams are not fragmented"};
+              " through the firewalls; the path needs an MTU of at least 536, because datagrams are not "
+              "fragmented"};
 }
 
 void examine_running(Section& out, Side side, SideClient& client, const std::string& rpc, bool insecure,
@@ -249,9 +247,10 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
 void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
-  out.findings.push_back({FindingVerdict::kFailure, "datagrams",
-                          std::string("another program uses the UDP port of ") + kLink,
-                          "find that program with ss -ulnp 'sport = :47001' and end it, or choose another port with link.listen"});
+  out.findings.push_back(
+      {FindingVerdict::kFailure, "datagrams", std::string("another program uses the UDP port of ") + kLink,
+       "find that program with ss -ulnp 'sport = :47001' and end it, or choose another port "
+       "with link.listen"});
 }
 
 }  // namespace

@@ -89,8 +89,10 @@ Section examine_site(const Options& options) {
   }
   if (!site_exists(site)) {
     out.findings.push_back(
-        {FindingVerdict::kWarning, "folder", "there is no site yet, because no longreach program was ever started here",
-         "at the robot, start longreach-slave; on any other host, join the site of the slave with longreach pair"});
+        {FindingVerdict::kWarning, "folder",
+         "there is no site yet, because no longreach program was ever started here",
+         "at the robot, start longreach-slave; on any other host, join the site of the slave with longreach "
+         "pair"});
     return out;
   }
   out.findings.push_back(examine_modes(site));

@@ -110,7 +110,8 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   for (const auto& file : files) {
     const std::filesystem::path folder =
         command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
-    if (folder == file) throw UsageError(file.string() + " has no extension: give a folder for the tables with --out DIR");
+    if (folder == file)
+      throw UsageError(file.string() + " has no extension: give a folder for the tables with --out DIR");
     const CsvExport written = export_csv(file, folder, zero_ns);
     for (const auto& table : written.tables) rows += table.rows;
     tables += written.tables.size();
@@ -121,8 +122,9 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
     if (folders.find(folder.string()) == std::string::npos)
       folders += (folders.empty() ? "" : " and ") + folder.string();
   }
-  print_done(options, std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " +
-                          folders + (skipped.empty() ? "" : "; skipped, because they are not protobuf: " + skipped) + lost);
+  print_done(options,
+             std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " + folders +
+                 (skipped.empty() ? "" : "; skipped, because they are not protobuf: " + skipped) + lost);
   return ExitStatus::kDone;
 }
 

@@ -23,8 +23,8 @@ void RecordWords::declare(CLI::App& app) {
   record_ = declare_one(app, "record", "record both sides, list and export recordings", kRecordMore);
   record_->require_subcommand(1);
   CLI::App* start = declare_one(*record_, "start", "start a recording at both sides",
-                                "The default name is the time. A recording ends when it reaches --max-mb or the disk "
-                                "is full.\nExample: longreach record start drill-3");
+                                "The default name is the time. A recording ends when it reaches --max-mb or "
+                                "the disk is full.\nExample: longreach record start drill-3");
   start->add_option("NAME", name_, "name of the files: NAME-master.mcap, NAME-slave.mcap");
   start->add_option("--max-mb", max_mb_, "maximum size of a recording, 1 to 1000000 [4096]")->type_name("N");
   declare_one(*record_, "stop", "end the recordings at both sides", "Example: longreach record stop");
@@ -41,7 +41,8 @@ void RecordWords::declare(CLI::App& app) {
                   "files, or names as in `record start` and `record list`; a name means both sides")
       ->required();
   csv->add_flag("--csv", csv_, "export as CSV, the only format");
-  csv->add_option("--out", folder_, "folder for the tables, created if missing [FILE without .mcap]")->type_name("DIR");
+  csv->add_option("--out", folder_, "folder for the tables, created if missing [FILE without .mcap]")
+      ->type_name("DIR");
 }
 
 RecordCommand RecordWords::command() const {

@@ -160,8 +160,8 @@ std::string report_text(const RobotReport& report) {
           " (0 is singular, 0.3 is good)\n";
   for (const SingularPose& s : report.singular)
     text += "singular  with " + joint_name(robot, static_cast<std::size_t>(s.joint)) + " at " +
-            short_number(s.value) + " and the other joints in the start pose, the tool cannot " + direction_text(s.lost) +
-            "\n";
+            short_number(s.value) + " and the other joints in the start pose, the tool cannot " +
+            direction_text(s.lost) + "\n";
   for (const std::string& what : report.cannot) text += "cannot    " + what + "\n";
   return text;
 }

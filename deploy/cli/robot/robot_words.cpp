@@ -34,10 +34,10 @@ CLI::App* declare_below(CLI::App& parent, const char* name, const char* help, co
 void RobotWords::declare(CLI::App& app) {
   robot_ = declare_below(app, "robot", "show or convert a robot file", kMore);
   robot_->require_subcommand(1);
-  CLI::App* show =
-      declare_below(*robot_, "show", "show joints, limits, inverse kinematics, reach and singular poses", kShowMore);
-  CLI::App* convert = declare_below(*robot_, "convert",
-                                    "convert Denavit-Hartenberg rows to a URDF, or a URDF to rows", kConvertMore);
+  CLI::App* show = declare_below(
+      *robot_, "show", "show joints, limits, inverse kinematics, reach and singular poses", kShowMore);
+  CLI::App* convert = declare_below(
+      *robot_, "convert", "convert Denavit-Hartenberg rows to a URDF, or a URDF to rows", kConvertMore);
   for (CLI::App* command : {show, convert}) {
     command->add_option("FILE", file_, "a .urdf or .txtpb file, or the name of a robot")->required();
     command->add_option("--base-link", base_link_, "for a URDF: the base link of the arm [the root link]")

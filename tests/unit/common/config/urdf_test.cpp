@@ -70,8 +70,7 @@ TEST(Urdf, FindsTheArmInATree) {
   file.more = link("finger") + joint("finger_joint", "6", "finger", "<mimic joint=\"a\"/>", "prismatic") +
               link("camera") + joint("camera_joint", "3", "camera", "", "fixed");
   const std::string said = refusal(file.text());
-  EXPECT_SAYS(said,
-              "no end link has 6 moving joints before it; name the tool in robot.tip_link: 6 has 6");
+  EXPECT_SAYS(said, "no end link has 6 moving joints before it; name the tool in robot.tip_link: 6 has 6");
   proto::Robot wanted;
   wanted.set_tip_link("6");
   EXPECT_EQ(read_urdf("arm.urdf", file.text(), wanted).tip_link(), "6")
@@ -137,8 +136,7 @@ std::vector<Broken> broken_files() {
   closed.more = joint("g", "2", "6");
   all.push_back(
       {"arm.urdf:15: link \"6\" is the child of two joints, \"f\" and \"g\": a closed chain", closed.text()});
-  with(0, joint("a", "6", "1"),
-       "no link has 6 moving joints between itself and \"0\"; the maximum is 0");
+  with(0, joint("a", "6", "1"), "no link has 6 moving joints between itself and \"0\"; the maximum is 0");
   with(5, joint("f", "5", "6", "", "fixed"), "the maximum is 5, and longreach needs an arm with 6");
   inside("<axis xyz=\"0 0 0\"/><limit lower=\"-1\" upper=\"1\" velocity=\"2\"/>",
          "arm.urdf:11: joint \"c\" has the axis \"0 0 0\", which has no direction");

@@ -38,7 +38,8 @@ TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
   EXPECT_EQ(validation_error(lab), "no error");
   lab.mutable_slave()->mutable_robot_adapter()->set_address("unix:/r");
   EXPECT_EQ(validation_error(lab),
-            "slave.robot_adapter.address = unix:/r applies only to longreach-master and longreach-slave; the laboratory simulates devices and robots");
+            "slave.robot_adapter.address = unix:/r applies only to longreach-master and longreach-slave; the "
+            "laboratory simulates devices and robots");
   lab.mutable_master()->mutable_device_adapter()->set_address("unix:/d");
   EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d is for"));
   EXPECT_EQ(validation_error(lab.master()), "no error");
@@ -53,9 +54,10 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
     program.mutable_rendering()->set_law(law);
     EXPECT_EQ(validation_error(lab), "no error") << name;
     EXPECT_EQ(validation_error(program),
-              name == "STIFFNESS" ? "no error"
-                                  : "rendering.law = " + name +
-                                        " is a law for comparison, available only in the laboratory; set it to STIFFNESS");
+              name == "STIFFNESS"
+                  ? "no error"
+                  : "rendering.law = " + name +
+                        " is a law for comparison, available only in the laboratory; set it to STIFFNESS");
   }
 }
 
@@ -171,8 +173,10 @@ TEST(Validation, WantsOneMaterialForABody) {
   scene.mutable_surface(1)->set_body("step");
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(1)->set_material("foam");
-  EXPECT_EQ(validation_error(scene),
-            "surface.top.material = \"foam\" differs from the material \"steel\" of the body \"step\"; a body has only one material");
+  EXPECT_EQ(
+      validation_error(scene),
+      "surface.top.material = \"foam\" differs from the material \"steel\" of the body \"step\"; a body "
+      "has only one material");
   scene.mutable_surface(0)->clear_body();
   EXPECT_EQ(validation_error(scene), "no error");
 }
@@ -254,10 +258,12 @@ TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
   scene.add_material()->set_name("steel");
   EXPECT_EQ(validation_error(scene), "material.1.name = \"steel\" is already the name of another material");
   scene.mutable_material(1)->clear_name();
-  EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs one");
+  EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs a name");
   scene.mutable_material(1)->set_name("a.b");
-  EXPECT_EQ(validation_error(scene),
-            "material.a.b.name = \"a.b\" cannot be part of a path; use at least one letter, and neither \".\" nor \"=\"");
+  EXPECT_EQ(
+      validation_error(scene),
+      "material.a.b.name = \"a.b\" cannot be part of a path; use at least one letter, and neither \".\" "
+      "nor \"=\"");
   scene.mutable_material(1)->set_name("12");
   EXPECT_NE(validation_error(scene), "no error");
 

@@ -86,9 +86,8 @@ TEST(Pairing, TheRightTokenIsGoodAtTheFifthTryAndInTheLastSecond) {
 TEST(Pairing, AnExpiredTokenIsRefusedWithWhatToDo) {
   Desk desk;
   const PairingRequest request(desk.token, "operator");
-  EXPECT_EQ(
-      desk.refusal(request.message(), minutes(10)),
-      "the token expired: it was valid for 10 minutes; get another token with longreach-slave --pair");
+  EXPECT_EQ(desk.refusal(request.message(), minutes(10)),
+            "the token expired: it was valid for 10 minutes; get another token with longreach-slave --pair");
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10)), PairingOffer::State::kExpired);
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10) - seconds(1)), PairingOffer::State::kOpen);
 }
