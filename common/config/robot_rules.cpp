@@ -44,8 +44,8 @@ Finding check_neighbours(const proto::Robot& robot) {
     if (!slide && std::abs(between.a_m()) > kSameAxis) continue;
     return at_element(robot, "joint", row_between(robot, i), "alpha_rad",
                       " = " + format_number(between.alpha_rad()) +
-                          (slide ? "" : " with a_m = " + format_number(between.a_m())) +
-                          " makes the joints " + std::to_string(i) + " and " + std::to_string(i + 1) +
+                          (slide ? "" : " with a_m = " + format_number(between.a_m())) + " makes joints " +
+                          std::to_string(i) + " and " + std::to_string(i + 1) +
                           (slide ? " slide along" : " rotate about") +
                           " the same axis, so a degree of freedom is lost");
   }

@@ -47,7 +47,7 @@ std::string law_in_words(const ContactEstimate& e) {
       "lambda/k " + number(e.lambda / e.k, 3) + " s/m within " + percent(e.lambda_sd / std::abs(e.lambda));
   const bool mixed = e.lambda_verdict != Verdict::kIdentified && std::abs(e.correlation) > kApart;
   return judged(e.n_verdict, n, "n") + ", " + judged(e.lambda_verdict, lambda, "lambda") +
-         (mixed ? " apart from k" : "");
+         (mixed ? " separately from k" : "");
 }
 
 std::string in_words(const GripperState& gripper) {

@@ -149,7 +149,7 @@ void Grammar::declare_link() {
   link_->require_subcommand(0, 1);
   declare(*link_, "show", "print the impairment of both directions", "Example: longreach link show");
   CLI::App* set = declare(*link_, "set", "change the impairment", kLinkSetMore);
-  set->add_option("--profile", words_.profile, "profile of a real link, by its name in deploy/links")
+  set->add_option("--profile", words_.profile, "link profile to apply, a name in deploy/links")
       ->type_name("NAME");
   for (std::size_t i = 0; i < std::size(kFieldOptions); ++i)
     set->add_option(kFieldOptions[i].name, field_words_[i], kFieldOptions[i].help)
@@ -201,7 +201,7 @@ void Grammar::declare_site() {
   CLI::App* doctor = declare(app_, "doctor", "find problems and print remedies", kDoctorMore);
   doctor->add_option("--seconds", words_.seconds, "duration of the measurement, 0.2 to 60 s [2]")
       ->type_name("N");
-  pair->add_flag("--replace", replace_, "move an existing site folder away");
+  pair->add_flag("--replace", replace_, "move an existing site folder aside first");
 }
 
 void Grammar::declare_adapter() {
@@ -223,7 +223,7 @@ void Grammar::declare_adapter() {
       ->type_name("RAD");
   check->add_flag(
       "--push", words_.push,
-      "instead check sign, axes and zero of the force sensor; prompts you to push and turn the tool");
+      "check sign, axes and zero of the force sensor instead, by prompting you to push and turn the tool");
   check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
   check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");

@@ -75,7 +75,7 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
   }
   master.set_scale(scale);
-  print_done(options, "scale is " + format_number(scale));
+  print_done(options, "scale set to " + format_number(scale));
   return ExitStatus::kDone;
 }
 
@@ -96,7 +96,7 @@ ExitStatus run_stop(const Options& options) {
 
 ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   SideClient(Side::kMaster, options).set_mode(command.mode);
-  print_done(options, command.mode == proto::Mapping::RATE ? "mode is rate" : "mode is position");
+  print_done(options, command.mode == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
   return ExitStatus::kDone;
 }
 

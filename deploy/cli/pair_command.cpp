@@ -122,7 +122,7 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   // Before the token is spent.
   if (site_exists(site) && !command.replace)
     throw PairingError("this host already has a site at " + site.string() +
-                       "; move it away with --replace, or choose another folder with --site DIR");
+                       "; move it aside with --replace, or choose another folder with --site DIR");
   const std::string text = read_token(command.token_file);
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(

@@ -69,7 +69,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"version", [](const Status& s) { return s.version(); }},
     {"running for", [](const Status& s) { return s.has_uptime_s() ? print("%.1f s", s.uptime_s()) : ""; }},
     {"state", state},
-    {"other side, as reported", [](const Status& s) { return s.far_state(); }},
+    {"state of the other side", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
     {"robot controlled by", [](const Status& s) { return s.lease(); }},
     {"round trip",

@@ -38,7 +38,7 @@ std::string held_back(const MasterView& view) {
   if (robot.workspace)
     return "the robot is at the edge of its workspace: it cannot move further in this direction";
   if (robot.unreachable) return "the goal is out of reach: the robot cannot move further in this direction";
-  if (robot.force_guard) return "the force guard stops the robot from going deeper";
+  if (robot.force_guard) return "the force guard stops the robot from moving deeper";
   if (robot.moment_guard) return "the moment guard stops the robot from turning further";
   if (!behind(view.far)) return "";
   if (robot.singularity) return "the robot follows slowly near a singular pose";
@@ -55,14 +55,14 @@ bool turned_against(const MasterView& view) {
 std::string touching(const ConsoleSnapshot& s) {
   const double k = s.view.stiffness_n_per_m;
   if (turned_against(s.view))
-    return formatted("contact by rotation: the stop has %.3g N m/rad",
+    return formatted("contact by rotation: stop stiffness %.3g N m/rad",
                      s.view.rotational_stiffness_nm_per_rad);
   if (!(k > 0.0)) return "contact: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
     return formatted("contact of the robot; the hand has not yet reached the wall (%.2f N/mm)", k * 1e-3);
   }
-  return formatted("contact: the wall has %.2f N/mm", k * 1e-3);
+  return formatted("contact: wall stiffness %.2f N/mm", k * 1e-3);
 }
 
 std::string engaging(const ConsoleSnapshot& s) {

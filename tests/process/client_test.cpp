@@ -214,7 +214,7 @@ TEST(Client, ScaleStepsStayInTheRange) {
   expect_contains(run(station.arguments({"scale", "up"})).out, "0.55");
   expect_contains(run(station.arguments({"scale", "down"})).out, "0.5\n");
   EXPECT_EQ(run(station.arguments({"scale", "1"})).status, 0);
-  expect_contains(run(station.arguments({"scale", "up"})).out, "scale is 1\n");
+  expect_contains(run(station.arguments({"scale", "up"})).out, "scale set to 1\n");
 }
 
 TEST(Client, ModeAndEngageAreAskedOfTheMaster) {

@@ -116,7 +116,8 @@ class AdapterCheck {
     judge_rate(seen);
     judge_sequence(seen);
     const bool works = std::ranges::all_of(seen, [](const auto& s) { return (s.in.flags & In::kOk) != 0; });
-    add(works, "works", works ? "it reports kOk" : "it reports a failure: some datagrams do not set kOk",
+    add(works, "works",
+        works ? "every datagram sets kOk" : "it reports a failure: some datagrams do not set kOk",
         "set kOk while the hardware works");
   }
 
@@ -155,7 +156,7 @@ class AdapterCheck {
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
         follows
-            ? "names a recent datagram"
+            ? "is the number of a recent datagram"
             : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " sent datagrams",
         "echo the sequence number of the newest accepted datagram");
   }
@@ -243,7 +244,7 @@ class AdapterCheck {
     else if (!in_time)
       text = "it " + std::string(Subject::kRests) + " only " + silent_ms + " after the last datagram";
     add(heard && rested && in_time, "watchdog", text,
-        "do this 20 ms after the last valid datagram (rule 4), and keep sending");
+        "the adapter must react 20 ms after the last valid datagram (rule 4), and must keep sending");
   }
 
   void goes_on() {

@@ -62,7 +62,8 @@ Finding judge_direction(const PushedSensor& sensor) {
   const std::string name = sensor.what;
   if (fits(sensor, in_tool)) {
     if (!fits(sensor, in_base))
-      return {FindingVerdict::kOk, sensor.what, "has the correct sign, in the axes of the tool"};
+      return {FindingVerdict::kOk, sensor.what,
+              "has the correct sign and is reported in the axes of the tool"};
     return {FindingVerdict::kWarning, sensor.what,
             "has the correct sign, but the axes of tool and base coincide in this pose",
             "turn the tool by 90 degrees and repeat the check: this pose does not show whether the " + name +

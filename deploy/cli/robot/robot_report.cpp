@@ -153,7 +153,7 @@ std::string report_text(const RobotReport& report) {
   const Vector3& p = report.X_WE.p;
   text += "units: rad or m, per s, s^2 and s^3; servo bandwidth " + format_number(robot.servo_hz) + " Hz\n\n";
   text += "inverse   " + report.inverse + "\n";
-  text += "reach     the tool is " + short_number(report.near_m) + " to " + short_number(report.far_m) +
+  text += "reach     the tool can be " + short_number(report.near_m) + " to " + short_number(report.far_m) +
           " m from the base\n";
   text += "start     the tool is at (" + short_number(p.x()) + ", " + short_number(p.y()) + ", " +
           short_number(p.z()) + ") m, conditioning " + short_number(report.conditioning) +

@@ -74,7 +74,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
   const std::string expected =
       "longreach master  21.3 s, 39 s left  operator: press\n"
       "\n"
-      "contact: the wall has 0.98 N/mm (1.3 s ago)\n"
+      "contact: wall stiffness 0.98 N/mm (1.3 s ago)\n"
       "\n"
       "state     Engaged, slave Engaged\n"
       "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent for 0.02 s\n"
@@ -178,7 +178,7 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.stiffness_n_per_m = 0.0;
   EXPECT_EQ(happening(s), "contact: the slave is still measuring the wall (1.3 s ago)");
   s.view.stiffness_n_per_m = 981.0;
-  EXPECT_EQ(happening(s), "contact: the wall has 0.98 N/mm (1.3 s ago)");
+  EXPECT_EQ(happening(s), "contact: wall stiffness 0.98 N/mm (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
