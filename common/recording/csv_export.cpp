@@ -149,7 +149,7 @@ class Table {
     const auto* type = pool_.FindMessageTypeByName(schema.name);
     if (type == nullptr)
       throw SchemaError("the schema " + schema.name + " cannot be used: " +
-                        (error_.text.empty() ? "it does not describe its type" : printable(error_.text)));
+                        (error_.text.empty() ? "it does not define its type" : printable(error_.text)));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
@@ -280,9 +280,9 @@ class Tables {
     for (const auto& [channel, table] : tables_) {
       if (!table) continue;
       if (table->bad() > 0)
-        out.damaged.push_back(std::to_string(table->bad()) + " message" + (table->bad() == 1 ? "" : "s") +
-                              " of " + reader_.channels().at(channel).topic +
-                              (table->bad() == 1 ? " that does" : " that do") + " not match the schema");
+        out.damaged.push_back(std::to_string(table->bad()) +
+                              (table->bad() == 1 ? " message does" : " messages do") +
+                              " not match the schema of " + reader_.channels().at(channel).topic);
       const CsvTable written = table->finish();
       if (table->empty()) table->undo();
       if (!table->empty()) out.tables.push_back(written);

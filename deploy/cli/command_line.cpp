@@ -109,8 +109,8 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 }
 
 void Grammar::declare_views() {
-  declare(app_, "status", "show both sides once", kStatusMore);
-  CLI::App* watch = declare(app_, "watch", "show both sides live", kWatchMore);
+  declare(app_, "status", "show the state of both sides once", kStatusMore);
+  CLI::App* watch = declare(app_, "watch", "show the state of both sides live", kWatchMore);
   watch->add_flag("--plain", plain_, "print one line per update without colour, even on a terminal");
   watch->add_option("--hz", words_.hz, "updates per second, 0.1 to 60 [4]")->type_name("HZ");
   watch->add_option("--count", words_.count, "exit after this number of updates")->type_name("N");

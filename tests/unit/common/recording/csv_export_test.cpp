@@ -199,7 +199,7 @@ TEST(CsvExport, KeepsTheGoodRowsBesideMessagesThatCannotBeRead) {
   const CsvExport written = export_csv(folder.path() / "a.mcap", folder.path() / "t");
   ASSERT_EQ(written.tables.size(), 1u);
   EXPECT_EQ(written.tables[0].rows, 2u);
-  EXPECT_EQ(written.damaged, std::vector<std::string>{"1 message of /ft that does not match the schema"});
+  EXPECT_EQ(written.damaged, std::vector<std::string>{"1 message does not match the schema of /ft"});
 }
 
 TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
@@ -210,7 +210,7 @@ TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
   for (const auto& [descriptors, why] :
        {std::pair{std::string("\x0a\x7f"), "/ft, as the schema longreach.proto.Scene cannot be read"},
         std::pair{not_utf8, "/ft, as the schema longreach.proto.Scene cannot be used: "},
-        std::pair{scene_descriptors(), "1 message of /ft that does not match the schema"}}) {
+        std::pair{scene_descriptors(), "1 message does not match the schema of /ft"}}) {
     write_foreign(file, descriptors, {"\x0a\x7f"});
     testing::internal::CaptureStderr();
     try {
