@@ -135,7 +135,8 @@ std::vector<Broken> broken_files() {
   File closed;
   closed.more = joint("g", "2", "6");
   all.push_back(
-      {"arm.urdf:15: link \"6\" is the child of two joints, \"f\" and \"g\": a closed chain", closed.text()});
+      {"arm.urdf:15: link \"6\" is the child of two joints, \"f\" and \"g\"; closed chains are not supported",
+       closed.text()});
   with(0, joint("a", "6", "1"), "no link has 6 moving joints between itself and \"0\"; the maximum is 0");
   with(5, joint("f", "5", "6", "", "fixed"), "the maximum is 5, and longreach needs an arm with 6");
   inside("<axis xyz=\"0 0 0\"/><limit lower=\"-1\" upper=\"1\" velocity=\"2\"/>",

@@ -271,7 +271,7 @@ TEST(Happening, SaysOfTheSlavesCauseWhereItIsAndWhetherItIsOver) {
                        "2.094; check robot_file"))
       << happening(s);
   s.view.far_state = SafetyState::kObserving;
-  EXPECT_TRUE(contains(happening(s), "at the slave, now over: joint 5")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "at the slave (now over): joint 5")) << happening(s);
 }
 
 TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
