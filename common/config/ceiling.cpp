@@ -50,7 +50,7 @@ std::string ceiling_text(const Message& start, const PathStep& step) {
 }
 
 std::string why(const Message& start, const Message& after, const FieldPath& path) {
-  constexpr const char* kInstead = "; change it in the file at that side and restart";
+  constexpr const char* kInstead = "; change it in the configuration file of that side and restart that side";
   const std::string name = path_text(start, path);
   const FieldDescriptor* field = path.back().field;
   if (holds_messages(*field)) return name + " cannot be changed by a client" + kInstead;
@@ -59,7 +59,7 @@ std::string why(const Message& start, const Message& after, const FieldPath& pat
     return name + " cannot be changed by a client: it is " + (text.empty() ? "not set" : text) + kInstead;
   return name + " = " + value_text(holder(after, path), path.back()) + " is less restrictive than " +
          ceiling_text(holder(start, path), path.back()) +
-         ", the value at the start of this side; a client can only tighten it" + kInstead;
+         ", the value with which this side was started; a client can only tighten it" + kInstead;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::optional<std::string> beyond_ceiling(const Message& start, const Message& a
 std::string room_below_ceiling(const Message& start, const PathStep& step) {
   switch (remote(*step.field)) {
     case proto::FREELY:
-      return "anything";
+      return "any value";
     case proto::TIGHTER_DOWN:
       return ceiling_text(start, step) + " or less";
     case proto::TIGHTER_UP:

@@ -41,9 +41,8 @@ Finding is_direction(const Message& message, const char* field,
   const double length = std::hypot(numbers.Get(0), numbers.Get(1), numbers.Get(2));
   if (length >= 1e-9 && length <= 1e9) return std::nullopt;
   return at(message, field,
-            " has the length " + format_number(length) +
-                ", which is outside 1e-9 to 1e9 and does not define a "
-                "direction");
+            " has length " + format_number(length) +
+                ", which is outside 1e-9 to 1e9, so it does not define a direction");
 }
 
 // A rotation vector; one of more than a whole turn is meant in degrees.
@@ -51,7 +50,7 @@ Finding is_rotation(const Message& message, const google::protobuf::RepeatedFiel
   const double square = std::inner_product(numbers.begin(), numbers.end(), numbers.begin(), 0.0);
   if (square <= 6.3 * 6.3) return std::nullopt;
   return at(message, "rotation_rad",
-            " has the length " + format_number(std::sqrt(square)) +
+            " has length " + format_number(std::sqrt(square)) +
                 ", more than one turn; the unit is rad, and this value seems to be in degrees");
 }
 
@@ -62,16 +61,17 @@ Finding check_names(const Message& parent, const char* list, const List& element
   for (int i = 0; i < elements.size(); ++i) {
     const std::string& name = elements.Get(i).name();
     if (name.empty())
-      return at_element(parent, list, i, "name", " is empty; every " + std::string(list) + " needs one");
+      return at_element(parent, list, i, "name", " is empty; every " + std::string(list) + " needs a name");
     if (name.find_first_of(".=") != std::string::npos ||
         name.find_first_not_of("0123456789") == std::string::npos) {
       return at_element(
           parent, list, i, "name",
-          " = \"" + name + "\" cannot be part of a path; use letters, but neither \".\" nor \"=\"");
+          " = \"" + name +
+              "\" cannot be part of a path; use at least one letter, and neither \".\" nor \"=\"");
     }
     if (!seen.insert(name).second) {
       return at_element(parent, list, i, "name",
-                        " = \"" + name + "\" is the name of another " + list + " already");
+                        " = \"" + name + "\" is already the name of another " + list);
     }
   }
   return std::nullopt;
@@ -85,8 +85,9 @@ Finding check_shape(const proto::Surface& surface) {
   for (const FieldDescriptor* field : fields) {
     if (!holds_messages(*field) || field->message_type() == proto::Movement::descriptor()) continue;
     if (first) {
-      return Violation{{{field, -1}},
-                       " is a second shape besides " + std::string(first->name()) + "; a surface has one"};
+      return Violation{
+          {{field, -1}},
+          " is a second shape in addition to " + std::string(first->name()) + "; a surface has only one"};
     }
     first = field;
   }
@@ -110,8 +111,8 @@ Finding check_surfaces(const proto::Scene& scene) {
     const auto [body, first] = material_of_body.try_emplace(surface.body(), wanted);
     if (!first && body->second != wanted) {
       return at_element(scene, "surface", i, "material",
-                        " = \"" + wanted + "\" differs from \"" + body->second + "\" of the body \"" +
-                            surface.body() + "\"; a body has one material");
+                        " = \"" + wanted + "\" differs from the material \"" + body->second +
+                            "\" of the body \"" + surface.body() + "\"; a body has only one material");
     }
   }
   return std::nullopt;
@@ -133,7 +134,7 @@ Finding check_needs(const proto::Scene& scene) {
 Finding check_path(const proto::Path& path) {
   if (path.waypoint_size() >= 2) return std::nullopt;
   return at(path, "waypoint",
-            " has " + std::to_string(path.waypoint_size()) + " elements; a path has two ends");
+            " has " + std::to_string(path.waypoint_size()) + " elements; a path needs at least two");
 }
 
 Finding check_scene(const proto::Scene& scene) {
@@ -209,7 +210,8 @@ Finding check_guarded(const proto::SlaveConfig& config) {
 
 // The laboratory is virtual time, which nothing real keeps.
 Finding check_laboratory(const proto::LabConfig& lab) {
-  const char* const why = " is for the real programs; the laboratory has only simulated devices and robots";
+  const char* const why =
+      " applies only to longreach-master and longreach-slave; the laboratory simulates devices and robots";
   const auto adapted = [&](const char* side, const Message& config, const char* field,
                            const proto::Adapter& adapter) -> Finding {
     if (adapter.address().empty()) return std::nullopt;
@@ -270,8 +272,8 @@ Finding check_program(const Message& message) {
   const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
   return within(section, at(master->rendering(), "law",
                             " = " + proto::Rendering::Law_Name(master->rendering().law()) +
-                                " is a law for comparison, available only in the laboratory; the programs "
-                                "accept STIFFNESS"));
+                                " is a law for comparison, available only in the laboratory; set it to "
+                                "STIFFNESS"));
 }
 
 Finding find_in_parts(const Message& message) {

@@ -44,7 +44,8 @@ fs::path find_deploy_folder(const DeploySearch& search) {
   if (const auto folder = nearest_above(search.program_folder)) return *folder;
   if (const auto folder = nearest_above(search.working_folder)) return *folder;
   throw ConfigError(
-      "no deploy folder above " + search.program_folder.string() + " or " + search.working_folder.string() +
+      "there is no deploy folder above " + search.program_folder.string() + " or " +
+      search.working_folder.string() +
       "; set LONGREACH_HOME to the folder that contains config, links, devices, robots and scenes");
 }
 

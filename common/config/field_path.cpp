@@ -49,7 +49,7 @@ std::string no_such_field(const Message& root, const PathLookup& found, const Me
   const Names names = field_names(*at.GetDescriptor());
   const std::string where = path_text(root, found.path);
   return (where.empty() ? "there is no field " : where + " has no field ") + quoted(word) +
-         instead_of(word, names, where.empty() ? "there are" : "it has");
+         instead_of(word, names, where.empty() ? "the fields are" : "it has");
 }
 
 std::string no_such_element(const Message& root, const PathLookup& found, const Names& names,

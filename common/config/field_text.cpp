@@ -26,7 +26,7 @@ std::string number_element_text(const Message& message, const FieldDescriptor* f
       return std::to_string(field->is_repeated() ? reflection->GetRepeatedUInt32(message, field, i)
                                                  : reflection->GetUInt32(message, field));
     default:
-      throw ConfigError(field->full_name() + " has a type that configuration does not use");
+      throw ConfigError(field->full_name() + " has a type that a configuration cannot contain");
   }
 }
 

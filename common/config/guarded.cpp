@@ -44,10 +44,9 @@ std::string advice(const proto::SlaveConfig& config, FirstTouch touch, double le
     (least_guard_n(touch) <= guard_n ? below : above) = touch.speed_m_per_s;
   }
   below = std::floor(1e4 * below) / 1e4;
-  const std::string slower = below >= kSpeedMin
-                                 ? "set command.speed_max_m_per_s to " + format_number(below) + " at most"
-                                 : std::string("lower command.guard_stiffness_n_per_m");
-  if (allowed) return "; set it to that, or " + slower;
+  const std::string slower = below >= kSpeedMin ? "lower command.speed_max_m_per_s to " + format_number(below)
+                                                : std::string("lower command.guard_stiffness_n_per_m");
+  if (allowed) return "; set it to that value, or " + slower;
   return ", which " +
          (rounded_n > kGuardMaxN ? "is above " + format_number(kGuardMaxN)
                                  : "sensing.force_range_n = " + format_number(range_n) + " does not allow") +
@@ -81,9 +80,10 @@ std::string unguarded(const proto::SlaveConfig& config) {
   const FirstTouch touch = first_touch(config);
   const double guard_n = config.command().force_guard_n(), least_n = least_guard_n(touch);
   if (guard_n >= least_n) return "";
-  return " = " + format_number(guard_n) + " cannot be held at a touch with " +
-         format_number(touch.speed_m_per_s) + " m/s on " + format_number(touch.stiffness_n_per_m) +
-         " N/m, but " + format_number(std::ceil(10.0 * least_n) / 10.0) + advice(config, touch, least_n);
+  return " = " + format_number(guard_n) + " cannot be kept when the tool touches a surface of " +
+         format_number(touch.stiffness_n_per_m) + " N/m at " + format_number(touch.speed_m_per_s) +
+         " m/s; the minimum is " + format_number(std::ceil(10.0 * least_n) / 10.0) +
+         advice(config, touch, least_n);
 }
 
 std::string unmeasured_force(const proto::SlaveConfig& config) {

@@ -41,7 +41,7 @@ bool whole(const Candidate& candidate) { return candidate.found.error.empty(); }
     }
   }
   throw ConfigError("neither the laboratory nor a side has a field \"" + word + "\"" +
-                    instead_of(word, known, "there are"));
+                    instead_of(word, known, "the fields are"));
 }
 
 }  // namespace
@@ -79,7 +79,8 @@ void set_lab_field(proto::LabConfig& config, std::string_view setting) {
   if (!whole(slave)) return set_field(config, master.path, value);
   if (!whole(master)) return set_field(config, slave.path, value);
   if (path != "loop.rate_hz" && path != "accuracy") {
-    throw ConfigError(std::string(path) + " is on both sides; write " + master.path + " or " + slave.path);
+    throw ConfigError(std::string(path) + " exists on both sides; write " + master.path + " or " +
+                      slave.path);
   }
   // Both sides tick at one rate in the laboratory, and are as accurate as each other.
   proto::LabConfig changed = config;

@@ -28,8 +28,7 @@ struct Reading {
 
   template <class Part>
   fs::path load(const std::string& name, const std::string& field, Part& part) const {
-    if (name.empty())
-      throw ConfigError(field + "_file is empty; name a file, or specify the " + field + " in place");
+    if (name.empty()) throw ConfigError(field + "_file is empty; name a file, or set the fields of " + field);
     const fs::path path = find(field + "_file", name);
     load_text_file(path, part);
     return path;

@@ -44,10 +44,10 @@ Finding check_neighbours(const proto::Robot& robot) {
     if (!slide && std::abs(between.a_m()) > kSameAxis) continue;
     return at_element(robot, "joint", row_between(robot, i), "alpha_rad",
                       " = " + format_number(between.alpha_rad()) +
-                          (slide ? "" : " with a_m = " + format_number(between.a_m())) + " lets the joints " +
+                          (slide ? "" : " with a_m = " + format_number(between.a_m())) + " makes joints " +
                           std::to_string(i) + " and " + std::to_string(i + 1) +
                           (slide ? " slide along" : " rotate about") +
-                          " the same axis; a degree of freedom is lost");
+                          " the same axis, so a degree of freedom is lost");
   }
   return std::nullopt;
 }
@@ -66,8 +66,8 @@ Finding check_lengths(const proto::Robot& robot) {
     return at_element(
         robot, "joint", i, "d_m",
         " = " + format_number(d_m) +
-            " is outside -100 to 100, which only rows beside nearly parallel axes may be; lengths "
-            "are in m, and this value seems to be in mm");
+            " is outside -100 to 100, which is allowed only next to nearly parallel axes; lengths are in "
+            "m, and this value seems to be in mm");
   }
   return std::nullopt;
 }
@@ -78,7 +78,7 @@ Finding check_beta(const proto::Robot& robot) {
     const double beta_rad = robot.joint(i).beta_rad();
     if (beta_rad != 0.0)
       return at_element(robot, "joint", i, "beta_rad",
-                        " = " + format_number(beta_rad) + " is for convention: STANDARD alone");
+                        " = " + format_number(beta_rad) + " is allowed only with convention: STANDARD");
   }
   return std::nullopt;
 }
@@ -119,8 +119,8 @@ Finding check_robot(const proto::Robot& robot) {
     return at(
         robot, "joint",
         " has " + std::to_string(slides.size()) + " prismatic and " + std::to_string(fixed) +
-            " fixed elements; a robot has six that are revolute or prismatic, at most three prismatic, or "
-            "three prismatic and three fixed ones");
+            " fixed elements; a robot has either six revolute or prismatic joints, at most three of them "
+            "prismatic, or three prismatic and three fixed joints");
   }
   if (auto finding = check_beta(robot)) return finding;
   if (auto finding = check_lengths(robot)) return finding;

@@ -38,11 +38,13 @@ std::vector<std::size_t> corners(std::istringstream& line, std::size_t points, c
     }
     if (number < 0) number += static_cast<long>(points) + 1;
     if (number < 1 || number > static_cast<long>(points))
-      throw ConfigError(where + "the face names the vertex \"" + word + "\", and there are " +
-                        std::to_string(points) + " before it");
+      throw ConfigError(where + "the face names the vertex \"" + word +
+                        "\", but the number of vertices before it is " + std::to_string(points));
     face.push_back(static_cast<std::size_t>(number - 1));
   }
-  if (face.size() < 3) throw ConfigError(where + "the face has " + std::to_string(face.size()) + " corners");
+  if (face.size() < 3)
+    throw ConfigError(where + "the face has " + std::to_string(face.size()) +
+                      " corners; it needs at least three");
   return face;
 }
 
@@ -69,7 +71,7 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
     line >> kind;
     if (kind == "v") {
       Point p;
-      if (!(line >> p[0] >> p[1] >> p[2])) throw ConfigError(where + "a vertex has three numbers");
+      if (!(line >> p[0] >> p[1] >> p[2])) throw ConfigError(where + "a vertex needs three numbers");
       points.push_back(known.try_emplace(p, known.size()).first->second);
     } else if (kind == "f") {
       const auto face = corners(line, points.size(), where);
@@ -77,7 +79,7 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
         const std::pair edge{points[face[i]], points[face[(i + 1) % face.size()]]};
         const auto [first, fresh] = edges.try_emplace(edge, number);
         if (!fresh)
-          throw ConfigError(where + "the face has an edge in the same direction as that of line " +
+          throw ConfigError(where + "the face has an edge in the same direction as the face in line " +
                             std::to_string(first->second) +
                             "; the vertices of a face must be in anticlockwise order, seen from outside");
       }
@@ -87,7 +89,7 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
   for (const auto& [edge, line] : edges) {
     if (!edges.contains({edge.second, edge.first}))
       throw ConfigError(name + ":" + std::to_string(line) +
-                        ": the mesh is not closed: an edge of this face has no second face");
+                        ": the mesh is not closed: an edge of this face belongs to no other face");
   }
 }
 
@@ -108,7 +110,8 @@ void load_scene_files(proto::Bodies& bodies, const std::function<fs::path(const 
     const fs::path beside = file.parent_path() / name;
     if (name.find('/') != std::string::npos || fs::path(name).extension() != ".obj")
       throw ConfigError(where + "\"" + name +
-                        "\" is not a mesh in the folder of the file; name an OBJ file in that folder");
+                        "\" is not an OBJ file in the folder of the MJCF file; copy the mesh there as an OBJ "
+                        "file");
     const std::string obj = read_beside(where, beside);
     require_closed_mesh(beside.string(), obj);
     add(bodies, name, obj);

@@ -29,8 +29,8 @@ Message& mutable_holder(Message& root, const FieldPath& path) {
   const std::string text = path_text(root, path);
   const std::string fields = list_names(field_names(*last.field->message_type()));
   if (last.field->is_repeated() && last.index < 0) {
-    throw ConfigError(text + " is a list; set one field of one element, " + text + ".NAME.FIELD or " + text +
-                      ".INDEX.FIELD, with FIELD one of: " + fields);
+    throw ConfigError(text + " is a list; set a field of one of its elements, " + text + ".NAME.FIELD or " +
+                      text + ".INDEX.FIELD, where FIELD is one of: " + fields);
   }
   throw ConfigError(text + " is a group; set one of its fields: " + fields);
 }

@@ -82,7 +82,8 @@ void load_text(const std::string& name, const std::string& whole, Message& messa
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw ConfigError(name + ": is empty; a file that only uses defaults must contain at least a comment");
+    throw ConfigError(name +
+                      ": the file is empty; if it only uses defaults, it must contain at least a comment");
   const std::unique_ptr<Message> loaded(message.New());
   TextFormat::Parser parser;
   TextFormat::ParseInfoTree locations;
@@ -94,7 +95,7 @@ void load_text(const std::string& name, const std::string& whole, Message& messa
     const ParseError error = reword(*first.error, text, *message.GetDescriptor());
     fail(name, error.position, error.text);
   }
-  if (!parsed) throw ConfigError(name + ": is not in protobuf text format");
+  if (!parsed) throw ConfigError(name + ": the file is not in protobuf text format");
   if (const auto violation = find_any_violation(*loaded)) {
     fail(name, locate(locations, violation->path), sentence(*loaded, *violation));
   }

@@ -46,7 +46,7 @@ Quaternion from_rpy(const Vector3& rpy) {
 UrdfTree::UrdfTree(std::string name, const std::string& text) : name_(std::move(name)) {
   if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document_.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
-      fail(1, "is empty; a URDF begins with <robot>");
+      fail(1, "the file is empty; a URDF begins with <robot>");
     if (document_.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
       fail(document_.ErrorLineNum(), "elements are nested too deeply for a URDF");
     fail(document_.ErrorLineNum(),
@@ -72,7 +72,9 @@ void UrdfTree::fail(int line, const std::string& sentence) const {
 void UrdfTree::refuse_xacro(const XMLElement& element) const {
   const std::string expanded = name_.ends_with(".urdf") ? name_ : name_ + ".urdf";
   const auto refuse = [&](int line, const std::string& what) {
-    fail(line, what + " is of xacro, whose macros are not expanded; expand them first: xacro FILE.xacro > " +
+    fail(line, what +
+                   " belongs to xacro, and macros are not expanded here; expand them first: xacro "
+                   "FILE.xacro > " +
                    expanded);
   };
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
@@ -89,7 +91,7 @@ void UrdfTree::refuse_xacro(const XMLElement& element) const {
 std::string UrdfTree::text_of(const XMLElement& element, const char* attribute) const {
   const char* text = element.Attribute(attribute);
   if (text == nullptr || *text == '\0')
-    fail(element.GetLineNum(), tag(element) + " has no " + attribute + "; a URDF needs it");
+    fail(element.GetLineNum(), tag(element) + " has no " + attribute + "; a URDF requires it");
   return text;
 }
 
@@ -118,7 +120,7 @@ double UrdfTree::number_of(const XMLElement& element, const char* attribute, dou
   const std::vector<double> numbers = numbers_of(element, attribute);
   if (numbers.size() != 1)
     fail(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + element.Attribute(attribute) +
-                                   "\", which is not one number");
+                                   "\"; one number is needed");
   return numbers[0];
 }
 
@@ -138,7 +140,8 @@ void UrdfTree::read_links(const XMLElement& robot) {
     const std::string name = text_of(*e, "name");
     const auto [had, added] = links_.emplace(name, e->GetLineNum());
     if (!added)
-      fail(e->GetLineNum(), "link \"" + name + "\" is there already, in line " + std::to_string(had->second));
+      fail(e->GetLineNum(),
+           "link \"" + name + "\" is already defined in line " + std::to_string(had->second));
   }
   if (links_.empty()) fail(robot.GetLineNum(), "<robot> has no <link>");
 }
@@ -162,13 +165,13 @@ void UrdfTree::read_edges(const XMLElement& robot) {
     const auto [had, added] = names.emplace(edge.name, e->GetLineNum());
     if (!added)
       fail(e->GetLineNum(),
-           "joint \"" + edge.name + "\" is there already, in line " + std::to_string(had->second));
+           "joint \"" + edge.name + "\" is already defined in line " + std::to_string(had->second));
     edge.moves = text_of(*e, "type") != "fixed";
     const auto [other, first] = edge_to_.emplace(edge.child, edge);
     if (!first)
       fail(e->GetLineNum(), "link \"" + edge.child + "\" is the child of two joints, \"" +
                                 other->second.name + "\" and \"" + edge.name +
-                                "\": a closed chain, which is not supported");
+                                "\"; closed chains are not supported");
   }
 }
 
@@ -178,7 +181,8 @@ std::string UrdfTree::root() const {
     if (!edge_to_.contains(link)) roots.push_back(link);
   }
   if (roots.size() == 1) return roots.front();
-  if (roots.empty()) fail(1, "each link is the child of a joint: a closed chain, which is not supported");
+  if (roots.empty())
+    fail(1, "each link is the child of a joint, so the tree has no root; closed chains are not supported");
   fail(1, "there are " + std::to_string(roots.size()) + " roots (" + joined(roots) +
               "); name the base of the arm in robot.base_link");
 }
@@ -198,11 +202,11 @@ std::vector<const UrdfTree::Edge*> UrdfTree::chain(const std::string& base, cons
   while (link != base) {
     const auto above = edge_to_.find(link);
     if (above == edge_to_.end())
-      fail(links_.at(tip), "link \"" + tip + "\" is not behind \"" + base +
-                               "\": the chain before it begins at \"" + link + "\"");
+      fail(links_.at(tip),
+           "link \"" + tip + "\" is not connected to \"" + base + "\": its chain begins at \"" + link + "\"");
     if (chain.size() > edge_to_.size())
       fail(above->second.element->GetLineNum(),
-           "joint \"" + above->second.name + "\" is part of a closed chain, which is not supported");
+           "joint \"" + above->second.name + "\" is part of a closed chain; closed chains are not supported");
     chain.push_back(&above->second);
     link = above->second.parent;
   }
@@ -220,7 +224,7 @@ std::string UrdfTree::only_end(const std::string& base, int moving) const {
   std::size_t looked = 0;
   while (!open.empty()) {
     if (++looked > links_.size())
-      fail(1, "link \"" + base + "\" is part of a closed chain, which is not supported");
+      fail(1, "link \"" + base + "\" is part of a closed chain; closed chains are not supported");
     const auto [link, count] = open.back();
     open.pop_back();
     most = std::max(most, count);
@@ -235,13 +239,13 @@ std::string UrdfTree::only_end(const std::string& base, int moving) const {
   std::ranges::sort(behind);
   const std::string six = std::to_string(moving) + " moving joints";
   if (ends.size() > 1)
-    fail(1, std::to_string(ends.size()) + " links are ends with " + six + " before them (" + joined(ends) +
+    fail(1, std::to_string(ends.size()) + " end links have " + six + " before them (" + joined(ends) +
                 "); name the tool in robot.tip_link");
   if (!behind.empty())
-    fail(1, "no link is an end with " + six + " before it; name the tool in robot.tip_link: " +
-                joined(behind) + (behind.size() == 1 ? " has " : " have ") + six + " before");
-  fail(1, "no link has " + six + " before it, counted from \"" + base + "\"; there are at most " +
-              std::to_string(most) + ", and an arm of longreach has " + std::to_string(moving));
+    fail(1, "no end link has " + six + " before it; name the tool in robot.tip_link: " + joined(behind) +
+                (behind.size() == 1 ? " has " + six + " before it" : " have " + six + " before them"));
+  fail(1, "no link has " + six + " between itself and \"" + base + "\"; the maximum is " +
+              std::to_string(most) + ", and longreach needs an arm with " + std::to_string(moving));
 }
 
 UrdfTree::Arm UrdfTree::arm(const std::string& base_link, const std::string& tip_link, int moving) const {
@@ -257,10 +261,10 @@ UrdfTree::Arm UrdfTree::arm(const std::string& base_link, const std::string& tip
   }
   if (static_cast<int>(movers.size()) != moving)
     fail(links_.at(arm.tip_link),
-         "between \"" + arm.base_link + "\" and \"" + arm.tip_link + "\" " + std::to_string(movers.size()) +
+         "between \"" + arm.base_link + "\" and \"" + arm.tip_link + "\", " + std::to_string(movers.size()) +
              " joints move" + (movers.empty() ? "" : " (" + joined(movers) + ")") +
-             "; an arm of longreach has " + std::to_string(moving) +
-             ": choose robot.base_link and robot.tip_link so, or make the others fixed");
+             "; longreach needs an arm with " + std::to_string(moving) +
+             ": change robot.base_link or robot.tip_link, or make other joints fixed");
   return arm;
 }
 
@@ -271,7 +275,7 @@ UrdfJoint UrdfTree::joint_of(const Edge& edge) const {
   if (!kind)
     fail(element.GetLineNum(),
          called + " has the type \"" + type +
-             "\"; between base and tip it may be revolute, continuous, prismatic or fixed");
+             "\"; between base and tip, a joint must be revolute, continuous, prismatic or fixed");
   UrdfJoint joint{edge.name, *kind, element.GetLineNum()};
   if (const XMLElement* origin = element.FirstChildElement("origin"))
     joint.X_PJ = {vector_of(*origin, "xyz", Vector3::Zero()),
@@ -279,8 +283,8 @@ UrdfJoint UrdfTree::joint_of(const Edge& edge) const {
   if (joint.kind == UrdfJoint::Kind::kFixed) return joint;
   if (const XMLElement* mimic = element.FirstChildElement("mimic"))
     fail(mimic->GetLineNum(), called +
-                                  " follows another joint (<mimic>) and is between base and tip, where each "
-                                  "joint has a motor of its own");
+                                  " follows another joint (<mimic>), but between base and tip each joint "
+                                  "needs a motor of its own");
   if (const XMLElement* axis = element.FirstChildElement("axis")) {
     joint.axis = vector_of(*axis, "xyz", Vector3::UnitX());
     const double length = joint.axis.stableNorm();
@@ -307,12 +311,12 @@ void UrdfTree::read_limits(const XMLElement& element, UrdfJoint& joint) const {
                                   (limit->Attribute("velocity") == nullptr
                                        ? std::string("no velocity in its <limit>")
                                        : "velocity=\"" + std::string(limit->Attribute("velocity")) + "\"") +
-                                  "; its largest speed is needed, rad/s or m/s above 0");
+                                  "; give its maximum speed, above 0 rad/s or m/s");
   if (continuous) return;
   joint.min = number_of(*limit, "lower", 0.0);
   joint.max = number_of(*limit, "upper", 0.0);
   if (!(joint.min < joint.max))
-    fail(limit->GetLineNum(), called + " may be from " + format_number(joint.min) + " to " +
+    fail(limit->GetLineNum(), called + " has the limits " + format_number(joint.min) + " to " +
                                   format_number(joint.max) + "; lower must be below upper");
 }
 

@@ -47,13 +47,13 @@ std::string law_in_words(const ContactEstimate& e) {
       "lambda/k " + number(e.lambda / e.k, 3) + " s/m within " + percent(e.lambda_sd / std::abs(e.lambda));
   const bool mixed = e.lambda_verdict != Verdict::kIdentified && std::abs(e.correlation) > kApart;
   return judged(e.n_verdict, n, "n") + ", " + judged(e.lambda_verdict, lambda, "lambda") +
-         (mixed ? " apart from k" : "");
+         (mixed ? " separately from k" : "");
 }
 
 std::string in_words(const GripperState& gripper) {
-  if (!gripper.closed) return gripper.holds ? "open, but holds something" : "open";
+  if (!gripper.closed) return gripper.holds ? "open, but holds an object" : "open";
   if (!gripper.holds) return "closed";
-  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds something";
+  if (!(gripper.load_sd_kg > 0.0)) return "closed, holds an object";
   return "closed, holds " + number(gripper.load_kg, 3) + " kg (standard deviation " +
          number(gripper.load_sd_kg, 2) + ")";
 }

@@ -15,7 +15,7 @@ std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config) {
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device) {
   if (!insecure || config.address.empty()) return;
   throw ConfigError("--insecure lets every user of this machine move a simulated " + device +
-                    ", but --adapter is a real one: omit --insecure");
+                    ", but --adapter names a real one: omit --insecure");
 }
 
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {
@@ -26,21 +26,19 @@ AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address) {
   if (figures.unknown_peer)
-    return "the program that listens at " + address + " belongs to another user (" +
-           std::to_string(*figures.unknown_peer) +
-           "), not to the present user or root, and is ignored; start the adapter of the " + device +
-           " as the user that runs longreach";
+    return "the program that listens at " + address + " belongs to another user (uid " +
+           std::to_string(*figures.unknown_peer) + ") and is ignored; start the adapter of the " + device +
+           " as root or as the user that runs longreach";
   if (!figures.present || (!figures.silent && !figures.failed)) return "";
   const std::string adapter = "the adapter of the " + device + " at " + address;
-  if (figures.failed) return adapter + " reports that the " + device + " has failed; repair it, then engage";
+  if (figures.failed)
+    return adapter + " reports that the " + device + " failed; repair the " + device + ", then engage";
   if (figures.accepted > 0)
-    return adapter +
-           " sends nothing any more; if this persists, restart it; then "
-           "engage";
+    return adapter + " stopped sending; if this persists, restart the adapter, then engage";
   if (figures.malformed > 0)
     return adapter + " sends invalid datagrams; run `longreach adapter check` for details";
   const std::string why = no_socket_there(unix_path(address));
-  return adapter + " does not answer" + (why.empty() ? "" : ": " + why) + "; start it, then engage";
+  return adapter + " does not respond" + (why.empty() ? "" : ": " + why) + "; start the adapter, then engage";
 }
 
 }  // namespace longreach

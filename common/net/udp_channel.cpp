@@ -47,8 +47,8 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
   if (!error) socket_.bind(own, error);
   if (!error) socket_.non_blocking(true, error);
   if (error) {
-    throw std::runtime_error("cannot listen on udp " + listen + ": " + error.message() +
-                             "; set link.listen to another address or end the program that uses it");
+    throw std::runtime_error("cannot listen on UDP " + listen + ": " + error.message() +
+                             "; set link.listen to another address, or end the program that uses this one");
   }
   // Less than asked for is fine.
   socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);

@@ -48,18 +48,18 @@ struct ProgramOptions {
 inline void add_program_options(CLI::App& app, ProgramOptions& options, const std::string& version) {
   app.set_version_flag("--version", version);
   add_manual_options(app, version);
-  app.add_option("--config", options.config, "Configuration file, protobuf text format")->type_name("FILE");
+  app.add_option("--config", options.config, "Configuration file in protobuf text format")->type_name("FILE");
   app.add_option("--set", options.settings,
                  "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--profile", options.profile,
-                 "Link profile whose delay and loss to emulate: a name in deploy/links, or a .txtpb file")
+                 "Link profile to emulate (delay, jitter, loss): a name in deploy/links, or a .txtpb file")
       ->type_name("NAME");
-  app.add_option("--seconds", options.seconds, "Exit after this time")
+  app.add_option("--seconds", options.seconds, "Exit after this time, s")
       ->check(number_above_zero())
       ->type_name("N");
-  app.add_option("--log", options.log, "Write the log to this file instead of to standard error")
+  app.add_option("--log", options.log, "Write the log to this file instead of standard error")
       ->type_name("FILE");
   app.add_option("--site", options.site,
                  "Folder of the certificates, created if it does not exist ($XDG_CONFIG_HOME/longreach)")
@@ -70,14 +70,15 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--recordings", options.recordings,
                  "Folder for recordings of `longreach record start` ($XDG_STATE_HOME/longreach/recordings)")
       ->type_name("DIR");
-  app.add_option("--record-max-mb", options.record_max_mb, "Maximum size of a recording from the start")
+  app.add_option("--record-max-mb", options.record_max_mb,
+                 "Maximum size of the recording that --record starts, MB")
       ->type_name("N")
       ->check(number_between(1.0, 1e6))
       ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
-               "Unencrypted RPC for every user of this machine: simulated robots only");
+               "Serve RPC unencrypted to every user of this machine; for simulated robots only");
   app.add_flag("--core-dumps", options.core_dumps,
-               "Permit core dumps and debuggers, which can read the secret of the session");
+               "Permit core dumps and debuggers, although they can read the secret of the session");
   app.add_flag("--check", options.check,
                "Check the configuration, print the effective configuration, and exit");
 }
@@ -93,7 +94,8 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
     put(STDERR_FILENO,
-        "INSECURE: RPC is neither encrypted nor authenticated; every user of this machine can take control of the robot\n");
+        "INSECURE: RPC is neither encrypted nor authenticated; every user of this machine can take control of "
+        "the robot\n");
     return {};
   }
   RpcSecurity security{site_credentials(site_of(options), role)};

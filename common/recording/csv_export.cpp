@@ -149,12 +149,12 @@ class Table {
     const auto* type = pool_.FindMessageTypeByName(schema.name);
     if (type == nullptr)
       throw SchemaError("the schema " + schema.name + " cannot be used: " +
-                        (error_.text.empty() ? "it does not describe its type" : printable(error_.text)));
+                        (error_.text.empty() ? "it does not define its type" : printable(error_.text)));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored))
-      throw RecordingError(file.string() + " exists; give another folder with --out, or remove it");
+      throw RecordingError(file.string() + " already exists; remove it, or give another folder with --out");
     out_.open(file, std::ios::binary);
     made_ = true;
     out_ << "t_s,log_time_ns";
@@ -267,7 +267,7 @@ class Tables {
     try {
       if (!table) table = std::make_unique<Table>(schema->second, free_name(channel.topic));
     } catch (const SchemaError& e) {
-      damaged_[channel.id] = channel.topic + ", as " + e.what();
+      damaged_[channel.id] = channel.topic + ", because " + e.what();
       return;
     }
     table->add(message, zero_ns);
@@ -280,8 +280,9 @@ class Tables {
     for (const auto& [channel, table] : tables_) {
       if (!table) continue;
       if (table->bad() > 0)
-        out.damaged.push_back(std::to_string(table->bad()) + (table->bad() == 1 ? " message" : " messages") +
-                              " of " + reader_.channels().at(channel).topic + " against the schema");
+        out.damaged.push_back(std::to_string(table->bad()) +
+                              (table->bad() == 1 ? " message does" : " messages do") +
+                              " not match the schema of " + reader_.channels().at(channel).topic);
       const CsvTable written = table->finish();
       if (table->empty()) table->undo();
       if (!table->empty()) out.tables.push_back(written);
@@ -325,8 +326,10 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
   McapReader reader(recording);
   auto message = reader.next();
   if (!message)
-    throw RecordingError(recording.string() + (reader.whole() ? " holds no messages" : " is cut") +
-                         ": nothing can be exported");
+    throw RecordingError(
+        recording.string() +
+        (reader.whole() ? " contains no messages" : " is truncated before its first message") +
+        ": nothing can be exported");
   const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);
@@ -344,8 +347,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       throw RecordingError(recording.string() +
                            " is damaged and cannot be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() +
-                         " has no protobuf messages, the only kind that can be "
-                         "exported, but " +
+                         " contains no protobuf messages, and only these can be exported; skipped: " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

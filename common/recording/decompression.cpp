@@ -18,7 +18,8 @@ class Library {
   Function* function(const char* name) const {
     void* found = handle_ == nullptr ? nullptr : ::dlsym(handle_, name);
     if (found == nullptr)
-      throw RecordingError(std::string("its chunks are compressed; install Debian's package ") + package_);
+      throw RecordingError(
+          std::string("its chunks are compressed; to read them, install the Debian package ") + package_);
     return reinterpret_cast<Function*>(found);
   }
 
@@ -73,7 +74,7 @@ std::string decompress(std::string_view how, std::string_view bytes, std::uint64
   if (how == "zstd") return from_zstd(bytes, static_cast<std::size_t>(size));
   if (how == "lz4") return from_lz4(bytes, static_cast<std::size_t>(size));
   throw RecordingError("its chunks are compressed by \"" + std::string(how) +
-                       "\", but only zstd and lz4 are supported; compress it with one of them");
+                       "\", but only zstd and lz4 are supported; recompress it with one of them");
 }
 
 }  // namespace longreach

@@ -24,7 +24,7 @@ class McapCursor {
   }
   std::string_view take_text() { return take_bytes(take<std::uint32_t>()); }
   std::string_view take_bytes(std::uint64_t size) {
-    if (size > left_.size()) throw RecordingError("a record is shorter than its content");
+    if (size > left_.size()) throw RecordingError("a record is too short for its content");
     const std::string_view out = left_.substr(0, static_cast<std::size_t>(size));
     left_.remove_prefix(out.size());
     return out;

@@ -28,7 +28,8 @@ McapReader::McapReader(const std::filesystem::path& path) : path_(path), file_(p
   std::array<char, kMagic.size()> magic{};
   if (left_ < magic.size() || !file_.read(magic.data(), magic.size()) ||
       std::string_view(magic.data(), magic.size()) != kMagic)
-    throw RecordingError(path.string() + " is not a recording: it does not begin like an MCAP file");
+    throw RecordingError(path.string() +
+                         " is not a recording: it does not begin with the magic bytes of an MCAP file");
   left_ -= magic.size();
 }
 
@@ -121,7 +122,7 @@ void McapReader::take(const Record& record) {
 McapMessage McapReader::message(std::string_view content) {
   McapCursor cursor(content);
   const auto channel = channels_.find(cursor.take<std::uint16_t>());
-  if (channel == channels_.end()) damaged("a message belongs to no channel");
+  if (channel == channels_.end()) damaged("a message belongs to an unknown channel");
   McapMessage out;
   out.channel = &channel->second;
   out.sequence = cursor.take<std::uint32_t>();

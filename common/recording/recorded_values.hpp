@@ -23,7 +23,7 @@ namespace longreach {
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))
-    throw RecordingError("a recorded value is not in its enumeration: " + std::to_string(value));
+    throw RecordingError("a recorded value is not part of its enumeration: " + std::to_string(value));
   return static_cast<Enum>(value);
 }
 /// The enumerations of the schema have the same numbers as those of the structs.

@@ -73,7 +73,7 @@ void Recorder::run() {
 std::string Recorder::trouble() const {
   if (file_.failed()) return "writing failed: " + file_.error();
   if (writer_.size() >= options_.max_bytes)
-    return "it has reached its maximum size of " + megabytes(options_.max_bytes);
+    return "it reached its maximum size of " + megabytes(options_.max_bytes);
   return "";
 }
 

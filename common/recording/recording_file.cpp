@@ -18,7 +18,7 @@ RecordingFile::RecordingFile(const std::filesystem::path& path) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor_ >= 0) return;
   const std::string why =
-      errno == EEXIST ? "the file exists already; choose another name" : std::strerror(errno);
+      errno == EEXIST ? "the file already exists; choose another name" : std::strerror(errno);
   throw RecordingError("cannot record into " + path.string() + ": " + why);
 }
 
@@ -33,7 +33,7 @@ bool RecordingFile::append(std::span<const std::byte> bytes) {
       done += static_cast<std::size_t>(written);
     } else if (written == 0 || errno != EINTR) {
       error_ = written == 0 ? "nothing could be written" : std::strerror(errno);
-      if (::ftruncate(descriptor_, static_cast<::off_t>(size_)) != 0) error_ += ", its end is damaged";
+      if (::ftruncate(descriptor_, static_cast<::off_t>(size_)) != 0) error_ += ", and its end is damaged";
       return false;
     }
   }

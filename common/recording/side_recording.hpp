@@ -47,7 +47,7 @@ class SideRecording {
   template <class Attach>
   void start(const Request& request, const Attach& attach) {
     if (status().running)
-      throw RecordingError(status().file + " is being recorded; `longreach record stop` ends it");
+      throw RecordingError(status().file + " is already being recorded; end it with `longreach record stop`");
     if (record_buffer_ && !attach(nullptr)) throw RecordingError(kNoAnswer);
     drop();
     auto record_buffer = make_record_buffer(request);
@@ -95,7 +95,7 @@ class SideRecording {
     try {
       return std::make_unique<RecordType>(request.rate_hz, monotonic_to_unix());
     } catch (const std::bad_alloc&) {
-      throw RecordingError("not enough memory for a recording");
+      throw RecordingError("there is not enough memory for a recording");
     }
   }
 

@@ -18,7 +18,7 @@ class Check final : public grpc::AuthMetadataProcessor {
   grpc::Status Process(const InputMetadata&, grpc::AuthContext* caller, OutputMetadata*,
                        OutputMetadata*) override {
     if (!is_revoked(*caller)) return grpc::Status::OK;
-    constexpr const char* kWhy = "the certificate of this host has been revoked: pair it again";
+    constexpr const char* kWhy = "the certificate of this host was revoked: pair the host again";
     note_rpc_refusal("connection " + certificate_text(*caller), kWhy);
     return {grpc::StatusCode::PERMISSION_DENIED, kWhy};
   }

@@ -39,7 +39,7 @@ enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another mas
 inline std::optional<Refusal> ask(StopLevel& stops) {
   if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
   return Refusal{Refusal::Kind::kUnavailable,
-                 "the control loop did not respond within 1 s; it stops as soon as it resumes"};
+                 "the control loop did not respond within 1 s; the robot stops as soon as the loop resumes"};
 }
 
 /// Passes a command to the loop. `not_while_engaged`: that of the change, for the refusal.
@@ -49,7 +49,7 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
   const auto answer = mailbox.post(std::move(command), std::chrono::milliseconds(1000));
   if (!answer) {
     return Refusal{Refusal::Kind::kUnavailable,
-                   "the control loop did not respond within 1 s; nothing has changed, try again"};
+                   "the control loop did not respond within 1 s; nothing was changed, try again"};
   }
   if (*answer == LoopAnswer::kDone) return std::nullopt;
   if (*answer == LoopAnswer::kOccupied) {

@@ -147,7 +147,7 @@ bool ConnectionLimiter::accept_one() {
   // What has come with it is heard before others make it the oldest.
   if (silent_.size() <= kSilentMax) return true;
   receive();
-  while (silent_.size() > kSilentMax - kAcceptedAtOnce) close_oldest("too many silent connections");
+  while (silent_.size() > kSilentMax - kAcceptedAtOnce) close_oldest("too many connections without data");
   return true;
 }
 
@@ -170,9 +170,7 @@ void ConnectionLimiter::receive() {
 
 void ConnectionLimiter::expire() {
   while (!silent_.empty() && Clock::now() - silent_.front().since > kSilent)
-    close_oldest(
-        "the connection "
-        "is silent");
+    close_oldest("no data arrived on the connection");
 }
 
 void ConnectionLimiter::let_in(int fd) {

@@ -56,7 +56,7 @@ Window next(Window window, double period_s, double elapsed_s) {
 }
 
 std::string count_in_words(int count) {
-  return count == 1 ? "1 field is set" : std::to_string(count) + " fields are set";
+  return count == 1 ? "1 field was set" : std::to_string(count) + " fields were set";
 }
 
 }  // namespace
@@ -133,7 +133,8 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
   if (std::optional<Refusal> refusal = wrong(wanted)) return *refusal;
   std::optional<Refusal> refusal = backend_.set_link(wanted);
   if (!refusal) link_set_at_ = Clock::now();
-  return outcome(std::move(refusal), request.replace() ? "the link is replaced" : "the link is changed");
+  return outcome(std::move(refusal), request.replace() ? "the impairment of the link was replaced"
+                                                       : "the impairment of the link was changed");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {
@@ -141,7 +142,7 @@ ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::Set
   if (!request.has_mode()) return invalid("mode is missing or unknown: give RATE or POSITION");
   const std::lock_guard lock(changing_);
   return outcome(backend_.set_mode(request.mode()),
-                 request.mode() == proto::Mapping::RATE ? "mode is rate" : "mode is position");
+                 request.mode() == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::SetScaleRequest& request) {
@@ -150,7 +151,7 @@ ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::Se
   mapping.set_scale(request.scale());
   if (std::optional<Refusal> refusal = wrong(mapping)) return *refusal;
   const std::lock_guard lock(changing_);
-  return outcome(backend_.set_scale(request.scale()), "the scale is set");
+  return outcome(backend_.set_scale(request.scale()), "the scale was set");
 }
 
 ControlService::Result<proto::Outcome> ControlService::engage() {
@@ -169,7 +170,7 @@ ControlService::Result<proto::OpenSessionResponse> ControlService::open_session(
 ControlService::Result<proto::Outcome> ControlService::close_session(
     const proto::CloseSessionRequest& request) {
   const std::lock_guard lock(changing_);
-  return outcome(backend_.close_session(request.session()), "the robot is returned");
+  return outcome(backend_.close_session(request.session()), "control of the robot was returned");
 }
 
 ControlService::Result<proto::Outcome> ControlService::start_recording(

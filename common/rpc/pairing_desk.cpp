@@ -65,9 +65,9 @@ void report_try(const std::string& from, const std::string& refusal, const Pairi
 const char* ending(PairingOffer::State state) {
   switch (state) {
     case PairingOffer::State::kUsed:
-      return "paired: that host can now be a master and client of this site";
+      return "paired: that host can now run a master and a client of this site";
     case PairingOffer::State::kExpired:
-      return "no host was paired: the token has expired";
+      return "no host was paired: the token expired";
     case PairingOffer::State::kSpent:
       return "no host was paired: no attempts are left, and the token is invalid";
     case PairingOffer::State::kOpen:

@@ -84,15 +84,15 @@ proto::PairingMessage ask_to_join(const std::string& address, const PairingReque
   const grpc::Status status = stub->Join(&context, request.message(), &answer);
   if (status.ok()) return answer;
   if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED)
-    throw PairingError("the slave at " + address + " refuses: " + status.error_message());
+    throw PairingError("the slave at " + address + " refused: " + status.error_message());
   if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ||
       status.error_message().find("onnection refused") != std::string::npos ||
       status.error_message().find("o route") != std::string::npos)
-    throw PairingError("no slave waits for pairing at " + address +
-                       ": start longreach-slave --pair there; it waits for 10 minutes or one use");
+    throw PairingError("no slave is ready for pairing at " + address +
+                       ": start longreach-slave --pair there; its token is valid for 10 minutes and one use");
   throw PairingError("the program at " + address +
-                     " is not a longreach slave that waits for pairing: longreach-slave --pair prints "
-                     "address and port");
+                     " is not a longreach slave that is ready for pairing: use the address and port that "
+                     "longreach-slave --pair printed");
 }
 
 }  // namespace longreach

@@ -135,10 +135,10 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
     const Slot slot(*this);
     if (!slot.taken())
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-              std::to_string(kWatchersMax) + " clients watch the " + side_ + " already: close one of them"};
+              std::to_string(kWatchersMax) + " clients already watch the " + side_ + ": close one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
       if (is_revoked(*context->auth_context()) || !writer->Write(status())) break;
-    return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " ends")
+    return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " is shutting down")
                       : grpc::Status::OK;
   }
 

@@ -43,7 +43,7 @@ std::string sentence(const std::string& address, const grpc::ClientContext& cont
   if (other_role(status)) return begin + "the program there is not a slave; set link.slave_rpc";
   if (distrusted(status)) return begin + "it " + std::string(kMistrust);
   return begin +
-         "it does not answer; start longreach-slave there, or set link.slave_rpc to the address of its RPC "
+         "it does not respond; start longreach-slave there, or set link.slave_rpc to the address of its RPC "
          "server";
 }
 
@@ -148,7 +148,7 @@ std::string SessionClient::connect(std::uint64_t present) {
   }
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
-           ") has taken control of the robot; end that master, or restart this one with --take";
+           ") took control of the robot; end that master, or restart this one with --take";
   if (!status.ok()) return sentence(address_, context, status);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 
@@ -158,15 +158,14 @@ std::string SessionClient::connect(std::uint64_t present) {
                       (session.cipher != Cipher::kAes256Gcm || has_aes256gcm());
   if (!usable)
     return "no session with the slave at " + address_ +
-           ": its answer is invalid; use programs of the same version";
+           ": its response is invalid; use programs of the same version";
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
   wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn
   adopted_at_ = std::chrono::steady_clock::now();
-  return adopt_(session) ? ""
-                         : "no session with the slave at " + address_ +
-                               ": the control loop did not accept "
-                               "it";
+  return adopt_(session)
+             ? ""
+             : "no session with the slave at " + address_ + ": the control loop did not accept the session";
 }
 
 /// The slave knows the session, and nothing comes of it: datagrams do not get through where RPC does.
@@ -176,7 +175,7 @@ std::string SessionClient::unreceived(const Present& present) const {
       call_took_ + std::chrono::duration<double>(present.delay_s);
   const bool due = std::chrono::steady_clock::now() - adopted_at_ > round_trip + kBesides;
   if (present.session == 0 || std::isfinite(present.silence_s) || !due) return "";
-  return "RPC at " + address_ + " answers, but no datagram comes back from " + present.slave +
+  return "RPC at " + address_ + " responds, but no datagrams arrive from " + present.slave +
          ": allow UDP through the firewalls in both directions, and check that link.slave and "
          "link.slave_rpc name the same slave";
 }

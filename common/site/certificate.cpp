@@ -244,7 +244,7 @@ std::string certificate_trouble(const std::string& authority_pem, const std::str
       return std::string("it is not valid for this site: ") +
              X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()));
     if (!name.empty() && X509_check_host(certificate.get(), name.data(), name.size(), 0, nullptr) != 1)
-      return "it is not issued to " + name;
+      return "it was not issued to " + name;
     return "";
   } catch (const std::runtime_error&) {
     return "it cannot be read";

@@ -45,9 +45,9 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
     case State::kOpen:
       break;
     case State::kUsed:
-      return "the token has already been used" + std::string(kAnother);
+      return "the token was already used" + std::string(kAnother);
     case State::kExpired:
-      return "the token has expired: it was valid for 10 minutes" + std::string(kAnother);
+      return "the token expired: it was valid for 10 minutes" + std::string(kAnother);
     case State::kSpent:
       return "no attempts are left: the token is invalid" + std::string(kAnother);
   }
@@ -62,7 +62,7 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
     answer.set_master(certify(authority_, request.master_request(), terms_of(RpcRole::kMaster)));
     answer.set_client(certify(authority_, request.client_request(), terms_of(RpcRole::kClient)));
   } catch (const std::runtime_error&) {
-    return "the request does not ask for certificates of this site; use programs of the same version";
+    return "the request is not for certificates of this site; use programs of the same version";
   }
   try {
     if (record_) record_(plain(request.host()), answer.master(), answer.client());
@@ -93,8 +93,8 @@ PairingRequest::PairingRequest(const PairingToken& token, const std::string& hos
 SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
   if (!token_.verifies(message.tag(), kAnswer, message_.tag() + message.body()))
     throw PairingError(
-        "the answer is not from the slave that printed the token: it is from another slave, or from an "
-        "attacker in between; nothing was stored");
+        "the response is not from the slave that printed the token: it is from another slave, or from an "
+        "attacker between the hosts; no certificate was stored");
   proto::PairingAnswer answer;
   const bool good = answer.ParseFromString(message.body()) &&
                     certificate_trouble(answer.authority(), answer.master(), master_.key_pem,
@@ -103,7 +103,7 @@ SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
                     certificate_trouble(answer.authority(), answer.client(), client_.key_pem,
                                         terms_of(RpcRole::kClient).name)
                         .empty();
-  if (!good) throw PairingError("the slave's answer is invalid; use programs of the same version");
+  if (!good) throw PairingError("the slave's response is invalid; use programs of the same version");
   const std::string master = file_stem(RpcRole::kMaster), client = file_stem(RpcRole::kClient);
   return {{"authority.crt", answer.authority()},
           {master + ".crt", answer.master()},

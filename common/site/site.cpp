@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::array kRoles = {RpcRole::kSlave, RpcRole::kMaster, RpcRole::kClient};
 
 constexpr const char* kRestore =
-    "; restore it, or move the folder of the site away: a new site is then created, which paired hosts do "
-    "not trust";
+    "; restore it, or move the folder of the site away: a new site is then created, and paired hosts must "
+    "be paired again";
 
 CertificateUse use_of(RpcRole role) {
   switch (role) {
@@ -100,7 +100,7 @@ void require_private(const fs::path& path) {
   if (status.st_uid != ::geteuid())
     throw SiteError(path.string() + " belongs to another user; choose your own folder with --site DIR");
   if ((status.st_mode & 077U) != 0)
-    throw SiteError(path.string() + " is accessible to other users; close it with chmod -R go= " +
+    throw SiteError(path.string() + " is accessible to other users; restrict it with chmod -R go= " +
                     (fs::is_directory(path) ? path : path.parent_path()).string());
 }
 
@@ -153,7 +153,8 @@ void require_origin(const fs::path& folder) {
   if (fs::exists(folder / "authority.key") || !fs::exists(folder / "master.key")) return;
   throw SiteError(
       folder.string() +
-      " was created by pairing, for a master and its client; a slave runs, and pairs other hosts, only on the host whose slave issued the token; choose another folder with --site DIR");
+      " was created by pairing, so it has certificates only for a master and its client, and no slave can use "
+      "it; choose another folder with --site DIR");
 }
 
 }  // namespace
@@ -170,7 +171,8 @@ fs::path default_site() {
   if (const passwd* user = ::getpwuid(::geteuid()); home.empty() && user != nullptr) home = user->pw_dir;
   if (!home.empty()) return fs::path(home) / ".config" / "longreach";
   throw SiteError(
-      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site DIR");
+      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site "
+      "DIR");
 }
 
 std::string file_stem(RpcRole role) {

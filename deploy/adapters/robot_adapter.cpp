@@ -87,7 +87,7 @@ class Socket {
     ::umask(077);                                   // nobody else may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path,
-                   taken ? "another process does" : std::strerror(errno));
+                   taken ? "another process already listens there" : std::strerror(errno));
       std::exit(1);
     }
     std::printf("listening on unix:%s\n", path);
@@ -191,7 +191,7 @@ int main(int argc, char** argv) {
   const bool placed = argc == 4 && std::strcmp(argv[2], "--wall") == 0;
   const double way_m = placed ? number_of(argv[3]) : 0.1;
   if ((argc != 2 && !placed) || argv[1][0] != '/' || std::isnan(way_m)) {
-    std::fputs("usage: longreach-reference-robot PATH [--wall METRES], PATH: absolute path of its socket\n",
+    std::fputs("usage: longreach-reference-robot PATH [--wall METRES]\nPATH: absolute path of the socket\n",
                stderr);
     return 2;
   }

@@ -84,12 +84,12 @@ Grammar::Grammar() {
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout,
-                  "timeout for an answer, including the connection [3 s; doctor 20, pair 120]")
+                  "timeout for a response, including the connection [3 s; doctor 20 s, pair 120 s]")
       ->type_name("S");
   app_.add_option("--site", site_, "folder of the certificates [$XDG_CONFIG_HOME/longreach]")
       ->type_name("DIR");
   app_.add_flag("--insecure", insecure_, "connect to sides that were started with --insecure");
-  app_.add_flag("--json", json_, "print answers and errors as JSON");
+  app_.add_flag("--json", json_, "print results and errors as JSON");
   declare_views();
   declare_fields();
   declare_link();
@@ -109,12 +109,12 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 }
 
 void Grammar::declare_views() {
-  declare(app_, "status", "show both sides once", kStatusMore);
-  CLI::App* watch = declare(app_, "watch", "show both sides live", kWatchMore);
-  watch->add_flag("--plain", plain_, "one line per update, without colour, also on a terminal");
-  watch->add_option("--hz", words_.hz, "updates a second, 0.1 to 60 [4]")->type_name("HZ");
+  declare(app_, "status", "show the state of both sides once", kStatusMore);
+  CLI::App* watch = declare(app_, "watch", "show the state of both sides live", kWatchMore);
+  watch->add_flag("--plain", plain_, "print one line per update without colour, even on a terminal");
+  watch->add_option("--hz", words_.hz, "updates per second, 0.1 to 60 [4]")->type_name("HZ");
   watch->add_option("--count", words_.count, "exit after this number of updates")->type_name("N");
-  declare(app_, "view", "serve a page for the browser: the robot, forces, a hand", kViewMore)
+  declare(app_, "view", "serve a page for the browser that shows and moves the robot", kViewMore)
       ->add_option("--listen", words_.listen,
                    "address of the page; port 0: any free port [" + words_.listen + "]")
       ->type_name("HOST:PORT");
@@ -123,14 +123,14 @@ void Grammar::declare_views() {
 void Grammar::declare_fields() {
   const auto sides = CLI::IsMember({"master", "slave"}, CLI::ignore_case);
   CLI::App* get = declare(app_, "get", "print the configuration of a side, or a part of it",
-                          "Fields, units and ranges: proto/config.proto.\n"
+                          "proto/config.proto lists fields, units and ranges.\n"
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; default: all");
-  CLI::App* set =
-      declare(app_, "set", "change fields of the configuration of a side, either all or none", kSetMore);
+  CLI::App* set = declare(
+      app_, "set", "change fields of the configuration of a side; if one is refused, none changes", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
-  set->add_option("PATH VALUE", words_.assignments, "field and its new value, repeatable")->required();
+  set->add_option("PATH VALUE", words_.assignments, "field and its new value; repeatable")->required();
 }
 
 CLI::Option* Grammar::declare_direction(CLI::App& command) {
@@ -143,17 +143,19 @@ CLI::Option* Grammar::declare_direction(CLI::App& command) {
 
 void Grammar::declare_link() {
   link_ = declare(app_, "link", "show or change the artificial impairment of the link",
-                  "Up is master to slave and acts at the slave, down acts at the master.\n"
+                  "Up is from master to slave and is impaired at the slave; down is from slave to master and "
+                  "is\nimpaired at the master.\n"
                   "Example: longreach link set --profile moon");
   link_->require_subcommand(0, 1);
   declare(*link_, "show", "print the impairment of both directions", "Example: longreach link show");
   CLI::App* set = declare(*link_, "set", "change the impairment", kLinkSetMore);
-  set->add_option("--profile", words_.profile, "a real link by name, from deploy/links")->type_name("NAME");
+  set->add_option("--profile", words_.profile, "link profile to apply, a name in deploy/links")
+      ->type_name("NAME");
   for (std::size_t i = 0; i < std::size(kFieldOptions); ++i)
     set->add_option(kFieldOptions[i].name, field_words_[i], kFieldOptions[i].help)
         ->type_name(kFieldOptions[i].value);
   declare_direction(*set);
-  CLI::App* blackout = declare(*link_, "blackout", "drop all datagrams for a time, from now on",
+  CLI::App* blackout = declare(*link_, "blackout", "drop all datagrams for a given time, starting now",
                                "Example: longreach link blackout 2s --direction down");
   blackout->add_option("DURATION", words_.duration, "duration: 500ms, 2s or plain seconds (0 to 1e6 s)")
       ->required();
@@ -163,21 +165,25 @@ void Grammar::declare_link() {
 }
 
 void Grammar::declare_motion() {
-  declare(app_, "mode", "set the mode of motion",
-          "rate: deflection commands speed, coarse and fast; position: scaled position, fine and exact.\n"
-          "Example: longreach mode position")
+  declare(
+      app_, "mode", "set the mode of motion",
+      "rate: the deflection of the handle commands a speed, for long distances; position: the displacement "
+      "of the\n"
+      "handle, scaled, is the displacement of the robot, for fine work.\n"
+      "Example: longreach mode position")
       ->add_option("MODE", words_.mode, "rate or position")
       ->required()
       ->transform(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
-  declare(app_, "scale", "set the scale of motion (robot over hand), 0.05 to 1",
+  declare(app_, "scale", "set the scale of motion (displacement of the robot / of the hand), 0.05 to 1",
           "Example: longreach scale 0.5")
-      ->add_option("VALUE", words_.scale, "0.05 to 1, or up or down by 0.05")
+      ->add_option("VALUE", words_.scale, "0.05 to 1; up or down changes it by 0.05")
       ->required();
-  declare(app_, "engage", "make the robot follow the hand",
-          "The first goal is the current pose of the robot, so nothing jumps. The request goes to the "
-          "master.\nExample: longreach engage");
+  declare(
+      app_, "engage", "make the robot follow the hand",
+      "The first goal is the current pose of the robot, so the robot does not jump. The request is sent to "
+      "the master.\nExample: longreach engage");
   declare(app_, "stop", "stop the robot until it is engaged again",
-          "The request goes to both sides; the command is done when one of them has answered.\nExample: "
+          "The request is sent to both sides; the command succeeds if one of them confirms it.\nExample: "
           "longreach stop");
 }
 
@@ -189,32 +195,35 @@ void Grammar::declare_site() {
       ->type_name("FILE");
   pair->add_flag("--list", list_, "list the hosts that were paired with the site of this host");
   declare(app_, "unpair", "revoke the certificates of a paired host", kUnpairMore)
-      ->add_option("NAME", words_.names, "name of the host in pair --list, or a fingerprint")
+      ->add_option("NAME", words_.names, "name of the host as in pair --list, or a fingerprint")
       ->required()
       ->expected(-1);
   CLI::App* doctor = declare(app_, "doctor", "find problems and print remedies", kDoctorMore);
   doctor->add_option("--seconds", words_.seconds, "duration of the measurement, 0.2 to 60 s [2]")
       ->type_name("N");
-  pair->add_flag("--replace", replace_, "move an existing site folder away");
+  pair->add_flag("--replace", replace_, "move an existing site folder aside first");
 }
 
 void Grammar::declare_adapter() {
   adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
                      "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
-  CLI::App* check =
-      declare(*adapter_, "check", "check that it follows the rules of the protocol", kAdapterCheckMore);
+  CLI::App* check = declare(*adapter_, "check", "check that the adapter follows the rules of the protocol",
+                            kAdapterCheckMore);
   check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
   check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check->add_option("--force", words_.force, "commanded force of a device, 0.01 to 10 N [0.5]")
+  check
+      ->add_option("--force", words_.force,
+                   "force that the device is commanded to render, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check
       ->add_option("--move", words_.move,
-                   "commanded motion of the first joint of a robot, -0.5 to 0.5 rad "
+                   "displacement that the first joint of the robot is commanded to make, -0.5 to 0.5 rad "
                    "or m [0]")
       ->type_name("RAD");
-  check->add_flag("--push", words_.push,
-                  "prompt the user to push and turn the tool of the robot instead: checks sign, axes, zero");
+  check->add_flag(
+      "--push", words_.push,
+      "check sign, axes and zero of the force sensor instead, by prompting you to push and turn the tool");
   check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
   check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");
@@ -259,7 +268,7 @@ Command Grammar::command() const {
     if (words_.count.empty()) return watch;
     watch.count = parse_integer<std::uint64_t>(words_.count);
     if (watch.count.value_or(0) == 0)
-      throw UsageError("--count = " + words_.count + " is not a whole number from 1");
+      throw UsageError("--count = " + words_.count + " is not a whole number of at least 1");
     return watch;
   }
   if (parsed("view")) {
@@ -295,11 +304,11 @@ Command Grammar::command() const {
 PairCommand Grammar::pair_command() const {
   if (!words_.token.empty())
     throw UsageError(
-        "pair accepts no token as an argument, because other users of this machine can read it: omit it and "
-        "enter it at the prompt, or use --token-file FILE");
+        "pair does not accept a token as an argument, because other users of this machine can read arguments: "
+        "enter the token at the prompt, or use --token-file FILE");
   if (list_) return {.token_file = {}, .list = true};
   if (app_.count("--slave") == 0)
-    throw UsageError("pair needs --slave HOST:PORT, as longreach-slave --pair printed it");
+    throw UsageError("pair needs --slave HOST:PORT, the address that longreach-slave --pair printed");
   return {.token_file = words_.token_file, .replace = replace_};
 }
 
@@ -357,7 +366,7 @@ LinkSetCommand Grammar::link_command() const {
     set_field(set.fields, kFieldOptions[i].field, field_words_[i]);
     any = true;
   }
-  if (!any) throw UsageError("link set needs --profile or at least one field, see link set --help");
+  if (!any) throw UsageError("link set needs --profile or at least one field; see link set --help");
   return set;
 }
 

@@ -68,13 +68,14 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   if (!command.value) {
     const proto::Status status = master.status();
     if (!status.has_scale())
-      throw SideError(SideError::Kind::kRefused, "the master does not report the scale: give a value");
+      throw SideError(SideError::Kind::kRefused,
+                      "the master does not report the scale: give a number instead of up or down");
     // To the grid of 1e-6, so that steps up and down come back to where they began.
     const double stepped = status.scale() + command.steps * kScaleStep;
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
   }
   master.set_scale(scale);
-  print_done(options, "scale is " + format_number(scale));
+  print_done(options, "scale set to " + format_number(scale));
   return ExitStatus::kDone;
 }
 
@@ -95,7 +96,7 @@ ExitStatus run_stop(const Options& options) {
 
 ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   SideClient(Side::kMaster, options).set_mode(command.mode);
-  print_done(options, command.mode == proto::Mapping::RATE ? "mode is rate" : "mode is position");
+  print_done(options, command.mode == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
   return ExitStatus::kDone;
 }
 
@@ -131,10 +132,10 @@ std::string stop_sides(const Options& options) {
   const auto master_error = try_stop(Side::kMaster, options);
   const auto slave_error = slave.get();
   if (master_error && slave_error)
-    throw SideError(SideError::Kind::kDown,
-                    "nothing was stopped: " + std::string(slave_error->what()) + "; " + master_error->what());
+    throw SideError(SideError::Kind::kDown, "neither side was stopped: " + std::string(slave_error->what()) +
+                                                "; " + master_error->what());
   if (slave_error)
-    return "stopped at the master, which forwards it to the slave; " + std::string(slave_error->what());
+    return "stopped at the master, which forwards the stop to the slave; " + std::string(slave_error->what());
   if (master_error) return "stopped at the slave; " + std::string(master_error->what());
   return "stopped at the master and at the slave";
 }

@@ -62,9 +62,9 @@ std::string put_back(std::vector<Change>& changes, std::size_t changed) {
     const std::string name(name_of(changes[i].side));
     try {
       changes[i].client.set_link(changes[i].before, true);
-      outcome += "; the " + name + "'s direction is restored";
+      outcome += "; the " + name + "'s impairment is restored";
     } catch (const SideError& error) {
-      outcome += "; the " + name + "'s direction stays changed: " + error.what();
+      outcome += "; the " + name + "'s impairment stays changed: " + error.what();
     }
   }
   return outcome;
@@ -76,7 +76,7 @@ void apply(std::vector<Change>& changes) {
       changes[i].client.set_link(changes[i].fields, changes[i].replace);
     } catch (const SideError& error) {
       std::string sentence = error.what();
-      if (error.kind() == SideError::Kind::kDown) sentence += "; its direction may have changed";
+      if (error.kind() == SideError::Kind::kDown) sentence += "; its impairment may have changed";
       throw SideError(error.kind(), sentence + put_back(changes, i));
     }
   }
@@ -127,7 +127,7 @@ std::string what_follows(const Options& options, std::vector<Change>& changes) t
   if (rise_s <= most_s) return "";
   return "; the round trip rises by " + format_number(rise_s) +
          " s, more than safety.delay_rise_max_s = " + format_number(most_s) +
-         ": the robot holds, and `longreach engage` accepts the new delay";
+         ": the robot holds; accept the new delay with `longreach engage`";
 } catch (const SideError&) {
   return "";
 }

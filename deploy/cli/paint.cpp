@@ -13,9 +13,9 @@ constexpr auto kTones = std::to_array<Tone>({{"Engaged", "32"},
                                              {"Holding", "33"},
                                              {"Stopped", "31"},
                                              {"Fault", "31"},
-                                             {"does not answer", "31"},
+                                             {"does not respond", "31"},
                                              {"clamped", "33"},
-                                             {" says: ", "33"}});
+                                             {" reports: ", "33"}});
 
 std::string in_code(std::string_view code, std::string_view text) {
   return "\x1b[" + std::string(code) + "m" + std::string(text) + "\x1b[0m";

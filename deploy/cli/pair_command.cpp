@@ -57,7 +57,7 @@ std::string read_token_file(const std::string& file) {
   if (::stat(file.c_str(), &status) != 0) throw UsageError("--token-file " + file + " cannot be read");
   if (S_ISREG(status.st_mode) && (status.st_mode & 077U) != 0)
     throw UsageError("--token-file " + file +
-                     " is accessible to other users; close it with chmod go= " + file);
+                     " is accessible to other users; restrict it with chmod go= " + file);
   std::ifstream in(file);
   return first_line(in);
 }
@@ -109,9 +109,9 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command) {
   const std::vector<std::string> gone = revoke(site_of(options), command.names);
   std::string all;
   for (const std::string& one : gone) all += " " + one;
-  print_done(options, "revoked: programs with the site " + site_of(options).string() +
-                          " refuse it from now on; on every other host that runs a master of this site, run "
-                          "longreach unpair" +
+  print_done(options, "revoked: programs that use the site " + site_of(options).string() +
+                          " refuse these certificates from now on; on every other host that runs a master of "
+                          "this site, run longreach unpair" +
                           all);
   return ExitStatus::kDone;
 }
@@ -121,28 +121,29 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   const std::filesystem::path site = site_of(options);
   // Before the token is spent.
   if (site_exists(site) && !command.replace)
-    throw PairingError("this host has a site at " + site.string() +
-                       " already; move it away with --replace, or choose another folder with --site DIR");
+    throw PairingError("this host already has a site at " + site.string() +
+                       "; move it aside with --replace, or choose another folder with --site DIR");
   const std::string text = read_token(command.token_file);
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(
-        "the token is missing: the input is empty; enter it in a terminal, or give a file with --token-file; longreach-slave --pair prints a token");
+        "the token is missing, because the input is empty: enter the token that longreach-slave --pair "
+        "printed, or give its file with --token-file");
   const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(
         "the token is invalid: enter the 24 letters and digits that longreach-slave --pair printed");
   const PairingRequest request(*token, host_name());
-  if (!options.json) std::cerr << "asking " << options.slave_address << " ...\n";
+  if (!options.json) std::cerr << "requesting certificates from " << options.slave_address << " ...\n";
   const auto answer = ask_to_join(options.slave_address, request, options.timeout_s);
   const std::filesystem::path aside = write_site(site, request.accept(answer));
   std::string done =
       "paired: " + site.string() + " belongs to the site of the slave at " + options.slave_address;
-  if (!aside.empty()) done += "; the previous folder is now " + aside.string() + " now";
+  if (!aside.empty()) done += "; the previous folder was moved to " + aside.string();
   print_done(options, done);
   if (!options.json) {
     const std::string host = options.slave_address.substr(0, options.slave_address.rfind(':'));
     const std::string with = options.site.empty() ? "" : " --site " + shell_word(site.string());
-    std::cout << "Next, with the ports of the slave:\n"
+    std::cout << "Next, if the slave uses its default ports:\n"
               << "  longreach --slave " << host << ":47020" << with << " status\n"
               << "  longreach-master --set link.slave=" << host << ":47001" << with << "\n";
   }

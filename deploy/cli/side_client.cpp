@@ -28,7 +28,7 @@ const std::string& address_of(Side side, const Options& options) {
 
 std::string down_sentence(Side side, const Options& options, bool timed_out) {
   const std::string name(name_of(side));
-  std::string sentence = "the " + name + " does not answer at " + address_of(side, options);
+  std::string sentence = "the " + name + " does not respond at " + address_of(side, options);
   if (timed_out) {
     std::array<char, 40> within{};
     std::snprintf(within.data(), within.size(), " within %g s", options.timeout_s);
@@ -83,7 +83,7 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kDown, down_sentence(side, options, false)};
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return {SideError::Kind::kRefused,
-              the_side + " sends an answer that is too large: " + status.error_message()};
+              the_side + " sent a response that is too large: " + status.error_message()};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
                                              " does not support this call: use programs of the same version"};

@@ -69,7 +69,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"version", [](const Status& s) { return s.version(); }},
     {"running for", [](const Status& s) { return s.has_uptime_s() ? print("%.1f s", s.uptime_s()) : ""; }},
     {"state", state},
-    {"other side, as received", [](const Status& s) { return s.far_state(); }},
+    {"state of the other side", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
     {"robot controlled by", [](const Status& s) { return s.lease(); }},
     {"round trip",
@@ -113,9 +113,9 @@ constexpr auto kRows = std::to_array<Row>({
     {"contact estimate", [](const Status& s) { return s.estimate(); }},
     {"gripper", [](const Status& s) { return s.gripper(); }},
     {"force sensor", [](const Status& s) { return s.sensor(); }},
-    {"force sensor, warning", [](const Status& s) { return s.sensor_warning(); }},
+    {"force sensor warning", [](const Status& s) { return s.sensor_warning(); }},
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
-    {"by the contact",
+    {"force of the contact",
      [](const Status& s) { return s.has_contact_n() ? print("%.3g N", s.contact_n()) : std::string(); }},
     {"energy from the hand", energy},
     {"clamped", [](const Status& s) { return joined(s.clamped()); }},
@@ -159,7 +159,7 @@ std::string column(const std::string& text, std::size_t width) {
 
 std::string line_of(const SideReport& report) {
   std::string text(name_of(report.side));
-  if (!report.status) return text + " does not answer at " + report.address;
+  if (!report.status) return text + " does not respond at " + report.address;
   const Status& status = *report.status;
   text += " " + state(status);
   if (status.link().rtt_known()) append(text, "rtt " + with_unit(status.link().rtt_s(), "s"));
@@ -250,7 +250,7 @@ std::string status_table(const BothReports& reports) {
   }
   for (const SideReport* report : {&reports.master, &reports.slave}) {
     if (report->status && !report->status->trouble().empty())
-      text += "The " + std::string(name_of(report->side)) + " says: " + report->status->trouble() + "\n";
+      text += "The " + std::string(name_of(report->side)) + " reports: " + report->status->trouble() + "\n";
     if (report->status && !report->status->refusal().empty())
       text += "Not engaged: " + report->status->refusal() + "\n";
   }

@@ -107,12 +107,13 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
   while (!end.wait_until(due)) {
     const BothReports reports{master.newest(), slave.newest()};
     if (area) {
-      area->draw(status_table(reports) + down_lines(reports) + "Ctrl-C ends\n");
+      area->draw(status_table(reports) + down_lines(reports) + "Ctrl-C quits\n");
     } else {
       std::cout << (options.json ? status_json(reports) : status_line(reports)) << std::endl;
     }
     if (!std::cout)
-      throw SideError(SideError::Kind::kRefused, "the output cannot be written: it is closed or full");
+      throw SideError(SideError::Kind::kRefused,
+                      "the output cannot be written, because it is closed or full");
     if (++shown == command.count)
       return reports.master.status && reports.slave.status ? ExitStatus::kDone : ExitStatus::kFailed;
     due = std::max(due + period, Clock::now());

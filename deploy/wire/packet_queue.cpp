@@ -36,17 +36,17 @@ PacketQueue::PacketQueue(const WireConfig& config, std::uint16_t number)
       delay_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(config.delay_s))),
       random_(config.seed),
       handle_(nfq_open()) {
-  if (!handle_) refuse("no packet queues");
+  if (!handle_) refuse("the packet queues of the kernel cannot be opened");
   const auto callback = [](nfq_q_handle*, nfgenmsg*, nfq_data* packet, void* self) {
     if (const auto* header = nfq_get_msg_packet_hdr(packet))
       static_cast<PacketQueue*>(self)->take(ntohl(header->packet_id));
     return 0;
   };
   queue_ = nfq_create_queue(handle_.get(), number, callback, this);
-  if (queue_ == nullptr) refuse("no packet queue " + std::to_string(number));
+  if (queue_ == nullptr) refuse("packet queue " + std::to_string(number) + " cannot be created");
   // The kernel keeps the packets: their bytes do not come here.
   if (nfq_set_mode(queue_, NFQNL_COPY_META, 0) < 0 || nfq_set_queue_maxlen(queue_, kPacketsMax) < 0)
-    refuse("the packet queue accepts no settings");
+    refuse("the packet queue cannot be configured");
   nfnl_rcvbufsiz(nfq_nfnlh(handle_.get()), kReceiveBufferBytes);
 }
 

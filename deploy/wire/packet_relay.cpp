@@ -46,7 +46,8 @@ Descriptor cable_end(pid_t host) {
   const std::string why = std::strerror(errno);
   enter(here, "this process");
   if (!made)
-    throw std::runtime_error("cannot create the interface of the cable at process " + process + ": " + why);
+    throw std::runtime_error("cannot create the network interface of the cable for process " + process +
+                             ": " + why);
   return tunnel;
 }
 

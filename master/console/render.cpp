@@ -122,7 +122,7 @@ std::string link_line(const LinkFigures& link) {
   const std::string rtt = link.rtt_s ? text("RTT %.3f s", *link.rtt_s) : "RTT unknown";
   const std::string age = link.age_s ? text("  age %.2f s", *link.age_s) : "";
   const std::string silence =
-      std::isfinite(link.silence_s) ? text("  silent %.2f s", link.silence_s) : "  no datagram yet";
+      std::isfinite(link.silence_s) ? text("  silent for %.2f s", link.silence_s) : "  no datagram yet";
   return rtt + age + text("  jitter %.1f ms", link.jitter_s * 1e3) + silence;
 }
 
@@ -149,7 +149,7 @@ std::string stiffness_line(const ConsoleSnapshot& s) {
   const ContactEstimate& estimate = s.view.far.estimate;
   std::string line = text("%.3f N/mm at the hand", s.view.stiffness_n_per_m * 1e-3);
   if (s.view.far_known && estimate.valid) {
-    line += text(", slave measures %.3f within %.2g %%", estimate.stiffness_n_per_m * 1e-3,
+    line += text(", slave estimates %.3f within %.2g %%", estimate.stiffness_n_per_m * 1e-3,
                  100.0 * estimate.stiffness_sd_n_per_m / estimate.stiffness_n_per_m);
   }
   return line;
@@ -227,7 +227,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
   page.line("contact", contact_line(s), s.view.in_contact ? Tone::kPlain : Tone::kDim);
   add_forces(page, s, width);
-  page.line("energy", text("%+.2f mJ into the hand's port, minimum %+.2f mJ", s.view.port_energy_j * 1e3,
+  page.line("energy", text("%+.2f mJ into the handle, minimum %+.2f mJ", s.view.port_energy_j * 1e3,
                            s.view.port_energy_min_j * 1e3));
   page.whole("");
   add_clamps(page, s.view);

@@ -128,7 +128,7 @@ std::string RunSummary::engaged_in_words(const Summary& s) const {
   std::string text = formatted("engaged for %.1f of %.1f s (%.0f %%)", s.engaged_s, last_s_,
                                last_s_ > 0.0 ? 100.0 * s.engaged_s / last_s_ : 0.0);
   if (s.engaged_s > 0.0) return text;
-  if (s.refusal.empty()) return text + ": no engagement was requested, or the slave was not received";
+  if (s.refusal.empty()) return text + ": no engagement was requested, or no datagram arrived from the slave";
   return text + ": " + s.refusal;
 }
 
@@ -140,7 +140,7 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
   const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
   if (cut_to_n_per_m_ > 0.0) {
     std::string line = "the wall is stiffer than this device can render: ";
-    if (config_.wall_n_per_m) line += formatted("%.3f N/mm were ", 1e-3 * config_.ke * *config_.wall_n_per_m);
+    if (config_.wall_n_per_m) line += formatted("%.3f N/mm was ", 1e-3 * config_.ke * *config_.wall_n_per_m);
     checks.push_back({line + formatted("limited to %.3f N/mm", 1e-3 * cut_to_n_per_m_), true, true});
   } else if (both) {
     const double shown = *s.displayed_stiffness_n_per_m;
@@ -155,11 +155,11 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
     checks.push_back(
         {s.touched ? "displayed stiffness: the contact was too short to measure it" : "no contact", false});
   }
-  checks.push_back({formatted("minimum port energy %.3f mJ, %.3f mJ were returned to the operator",
+  checks.push_back({formatted("minimum port energy %.3f mJ, %.3f mJ was returned to the operator",
                               in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
                     s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
                         s.energy_drawdown_j <= config_.energy_out_max_j});
-  checks.push_back({formatted("largest increase of the force by a report %.3f N", s.force_step_max_n),
+  checks.push_back({formatted("largest force step caused by a report %.3f N", s.force_step_max_n),
                     s.force_step_excess_n <= 0.0});
   const RunCounters& n = s.counters;
   std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
@@ -175,7 +175,8 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
 void RunSummary::add_holds(Summary& s, const std::vector<HandTrouble>& hand) const {
   const std::uint64_t faults = holds_.count(HoldAttribution::kSystem), all = holds_.count();
   std::string text = count_text(all, "holds");
-  if (faults > 0) text += formatted(", %llu of them a fault", static_cast<unsigned long long>(faults));
+  if (faults > 0)
+    text += formatted(", %llu of them caused by a fault", static_cast<unsigned long long>(faults));
   s.checks.push_back({text, faults == 0});
   for (HoldLog::Sentence& hold : holds_.words(hand))
     s.checks.push_back({std::move(hold.text), !hold.fault, true});

@@ -34,17 +34,16 @@ std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
   if (robot.joint_position)
-    return "a joint of the robot is at the end of its range: it follows no further in this direction";
+    return "a joint of the robot is at the end of its range: the robot cannot move further in this direction";
   if (robot.workspace)
-    return "the robot is at the edge of its workspace: it follows no further in this direction";
-  if (robot.unreachable)
-    return "the goal is out of the robot's reach: it follows no further in this direction";
-  if (robot.force_guard) return "the force guard stops the robot from going deeper";
+    return "the robot is at the edge of its workspace: it cannot move further in this direction";
+  if (robot.unreachable) return "the goal is out of reach: the robot cannot move further in this direction";
+  if (robot.force_guard) return "the force guard stops the robot from moving deeper";
   if (robot.moment_guard) return "the moment guard stops the robot from turning further";
   if (!behind(view.far)) return "";
   if (robot.singularity) return "the robot follows slowly near a singular pose";
-  if (robot.joint_speed) return "a joint of the robot is at its speed limit: the robot lags";
-  if (robot.tool_speed) return "the robot is at its speed limit: it lags";
+  if (robot.joint_speed) return "the robot lags, because a joint is at its speed limit";
+  if (robot.tool_speed) return "the robot lags, because the tool is at its speed limit";
   return "";
 }
 
@@ -56,21 +55,22 @@ bool turned_against(const MasterView& view) {
 std::string touching(const ConsoleSnapshot& s) {
   const double k = s.view.stiffness_n_per_m;
   if (turned_against(s.view))
-    return formatted("turned against a stop of %.3g N m/rad", s.view.rotational_stiffness_nm_per_rad);
+    return formatted("contact by rotation: stop stiffness %.3g N m/rad",
+                     s.view.rotational_stiffness_nm_per_rad);
   if (!(k > 0.0)) return "contact: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
-    return formatted("contact of the robot; the hand is not in the wall yet (%.2f N/mm)", k * 1e-3);
+    return formatted("contact of the robot; the hand has not yet reached the wall (%.2f N/mm)", k * 1e-3);
   }
-  return formatted("contact: the wall has %.2f N/mm", k * 1e-3);
+  return formatted("contact: wall stiffness %.2f N/mm", k * 1e-3);
 }
 
 std::string engaging(const ConsoleSnapshot& s) {
-  if (s.view.refusal != HoldCause::kNone) return "engaging, not yet granted: " + refusal_in_words(s.view);
-  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's answer";
+  if (s.view.refusal != HoldCause::kNone) return "engaging, but not yet granted: " + refusal_in_words(s.view);
+  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the response of the slave";
   if (*s.view.answer_in_s < 0.05)
-    return formatted("engaging: the slave's answer is due (round trip %.2f s)", *s.link.rtt_s);
-  return formatted("engaging: the slave's answer can arrive in %.1f s (round trip %.2f s)",
+    return formatted("engaging: the response of the slave is due (round trip %.2f s)", *s.link.rtt_s);
+  return formatted("engaging: the response of the slave is due in %.1f s (round trip %.2f s)",
                    *s.view.answer_in_s, *s.link.rtt_s);
 }
 
@@ -80,12 +80,12 @@ std::string following(const ConsoleSnapshot& s) {
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
   if (turned_against(s.view)) {
-    return formatted("remembered stop, %.3g N m/rad; the robot does not touch it",
+    return formatted("remembered stop of %.3g N m/rad; the robot does not touch it",
                      s.view.rotational_stiffness_nm_per_rad) +
            as_of(s);
   }
   if (s.view.spring_force_n.norm() > 0.0) {
-    return formatted("remembered wall, %.2f N/mm; the robot does not touch it",
+    return formatted("remembered wall of %.2f N/mm; the robot does not touch it",
                      s.view.stiffness_n_per_m * 1e-3) +
            as_of(s);
   }
@@ -106,25 +106,26 @@ std::string holding(const ConsoleSnapshot& s) {
              (view.resumes ? "" : "; engage when the link has recovered");
     return formatted("holding: nothing was received from the slave for %.1f s; the link has recovered: ",
                      view.hold_silence_s) +
-           (view.resumes ? "it resumes automatically" : "engage to resume");
+           (view.resumes ? "the robot resumes automatically" : "engage to resume");
   }
-  if (view.resumes) return begin + "; it resumes automatically if this ends at once";
+  if (view.resumes) return begin + "; the robot resumes automatically if this ends soon";
   if (view.cause == HoldCause::kDelayRose && !view.cause_is_far && view.rtt_s && view.rtt_least_s)
-    return formatted("holding: the round trip has risen from %.2f to %.2f s; engage to accept that",
+    return formatted("holding: the round trip rose from %.2f to %.2f s; engage to accept the new delay",
                      *view.rtt_least_s, *view.rtt_s);
   return begin + "; " + std::string(text_of(view.cause).remedy);
 }
 
 std::string observing(const ConsoleSnapshot& s) {
   if (s.view.silent)
-    return formatted("observing: nothing received from the slave for %.1f s; engage when it is back",
-                     s.link.silence_s);
+    return formatted(
+        "observing: nothing received from the slave for %.1f s; engage when the link has recovered",
+        s.link.silence_s);
   if (s.view.hand_missing) return "observing: the robot is at rest; grasp the handle to engage";
   if (s.view.refusal != HoldCause::kNone) return "observing: not engaged: " + refusal_in_words(s.view);
   if (s.view.far_state == SafetyState::kFault) {
     const std::string why = s.view.far_known ? sentence(s.view.far.cause) : "";
-    return "observing: the slave has a fault" + (why.empty() ? "" : ", " + why) +
-           "; engage when it is repaired";
+    return "observing: the slave reports a fault" + (why.empty() ? "" : ": " + why) +
+           "; engage when the fault is repaired";
   }
   if (s.view.cause != HoldCause::kNone)
     return "observing: " + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
@@ -141,17 +142,17 @@ std::string_view state_in_words(SafetyState state) {
 
 std::string cause_in_words(const MasterView& view) {
   if (view.cause == HoldCause::kLinkSilent && !view.cause_is_far && !view.silent)
-    return "the link was silent";
+    return "no datagrams arrived from the other side";
   if (!view.cause_is_far) return sentence(view.cause);
   const bool lasts = view.far_state == SafetyState::kHolding || view.far_state == SafetyState::kStopped ||
                      view.far_state == SafetyState::kFault || view.state == SafetyState::kObserving;
-  return (lasts ? "at the slave: " : "at the slave, now over: ") + sentence(view.cause);
+  return (lasts ? "at the slave: " : "at the slave (now over): ") + sentence(view.cause);
 }
 
 std::string refusal_in_words(const MasterView& view) {
   if (view.refusal == HoldCause::kUnanswered && view.far_state == SafetyState::kIdle)
-    return "the slave does not receive what this master sends; check the link in that direction, then engage "
-           "again";
+    return "the slave does not receive the datagrams of this master; check the link in that direction, then "
+           "engage again";
   return (view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal);
 }
 
@@ -174,13 +175,11 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
                   view.rotational_stiffness_max_nm_per_rad));
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy is returned");
   if (view.at_boundary)
-    words.emplace_back(
-        "hand: at the edge of its workspace, move it back with the "
-        "clutch");
+    words.emplace_back("hand: at the edge of its workspace; move it back with the clutch");
   if (!view.far_known || view.silent) return words;  // the limits in the last telemetry are out of date
   const Clamps& robot = view.far.clamps;
   const bool late = behind(view.far);
-  if (robot.tool_speed && late) words.emplace_back("robot: at its tool speed limit, it will catch up");
+  if (robot.tool_speed && late) words.emplace_back("robot: the tool is at its speed limit");
   if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
   if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
   if (robot.workspace) words.emplace_back("robot: the goal is outside the workspace");
@@ -193,7 +192,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
 
 std::string happening(const ConsoleSnapshot& s) {
   if (!s.trouble.empty()) return s.trouble;
-  if (!heard(s)) return "waiting for the first datagram of the slave";
+  if (!heard(s)) return "waiting for the first datagram from the slave";
   switch (s.view.state) {
     case SafetyState::kIdle:
     case SafetyState::kObserving:

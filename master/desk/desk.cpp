@@ -98,14 +98,14 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
   const std::uint64_t hand = take_handle(context);
   if (hand == 0) {
     return {grpc::StatusCode::FAILED_PRECONDITION,
-            "another hand is on the handle; it must release the handle first, or be silent for 0.3 s"};
+            "another hand is on the handle; it must release the handle first, or send nothing for 0.3 s"};
   }
   for (proto::HandAim message; reader.Read(&message);) {
     if (is_revoked(*context.auth_context()))
-      return {grpc::StatusCode::PERMISSION_DENIED, "the certificate of this host has been revoked"};
+      return {grpc::StatusCode::PERMISSION_DENIED, "the certificate of this host was revoked"};
     if (message.lets_go()) {
       (void)pass(hand, {});
-      answer.set_message("the hand has released the handle");
+      answer.set_message("the hand released the handle");
       return grpc::Status::OK;
     }
     const auto aim = to_aim(message, reach_);
@@ -113,13 +113,12 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
       return {grpc::StatusCode::INVALID_ARGUMENT,
               "position_m and rotation_rad must be three finite numbers each, up to 1e6"};
     }
-    if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand has taken the handle"};
+    if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand took the handle"};
   }
   // The last aim becomes too old, which causes a hold. A broken stream may look like one that was closed, so
   // both are treated in the same way.
   return {grpc::StatusCode::CANCELLED,
-          "the connection of the hand ended without releasing the handle: the "
-          "robot holds"};
+          "the connection of the hand ended before the hand released the handle: the robot holds"};
 }
 
 bool DeskService::take(int& taken, int places) {

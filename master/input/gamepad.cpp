@@ -47,7 +47,8 @@ struct Sdl {
                                " cannot be loaded; install libsdl2-2.0-0");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-      if (function == nullptr) throw std::runtime_error(std::string(kSdlLibrary) + " has no " + name);
+      if (function == nullptr)
+        throw std::runtime_error(std::string(kSdlLibrary) + " has no function " + name);
     };
     take(set_hint, "SDL_SetHint");
     take(begin, "SDL_InitSubSystem");

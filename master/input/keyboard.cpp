@@ -91,14 +91,16 @@ void Keyboard::read_all(MotionMode mode) {
 std::string_view Keyboard::notice() const {
   if (!trouble_.empty()) return "";
   if (parser_.overdue())
-    return "a paste or a control string at the keyboard has not ended: only the key x (stop) acts; press Esc";
-  if (let_go_) return "no key for 2 s in rate mode: the hand went home; hold Enter to keep it in place";
+    return "a paste or a control sequence at the keyboard is incomplete: only the key x (stop) works; press Esc";
+  if (let_go_)
+    return "no key for 2 s in rate mode: the hand returned to its home position; hold Enter to keep "
+           "it in place";
   return "";
 }
 
 void Keyboard::end(const std::string& why) {
   ended_ = true;
-  trouble_ = (used_ ? "the keyboard input has ended" : "no keyboard is available") + (" (" + why) +
+  trouble_ = (used_ ? "the keyboard input ended" : "no keyboard is available") + (" (" + why) +
              "); start longreach-master in a terminal, or use another operator";
 }
 

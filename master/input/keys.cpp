@@ -50,7 +50,7 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 std::string_view key_line() {
   return "w s / up down: x   a d / left right: y   r f / page up down: z   shift: large step   space: home "
          "  "
-         "m: mode (rate: the hand goes home 2 s after the last key)   + -: scale   c: clutch   g: gripper   "
+         "m: mode (rate: the hand returns home 2 s after the last key)   + -: scale   c: clutch   g: gripper   "
          "e: engage   x: stop   q: quit   ?: keys";
 }
 

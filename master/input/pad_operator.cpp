@@ -20,8 +20,9 @@ const AxisHandState& PadOperator::poll(MotionMode mode, double felt, double dt_s
 
 std::string PadOperator::trouble() const {
   if (last_.silent)
-    return gamepad_ ? "the gamepad sends no new reports and counts as released; move or release the sticks"
-                    : "the SpaceMouse sends no new reports and counts as released; move or release the puck";
+    return gamepad_
+               ? "the gamepad sends no new reports and is treated as released; move or release the sticks"
+               : "the SpaceMouse sends no new reports and is treated as released; move or release the puck";
   if (last_.armed) return "";
   if (last_.level.present) {
     return gamepad_ ? "the sticks are not at rest; release them once"

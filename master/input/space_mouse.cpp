@@ -30,7 +30,8 @@ struct Spnav {
                                " cannot be loaded; install libspnav0 and spacenavd (deploy/setup)");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-      if (function == nullptr) throw std::runtime_error(std::string(kSpnavLibrary) + " has no " + name);
+      if (function == nullptr)
+        throw std::runtime_error(std::string(kSpnavLibrary) + " has no function " + name);
     };
     take(open, "spnav_open");
     take(close, "spnav_close");

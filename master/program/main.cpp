@@ -127,7 +127,7 @@ void log_device(const MasterConfig& config, bool chosen) {
   spdlog::info("device adapter={}", config.device_adapter.address);
   if (!chosen)
     spdlog::warn(
-        "device file=default because=\"device_file is not set: the rendering relies on the damping, mass "
+        "device file=default because=\"device_file is not set: the rendering uses the damping, mass "
         "and encoders of {}\" do=\"set device_file to the file of your device\"",
         config.device.name);
 }
@@ -203,9 +203,8 @@ int operate(const MasterOptions& options) {
 }  // namespace longreach
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "The operator's side of longreach: reads the handles, commands the slave, renders the contacts.",
-      "longreach-master"};
+  CLI::App app{"The operator's side of longreach: reads the handle, commands the slave and renders contacts.",
+               "longreach-master"};
   longreach::MasterOptions options;
   longreach::add_program_options(app, options, "longreach-master " LONGREACH_VERSION);
   app.add_option(
@@ -223,17 +222,15 @@ int main(int argc, char** argv) {
       ->type_name("MODE")
       ->check(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
   app.add_flag("--engage", options.engage,
-               "Engage when the first datagram of the slave arrives "
-               "(safety.engage_at_start)");
+               "Engage when the first datagram from the slave arrives (safety.engage_at_start)");
   app.add_flag("--take", options.take,
                "Take control of the robot from another master; the robot holds until this master engages");
   app.add_option("--view", options.view,
-                 "auto: live on a terminal, otherwise plain; plain: a line per "
-                 "second; none")
+                 "auto: live on a terminal, otherwise plain; plain: one line per second; none: no output")
       ->transform(CLI::IsMember({"auto", "plain", "none"}, CLI::ignore_case))
       ->capture_default_str();
   app.add_option("--wall", options.wall_n_per_m,
-                 "True stiffness of the touched object, if known; the summary compares against it")
+                 "True stiffness of the touched object, if known, for comparison in the summary")
       ->type_name("N_PER_M")
       ->check(longreach::number_above_zero());
   return longreach::guarded_main(app, argc, argv, [&options] { return longreach::operate(options); });

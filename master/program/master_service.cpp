@@ -141,8 +141,8 @@ std::optional<Refusal> MasterService::engage() {
   const double silence_s = snapshot().side.link.silence_s;
   if (!(silence_s <= config_.present()->safety().silence_s())) {
     return Refusal{Refusal::Kind::kPrecondition,
-                   "no datagram arrives from the slave; check that longreach-slave runs and that link.slave "
-                   "and link.slave_rpc are its addresses; the master's log has details"};
+                   "no datagrams arrive from the slave; check that longreach-slave is running and that "
+                   "link.slave and link.slave_rpc are its addresses; the master's log has details"};
   }
   if (snapshot().view.hand_missing) {
     return Refusal{Refusal::Kind::kPrecondition,

@@ -142,7 +142,7 @@ std::string StatusLoop::hand_trouble(const MasterSnapshot& s) const {
   const bool real_device = !config_.device_adapter.address.empty();
   if (real_device || !hand_->is_hand() || s.hand_outside) return adapter;
   const std::string hand = hand_->seen().trouble;
-  return hand.empty() && s.hand_lost ? "the hand is taking hold of the handle; engage in a moment" : hand;
+  return hand.empty() && s.hand_lost ? "the hand is grasping the handle; engage in a moment" : hand;
 }
 
 }  // namespace longreach

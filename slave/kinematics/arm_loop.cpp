@@ -212,9 +212,9 @@ std::string_view words(const ArmLoop& loop) {
   // "closed form, quadratic: axes 4-5-6 meet", and so on.
   static const std::vector<std::string> kWords = [] {
     std::vector<std::string> all;
-    for (const char* how : {"closed form, ", "closed form of a nearly equal arm, then Newton steps, "}) {
+    for (const char* how : {"closed form, ", "closed form of a similar arm, then Newton steps, "}) {
       for (const char* degree : {"fourth degree: axes ", "quadratic: axes "}) {
-        for (const char* family : {" meet", " parallel"}) {
+        for (const char* family : {" intersect", " parallel"}) {
           for (int first = 1; first <= kSpecialPlaces; ++first) {
             const auto number = [first](int i) { return std::to_string(first + i); };
             all.push_back(std::string(how) + degree + number(0) + "-" + number(1) + "-" + number(2) + family);

@@ -86,7 +86,7 @@ void warn_of_singular_start(const SlaveConfig& config) {
   const InverseResult at = inverse.solve(inverse.kinematics().forward(start_rad), start_rad, {});
   if (at.conditioning >= kSingularBand) return;
   spdlog::warn(
-      "start pose=singular conditioning={:.3f} below={} because=\"the tool cannot move from this pose in "
+      "start pose=singular conditioning={:.3f} below={} because=\"from this pose the tool cannot move in "
       "some directions; choose another robot.joint.start_rad\"",
       at.conditioning, kSingularBand);
 }
@@ -114,7 +114,7 @@ void log_description(const proto::Robot& robot) {
     start += (start.empty() ? "" : " ") + format_number(joint.start_rad());
   spdlog::info(
       "robot description base_link={} tip_link={} acceleration_max_rad_per_s2={} jerk_max_rad_per_s3={} "
-      "servo_hz={} start_rad=\"{}\" because=\"a URDF says nothing of the last four: set them in robot\"",
+      "servo_hz={} start_rad=\"{}\" because=\"a URDF does not contain the last four: set them in robot\"",
       robot.base_link(), robot.tip_link(), robot.acceleration_max_rad_per_s2(), robot.jerk_max_rad_per_s3(),
       robot.servo_hz(), start);
 }
@@ -135,8 +135,7 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
   if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
   if (!config.scene().has_bodies()) left_out += left_out.empty() ? "free bodies" : ", free bodies";
   if (!left_out.empty())
-    spdlog::info("left out=\"{}\" because=\"the scene {} does not need it\"", left_out,
-                 config.scene().name());
+    spdlog::info("left out=\"{}\" because=\"not needed by the scene {}\"", left_out, config.scene().name());
 }
 
 struct SlaveOptions : ProgramOptions {
@@ -227,12 +226,12 @@ int main(int argc, char** argv) {
   longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
   app.add_flag(
       "--pair", options.pair,
-      "Do not drive the robot: print a token that lets another host become a master and client of this "
-      "site, and wait for that host (log: pairing.log in the site folder)");
+      "Do not move the robot; instead print a token with which another host can join this site as master "
+      "and client, and wait for that host (log: pairing.log in the site folder)");
   app.add_option("--adapter", options.adapter,
                  "Address of the adapter of a real robot (robot_adapter.address); default: a simulated robot")
       ->type_name("unix:/PATH");
-  app.add_option("--pair-listen", options.pair_listen, "Address to wait at for the joining host")
+  app.add_option("--pair-listen", options.pair_listen, "Address at which to wait for the joining host")
       ->type_name("ADDRESS:PORT")
       ->check(longreach::address_by_its_form())
       ->capture_default_str();

@@ -20,7 +20,7 @@ namespace {
 using google::protobuf::util::MessageDifferencer;
 
 Refusal at_the_master(const std::string& what) {
-  return {Refusal::Kind::kPrecondition, what + " is set at the master; the slave only follows"};
+  return {Refusal::Kind::kPrecondition, what + " is controlled at the master; the slave only follows"};
 }
 
 /// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
@@ -31,8 +31,8 @@ std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
   return "safety.gap_s = " + format_number(safety.gap_s()) +
          " is less than three send periods of a master with "
          "link.send_hz = " +
-         format_number(send_hz) + ": set it to " + format_number(least_s) +
-         " or more at the slave, or increase link.send_hz at the master";
+         format_number(send_hz) + ": set it to at least " + format_number(least_s) +
+         " at the slave, or increase link.send_hz at the master";
 }
 
 /// limit_violations_LIMIT each, as limit_violations_joint_speed.
@@ -158,7 +158,7 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
   }
   const double send_hz = request.send_hz();
   if (!(send_hz >= 50.0 && send_hz <= 4000.0)) {
-    return Refusal{Refusal::Kind::kInvalid, "a master must send 50 to 4000 times a second, not " +
+    return Refusal{Refusal::Kind::kInvalid, "a master must send 50 to 4000 datagrams per second, not " +
                                                 format_number(send_hz) +
                                                 "; use programs of the same "
                                                 "version"};
@@ -187,7 +187,7 @@ Refusal SlaveService::occupied(const std::string& caller) {
   refused_ = caller;
   return {Refusal::Kind::kPrecondition,
           "another master has control of the robot (" + holder +
-              "); end that master, wait until it has been silent for 1 s, or start this one with --take",
+              "); end that master, wait until it has sent nothing for 1 s, or start this one with --take",
           holder};
 }
 

@@ -36,7 +36,8 @@ Bodies::Bodies(const SceneConfig& scene, const Pose& X_WE_start)
     striker_ = model_.geom(latch_->striker);
     keeper_ = model_.geom(latch_->keeper);
     if (model_.body_of(striker_) >= count())
-      throw std::invalid_argument("the striker of the latch \"" + latch_->striker + "\" is on no free body");
+      throw std::invalid_argument("the striker of the latch \"" + latch_->striker +
+                                  "\" is not part of a free body");
   }
   near_.reserve(256);
   last_.setZero(6 * count());

@@ -139,8 +139,7 @@ struct CollisionModel::Engine {
     if (pairs > kPairsMax)
       refuse(file, "has " + std::to_string(pairs) + " pairs of geoms that may touch; at most " +
                        std::to_string(kPairsMax) +
-                       " are possible: exclude pairs with contype and "
-                       "conaffinity");
+                       " are supported: exclude pairs with contype and conaffinity");
     model->nconmax = pairs * mjMAXCONPAIR;
   }
 
@@ -197,8 +196,8 @@ void CollisionModel::take_bodies() {
            "has no body \"tool\" with a freejoint, which represents the parts that "
            "move with the tool");
   if (bodies_.empty() || bodies_.size() > kBodiesMax)
-    refuse(file_, "has " + std::to_string(bodies_.size()) + " free bodies besides the tool; 1 to " +
-                      std::to_string(kBodiesMax) + " are possible");
+    refuse(file_, "has " + std::to_string(bodies_.size()) + " free bodies in addition to the tool; 1 to " +
+                      std::to_string(kBodiesMax) + " are supported");
   number[static_cast<std::size_t>(tool_body)] = tool();
   engine_->place.push_back(m.jnt_qposadr[m.body_jntadr[tool_body]]);
   engine_->X_IB.push_back(Pose{});
@@ -222,12 +221,13 @@ void CollisionModel::take_laws(const SceneConfig& scene) {
     const std::string name = m.geom_matid[g] < 0 ? "" : engine_->name(mjOBJ_MATERIAL, m.geom_matid[g]);
     const auto material = std::ranges::find(scene.material, name, &MaterialConfig::name);
     if (material == scene.material.end())
-      refuse(
-          file_,
-          "the geom \"" + engine_->name(mjOBJ_GEOM, g) + "\" " +
-              (name.empty() ? "has no material" : "is of \"" + name + "\", which the scene does not have") +
-              "; give it material=\"NAME\" of the scene's, with <asset><material name=\"NAME\"/></asset>, or "
-              "contype=\"0\" conaffinity=\"0\"");
+      refuse(file_,
+             "the geom \"" + engine_->name(mjOBJ_GEOM, g) + "\" " +
+                 (name.empty() ? "has no material"
+                               : "has the material \"" + name + "\", which the scene does not define") +
+                 "; set material=\"NAME\" to a material of the scene and add <asset><material "
+                 "name=\"NAME\"/></asset>, "
+                 "or exclude the geom from contact with contype=\"0\" conaffinity=\"0\"");
     const double k =
         material->stiffness_n_per_m / std::pow(material->reference_depth_m, material->exponent - 1.0);
     laws_.back() = {k, material->exponent, material->damping_s_per_m};
@@ -276,7 +276,7 @@ CollisionModel::Site CollisionModel::site(const std::string& name) const {
   const auto found =
       joint < 0 ? engine_->place.end() : std::ranges::find(engine_->place, m.jnt_qposadr[joint]);
   const int body = static_cast<int>(found - engine_->place.begin());
-  if (body >= tool()) refuse(file_, "the site \"" + name + "\" is on no free body");
+  if (body >= tool()) refuse(file_, "the site \"" + name + "\" is not part of a free body");
   return {body,
           engine_->X_IB[static_cast<std::size_t>(body)] * pose(m.site_pos + 3 * s, m.site_quat + 4 * s)};
 }

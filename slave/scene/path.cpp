@@ -39,7 +39,7 @@ Path::Path(const PathConfig& config, const Vector3& p_WE_start) {
     const bool last = i + 2 == p.size();
     const Vector3 next = last ? direction : (p[i + 2] - p[i + 1]).normalized();
     const double turn_rad = angle_between(direction, next);
-    if (turn_rad > kBackRad) throw std::invalid_argument("path: it reverses its direction");
+    if (turn_rad > kBackRad) throw std::invalid_argument("path: its direction reverses at a waypoint");
     const bool turns = turn_rad > kStraightRad && config.turn_radius_m > 0.0;
     const double next_cut_m = turns ? config.turn_radius_m * std::tan(0.5 * turn_rad) : 0.0;
     const double line_m = leg_m - cut_m - next_cut_m;

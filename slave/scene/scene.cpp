@@ -19,7 +19,7 @@ namespace {
 HuntCrossley law_of(const SceneConfig& config, const SurfaceConfig& surface) {
   const auto material = std::ranges::find(config.material, surface.material, &MaterialConfig::name);
   if (material == config.material.end())
-    refuse(surface, "names the material \"" + surface.material + "\", which the scene does not have");
+    refuse(surface, "names the material \"" + surface.material + "\", which the scene does not define");
   const double k =
       material->stiffness_n_per_m / std::pow(material->reference_depth_m, material->exponent - 1.0);
   return {k, material->exponent, material->damping_s_per_m};

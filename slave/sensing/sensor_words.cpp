@@ -17,12 +17,12 @@ std::string number(double value, const char* unit) {
 
 std::string in_words(const SensorZero& zero) {
   if (!zero.derived) return "";
-  std::string text = "touch above " + number(zero.touch_n, "N");
+  std::string text = "touch threshold " + number(zero.touch_n, "N");
   if (zero.noise_n > 0.0) text += ", noise " + number(zero.noise_n, "N");
   if (zero.missing_m > 0.0) {
     const double missing_mm = std::ceil(1e3 * zero.missing_m);
     return text + ", not zeroed: needs " + number(missing_mm, "mm") +
-           " of motion over 5 mm/s without contact";
+           " of motion at over 5 mm/s without contact";
   }
   return text + ", bias " + number(zero.bias_n, "N");
 }
@@ -31,14 +31,15 @@ std::string sensor_warning(const SensorZero& zero) {
   if (!zero.derived) return "";
   if (zero.refused_n > 0.0)
     return "a zero of " + number(zero.refused_n, "N") +
-           " is refused, it is too much of command.force_guard_n; press nothing, or configure sensing.tool";
+           " is refused, because it is too large compared with command.force_guard_n; keep the tool free of "
+           "contact, or describe the tool in sensing.tool";
   if (zero.noisy)
     return "the force sensor is noisier than sensing.force_noise_n: contacts below " +
            number(zero.touch_n, "N") +
-           " are not found; shield the sensor, or set sensing.force_noise_n to its noise";
+           " are not detected; shield the sensor, or set sensing.force_noise_n to its noise";
   if (zero.missing_m <= 0.0 && zero.drift_n > zero.touch_n)
     return "the force sensor may have drifted by " + number(zero.drift_n, "N") +
-           " since the last free motion and hide a light contact; move 10 mm without contact";
+           " since the last free motion and may hide a light contact; move the tool 10 mm without contact";
   return "";
 }
 

@@ -59,11 +59,11 @@ TEST(RobotFiles, AreThoseThatTheLawsOfTheRobotAreTestedWith) {
 TEST(RobotFiles, NameClosedFormAndStartAwayFromSingularPoses) {
   const std::map<std::string, std::string> kWords{
       {"space_arm", "closed form, quadratic: axes 2-3-4 parallel"},
-      {"puma560", "closed form, quadratic: axes 4-5-6 meet"},
+      {"puma560", "closed form, quadratic: axes 4-5-6 intersect"},
       {"ur10", "closed form, quadratic: axes 2-3-4 parallel"},
       {"ur5e", "closed form, quadratic: axes 2-3-4 parallel"},
-      {"kr6", "closed form, quadratic: axes 4-5-6 meet"},
-      {"irb120", "closed form, quadratic: axes 4-5-6 meet"},
+      {"kr6", "closed form, quadratic: axes 4-5-6 intersect"},
+      {"irb120", "closed form, quadratic: axes 4-5-6 intersect"},
       {"gantry", "no closed form: numeric"},
       {"cartesian", "linear: three prismatic joints, rotation ignored"}};
   for (const auto& entry : fs::directory_iterator(kDeploy / "robots")) {
@@ -94,7 +94,7 @@ TEST(RobotFiles, OneThatAUserWritesIsSolvedInClosedForm) {
                                      "joint { alpha_rad: -1.5707963267948966 d_m: 0.05625 }\n"
                                      "tool { position_m: [0, 0, 0.2] }\n");
   const Inverse mine(robot_of(file));
-  EXPECT_EQ(mine.words(), "closed form, quadratic: axes 4-5-6 meet");
+  EXPECT_EQ(mine.words(), "closed form, quadratic: axes 4-5-6 intersect");
   RobotConfig known = test::ready_arms()[1].robot;
   known.joint[5].d_m += 0.2;
   Random random(3);

@@ -93,8 +93,8 @@ TEST_F(Adapters, AKilledAdapterOfTheDeviceIsAHold) {
   EXPECT_EQ(master_.status()->cause(), "device fault");
   expect_prompt_report(master_);
   const std::string why = master_.engage();
-  EXPECT_NE(why.find("sends nothing any more; if this persists, restart it"), std::string::npos) << why;
-  EXPECT_TRUE(says(*master_program_, "sends nothing any more; if this persists, restart it")) << outputs();
+  EXPECT_NE(why.find("stopped sending; if this persists, restart the adapter"), std::string::npos) << why;
+  EXPECT_TRUE(says(*master_program_, "stopped sending; if this persists, restart the adapter")) << outputs();
   // Back again, it is not engaged by itself.
   start(device_, "device");
   ASSERT_TRUE(eventually([this] { return master_.counter("adapter_restarts") == 1; })) << outputs();
@@ -110,7 +110,7 @@ TEST_F(Adapters, KilledRobotAdapterIsFaultAndRobotResumesInPlace) {
       << outputs();
   EXPECT_EQ(slave_.status()->cause(), "robot fault");
   expect_prompt_report(slave_);
-  EXPECT_NE(slave_.status()->trouble().find("sends nothing any more; if this persists, restart it"),
+  EXPECT_NE(slave_.status()->trouble().find("stopped sending; if this persists, restart the adapter"),
             std::string::npos);
   start(robot_, "robot");
   ASSERT_TRUE(eventually([this] { return slave_.counter("adapter_restarts") == 1; })) << outputs();
@@ -138,19 +138,20 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
     const char* advice;
   };
   const Case cases[] = {
-      {Flaw::kNoWatchdog, "it continues for 0.6 s of silence as if longreach were connected", "rule 4"},
-      {Flaw::kMute, "it stops sending when longreach is silent", "rule 4"},
-      {Flaw::kNoCount, "number 1 follows 1", "count every sent datagram"},
-      {Flaw::kNoEcho, "is 0 after", "echo the number"},
-      {Flaw::kNotFinite, "a number is not finite", "compare with"},
-      {Flaw::kShort, "191 bytes instead of 192", "compare with"},
-      {Flaw::kSlow, "99 % of gaps", "500 to 4000 times a second"},
+      {Flaw::kNoWatchdog, "it does not react to 0.6 s without datagrams", "rule 4"},
+      {Flaw::kMute, "it stops sending when it receives no datagrams", "rule 4"},
+      {Flaw::kNoCount, "number 1 follows 1", "increase the sequence number by one"},
+      {Flaw::kNoEcho, "is 0 after", "echo the sequence number"},
+      {Flaw::kNotFinite, "a value is not finite", "compare its layout with"},
+      {Flaw::kShort, "191 bytes instead of 192", "compare its layout with"},
+      {Flaw::kSlow, "99 % of the gaps", "500 to 4000 datagrams per second"},
       {Flaw::kTakesAnything, "it accepts a wrong magic", "rules 1 and 3"},
-      {Flaw::kTakesOldNumbers, "it accepts an old number", "rules 1 and 3"},
+      {Flaw::kTakesOldNumbers, "it accepts an old sequence number", "rules 1 and 3"},
       {Flaw::kTakesNoRestart, "a restarted program is not accepted", "rule 3"},
-      {Flaw::kNoWrench, "asked 0.5 N along z, but force_n is 0 0 0", "report in force_n"},
+      {Flaw::kNoWrench, "commanded to render 0.5 N along z, but force_n is 0 0 0",
+       "generated wrench in force_n"},
       {Flaw::kFailed, "it reports a failure", "set kOk"},
-      {Flaw::kTakesAnyone, "it answers a program of another user", "getsockopt(SO_PEERCRED)"}};
+      {Flaw::kTakesAnyone, "it responds to a program of another user", "getsockopt(SO_PEERCRED)"}};
   const auto found = [](const Case& c, const Tried& tried) {
     if (c.flaw == Flaw::kTakesAnyone && ::geteuid() != 0) return true;  // root alone can try that
     return tried.status == 1 && tried.output.find(c.reported) != std::string::npos &&
@@ -203,7 +204,7 @@ TEST_F(Adapters, ASocketThatOthersMayUseIsReported) {
   ::chmod(address.substr(5).c_str(), 0777);
   const Tried tried = try_adapter({"--device", address});
   EXPECT_EQ(tried.status, 1);
-  EXPECT_NE(tried.output.find("other users may connect to its path"), std::string::npos) << tried.output;
+  EXPECT_NE(tried.output.find("other users can connect to its socket"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
@@ -211,7 +212,7 @@ TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
     start_master({"--adapter", address});
     EXPECT_EQ(master_program_->wait(seconds(20)), 2);
     EXPECT_NE(master_program_->output().find("device_adapter.address = " + address +
-                                             " is not an address of an adapter: write unix:/PATH"),
+                                             " is not the address of an adapter: write unix:/PATH"),
               std::string::npos)
         << outputs();
     start_slave({"--adapter", address});
@@ -237,7 +238,7 @@ TEST_F(Adapters, ASecondProgramIsNotHeardWhileTheFirstHasTheAdapter) {
   const Tried tried = try_adapter({"--robot", robot_address_, "--move", "0.1"});
   slave_program_->signal(SIGCONT);
   EXPECT_EQ(tried.status, 1);
-  EXPECT_NE(tried.output.find("no datagram has arrived in 2 s"), std::string::npos) << tried.output;
+  EXPECT_NE(tried.output.find("no datagram arrived within 2 s"), std::string::npos) << tried.output;
 }
 
 TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
@@ -247,9 +248,10 @@ TEST_F(Adapters, WithoutItsAdapterASideSaysSoAndDoesNothing) {
       << outputs();
   EXPECT_TRUE(
       says(*slave_program_,
-           "the adapter of the robot at unix:/nowhere does not answer: there is no such file; start it"))
+           "the adapter of the robot at unix:/nowhere does not respond: there is no such file; start the "
+           "adapter"))
       << outputs();
-  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not answer"))
+  EXPECT_TRUE(says(*master_program_, "the adapter of the haptic device at unix:/nowhere does not respond"))
       << outputs();
 }
 
@@ -282,7 +284,7 @@ TEST_F(Adapters, ARobotIsSentMotionsOnlyWhileSomebodyIsEngaged) {
   robot.sensor_fault(0.3);
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
   EXPECT_TRUE(rests_for(500));
-  EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot has jumped"), std::string::npos)
+  EXPECT_NE(slave_.status()->trouble().find("joint 3 of the robot jumped"), std::string::npos)
       << slave_.status()->trouble();
   robot.sensor_fault(0.0);
   EXPECT_TRUE(rests_for(500));
@@ -300,7 +302,7 @@ Tried pushed(SensorFlaw flaw) {
   std::optional<int> status;
   while (!(status = check.wait(std::chrono::milliseconds(10)))) {
     const std::string said = check.output();
-    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("release it");
+    const auto push = said.rfind("PUSH"), turn = said.rfind("TURN"), done = said.rfind("release the tool");
     const bool turns = turn != std::string::npos;
     const auto asked = turns ? turn : push;
     std::array<double, 3> force_n{}, moment_nm{};
@@ -324,11 +326,11 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
     const char* advice;
   };
   const Case cases[] = {
-      {SensorFlaw::kSign, "has the wrong sign", "of the environment on the tool"},
+      {SensorFlaw::kSign, "has the wrong sign", "the environment exerts on the tool"},
       {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
       {SensorFlaw::kExchanged, "the reported x, y, z are y, x, z of the tool", "in the order"},
-      {SensorFlaw::kWeight, "tells 15.0 0.0 0.0 N without contact", "sensing.tool"},
-      {SensorFlaw::kDead, "reports nothing along y of the base", "a channel is dead"}};
+      {SensorFlaw::kWeight, "is 15.0 0.0 0.0 N without contact", "sensing.tool"},
+      {SensorFlaw::kDead, "does not respond to a push along y of the base", "a channel is dead"}};
   // A person each, all at once.
   auto uncorrupted = std::async(std::launch::async, pushed, SensorFlaw::kNone);
   std::vector<std::future<Tried>> persons;

@@ -46,9 +46,10 @@ TEST_F(Answers, RobotBeyondLimitIsNotEngagedAndErrorNamesJoint) {
   };
   carry(0.4, [&] { return robot.joint(2) > 1.003; });
   start_with(robot);
-  const std::string
-      where = "at the slave: joint 3 of the robot is at 1.0",
-      advice = "beyond its limit of 1; move the joint back with the robot's own controls, then engage";
+  const std::string where = "at the slave: joint 3 of the robot is at 1.0",
+                    advice =
+                        "beyond its limit of 1; move the joint back with the robot's own controls, then "
+                        "engage";
   const Said said = client({"engage"});
   EXPECT_EQ(said.status, 1) << said.text;
   EXPECT_TRUE(said.has("not engaged: " + where) && said.has(advice)) << said.text << outputs();
@@ -82,8 +83,8 @@ TEST_F(Answers, RunThatEndsInFaultFailsAndReportsEngagedShare) {
   master_program_->signal(SIGTERM);
   ASSERT_TRUE(master_program_->wait(seconds(30)));
   const std::string text = master_program_->output();
-  EXPECT_NE(text.find("1 holds, 1 of them a fault"), std::string::npos) << text;
-  EXPECT_NE(text.find("no datagram arrives from the other side"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 holds, 1 of them caused by a fault"), std::string::npos) << text;
+  EXPECT_NE(text.find("no datagrams arrive from the other side"), std::string::npos) << text;
   EXPECT_NE(text.find("verdict: at least one check FAILED"), std::string::npos) << text;
   EXPECT_NE(text.find(" %)"), std::string::npos) << text;
 }
@@ -103,24 +104,24 @@ TEST_F(Answers, ImprovedLinkDoesNotHoldAndWorseLinkIsReported) {
   EXPECT_EQ(master_program_->output().find("to=Holding"), std::string::npos) << outputs();
   const Said worse = client({"link", "set", "--delay", "650ms"});
   EXPECT_EQ(worse.status, 0) << worse.text;
-  EXPECT_TRUE(
-      worse.has("the round trip rises by 1.3 s, more than safety.delay_rise_max_s = 1: the robot holds, and "
-                "`longreach engage` accepts the new delay"))
+  EXPECT_TRUE(worse.has(
+      "the round trip rises by 1.3 s, more than safety.delay_rise_max_s = 1: the robot holds; accept the "
+      "new delay with `longreach engage`"))
       << worse.text;
   ASSERT_TRUE(eventually([this] { return master_.state() == "Holding"; })) << outputs();
   EXPECT_TRUE(eventually([this] { return client({"engage"}).text.starts_with("engaged"); })) << outputs();
-  EXPECT_EQ(master_program_->output().find("no datagram comes back"), std::string::npos) << outputs();
+  EXPECT_EQ(master_program_->output().find("no datagrams arrive from"), std::string::npos) << outputs();
 }
 
 TEST_F(Answers, ReportsThatRpcWorksButDatagramsDoNot) {
   start_slave();
   start_master({"--operator", "none", "--set", "link.slave=127.0.0.1:9"});
-  const std::string why = "answers, but no datagram comes back from 127.0.0.1:9";
+  const std::string why = "responds, but no datagrams arrive from 127.0.0.1:9";
   ASSERT_TRUE(eventually([&] {
     return master_.status() && master_.status()->trouble().find(why) != std::string::npos;
   })) << outputs();
   EXPECT_TRUE(client({"engage"}).has(why));
-  EXPECT_TRUE(client({"doctor", "--seconds", "0.3"}).has("no datagram comes back"));
+  EXPECT_TRUE(client({"doctor", "--seconds", "0.3"}).has("no datagrams arrive from"));
   EXPECT_TRUE(says(*master_program_, why)) << outputs();
 }
 

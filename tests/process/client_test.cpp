@@ -80,13 +80,13 @@ TEST(Client, ASideThatIsDownIsNamedWithItsAddressAndWhatToStart) {
   FakeStation station;
   station.slave_server->stop();
   const Ended status = run(station.arguments({"status"}));
-  expect_one_sentence(status, 1, "the slave does not answer at " + station.slave_address);
+  expect_one_sentence(status, 1, "the slave does not respond at " + station.slave_address);
   expect_contains(status.err, "longreach-slave");
   expect_contains(status.out, "Engaged");  // the master is shown all the same
   expect_one_sentence(run(station.arguments({"get", "slave"})), 1, station.slave_address);
   const Ended json = run(station.arguments({"get", "slave", "--json"}));
   EXPECT_EQ(json.status, 1);
-  EXPECT_TRUE(json.out.starts_with("{\"error\":\"the slave does not answer at")) << json.out;
+  EXPECT_TRUE(json.out.starts_with("{\"error\":\"the slave does not respond at")) << json.out;
 }
 
 TEST(Client, ShowsAConfigurationOfManyMegabytes) {
@@ -130,12 +130,12 @@ TEST(Client, DoesNotWaitLongerThanItsTimeout) {
     command.insert(command.begin(), front.begin(), front.end());
     return run(command);
   };
-  expect_one_sentence(with({"status"}), 1, "does not answer at " + silent.address() + " within 0.3 s");
+  expect_one_sentence(with({"status"}), 1, "does not respond at " + silent.address() + " within 0.3 s");
   expect_one_sentence(with({"link", "set", "--delay", "1s"}), 1, silent.address());
   EXPECT_TRUE(station.slave.calls().empty());
   const Ended watch = with({"watch", "--hz", "20", "--count", "2"});
   EXPECT_EQ(watch.status, 1);
-  expect_contains(watch.out, "master does not answer");
+  expect_contains(watch.out, "master does not respond");
   // Here the slave must answer in time, on a busy machine too.
   EXPECT_EQ(with({"stop"}, "3s").status, 0);
   EXPECT_EQ(station.slave.calls(), std::vector<std::string>{"stop"});
@@ -214,7 +214,7 @@ TEST(Client, ScaleStepsStayInTheRange) {
   expect_contains(run(station.arguments({"scale", "up"})).out, "0.55");
   expect_contains(run(station.arguments({"scale", "down"})).out, "0.5\n");
   EXPECT_EQ(run(station.arguments({"scale", "1"})).status, 0);
-  expect_contains(run(station.arguments({"scale", "up"})).out, "scale is 1\n");
+  expect_contains(run(station.arguments({"scale", "up"})).out, "scale set to 1\n");
 }
 
 TEST(Client, ModeAndEngageAreAskedOfTheMaster) {
@@ -228,8 +228,8 @@ TEST(Client, ModeAndEngageAreAskedOfTheMaster) {
 TEST(Client, APreconditionIsStatus1AndABadValueStatus2) {
   FakeStation station;
   station.master.refuse(
-      Refusal{Refusal::Kind::kPrecondition, "no datagram arrives from the slave: wait for it"});
-  expect_one_sentence(run(station.arguments({"engage"})), 1, "no datagram arrives from the slave");
+      Refusal{Refusal::Kind::kPrecondition, "no datagrams arrive from the slave: wait for it"});
+  expect_one_sentence(run(station.arguments({"engage"})), 1, "no datagrams arrive from the slave");
   station.master.refuse(Refusal{Refusal::Kind::kUnavailable, "the loop did not answer"});
   const Ended unavailable = run(station.arguments({"engage"}));
   expect_one_sentence(unavailable, 1, "the loop did not answer");
@@ -249,7 +249,7 @@ TEST(Client, StopAsksBothSidesAndIsDoneWithOne) {
   expect_contains(half.out, "stopped at the slave");
   expect_contains(half.out, station.master_address);
   station.slave_server->stop();
-  expect_one_sentence(run(station.arguments({"stop"})), 1, "nothing was stopped");
+  expect_one_sentence(run(station.arguments({"stop"})), 1, "neither side was stopped");
 }
 
 TEST(Client, WatchWritesALineAnUpdateAndEndsAfterItsCount) {
@@ -276,7 +276,7 @@ TEST(Client, WatchSeesASideComeBack) {
   FakeStation station;
   station.slave_server->stop();
   ClientRun client(station.arguments({"watch", "--hz", "20"}));
-  client.read("slave does not answer");
+  client.read("slave does not respond");
   station.slave_server =
       std::make_unique<RpcServer>(station.slave_address, station.slave, "slave", test_site(RpcRole::kSlave));
   client.read("slave Engaged");

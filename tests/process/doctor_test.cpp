@@ -78,9 +78,9 @@ TEST_F(Doctor, FindsBothSidesWell) {
   const Visit visit = this->visit();
   EXPECT_EQ(visit.status, 0) << visit.text;
   for (const std::string words :
-       {"0 failures", "of 1000 Hz", "5 of 5 of 508 bytes arrived",
-        "Engaged; the robot is controlled by the master at 127.0.0.1:", "like this program", "round trip",
-        "signed by the authority, valid until 9999-12-31"})
+       {"0 failures", "of 1000 Hz", "5 of 5 datagrams of 508 bytes arrived",
+        "Engaged; the robot is controlled by the master at 127.0.0.1:", "the same as this program",
+        "round trip", "signed by the authority, valid until 9999-12-31"})
     EXPECT_TRUE(visit.says(words)) << words << "\n" << visit.text;
   EXPECT_EQ(slave_.state(), "Engaged");
   EXPECT_EQ(slave_.counter("rejected_version"), 5U);
@@ -97,7 +97,7 @@ TEST_F(Doctor, AMasterWithoutASlaveIsAFailure) {
   const Visit visit = this->visit();
   EXPECT_EQ(visit.status, 1) << visit.text;
   EXPECT_TRUE(visit.says("no session with the slave at")) << visit.text;
-  EXPECT_TRUE(visit.says("it does not run on this machine")) << visit.text;
+  EXPECT_TRUE(visit.says("no program listens at")) << visit.text;
 }
 
 TEST_F(Doctor, ReadableSiteFailsAndReportsChmodCommand) {
@@ -147,7 +147,7 @@ TEST_F(Doctor, APortThatAnotherProgramHasIsAFailure) {
       context, {asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(ports_.slave_rpc)});
   const Visit visit = this->visit({"--timeout", "1"});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("another program uses the port: ss -ltnp")) << visit.text;
+  EXPECT_TRUE(visit.says("find the program that uses the port with ss -ltnp")) << visit.text;
 }
 
 TEST_F(Doctor, AnotherVersionIsAFailure) {
@@ -157,7 +157,7 @@ TEST_F(Doctor, AnotherVersionIsAFailure) {
                          test_site(RpcRole::kSlave));
   const Visit visit = this->visit();
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("install one version on all hosts")) << visit.text;
+  EXPECT_TRUE(visit.says("install the same version on all hosts")) << visit.text;
 }
 
 TEST_F(Doctor, WithoutRealTimeRightsItWarnsAndSaysHowToGrantThem) {

@@ -46,7 +46,7 @@ TEST_F(Gripping, ALoadStaysInTheGripperWhenTheMasterIsStartedAgain) {
   if (HasFatalFailure()) return;
   EXPECT_TRUE(gripper_is("open")) << outputs();
   first.type("g");
-  ASSERT_TRUE(gripper_is("holds something")) << outputs();
+  ASSERT_TRUE(gripper_is("holds an object")) << outputs();
   master_program_->signal(SIGKILL);
   const Terminal second;
   start_keyboard(second, {"--take"});

@@ -109,7 +109,7 @@ TEST_F(Keys, APipeThatEndsIsAHandThatLetsGo) {
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
   move(ends[0], ends[1]);
   ::close(ends[1]);
-  expect_rest("the keyboard input has ended (end of input)");
+  expect_rest("the keyboard input ended (end of input)");
   ::close(ends[0]);
 }
 
@@ -119,7 +119,7 @@ TEST_F(Keys, AClosedTerminalIsAHandThatLetsGo) {
   ::fcntl(outer, F_SETFD, FD_CLOEXEC);
   move(inner, outer, {"--set", "safety.presence=HOLD"});
   ::close(outer);
-  expect_rest("the keyboard input has ended (its terminal was closed)");
+  expect_rest("the keyboard input ended (its terminal was closed)");
   ::close(inner);
 }
 
@@ -128,7 +128,7 @@ TEST_F(Keys, ThatComeNoMoreInRateModeLeaveTheRobotAtRest) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
   move(ends[0], ends[1]);
-  ASSERT_TRUE(says(*master_program_, "the hand went home")) << outputs();
+  ASSERT_TRUE(says(*master_program_, "the hand returned to its home position")) << outputs();
   ASSERT_TRUE(rests()) << outputs();
   EXPECT_EQ(master_.state(), "Engaged");
   ::close(ends[0]);
@@ -155,7 +155,7 @@ TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
   start_master({"--operator", "keyboard", "--mode", "position"}, {.in = terminal.inner});
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
   terminal.type("\x1b[200~hello ");
-  ASSERT_TRUE(says(*master_program_, "a paste or a control string at the keyboard has not ended"))
+  ASSERT_TRUE(says(*master_program_, "a paste or a control sequence at the keyboard is incomplete"))
       << outputs();
   terminal.type("e m W q\n\x1b[201~");
   terminal.type("m");

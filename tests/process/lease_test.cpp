@@ -52,7 +52,7 @@ TEST_F(Lease, IsTakenAndTheRobbedMasterKnowsByWhomAndWaits) {
   const std::string holder = lease();
   EXPECT_EQ(master_.status()->lease(), holder);
   EXPECT_EQ(master_.status()->state(), "Holding");
-  const std::string said = "another master (" + holder + ") has taken control of the robot";
+  const std::string said = "another master (" + holder + ") took control of the robot";
   EXPECT_NE(master_.status()->trouble().find(said), std::string::npos) << master_.status()->trouble();
   EXPECT_TRUE(says(*master_program_, said)) << outputs();
   EXPECT_NE(master_.engage().find(said), std::string::npos) << "it is told so, too, and does not rob back";

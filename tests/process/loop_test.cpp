@@ -134,7 +134,7 @@ TEST_F(Station, GarbageOverTheSocketChangesNothing) {
 TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {
   start_master({"--operator", "none", "--engage"});
   const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
-                           ": it does not answer; start longreach-slave there";
+                           ": it does not respond; start longreach-slave there";
   ASSERT_TRUE(says(*master_program_, said)) << outputs();
   start_slave();
   EXPECT_TRUE(both_engaged()) << outputs();

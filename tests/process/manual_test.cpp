@@ -81,8 +81,8 @@ TEST_F(Manual, TheManualPageIsSoundAndSaysWhatTheHelpSays) {
   }
   const std::string page = folder_.path() / "longreach.1";
   const std::string read = as_read(page);
-  expect_has(read, {"shows and changes a running teleoperation", "adapter check",
-                    "check that it follows the rules of the protocol", "one-way delay (0 to 100 s)",
+  expect_has(read, {"shows and changes the state of a running", "adapter check",
+                    "check that the adapter follows the rules of the protocol", "one-way delay (0 to 100 s)",
                     "Exit status: 0 done", "Example: longreach link blackout 2s"});
 }
 
@@ -119,7 +119,7 @@ TEST_F(Manual, ZshCompletes) {
 TEST_F(Manual, FishCompletes) {
   for (const std::string& program : kPrograms)
     EXPECT_EQ(said("/usr/bin/env", {"fish", "-n", file(program, "fish")}), "");
-  expect_has(fish("longreach", "link "), {"show", "set", "blackout", "drop all datagrams for a time"});
+  expect_has(fish("longreach", "link "), {"show", "set", "blackout", "drop all datagrams for a given time"});
   EXPECT_EQ(fish("longreach", "link ").find("status"), std::string::npos);
   expect_has(fish("longreach", "link clear --direction "), {"up", "down", "both"});
   expect_has(fish("longreach-master", "--vi"), {"--view"});

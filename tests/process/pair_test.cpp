@@ -94,7 +94,7 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   EXPECT_NE(sentence.find("the token is invalid"), std::string::npos) << sentence;
   const auto [empty, advice] = there({"pair", "--slave", offer.address, "--token-file", "-", "--replace"});
   EXPECT_EQ(empty, 2);  // the input of these programs is empty
-  EXPECT_NE(advice.find("the token is missing: the input is empty"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("the token is missing, because the input is empty"), std::string::npos) << advice;
   const auto [done, said] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(done, 0) << said;
   EXPECT_NE(said.find(":47020 --site " + site_ + " status\n"), std::string::npos) << said;
@@ -105,7 +105,7 @@ TEST_F(Pairing, ATokenIsUsedOnceAndASiteThatIsThereStays) {
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 0) << desk_->output();
   const auto [again, refused_peer] = there(pair_words(offer, {"--replace"}));
   EXPECT_EQ(again, 1);
-  EXPECT_NE(refused_peer.find("no slave waits for pairing at " + offer.address), std::string::npos)
+  EXPECT_NE(refused_peer.find("no slave is ready for pairing at " + offer.address), std::string::npos)
       << refused_peer;
 }
 
@@ -168,7 +168,7 @@ TEST_F(Pairing, WhatIsNoSlaveThatPairsIsSaidToBeNone) {
   const auto [status, said] =
       there(pair_words({"127.0.0.1:" + std::to_string(ports_.slave_rpc), offer.token}));
   EXPECT_EQ(status, 1);
-  EXPECT_NE(said.find("is not a longreach slave that waits for pairing"), std::string::npos) << said;
+  EXPECT_NE(said.find("is not a longreach slave that is ready for pairing"), std::string::npos) << said;
   desk_->signal(SIGINT);
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 1) << desk_->output();
   EXPECT_NE(desk_->output().find("the token is invalid"), std::string::npos) << desk_->output();

@@ -317,7 +317,7 @@ TEST_F(Recording, OverwritesNothing) {
   ASSERT_EQ(slave_program_->wait(std::chrono::seconds(20)), 0) << outputs();
   start_slave({"--record", file("slave.mcap")});
   EXPECT_EQ(slave_program_->wait(std::chrono::seconds(20)), 2) << outputs();
-  EXPECT_NE(slave_program_->output().find("the file exists already; choose another name"), std::string::npos)
+  EXPECT_NE(slave_program_->output().find("the file already exists; choose another name"), std::string::npos)
       << outputs();
 }
 

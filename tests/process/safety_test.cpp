@@ -106,7 +106,7 @@ TEST_F(SafetyOfPrograms, AGapTimerTooShortForTheMasterIsRefusedWithASentence) {
   start_master({"--operator", "none", "--engage", "--set", "link.send_hz=50"});
   ASSERT_TRUE(says(*master_program_,
                    "safety.gap_s = 0.04 is less than three send periods of a master with link.send_hz = 50: "
-                   "set it to 0.06 or more at the slave, or increase link.send_hz at the master"))
+                   "set it to at least 0.06 at the slave, or increase link.send_hz at the master"))
       << outputs();
   EXPECT_EQ(slave_.state(), "Idle");
   start_master({"--operator", "none", "--engage"});

@@ -42,7 +42,7 @@ TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
     expect({"--record-max-mb", "nan"}, "nan is not a number from 1 to 1000000");
     expect({"--site", "/etc/passwd"}, "/etc/passwd is not a folder");
     expect({"--adapter", "nowhere"},
-           "adapter.address = nowhere is not an address of an adapter: write unix:/PATH");
+           "adapter.address = nowhere is not the address of an adapter: write unix:/PATH");
     expect({"--set", "rpc.listen=nowhere"}, "rpc.listen = \"nowhere\" is not an address");
     expect({"--config", "no-such-file.txtpb"}, "no-such-file.txtpb");
     expect({"--set", "loop.rate_hz=1"}, "loop.rate_hz");
@@ -123,7 +123,7 @@ TEST(Usage, ARobotFileWithABadRowIsNamedWithLineFieldAndReason) {
                         file.string() + ":" + about, third_row);
   };
   expect("joint { a_m: nan }", "3:9: joint.2.a_m = nan is not a finite number");
-  expect("joint { alpha_rad: 0 }", "3:9: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 rotate");
+  expect("joint { alpha_rad: 0 }", "3:9: joint.2.alpha_rad = 0 with a_m = 0 makes joints 2 and 3 rotate");
   expect("joint { a_m: 1 min_rad: 2 max_rad: 1 }", "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
   expect("joint { a_m: 1 } joint { a_m: 1 }", "1:1: joint has 7 elements; 6 are needed");
   std::filesystem::remove(file);

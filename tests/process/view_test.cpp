@@ -24,7 +24,7 @@ class View : public Station {
                                           "--slave", "127.0.0.1:" + std::to_string(ports_.slave_rpc), "view"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     view_ = std::make_unique<RunningProgram>("longreach", arguments);
-    ASSERT_TRUE(says(*view_, "(Ctrl-C ends it)")) << view_->output();
+    ASSERT_TRUE(says(*view_, "(Ctrl-C quits)")) << view_->output();
     const std::string said = view_->output();
     const std::size_t begin = said.find("http://");
     address_ = said.substr(begin, said.find("  (") - begin);

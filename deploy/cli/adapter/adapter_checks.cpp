@@ -79,20 +79,20 @@ class AdapterCheck {
       add(false, "answers", "cannot connect to the adapter: " + trouble,
           "start the adapter, and give the path of its socket");
     } else if (talk_->wrong().empty()) {
-      add(false, "answers", "no datagram has arrived in 2 s",
-          "start it; it must answer the connected program");
+      add(false, "answers", "no datagram arrived within 2 s",
+          "start the adapter; it must send datagrams while a program is connected");
     } else {
       add(false, "answers",
-          "the received datagrams are not a valid " + std::string(Subject::kSends) + ": " + wrong(),
-          "compare with common/link/adapter_datagram.hpp");
+          "a received datagram is not a valid " + std::string(Subject::kSends) + ": " + wrong(),
+          "compare its layout with common/link/adapter_datagram.hpp");
     }
     return false;
   }
 
   void private_to_the_user() {
     const bool open = talk_->socket().open_to_others();
-    add(!open, "access", open ? "other users may connect to its path" : "other users cannot connect",
-        "listen with umask 077 or set the mode of the path to 0600, and close connections of other users");
+    add(!open, "access", open ? "other users can connect to its socket" : "other users cannot connect",
+        "create the socket with umask 077 or set its mode to 0600, and close connections of other users");
   }
 
   /// One program at a time: when this one has gone. What is said commands nothing.
@@ -102,8 +102,8 @@ class AdapterCheck {
     Talk unknown_peer(address_, static_cast<std::uint64_t>(AdapterSocket::now_ns()), kNobody);
     const bool answers = !unknown_peer.talk(0.3, [this](double) { return subject_.nothing(); }).empty();
     add(!answers, "peer",
-        answers ? "it answers a program of another user (uid 65534)"
-                : "does not answer a program of another user",
+        answers ? "it responds to a program of another user (uid 65534)"
+                : "does not respond to a program of another user",
         "call getsockopt(SO_PEERCRED) after accept(), and close the connection unless the peer is the "
         "adapter's own user or root");
   }
@@ -112,11 +112,12 @@ class AdapterCheck {
   void watch() {
     const Seen seen = talk_->talk(2.0, [this](double) { return subject_.nothing(); });
     add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is valid" : wrong(),
-        "compare with common/link/adapter_datagram.hpp; send 0 for an unknown number, and clear kOk");
+        "compare its layout with common/link/adapter_datagram.hpp; send 0 for an unknown value, and clear kOk");
     judge_rate(seen);
     judge_sequence(seen);
     const bool works = std::ranges::all_of(seen, [](const auto& s) { return (s.in.flags & In::kOk) != 0; });
-    add(works, "works", works ? "it reports kOk" : "it reports a failure: kOk is not always set",
+    add(works, "works",
+        works ? "every datagram sets kOk" : "it reports a failure: some datagrams do not set kOk",
         "set kOk while the hardware works");
   }
 
@@ -129,38 +130,43 @@ class AdapterCheck {
     const double p99_s = gaps_s.empty() ? 2.0 : gaps_s[gaps_s.size() * 99 / 100];
     const double longest_s = gaps_s.empty() ? 2.0 : gaps_s.back();
     const std::string text =
-        in_text("%.0f a second", hz) + in_text(", 99 %% of gaps up to %.1f ms", 1e3 * p99_s);
+        in_text("%.0f datagrams/s", hz) + in_text(", 99 %% of the gaps are at most %.1f ms", 1e3 * p99_s);
     add(hz >= kLeast_hz && hz <= kMost_hz && p99_s <= kLongGap_s, "rate", text,
-        "send 500 to 4000 times a second at a constant rate: use real-time priority and absolute deadlines");
+        "send 500 to 4000 datagrams per second at a constant rate: use real-time priority and absolute "
+        "deadlines");
     add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
     if (longest_s < kWatchdog_s) return;
     section_.findings.back().verdict = FindingVerdict::kWarning;
-    section_.findings.back().advice = "20 ms without a datagram are a fault: longreach then holds";
+    section_.findings.back().advice = "longreach holds if no datagram arrives for 20 ms";
   }
 
   void judge_sequence(const Seen& seen) {
     std::string trouble;
     for (std::size_t i = 1; i < seen.size() && trouble.empty(); ++i) {
       const adapter::Header &before = seen[i - 1].in.header, &h = seen[i].in.header;
-      if (h.session != before.session) trouble = "the session changes during the run";
+      if (h.session != before.session) trouble = "the session number changed during the run";
       if (h.sequence != before.sequence + 1)
-        trouble = "number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
+        trouble =
+            "sequence number " + std::to_string(h.sequence) + " follows " + std::to_string(before.sequence);
     }
-    add(trouble.empty(), "sequence", trouble.empty() ? "counts by one within one session" : trouble,
-        "draw the session once at the start and count every sent datagram");
+    add(trouble.empty(), "sequence",
+        trouble.empty() ? "increases by one per datagram, within one session" : trouble,
+        "draw a random session number once, at the start, and increase the sequence number by one per datagram");
     const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
-        follows ? "follows the sent datagrams"
-                : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " datagrams",
-        "echo the number of the newest datagram that was accepted");
+        follows
+            ? "is the number of a recent datagram"
+            : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " sent datagrams",
+        "echo the sequence number of the newest accepted datagram");
   }
 
   void obeys() {
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, Subject::kAsk,
-        does ? "follows: " + subject_.asked() : "asked " + subject_.asked() + ", but " + said(seen),
+        does ? "follows the command: " + subject_.asked()
+             : "commanded to " + subject_.asked() + ", but " + said(seen),
         subject_.advice());
   }
 
@@ -181,7 +187,7 @@ class AdapterCheck {
         {"a wrong size in the header", [](Out& o) { o.header.size = 1; }},
         {"session 0", [](Out& o) { o.header.session = 0; }},
         {"a number that is not finite", [&number](Out& o) { number(o) = kNone; }},
-        {"an old number", [](Out& o) { o.header.sequence = 1; }},
+        {"an old sequence number", [](Out& o) { o.header.sequence = 1; }},
         {"another program's session", [](Out& o) { o.header.session ^= 0x5555U; }},
     };
     std::string taken;
@@ -200,7 +206,7 @@ class AdapterCheck {
         mark_affected(out);
         socket.send(std::as_bytes(std::span(&out, 1)));
       });
-    corrupted("bytes of any length", [this](const AdapterSocket& socket, const Out& meant) {
+    corrupted("random bytes", [this](const AdapterSocket& socket, const Out& meant) {
       std::array<std::byte, 1400> bytes{};
       for (auto& b : bytes) b = static_cast<std::byte>(talk_->random().next());
       const Out poison = subject_.poison(meant);
@@ -210,7 +216,7 @@ class AdapterCheck {
       socket.send(std::span(bytes).first(size));
     });
     add(taken.empty(), "garbage", taken.empty() ? "ignores invalid datagrams" : taken,
-        "check size, magic, version, kind, session, sequence number and that every value is finite (rules 1 "
+        "check size, magic, version, kind, session, sequence number, and that every value is finite (rules 1 "
         "and 3)");
   }
 
@@ -229,23 +235,23 @@ class AdapterCheck {
     }
     const bool in_time = last_active_s <= kWatchdog_s + kMargin_s;
     const std::string silent_ms = in_text("%.0f ms", 1e3 * last_active_s);
-    std::string text = "after 20 ms of silence it " + std::string(Subject::kRests);
+    std::string text = "it " + std::string(Subject::kRests) + " 20 ms after the last datagram";
     const bool heard = std::ranges::any_of(seen, [&](const auto& s) { return after_s(s) > 0.1; });
     if (!heard)
-      text = "it stops sending when longreach is silent";
+      text = "it stops sending when it receives no datagrams";
     else if (!rested)
-      text = "it continues for 0.6 s of silence as if longreach were connected";
+      text = "it does not react to 0.6 s without datagrams";
     else if (!in_time)
-      text = "only after " + silent_ms + " of silence it " + Subject::kRests;
+      text = "it " + std::string(Subject::kRests) + " only " + silent_ms + " after the last datagram";
     add(heard && rested && in_time, "watchdog", text,
-        "20 ms after the last valid datagram (rule 4), and keep sending");
+        "the adapter must react 20 ms after the last valid datagram (rule 4), and must keep sending");
   }
 
   void goes_on() {
     const Seen seen = ask(Subject::kSettle_s);
     const bool does = !seen.empty() && subject_.does(seen.back().in);
-    add(does, "goes on",
-        does ? "resumes with the next datagram" : "it does not resume after the silence: " + said(seen),
+    add(does, "resume",
+        does ? "resumes at the next datagram" : "it does not resume after an interruption: " + said(seen),
         "the watchdog must end with the next valid datagram");
   }
 
@@ -256,7 +262,7 @@ class AdapterCheck {
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "restart",
         does ? "accepts a restarted program" : "a restarted program is not accepted: " + said(seen),
-        "after 20 ms of silence accept another session, from its number 1 on (rule 3)");
+        "20 ms after the last datagram accept a new session, starting at sequence number 1 (rule 3)");
   }
 
   Seen ask(double seconds, const typename Talk::Beside& beside = {}) {
@@ -265,7 +271,7 @@ class AdapterCheck {
   }
   /// What was told instead of what was asked for.
   [[nodiscard]] std::string said(const Seen& seen) const {
-    if (seen.empty()) return "no datagram arrives any more";
+    if (seen.empty()) return "no more datagrams arrive";
     const auto other =
         std::ranges::find_if(seen, [this](const auto& s) { return !s.excused && !subject_.does(s.in); });
     return subject_.reported(other == seen.end() ? seen.back().in : other->in);

@@ -28,8 +28,8 @@ std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
   if (h.version != adapter::kVersion) return says("version", h.version, adapter::kVersion);
   if (h.kind != In::kKind) return says("kind", h.kind, In::kKind);
   if (h.size != sizeof in) return says("size", h.size, sizeof in);
-  if (h.session == 0) return "session 0";
-  if (!adapter::finite(in)) return "a number is not finite, or the quaternion does not have the length 1";
+  if (h.session == 0) return "the session is 0";
+  if (!adapter::finite(in)) return "a value is not finite, or the quaternion does not have length 1";
   return "";
 }
 

@@ -31,36 +31,37 @@ class Pushing {
       : robot_(robot_file),
         timeout_s_(push_timeout_s),
         talk_(address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {
-    section_.title = "robot adapter at " + address + ", pushed";
+    section_.title = "robot adapter at " + address + ", push test";
   }
 
   Section run() {
     rest_ = listen(1.0);
     if (rest_.count == 0) {
-      section_.findings.push_back({FindingVerdict::kFailure, "answers", nothing_came(),
-                                   "start it, and run `longreach adapter check` without --push"});
+      section_.findings.push_back(
+          {FindingVerdict::kFailure, "answers", nothing_came(),
+           "start the adapter, and first run `longreach adapter check` without --push"});
       return std::move(section_);
     }
     judge_joints();
     PushedSensor force{.what = "force", .unit = "N", .rest = rest_.force_n, .rest_max = 2.0};
     PushedSensor moment{.what = "moment", .unit = "N m", .rest = rest_.moment_nm, .rest_max = 0.5};
     for (std::size_t i = 0; i < 3; ++i)
-      force.push[i] = ask("PUSH the tool along +", "about 20 N, the weight of 2 kg", i, false);
+      force.push[i] = ask("PUSH the tool along +", "with about 20 N (the weight of 2 kg)", i, false);
     for (std::size_t i = 0; i < 3; ++i)
-      moment.push[i] = ask("TURN the tool about +", "right-handed, about 2 N m", i, true);
+      moment.push[i] = ask("TURN the tool about +", "right-handed, with about 2 N m", i, true);
     for (const auto* sensor : {&force, &moment})
       for (Finding& finding : judge_pushes(*sensor)) section_.findings.push_back(std::move(finding));
     judge_way();
     section_.findings.push_back(
-        {FindingVerdict::kOk, "unknown",
-         "a small scale error and an offset of the origin of the moments are not detected"});
+        {FindingVerdict::kOk, "not tested",
+         "this check does not detect a small scale error or an offset of the origin of the moments"});
     return std::move(section_);
   }
 
  private:
   [[nodiscard]] std::string nothing_came() const {
     const std::string trouble = talk_.socket().trouble();
-    return trouble.empty() ? "no datagram has arrived in 1 s" : "cannot connect to the adapter: " + trouble;
+    return trouble.empty() ? "no datagram arrived within 1 s" : "cannot connect to the adapter: " + trouble;
   }
   Told listen(double seconds) {
     const auto seen = talk_.talk(seconds, [](double) { return SetpointDatagram{}; });
@@ -81,7 +82,8 @@ class Pushing {
   }
 
   Push ask(const char* what, const char* how, std::size_t i, bool turn) {
-    std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and hold it" << std::endl;
+    std::cout << what << "xyz"[i] << " of the robot's base, " << how << ", and keep the force constant"
+              << std::endl;
     const double least = turn ? kFelt_nm : kFelt_n;
     Push push;
     for (double t_s = 0.0; t_s < timeout_s_; t_s += kStep_s) {
@@ -92,7 +94,7 @@ class Pushing {
       push.reported = felt(reported, turn);
       break;
     }
-    std::cout << (push.reported.isZero(0.0) ? "  no force was measured" : "  felt") << "; release it"
+    std::cout << (push.reported.isZero(0.0) ? "  nothing was measured" : "  measured") << "; release the tool"
               << std::endl;
     for (double t_s = 0.0; t_s < timeout_s_ && felt(listen(kStep_s), turn).norm() > 0.5 * least;
          t_s += kStep_s)
@@ -107,9 +109,10 @@ class Pushing {
   }
   void judge_way() {
     if (moved_ <= kMoved) return;
-    section_.findings.push_back({FindingVerdict::kWarning, "way",
+    section_.findings.push_back({FindingVerdict::kWarning, "motion",
                                  in_text("the joints moved by up to %.3f rad (or m)", moved_),
-                                 "without kMove a robot must stay in place under any push"});
+                                 "while kMove is not set, the robot must stay in place however hard it is "
+                                 "pushed"});
   }
 
   DescribedRobot robot_;

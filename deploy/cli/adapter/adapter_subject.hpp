@@ -50,13 +50,13 @@ class DeviceSubject {
     return std::ranges::all_of(in.force_n, [](double x) { return x == 0.0; }) &&
            std::ranges::all_of(in.moment_nm, [](double x) { return x == 0.0; });
   }
-  [[nodiscard]] std::string asked() const { return in_text("%g N along z", force_n_); }
+  [[nodiscard]] std::string asked() const { return in_text("render %g N along z", force_n_); }
   [[nodiscard]] std::string reported(const In& in) const {
     return in_text("force_n is %g", in.force_n[0]) + in_text(" %g", in.force_n[1]) +
            in_text(" %g", in.force_n[2]);
   }
   [[nodiscard]] std::string advice() const {
-    return "apply the wrench to the motors and report in force_n and moment_nm what they generate";
+    return "apply the wrench with the motors, and report the generated wrench in force_n and moment_nm";
   }
 
  private:
@@ -97,12 +97,11 @@ class RobotSubject {
   }
   [[nodiscard]] bool rests(const In& in) const { return (in.flags & In::kStopped) != 0; }
   [[nodiscard]] std::string asked() const {
-    return move_rad_ == 0.0 ? "to stay where it is"
-                            : in_text("move the first joint by %g rad (or m)", move_rad_);
+    return move_rad_ == 0.0 ? "stay in place" : in_text("move the first joint by %g rad (or m)", move_rad_);
   }
   [[nodiscard]] std::string reported(const In& in) const {
-    return in_text("the first joint is at %g", in.joint_rad[0]) + in_text(", it was at %g", start_rad_[0]) +
-           (rests(in) ? ", and it reports kStopped" : "");
+    return in_text("the first joint is at %g", in.joint_rad[0]) +
+           in_text(" after %g at the start", start_rad_[0]) + (rests(in) ? ", and it reports kStopped" : "");
   }
   [[nodiscard]] std::string advice() const {
     return "follow joint_rad while kMove is set, and clear kStopped";

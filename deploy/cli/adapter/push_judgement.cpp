@@ -62,16 +62,16 @@ Finding judge_direction(const PushedSensor& sensor) {
   const std::string name = sensor.what;
   if (fits(sensor, in_tool)) {
     if (!fits(sensor, in_base))
-      return {FindingVerdict::kOk, sensor.what, "has the sign and the axes of the tool"};
-    return {
-        FindingVerdict::kWarning, sensor.what,
-        "has the correct sign, but the axes of tool and base coincide in this pose",
-        "turn the tool by 90 degrees and check again: this pose does not show whether the force is reported "
-        "in the axes of the tool"};
+      return {FindingVerdict::kOk, sensor.what,
+              "has the correct sign and is reported in the axes of the tool"};
+    return {FindingVerdict::kWarning, sensor.what,
+            "has the correct sign, but the axes of tool and base coincide in this pose",
+            "turn the tool by 90 degrees and repeat the check: this pose does not show whether the " + name +
+                " is reported in the axes of the tool"};
   }
   if (fits(sensor, against))
     return wrong(sensor, "has the wrong sign",
-                 "report the " + name + " of the environment on the tool, not of the tool");
+                 "report the " + name + " that the environment exerts on the tool, not its opposite");
   if (fits(sensor, in_base))
     return wrong(sensor, "is reported in the axes of the base",
                  "rotate it into the axes of the tool: f_E = R^T f_W, with the present orientation R of the "
@@ -80,21 +80,23 @@ Finding judge_direction(const PushedSensor& sensor) {
     return wrong(sensor, "is reported in the axes of the base, and has the wrong sign",
                  "rotate it into the axes of the tool and change its sign");
   if (const std::string axes = exchanged(sensor); !axes.empty())
-    return wrong(sensor, "axes are exchanged: the reported x, y, z are " + axes + " of the tool",
+    return wrong(sensor, "has exchanged axes: the reported x, y, z are " + axes + " of the tool",
                  "report them in the order x, y, z of the tool, right-handed");
   std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
-    reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + " as " + in_text(sensor.push[i].reported);
-  return wrong(sensor, "matches no axes: in the base, " + reported + " " + sensor.unit,
-               "check the mounting of the sensor, and that the robot file describes this robot and tool");
+    reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + ": " + in_text(sensor.push[i].reported);
+  return wrong(
+      sensor,
+      "matches no axes: pushes along the axes of the base were reported as " + reported + " " + sensor.unit,
+      "check how the sensor is mounted, and that the robot file describes this robot and this tool");
 }
 
 Finding judge_rest(const PushedSensor& sensor) {
-  const std::string text = "tells " + in_text(sensor.rest) + " " + sensor.unit + " without contact";
+  const std::string text = "is " + in_text(sensor.rest) + " " + sensor.unit + " without contact";
   if (sensor.rest.norm() <= sensor.rest_max) return {FindingVerdict::kOk, "rest", text};
   return {FindingVerdict::kFailure, "rest", text,
-          "subtract the weight of the tool in the adapter, or describe it in sensing.tool with gravity; "
-          "turn the tool over to distinguish weight from a zero offset"};
+          "subtract the weight of the tool in the adapter, or describe the tool in sensing.tool and set "
+          "its gravity; turn the tool over to distinguish its weight from a zero offset"};
 }
 
 }  // namespace
@@ -103,9 +105,10 @@ std::vector<Finding> judge_pushes(const PushedSensor& sensor) {
   std::vector<Finding> found{judge_rest(sensor)};
   for (std::size_t i = 0; i < 3; ++i) {
     if (!sensor.push[i].reported.isZero(0.0)) continue;
-    found.push_back(
-        wrong(sensor, std::string("reports nothing along ") + kAxis[i] + " of the base",
-              "a channel is dead, or its unit is not " + std::string(sensor.unit) + "; or push harder"));
+    found.push_back(wrong(sensor,
+                          std::string("does not respond to a push along ") + kAxis[i] + " of the base",
+                          "push harder; if this does not help, a channel is dead or its unit is not " +
+                              std::string(sensor.unit)));
   }
   if (found.size() == 1) found.push_back(judge_direction(sensor));
   return found;

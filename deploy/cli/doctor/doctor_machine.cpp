@@ -42,10 +42,11 @@ Finding examine_clock() {
   const std::time_t now = std::time(nullptr);
   std::array<char, 40> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
-  out.text += "; the wall clock says " + std::string(text.data()) + ", which is used only in the log";
+  out.text += "; wall clock " + std::string(text.data()) + ", used only in the log";
   if (resolution_s > 1e-5) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "select another clock source of the kernel: a loop of 1 kHz needs 10 us or better";
+    out.advice =
+        "select another clock source of the kernel: a loop at 1 kHz needs a resolution of 10 us or better";
   }
   return out;
 }
@@ -62,9 +63,8 @@ Finding examine_priority() {
     return {FindingVerdict::kOk, "priority", "SCHED_FIFO " + std::to_string(kPriority) + " is permitted"};
   return {FindingVerdict::kWarning, "priority",
           "SCHED_FIFO " + std::to_string(kPriority) + " is not permitted: " + std::strerror(error),
-          "grant it: LimitRTPRIO=50 in the systemd unit, 'rtprio 50' in /etc/security/limits.conf, or "
-          "CAP_SYS_NICE; "
-          "or set loop.priority 0"};
+          "grant it with LimitRTPRIO=50 in the systemd unit, 'rtprio 50' in /etc/security/limits.conf or "
+          "CAP_SYS_NICE; or set loop.priority to 0"};
 }
 
 Finding examine_memory() {
@@ -74,9 +74,8 @@ Finding examine_memory() {
   if (locked) return {FindingVerdict::kOk, "memory", "locking is permitted"};
   return {FindingVerdict::kWarning, "memory",
           std::string("locking is not permitted: ") + std::strerror(error),
-          "grant it: LimitMEMLOCK=infinity in the systemd unit, 'memlock unlimited' in "
-          "/etc/security/limits.conf, or "
-          "CAP_IPC_LOCK; or set loop.lock_memory false"};
+          "grant it with LimitMEMLOCK=infinity in the systemd unit, 'memlock unlimited' in "
+          "/etc/security/limits.conf or CAP_IPC_LOCK; or set loop.lock_memory to false"};
 }
 
 Finding examine_processor() {
@@ -85,19 +84,19 @@ Finding examine_processor() {
   const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   const std::string isolated = first_line("/sys/devices/system/cpu/isolated");
   out.text += governor.empty() ? ", no frequency governor visible" : ", governor " + governor;
-  out.text += isolated.empty() ? ", none isolated" : ", isolated: " + isolated;
+  out.text += isolated.empty() ? ", no isolated cores" : ", isolated cores: " + isolated;
   utsname system{};
   if (uname(&system) == 0)
     out.text += std::string(", Linux ") + system.release +
                 (std::strstr(system.version, "PREEMPT_RT") != nullptr ? " PREEMPT_RT" : "");
   if (cores < 2) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "use two cores or more: one side and its RPC need one core";
+    out.advice = "use a machine with at least two cores: one side and its RPC server need one core";
   } else if (!governor.empty() && governor != "performance") {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
-        "set the governor to performance (cpupower frequency-set -g performance): cores at a low frequency "
-        "wake up late";
+        "set the governor to performance (cpupower frequency-set -g performance): cores that run at a low "
+        "frequency wake up late";
   }
   return out;
 }
@@ -142,8 +141,8 @@ Finding examine_loop(double seconds) {
   if (to_seconds(figures.lateness_max) > kNear * kGap_s) {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
-        "a loop on this machine stalls for nearly the gap timer (safety.gap_s, 0.1 s) or longer: close "
-        "other programs, or give the loop real-time priority";
+        "a loop on this machine stalls for about as long as the gap timer (safety.gap_s, 0.1 s) allows, or "
+        "longer: close other programs, or give the loop real-time priority";
   }
   return out;
 }

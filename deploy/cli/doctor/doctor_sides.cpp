@@ -61,10 +61,9 @@ Watched watch(SideClient& client, double seconds) {
 Finding not_running(Side side, const std::string& address) {
   const std::string program = "longreach-" + std::string(name_of(side));
   if (is_loopback(address))
-    return {FindingVerdict::kWarning, "RPC",
-            "no program listens at " + address + ": it does not run on this machine",
+    return {FindingVerdict::kWarning, "RPC", "no program listens at " + address + " on this machine",
             "start " + program + ", or give its address with --" + std::string(name_of(side)) + " HOST:PORT"};
-  return {FindingVerdict::kFailure, "RPC", "no answer from " + address,
+  return {FindingVerdict::kFailure, "RPC", "no response from " + address,
           "start " + program +
               " there, with rpc.listen set to an address that this host can reach (not 127.0.0.1), and "
               "allow TCP port " +
@@ -75,27 +74,27 @@ Finding not_running(Side side, const std::string& address) {
 Finding unanswered(Side side, const std::string& address, const std::string& error, double timeout_s) {
   if (!takes_connections(address, timeout_s)) return not_running(side, address);
   return {FindingVerdict::kFailure, "RPC", error,
-          "a program accepts connections there: on a link of seconds, allow more time with --timeout 120; "
-          "if no longreach-" +
-              std::string(name_of(side)) + " runs there, another program uses the port: ss -ltnp 'sport = :" +
-              port_of(address) + "' names it"};
+          "a program accepts connections at this address: if the link is slow, allow more time with "
+          "--timeout 120; if longreach-" +
+              std::string(name_of(side)) +
+              " does not run there, find the program that uses the port with ss -ltnp 'sport = :" +
+              port_of(address) + "'"};
 }
 
 Finding rpc_finding(const Watched& seen, bool insecure) {
   return {FindingVerdict::kOk, "RPC",
-          std::string(insecure ? "answers, without encryption"
-                               : "answers, with a certificate of the same "
-                                 "site") +
-              "; median " + with_unit(median(seen.rpc_s), "s"),
+          std::string(insecure ? "responds, without encryption"
+                               : "responds, with a certificate of the same site") +
+              "; median response time " + with_unit(median(seen.rpc_s), "s"),
           "", histogram_of(seen.rpc_s)};
 }
 
 Finding version_finding(const proto::Status& status) {
   if (status.version() == LONGREACH_VERSION)
-    return {FindingVerdict::kOk, "version", status.version() + ", like this program"};
+    return {FindingVerdict::kOk, "version", status.version() + ", the same as this program"};
   return {FindingVerdict::kFailure, "version",
-          "it is " + status.version() + ", this program is " LONGREACH_VERSION,
-          "install one version on all hosts"};
+          "this side has version " + status.version() + ", this program has version " LONGREACH_VERSION,
+          "install the same version on all hosts"};
 }
 
 Finding state_finding(const proto::Status& status) {
@@ -107,7 +106,7 @@ Finding state_finding(const proto::Status& status) {
     text += status.lease().empty() ? "; no master has control of the robot"
                                    : "; the robot is controlled by the master at " + status.lease();
   if (status.state() == "Fault")
-    return {FindingVerdict::kFailure, "state", text, "see its log; engage to start again"};
+    return {FindingVerdict::kFailure, "state", text, "find the reason in the log of this side, then engage"};
   return {FindingVerdict::kOk, "state", text};
 }
 
@@ -137,8 +136,8 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
     out.histogram.bars.push_back({1e-6 * std::exp2(i), status.lateness(i)});
   }
   constexpr const char* kAdvice =
-      "compare with the bare loop below: if it is late as well, the machine is busy or real-time priority "
-      "is not permitted; otherwise lower loop.rate_hz";
+      "compare with the bare loop below: if that is late too, the machine is busy or real-time priority is "
+      "not permitted; otherwise lower loop.rate_hz";
   if (achieved_hz < 0.9 * wanted_hz) {
     out.verdict = FindingVerdict::kFailure;
     out.advice = kAdvice;
@@ -160,9 +159,9 @@ Finding link_finding(const Watched& seen, Side side) {
   if (link.silence_s() > kSilence_s)
     return {FindingVerdict::kFailure, "link",
             "no datagram received from " + other + " for " + with_unit(link.silence_s(), "s"),
-            "check that it runs, and that UDP datagrams arrive in this direction"};
+            "check that it is running, and that UDP datagrams can arrive from there"};
   std::string text =
-      "round trip " + (link.rtt_known() ? with_unit(link.rtt_s(), "s") : std::string("not known yet"));
+      "round trip " + (link.rtt_known() ? with_unit(link.rtt_s(), "s") : std::string("not yet known"));
   text += ", jitter " + with_unit(link.jitter_s(), "s") + ", loss " +
           format_number(std::round(1e3 * link.loss()) / 10) + " %, " +
           format_number(std::round(link.rate_hz())) + " datagrams/s";
@@ -171,9 +170,7 @@ Finding link_finding(const Watched& seen, Side side) {
   Finding out{FindingVerdict::kOk, "link", text, "", histogram_of(seen.udp_s)};
   if (link.loss() > kLoss) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice =
-        "lost datagrams delay the motion: lower link.send_hz if the bandwidth of the link is too "
-        "low";
+    out.advice = "lost datagrams delay the motion: if the link has too little bandwidth, lower link.send_hz";
   }
   return out;
 }
@@ -183,9 +180,9 @@ Finding refusals_finding(const proto::Status& status) {
                       forged = counter(status, "rejected_authentication");
   if (rpc + forged == 0) return {FindingVerdict::kOk, "intruders", "none"};
   return {FindingVerdict::kWarning, "intruders",
-          std::to_string(rpc) + " connections or calls refused, " + std::to_string(forged) +
-              " datagrams forged or corrupted; all without effect",
-          "see its log for times and reasons (rpc refused=...)"};
+          std::to_string(rpc) + " connections or calls were refused and " + std::to_string(forged) +
+              " forged or corrupted datagrams were rejected; they had no effect",
+          "the log of this side has the times and reasons (rpc refused=...)"};
 }
 
 std::string unquoted(std::string text) {
@@ -220,13 +217,14 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
   const std::string mtu = probe.mtu > 0 ? "; path MTU " + std::to_string(probe.mtu) : "";
   if (arrived > 0)
     return {FindingVerdict::kOk, "datagrams",
-            std::to_string(arrived) + " of " + std::to_string(probe.sent) + " of 508 bytes arrived at " +
-                address + mtu};
+            std::to_string(arrived) + " of " + std::to_string(probe.sent) +
+                " datagrams of 508 bytes arrived at " + address + mtu};
   return {FindingVerdict::kFailure, "datagrams",
-          "none of " + std::to_string(probe.sent) + " of 508 bytes arrived at " + address + mtu +
+          "none of " + std::to_string(probe.sent) + " datagrams of 508 bytes arrived at " + address + mtu +
               (probe.error.empty() ? "" : " (" + probe.error + ")"),
           "allow UDP port " + port_of(address) +
-              " through the firewalls, without fragmentation: the path needs an MTU of 536"};
+              " through the firewalls; the path needs an MTU of at least 536, because datagrams are not "
+              "fragmented"};
 }
 
 void examine_running(Section& out, Side side, SideClient& client, const std::string& rpc, bool insecure,
@@ -249,9 +247,10 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
 void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
-  out.findings.push_back({FindingVerdict::kFailure, "datagrams",
-                          std::string("another program uses the UDP port of ") + kLink,
-                          "ss -ulnp 'sport = :47001' names it; end it, or choose another with link.listen"});
+  out.findings.push_back(
+      {FindingVerdict::kFailure, "datagrams", std::string("another program uses the UDP port of ") + kLink,
+       "find that program with ss -ulnp 'sport = :47001' and end it, or choose another port "
+       "with link.listen"});
 }
 
 }  // namespace
@@ -264,8 +263,8 @@ Section examine_side(Side side, const Options& options, double seconds) {
   if (!options.insecure && !site_exists(site)) {
     out.findings.push_back(takes_connections(address, options.timeout_s)
                                ? Finding{FindingVerdict::kFailure, "RPC",
-                                         "a program listens, but this host has no site",
-                                         "join its site with longreach pair"}
+                                         "a program listens there, but this host has no certificates",
+                                         "pair this host with the slave: longreach pair"}
                                : not_running(side, address));
     return out;
   }
@@ -274,7 +273,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
     examine_running(out, side, client, address, options.insecure, seconds);
   } catch (const SiteError&) {
     out.findings.push_back(
-        {FindingVerdict::kFailure, "RPC", "not queried: the site folder is unusable, see above"});
+        {FindingVerdict::kFailure, "RPC", "not queried, because the site folder is unusable (see above)"});
   } catch (const std::runtime_error& error) {
     out.findings.push_back(unanswered(side, address, error.what(), options.timeout_s));
     if (side == Side::kSlave && is_loopback(address) &&

@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kAnew =
-    "restore it; or move the folder away: the next start creates a new site, and paired hosts must be "
-    "paired again";
+    "restore it, or move the folder away: the next start then creates a new site, and paired hosts must "
+    "be paired again";
 
 /// The folder and every file in it that has a key or a certificate.
 Finding examine_modes(const fs::path& site) {
@@ -28,11 +28,11 @@ Finding examine_modes(const fs::path& site) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0 || status.st_uid != ::geteuid())
       return {FindingVerdict::kFailure, "folder", path.string() + " belongs to another user",
-              "run as its owner, or choose another folder with --site DIR"};
+              "run longreach as the owner of the folder, or choose another folder with --site DIR"};
     if ((status.st_mode & 077U) != 0)
       return {FindingVerdict::kFailure, "folder",
-              path.string() + " is accessible to other users: a user that can read it can control the robot",
-              "chmod -R go= " + site.string() + "; if others may have read it, create a new site"};
+              path.string() + " is accessible to other users: a user who can read it can control the robot",
+              "run chmod -R go= " + site.string() + "; if another user may have read it, create a new site"};
   }
   return {FindingVerdict::kOk, "folder", "accessible only to its owner"};
 }
@@ -53,12 +53,12 @@ Finding examine_authority(const fs::path& site, const std::string& authority) {
   const std::string found = fingerprint(authority).substr(0, 23) + "...";
   if (!fs::exists(site / "authority.key"))
     return {FindingVerdict::kOk, "authority",
-            found + ", of another host: this host was paired and cannot be a slave"};
+            found + ", created on another host: this host was paired, so no slave can run here"};
   if (const std::string trouble =
           certificate_trouble(authority, authority, text_of(site / "authority.key"), "");
       !trouble.empty())
     return {FindingVerdict::kFailure, "authority", "authority.crt: " + trouble, std::string(kAnew)};
-  return {FindingVerdict::kOk, "authority", found + ", of this host: it can pair others"};
+  return {FindingVerdict::kOk, "authority", found + ", created on this host, which can pair other hosts"};
 }
 
 Finding examine_role(const fs::path& site, RpcRole role, const std::string& authority) {
@@ -89,8 +89,10 @@ Section examine_site(const Options& options) {
   }
   if (!site_exists(site)) {
     out.findings.push_back(
-        {FindingVerdict::kWarning, "folder", "there is no site yet: no longreach program was started here",
-         "start longreach-slave at the robot; on another host join its site with longreach pair"});
+        {FindingVerdict::kWarning, "folder",
+         "there is no site yet, because no longreach program was ever started here",
+         "at the robot, start longreach-slave; on any other host, join the site of the slave with longreach "
+         "pair"});
     return out;
   }
   out.findings.push_back(examine_modes(site));

@@ -63,7 +63,7 @@ ExitStatus list(const Options& options, const RecordCommand& command) {
   const std::filesystem::path folder =
       command.folder.empty() ? default_recordings() : std::filesystem::path(command.folder);
   if (!command.folder.empty() && !std::filesystem::is_directory(folder))
-    throw UsageError("there is no folder " + folder.string());
+    throw UsageError("the folder " + folder.string() + " does not exist");
   const auto recordings = list_recordings(folder);
   if (options.json) {
     std::string out;
@@ -110,19 +110,21 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   for (const auto& file : files) {
     const std::filesystem::path folder =
         command.folder.empty() ? file.parent_path() / file.stem() : std::filesystem::path(command.folder);
-    if (folder == file) throw UsageError("give the folder of the tables with --out DIR");
+    if (folder == file)
+      throw UsageError(file.string() + " has no extension: give a folder for the tables with --out DIR");
     const CsvExport written = export_csv(file, folder, zero_ns);
     for (const auto& table : written.tables) rows += table.rows;
     tables += written.tables.size();
     for (const std::string& what : written.damaged)
-      lost += "; " + file.string() + " is damaged and was skipped: " + what;
+      lost += "; damaged data in " + file.string() + " was skipped: " + what;
     if (!written.whole) lost += "; " + file.string() + formatted_cut(written.last_s);
     for (const std::string& topic : written.skipped) skipped += (skipped.empty() ? "" : ", ") + topic;
     if (folders.find(folder.string()) == std::string::npos)
       folders += (folders.empty() ? "" : " and ") + folder.string();
   }
-  print_done(options, std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " +
-                          folders + (skipped.empty() ? "" : "; not protobuf, skipped: " + skipped) + lost);
+  print_done(options,
+             std::to_string(tables) + " tables with " + std::to_string(rows) + " rows in " + folders +
+                 (skipped.empty() ? "" : "; skipped, because they are not protobuf: " + skipped) + lost);
   return ExitStatus::kDone;
 }
 

@@ -6,8 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr const char* kRecordMore =
-    R"(Each side records into its own folder (its option --recordings). Such a recording can be exported, but not replayed:
-to replay, start the programs with --record FILE.
+    R"(Each side records into its own folder (option --recordings of the program). These recordings can be exported but not
+replayed; for a replay, start the programs with --record FILE.
 Example: longreach record start drill-3)";
 
 CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, const char* more) {
@@ -22,26 +22,27 @@ CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, cons
 void RecordWords::declare(CLI::App& app) {
   record_ = declare_one(app, "record", "record both sides, list and export recordings", kRecordMore);
   record_->require_subcommand(1);
-  CLI::App* start = declare_one(*record_, "start", "record both sides from now on",
-                                "Default name: the time. A recording ends at --max-mb, or when the disk is "
-                                "full.\nExample: longreach record start drill-3");
+  CLI::App* start = declare_one(*record_, "start", "start a recording at both sides",
+                                "The default name is the time. A recording ends when it reaches --max-mb or "
+                                "the disk is full.\nExample: longreach record start drill-3");
   start->add_option("NAME", name_, "name of the files: NAME-master.mcap, NAME-slave.mcap");
   start->add_option("--max-mb", max_mb_, "maximum size of a recording, 1 to 1000000 [4096]")->type_name("N");
-  declare_one(*record_, "stop", "end the recordings of both sides", "Example: longreach record stop");
+  declare_one(*record_, "stop", "end the recordings at both sides", "Example: longreach record stop");
   CLI::App* list = declare_one(*record_, "list", "list the recordings on this machine",
                                "A recording that is still being written is shown as truncated.\n"
                                "Example: longreach record list");
-  list->add_option("DIR", folder_, "folder [$XDG_STATE_HOME/longreach/recordings]");
+  list->add_option("DIR", folder_, "folder of the recordings [$XDG_STATE_HOME/longreach/recordings]");
   CLI::App* csv =
       declare_one(*record_, "export", "export a recording as tables, one CSV file per topic",
-                  "Columns: t_s since the first message of all files that are named, log_time_ns "
-                  "(Unix time,\nby which tables of any recordings are joined), then every number.\n"
+                  "Columns: t_s (time since the first message of all named files), log_time_ns (Unix "
+                  "time,\nto join tables of different recordings), and every number of the topic.\n"
                   "Example: longreach record export drill-3");
   csv->add_option("FILE", files_,
-                  "files, or names of `record start` and `record list`; a name stands for both sides")
+                  "files, or names as in `record start` and `record list`; a name means both sides")
       ->required();
   csv->add_flag("--csv", csv_, "export as CSV, the only format");
-  csv->add_option("--out", folder_, "folder; created if missing [FILE without .mcap]")->type_name("DIR");
+  csv->add_option("--out", folder_, "folder for the tables, created if missing [FILE without .mcap]")
+      ->type_name("DIR");
 }
 
 RecordCommand RecordWords::command() const {

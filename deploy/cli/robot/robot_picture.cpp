@@ -148,7 +148,8 @@ std::string robot_picture(const RobotConfig& robot) {
          view_of(d, {"from the side: x to the right, z up", 0, 2}, 0.0) +
          view_of(d, {"from above: x to the right, y up", 0, 1}, kSide) + "<text x=\"12\" y=\"" +
          number(height - 14.0) + "\" font-size=\"13\">" + title +
-         " at its start; joints 1 to 6 with their axes, squares slide; tool frame x red, y green, z blue</text>\n"
+         " in its start pose; joints 1 to 6 with their axes (squares: prismatic); tool frame: x red, y green, "
+         "z blue</text>\n"
          "</svg>\n";
 }
 

@@ -110,14 +110,14 @@ RobotReport report_of(const RobotConfig& robot) {
   const bool fixed =
       std::ranges::any_of(robot.joint, [](const JointConfig& j) { return j.kind == JointKind::kFixed; });
   if (fixed) {
-    report.cannot.emplace_back("turn its tool: it has no wrist, and the rotation of a goal is ignored");
+    report.cannot.emplace_back("turn its tool: the arm has no wrist, so the rotation of a goal is ignored");
     return report;
   }
   for (int joint = 0; joint < kMaxJoints; ++joint) look_along(kinematics, report, joint, report.singular);
   if (report.conditioning < kLost)
     report.cannot.emplace_back(direction_text(lost_direction(kinematics.rigid_with_jacobian(report.start).J,
                                                              kinematics.motion_length_m())) +
-                               " where it starts, which is a singular pose; set robot.start_rad");
+                               " in its start pose, which is singular; set robot.start_rad");
   return report;
 }
 
@@ -151,17 +151,17 @@ std::string report_text(const RobotReport& report) {
     text += "\n";
   }
   const Vector3& p = report.X_WE.p;
-  text += "rad and m, per s, s^2, s^3; servo " + format_number(robot.servo_hz) + " Hz\n\n";
+  text += "units: rad or m, per s, s^2 and s^3; servo bandwidth " + format_number(robot.servo_hz) + " Hz\n\n";
   text += "inverse   " + report.inverse + "\n";
-  text += "reach     the tool is " + short_number(report.near_m) + " to " + short_number(report.far_m) +
+  text += "reach     the tool can be " + short_number(report.near_m) + " to " + short_number(report.far_m) +
           " m from the base\n";
   text += "start     the tool is at (" + short_number(p.x()) + ", " + short_number(p.y()) + ", " +
           short_number(p.z()) + ") m, conditioning " + short_number(report.conditioning) +
-          " (0 is singular, 0.3 good)\n";
+          " (0 is singular, 0.3 is good)\n";
   for (const SingularPose& s : report.singular)
     text += "singular  with " + joint_name(robot, static_cast<std::size_t>(s.joint)) + " at " +
-            short_number(s.value) + ", the others as at the start: it cannot " + direction_text(s.lost) +
-            "\n";
+            short_number(s.value) + " and the other joints in the start pose, the tool cannot " +
+            direction_text(s.lost) + "\n";
   for (const std::string& what : report.cannot) text += "cannot    " + what + "\n";
   return text;
 }

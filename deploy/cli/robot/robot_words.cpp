@@ -6,18 +6,18 @@ namespace longreach {
 namespace {
 
 constexpr const char* kMore =
-    R"(FILE is a .urdf or .txtpb file, or the name of a robot in deploy/robots. No side needs to run.
+    R"(FILE is a .urdf or .txtpb file, or the name of a robot in deploy/robots. Neither side needs to be running.
 Example: longreach robot show ur10)";
 
 constexpr const char* kShowMore =
-    R"(Prints the joints with their limits, which inverse applies, how far the tool reaches, and the poses in which the arm
-loses a direction.
+    R"(Prints the joints with their limits, the method of the inverse kinematics, the reach of the tool, and the singular poses,
+in which the tool cannot move in some direction.
 Examples:
   longreach robot show ur10
   longreach robot show mine.urdf --tip-link tool0 --picture mine.svg)";
 
 constexpr const char* kConvertMore =
-    R"(Prints the robot in the other form. Rows hold what a URDF cannot: accelerations, jerks, where the robot starts.
+    R"(Prints the robot in the other format. Only rows can hold accelerations, jerks and the start pose; a URDF cannot.
 Examples:
   longreach robot convert mine.urdf > mine.txtpb
   longreach robot convert puma560 > puma560.urdf)";
@@ -32,24 +32,24 @@ CLI::App* declare_below(CLI::App& parent, const char* name, const char* help, co
 }  // namespace
 
 void RobotWords::declare(CLI::App& app) {
-  robot_ = declare_below(app, "robot", "look at a robot's file, or convert it", kMore);
+  robot_ = declare_below(app, "robot", "show or convert a robot file", kMore);
   robot_->require_subcommand(1);
-  CLI::App* show =
-      declare_below(*robot_, "show", "joints, limits, inverse, reach, singular poses", kShowMore);
-  CLI::App* convert = declare_below(*robot_, "convert",
-                                    "write Denavit-Hartenberg rows as URDF, or a URDF as rows", kConvertMore);
+  CLI::App* show = declare_below(
+      *robot_, "show", "show joints, limits, inverse kinematics, reach and singular poses", kShowMore);
+  CLI::App* convert = declare_below(
+      *robot_, "convert", "convert Denavit-Hartenberg rows to a URDF, or a URDF to rows", kConvertMore);
   for (CLI::App* command : {show, convert}) {
     command->add_option("FILE", file_, "a .urdf or .txtpb file, or the name of a robot")->required();
-    command->add_option("--base-link", base_link_, "of a URDF: the link where the arm begins [its root]")
+    command->add_option("--base-link", base_link_, "for a URDF: the base link of the arm [the root link]")
         ->type_name("LINK");
     command
         ->add_option("--tip-link", tip_link_,
-                     "of a URDF: the link of the tool [the only end with six moving joints before it]")
+                     "for a URDF: the link of the tool [the only end link with six moving joints before it]")
         ->type_name("LINK");
   }
-  show->add_option("--picture", picture_, "write a picture of the arm where it starts, an SVG")
+  show->add_option("--picture", picture_, "write a picture of the arm in its start pose (SVG)")
       ->type_name("FILE");
-  convert->add_option("--to", form_, "urdf or rows [the form that FILE does not have]")
+  convert->add_option("--to", form_, "urdf or rows [the format that FILE does not have]")
       ->transform(CLI::IsMember({"urdf", "rows"}, CLI::ignore_case))
       ->type_name("FORM");
 }

@@ -42,8 +42,8 @@ http::response<http::string_body> response_to(ViewAnswer answer) {
       break;
   }
   return plain(http::status::forbidden,
-               "The token in this address is missing or old. Open the complete address that the last start "
-               "of longreach view\nprinted: the token changes with every start.\n");
+               "The token in this address is missing or outdated. Open the complete address that longreach "
+               "view printed when it was\nlast started: the token changes with every start.\n");
 }
 
 std::string_view field(const ViewHttpRequest& request, http::field name) {

@@ -136,7 +136,7 @@ ExitStatus run_view(const Options& options, const ViewCommand& command) {
   if (options.json) {
     std::cout << "{\"address\":" << json_string(server.address()) << "}" << std::endl;
   } else {
-    std::cout << "the page is at " << server.address() << "  (Ctrl-C ends it)" << std::endl;
+    std::cout << "the page is at " << server.address() << "  (Ctrl-C quits)" << std::endl;
   }
   while (!stop) std::this_thread::sleep_for(kEndCheck);
   server.stop();

@@ -37,7 +37,7 @@ std::runtime_error cannot_listen(const std::string& listen, const std::string& w
 
 Tcp::endpoint to_endpoint(const std::string& listen) {
   const std::size_t colon = listen.rfind(':');
-  if (colon == std::string::npos) throw cannot_listen(listen, "no port");
+  if (colon == std::string::npos) throw cannot_listen(listen, "the port is missing");
   std::string host = listen.substr(0, colon);
   if (host == "localhost") host = "127.0.0.1";
   if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
@@ -46,7 +46,7 @@ Tcp::endpoint to_endpoint(const std::string& listen) {
   const auto [end, wrong] = std::from_chars(listen.data() + colon + 1, last, port);
   beast::error_code error;
   const auto address = net::ip::make_address(host, error);
-  if (error || wrong != std::errc{} || end != last) throw cannot_listen(listen, "no address");
+  if (error || wrong != std::errc{} || end != last) throw cannot_listen(listen, "this is not an address");
   return {address, port};
 }
 
@@ -142,7 +142,7 @@ struct ViewServer::State {
       // What was under way when the hand was lost is no mistake.
       if (page_command.kind != Kind::kAim && page_command.kind != Kind::kGive)
         viewer->tell(std::make_shared<const std::string>(
-            R"({"said":"take the hand first: only the page that has the hand may do that","refused":true})"));
+            R"({"said":"take the hand first: only the page that has the hand may do this","refused":true})"));
       return;
     }
     if (page_command.kind == Kind::kGive) {
@@ -178,7 +178,7 @@ struct ViewServer::State {
       if (error) return;
       if (holder && Clock::now() - aimed > kHandSilence) {
         holder->tell(std::make_shared<const std::string>(
-            R"({"said":"this page was silent for 1 s, so its hand has released the handle","refused":true})"));
+            R"({"said":"no message from this page arrived for 1 s, so its hand released the handle","refused":true})"));
         let_go(true);
         notify_holders();
       }

@@ -126,7 +126,8 @@ void DeltaGeometry::require_closed_loop() const {
     if (next == best) step *= 0.5;
     best = next;
   }
-  throw GeometryError("impossible geometry: the three legs reach no common position of the platform");
+  throw GeometryError(
+      "impossible geometry: there is no position of the platform that all three legs can reach");
 }
 
 }  // namespace longreach

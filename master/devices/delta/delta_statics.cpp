@@ -31,7 +31,7 @@ void require_valid(const DeltaMasses& masses) {
   mass("arm", masses.arm_kg);
   mass("forearm", masses.forearm_kg);
   if (!(std::abs(masses.arm_com_fraction) <= 1.0))
-    throw GeometryError("arm_com_fraction must be within -1 and 1");
+    throw GeometryError("arm_com_fraction must be from -1 to 1");
 }
 
 DeltaVelocity velocity(const DeltaGeometry& g, const Vector3& theta_rad, const Vector3& p_m) {

@@ -30,8 +30,8 @@ double cone(std::string_view name, double angle) {
 Vector3 unit_row(std::string_view name, const Matrix3& rows, int i) {
   const Vector3 row = rows.row(i);
   const std::string axis = std::string(name) + ", row " + std::to_string(i + 1);
-  if (!row.allFinite()) throw GeometryError(axis + ": is not finite");
-  if (!(std::abs(row.norm() - 1.0) <= kGiven)) throw GeometryError(axis + ": is not a unit vector");
+  if (!row.allFinite()) throw GeometryError(axis + " is not finite");
+  if (!(std::abs(row.norm() - 1.0) <= kGiven)) throw GeometryError(axis + " is not a unit vector");
   return row.normalized();
 }
 
@@ -144,7 +144,8 @@ void SphericalGeometry::require_closed_loop() const {
     if (!better) step *= 0.5;
     best = next;
   }
-  if (least > 0.0) throw GeometryError("impossible geometry: the three legs reach no common orientation");
+  if (least > 0.0)
+    throw GeometryError("impossible geometry: there is no orientation that all three legs can reach");
 }
 
 }  // namespace longreach

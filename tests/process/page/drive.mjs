@@ -119,7 +119,7 @@ async function away(person) {
   await person.see('no master', () => document.getElementById('state').textContent === 'no master');
   await new Promise((done) => { setTimeout(done, 500); });
   const words = await person.look(() => document.getElementById('banner').innerText);
-  require(words.includes('master does not answer'), `the banner says why: ${words.replaceAll('\n', ' ')}`);
+  require(words.includes('master does not respond'), `the banner says why: ${words.replaceAll('\n', ' ')}`);
   await person.look(() => { longreach.before = longreach.feed.frames; });
   await person.see('observing again', () => document.getElementById('state').textContent === 'Observing');
   await person.see('frames again', () => longreach.feed.frames > longreach.before + 30);

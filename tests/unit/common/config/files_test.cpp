@@ -110,7 +110,7 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
             "4:7: surface.s.box.size_m.1 = -1 is outside 0 (excluded) to 1000");
   EXPECT_EQ(
       refused("", "cylinder { axis: [0, 0, 0] }"),
-      "4:12: surface.s.cylinder.axis has the length 0, which is outside 1e-9 to 1e9 and does not define a "
+      "4:12: surface.s.cylinder.axis has length 0, which is outside 1e-9 to 1e9, so it does not define a "
       "direction");
   config.set_scene_file("scenes/none.txtpb");
   EXPECT_EQ(resolve_error(),
@@ -149,19 +149,22 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
             path("scenes/b.xml") + ":2: " + path("scenes/m.obj") + ": there is no such file");
   const std::string mesh = path("scenes/m.obj");
   folder.write("scenes/m.obj", solid);
-  EXPECT_EQ(resolve_error(), mesh + ":5: the mesh is not closed: an edge of this face has no second face");
+  EXPECT_EQ(resolve_error(),
+            mesh + ":5: the mesh is not closed: an edge of this face belongs to no other face");
   folder.write("scenes/m.obj", solid + "f 1 3 4\n");
   EXPECT_EQ(resolve_error(), mesh +
-                                 ":8: the face has an edge in the same direction as that of line 5; the "
+                                 ":8: the face has an edge in the same direction as the face in line 5; the "
                                  "vertices of a face must be in anticlockwise order, seen from outside");
   folder.write("scenes/m.obj", solid + "f 1 4 5\n");
-  EXPECT_EQ(resolve_error(), mesh + ":8: the face names the vertex \"5\", and there are 4 before it");
+  EXPECT_EQ(resolve_error(), mesh +
+                                 ":8: the face names the vertex \"5\", but the number of vertices before it "
+                                 "is 4");
   folder.write("scenes/m.obj", "v 0 0 0\n");
   EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
   folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
   EXPECT_EQ(resolve_error(), path("scenes/b.xml") +
-                                 ":1: \"m.stl\" is not a mesh in the folder of the file; name an OBJ file in "
-                                 "that folder");
+                                 ":1: \"m.stl\" is not an OBJ file in the folder of the MJCF file; copy the "
+                                 "mesh there as an OBJ file");
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   folder.write("scenes/m.obj", solid + "f 1/1 4/2 3/3\n");
   EXPECT_EQ(resolve_error(), "no error");
@@ -181,7 +184,7 @@ TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
   EXPECT_EQ(resolve_error(),
             "robot_file = \"robots/none.txtpb\": the file does not exist in " + folder.path().string());
   config.set_robot_file("");
-  EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or specify the robot in place");
+  EXPECT_EQ(resolve_error(), "robot_file is empty; name a file, or set the fields of robot");
   config.clear_robot_file();
 
   folder.write("robots/space_arm.txtpb", "name: \"arm\"");
@@ -200,13 +203,14 @@ TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
                 ":2:2: surface.a.material = \"wood\" is not a material of the scene; it has: none");
   folder.write("scenes/wall.txtpb", "material { name: \"m\" }\nmaterial {\n  name: \"m\"\n}");
   EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
-                                 ":3:3: material.1.name = \"m\" is the name of another material already");
+                                 ":3:3: material.1.name = \"m\" is already the name of another material");
   folder.write(
       "scenes/wall.txtpb",
       "material { name: \"m\" }\nsurface { name: \"a\" material: \"m\" plane {\n normal: [0, 0, 0] } }");
-  EXPECT_EQ(resolve_error(), path("scenes/wall.txtpb") +
-                                 ":3:2: surface.a.plane.normal has the length 0, which is outside 1e-9 to "
-                                 "1e9 and does not define a direction");
+  EXPECT_EQ(resolve_error(),
+            path("scenes/wall.txtpb") +
+                ":3:2: surface.a.plane.normal has length 0, which is outside 1e-9 to 1e9, so "
+                "it does not define a direction");
 }
 
 // Each bad row is refused with file, line, field and reason.
@@ -224,19 +228,19 @@ TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
   EXPECT_EQ(refused("a_m: 1 alpha_rad: inf"), "3:16: joint.2.alpha_rad = inf is not a finite number");
   EXPECT_EQ(refused("a_m: 1 min_rad: 2 max_rad: 1"), "3:16: joint.2.min_rad = 2 is not below max_rad = 1");
   EXPECT_EQ(refused("a_m: 0 alpha_rad: 0"),
-            "3:16: joint.2.alpha_rad = 0 with a_m = 0 lets the joints 2 and 3 rotate about the same axis; a "
+            "3:16: joint.2.alpha_rad = 0 with a_m = 0 makes joints 2 and 3 rotate about the same axis, so a "
             "degree of freedom is lost");
   EXPECT_EQ(refused("a_m: 1", "joint {}"), "1:1: joint has 7 elements; 6 are needed");
   EXPECT_EQ(
       refused("a_m: 1 kind: FIXED"),
-      "1:1: joint has 0 prismatic and 1 fixed elements; a robot has six that are revolute or prismatic, at "
-      "most three prismatic, or three prismatic and three fixed ones");
+      "1:1: joint has 0 prismatic and 1 fixed elements; a robot has either six revolute or prismatic joints, "
+      "at most three of them prismatic, or three prismatic and three fixed joints");
   EXPECT_EQ(
       refused("a_m: 1 d_m: 400"),
-      "3:16: joint.2.d_m = 400 is outside -100 to 100, which only rows beside nearly parallel axes may be; "
+      "3:16: joint.2.d_m = 400 is outside -100 to 100, which is allowed only next to nearly parallel axes; "
       "lengths are in m, and this value seems to be in mm");
   EXPECT_EQ(refused("a_m: 1 beta_rad: 0.01", "convention: MODIFIED"),
-            "3:16: joint.2.beta_rad = 0.01 is for convention: STANDARD alone");
+            "3:16: joint.2.beta_rad = 0.01 is allowed only with convention: STANDARD");
   EXPECT_EQ(refused("a_m: 1 speed_max_rad_per_s: 0"),
             "3:16: joint.2.speed_max_rad_per_s = 0 is outside 0 (excluded) to 100");
 }
@@ -270,13 +274,15 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.mutable_command()->set_force_guard_n(5.0);
   EXPECT_EQ(
       resolve_error(),
-      "command.force_guard_n = 5 cannot be held at a touch with 0.05 m/s on 5000 N/m, but 8.6; set it to "
-      "that, or set command.speed_max_m_per_s to 0.0339 at most");
+      "command.force_guard_n = 5 cannot be kept when the tool touches a surface of 5000 N/m at 0.05 m/s; the "
+      "minimum is 8.6; set it to that value, or lower command.speed_max_m_per_s to 0.0339");
   // What is advised is allowed, and does.
   config.mutable_sensing()->set_force_range_n(8.0);
-  EXPECT_EQ(resolve_error(),
-            "command.force_guard_n = 5 cannot be held at a touch with 0.05 m/s on 5000 N/m, but 8.6, which "
-            "sensing.force_range_n = 8 does not allow; set command.speed_max_m_per_s to 0.0339 at most");
+  EXPECT_EQ(
+      resolve_error(),
+      "command.force_guard_n = 5 cannot be kept when the tool touches a surface of 5000 N/m at 0.05 m/s; "
+      "the minimum is 8.6, which sensing.force_range_n = 8 does not allow; lower "
+      "command.speed_max_m_per_s to 0.0339");
   config.clear_sensing();
   config.mutable_command()->set_speed_max_m_per_s(0.0339);
   EXPECT_EQ(resolve_error(), "no error");
@@ -300,7 +306,7 @@ TEST_F(ResolveFiles, RecognisesDegrees) {
                       "degrees are 1.57"),
             std::string::npos);
   EXPECT_NE(refused("servo_hz: 7", "tool { rotation_rad: [0, 0, 90] }")
-                .find("tool.rotation_rad has the length 90, more than one turn; the unit is rad, and this "
+                .find("tool.rotation_rad has length 90, more than one turn; the unit is rad, and this "
                       "value seems to be in degrees"),
             std::string::npos);
 }

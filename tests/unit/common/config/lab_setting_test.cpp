@@ -41,7 +41,7 @@ TEST(LabSetting, NamesBothPathsWhenBothSidesHaveIt) {
   for (const std::string path :
        {"link.impairment.delay_s", "rpc.listen", "safety.resume_s", "loop.priority"}) {
     EXPECT_EQ(lab_error({}, path + "=1"),
-              path + " is on both sides; write master." + path + " or slave." + path);
+              path + " exists on both sides; write master." + path + " or slave." + path);
   }
 }
 

@@ -145,11 +145,10 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
                   .starts_with("robot.joint has no element \"-1\""));
   EXPECT_EQ(set_error(proto::SlaveConfig{}, "scene.material.wall.exponent", "1"),
             "scene.material has no element \"wall\"; it has: none");
-  EXPECT_EQ(
-      set_error(slave_with_wall(), "scene.material", "1"),
-      "scene.material is a list; set one field of one element, scene.material.NAME.FIELD or "
-      "scene.material.INDEX.FIELD, with FIELD one of: name, stiffness_n_per_m, reference_depth_m, exponent, "
-      "damping_s_per_m");
+  EXPECT_EQ(set_error(slave_with_wall(), "scene.material", "1"),
+            "scene.material is a list; set a field of one of its elements, scene.material.NAME.FIELD or "
+            "scene.material.INDEX.FIELD, where FIELD is one of: name, stiffness_n_per_m, reference_depth_m, "
+            "exponent, damping_s_per_m");
   EXPECT_TRUE(set_error(slave_with_wall(), "scene.material.wall", "1")
                   .starts_with("scene.material.wall is a group; "));
 }

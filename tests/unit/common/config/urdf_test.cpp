@@ -70,8 +70,7 @@ TEST(Urdf, FindsTheArmInATree) {
   file.more = link("finger") + joint("finger_joint", "6", "finger", "<mimic joint=\"a\"/>", "prismatic") +
               link("camera") + joint("camera_joint", "3", "camera", "", "fixed");
   const std::string said = refusal(file.text());
-  EXPECT_SAYS(said,
-              "no link is an end with 6 moving joints before it; name the tool in robot.tip_link: 6 has 6");
+  EXPECT_SAYS(said, "no end link has 6 moving joints before it; name the tool in robot.tip_link: 6 has 6");
   proto::Robot wanted;
   wanted.set_tip_link("6");
   EXPECT_EQ(read_urdf("arm.urdf", file.text(), wanted).tip_link(), "6")
@@ -79,7 +78,7 @@ TEST(Urdf, FindsTheArmInATree) {
   file.more += link("tool") + joint("tool_joint", "6", "tool", "", "fixed");
   EXPECT_EQ(read_urdf("arm.urdf", file.text(), {}).tip_link(), "tool") << "the only end behind six";
   file.more += link("other") + joint("other_joint", "6", "other", "", "fixed");
-  EXPECT_SAYS(refusal(file.text()), "2 links are ends with 6 moving joints before them (other, tool)");
+  EXPECT_SAYS(refusal(file.text()), "2 end links have 6 moving joints before them (other, tool)");
 }
 
 TEST(Urdf, ContinuousJointsAndWideLimitsMayTurnTwiceEitherWay) {
@@ -124,22 +123,22 @@ std::vector<Broken> broken_files() {
       {"arm.urdf:2: this is not well-formed XML", "<robot name=\"a\">\n<link name=\"b\">\n</robot>"});
   all.push_back({"arm.urdf:1: the root is <sdf>; a URDF begins with <robot>", "<sdf version=\"1\"/>"});
   all.push_back(
-      {"arm.urdf:2: <xacro:include> is of xacro", "<robot>\n<xacro:include filename=\"a\"/></robot>"});
-  inside("<axis xyz=\"0 0 ${z}\"/>", "arm.urdf:11: xyz=\"0 0 ${z}\" is of xacro");
+      {"arm.urdf:2: <xacro:include> belongs to xacro", "<robot>\n<xacro:include filename=\"a\"/></robot>"});
+  inside("<axis xyz=\"0 0 ${z}\"/>", "arm.urdf:11: xyz=\"0 0 ${z}\" belongs to xacro");
   all.push_back({"arm.urdf:1: <robot> has no <link>", "<robot name=\"a\"/>"});
   File twice;
   twice.more = link("3");
-  all.push_back({"arm.urdf:15: link \"3\" is there already, in line 5", twice.text()});
-  with(5, joint("a", "5", "6"), "arm.urdf:14: joint \"a\" is there already, in line 9");
+  all.push_back({"arm.urdf:15: link \"3\" is already defined in line 5", twice.text()});
+  with(5, joint("a", "5", "6"), "arm.urdf:14: joint \"a\" is already defined in line 9");
   with(5, joint("f", "5", "7"),
        "arm.urdf:14: joint \"f\" has the child link \"7\", which is not in the file");
   File closed;
   closed.more = joint("g", "2", "6");
   all.push_back(
-      {"arm.urdf:15: link \"6\" is the child of two joints, \"f\" and \"g\": a closed chain", closed.text()});
-  with(0, joint("a", "6", "1"),
-       "no link has 6 moving joints before it, counted from \"0\"; there are at most 0");
-  with(5, joint("f", "5", "6", "", "fixed"), "there are at most 5, and an arm of longreach has 6");
+      {"arm.urdf:15: link \"6\" is the child of two joints, \"f\" and \"g\"; closed chains are not supported",
+       closed.text()});
+  with(0, joint("a", "6", "1"), "no link has 6 moving joints between itself and \"0\"; the maximum is 0");
+  with(5, joint("f", "5", "6", "", "fixed"), "the maximum is 5, and longreach needs an arm with 6");
   inside("<axis xyz=\"0 0 0\"/><limit lower=\"-1\" upper=\"1\" velocity=\"2\"/>",
          "arm.urdf:11: joint \"c\" has the axis \"0 0 0\", which has no direction");
   inside("<axis xyz=\"0 nan 1\"/>",
@@ -150,18 +149,18 @@ std::vector<Broken> broken_files() {
   inside("<limit lower=\"-1\" upper=\"1\"/>", "joint \"c\" has no velocity in its <limit>");
   inside("<limit lower=\"-1\" upper=\"1\" velocity=\"0\"/>", "joint \"c\" has velocity=\"0\"");
   inside("<limit lower=\"1\" upper=\"1\" velocity=\"2\"/>",
-         "joint \"c\" may be from 1 to 1; lower must be below upper");
+         "joint \"c\" has the limits 1 to 1; lower must be below upper");
   inside("<mimic joint=\"a\"/><limit lower=\"-1\" upper=\"1\" velocity=\"2\"/>",
          "arm.urdf:11: joint \"c\" follows another joint (<mimic>)");
   inside("", "joint \"c\" has the type \"floating\"", "floating");
   with(2, "<joint name=\"c\" type=\"revolute\"><child link=\"3\"/></joint>\n",
        "joint \"c\" has no <parent> link");
   inside("<limit lower=\"-180\" upper=\"1\" velocity=\"2000\"/>",
-         "arm.urdf: as a robot, joint.c.speed_max_rad_per_s = 2000 is outside");
+         "arm.urdf: the robot of this file is invalid: joint.c.speed_max_rad_per_s = 2000 is outside");
   with(2,
        joint("c", "2", "3", "<axis xyz=\"0 0 1\"/><limit lower=\"-20\" upper=\"1\" velocity=\"2\"/>",
              "prismatic"),
-       "arm.urdf: as a robot, joint.c.min_rad = -20 is outside");
+       "arm.urdf: the robot of this file is invalid: joint.c.min_rad = -20 is outside");
   return all;
 }
 
@@ -180,7 +179,7 @@ TEST(Urdf, SaysWhichLinksThereAre) {
   wanted.set_base_link("3");
   EXPECT_SAYS(refusal(File().text(), wanted), "3 joints move (d, e, f)");
   wanted.set_tip_link("2");
-  EXPECT_SAYS(refusal(File().text(), wanted), "link \"2\" is not behind \"3\"");
+  EXPECT_SAYS(refusal(File().text(), wanted), "link \"2\" is not connected to \"3\"");
 }
 
 TEST(Urdf, EndsInAClosedChain) {
@@ -194,7 +193,7 @@ TEST(Urdf, EndsInAClosedChain) {
   EXPECT_SAYS(refusal(file.text(), wanted), "link \"1\" is part of a closed chain");
   wanted.set_base_link("0");
   wanted.set_tip_link("4");
-  EXPECT_SAYS(refusal(file.text(), wanted), "is part of a closed chain, which is not supported");
+  EXPECT_SAYS(refusal(file.text(), wanted), "is part of a closed chain; closed chains are not supported");
 }
 
 TEST(Urdf, IsBoundedInDepth) {

@@ -38,8 +38,8 @@ TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
   EXPECT_EQ(validation_error(lab), "no error");
   lab.mutable_slave()->mutable_robot_adapter()->set_address("unix:/r");
   EXPECT_EQ(validation_error(lab),
-            "slave.robot_adapter.address = unix:/r is for the real programs; the laboratory has only "
-            "simulated devices and robots");
+            "slave.robot_adapter.address = unix:/r applies only to longreach-master and longreach-slave; the "
+            "laboratory simulates devices and robots");
   lab.mutable_master()->mutable_device_adapter()->set_address("unix:/d");
   EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d is for"));
   EXPECT_EQ(validation_error(lab.master()), "no error");
@@ -54,10 +54,10 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
     program.mutable_rendering()->set_law(law);
     EXPECT_EQ(validation_error(lab), "no error") << name;
     EXPECT_EQ(validation_error(program),
-              name == "STIFFNESS" ? "no error"
-                                  : "rendering.law = " + name +
-                                        " is a law for comparison, available only in the laboratory; the "
-                                        "programs accept STIFFNESS");
+              name == "STIFFNESS"
+                  ? "no error"
+                  : "rendering.law = " + name +
+                        " is a law for comparison, available only in the laboratory; set it to STIFFNESS");
   }
 }
 
@@ -106,7 +106,7 @@ TEST(Validation, RefusesDirectionsThatPointNowhere) {
     return validation_error(config);
   };
   EXPECT_EQ(error_with(0, 0, 0),
-            "operator.direction has the length 0, which is outside 1e-9 to 1e9 and does not define a "
+            "operator.direction has length 0, which is outside 1e-9 to 1e9, so it does not define a "
             "direction");
   EXPECT_NE(error_with(0, 1e-320, 0), "no error");
   EXPECT_NE(error_with(1e300, 1e300, 0), "no error");
@@ -161,7 +161,7 @@ TEST(Validation, WantsOneShapeForEachSurface) {
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(0)->mutable_hinge();
   EXPECT_EQ(validation_error(scene),
-            "surface.front.hinge is a second shape besides sphere; a surface has one");
+            "surface.front.hinge is a second shape in addition to sphere; a surface has only one");
 }
 
 TEST(Validation, WantsOneMaterialForABody) {
@@ -173,9 +173,10 @@ TEST(Validation, WantsOneMaterialForABody) {
   scene.mutable_surface(1)->set_body("step");
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(1)->set_material("foam");
-  EXPECT_EQ(validation_error(scene),
-            "surface.top.material = \"foam\" differs from \"steel\" of the body \"step\"; a body has "
-            "one material");
+  EXPECT_EQ(
+      validation_error(scene),
+      "surface.top.material = \"foam\" differs from the material \"steel\" of the body \"step\"; a body "
+      "has only one material");
   scene.mutable_surface(0)->clear_body();
   EXPECT_EQ(validation_error(scene), "no error");
 }
@@ -220,7 +221,7 @@ TEST(Validation, WantsAddressesThatAreSuchByTheirForm) {
   EXPECT_EQ(validation_error(master), "no error");
   master.mutable_device_adapter()->set_address("foo");
   EXPECT_TRUE(validation_error(master).starts_with(
-      "device_adapter.address = foo is not an address of an adapter: write unix:/PATH"));
+      "device_adapter.address = foo is not the address of an adapter: write unix:/PATH"));
   proto::SlaveConfig slave;
   slave.mutable_rpc()->set_listen("foo");
   EXPECT_TRUE(validation_error(slave).starts_with("rpc.listen = \"foo\""));
@@ -239,7 +240,7 @@ TEST(Validation, WantsTextsInUtf8) {
 TEST(Validation, WantsAWayToHaveTwoEnds) {
   proto::Scene scene = one_wall();
   scene.mutable_path()->add_waypoint();
-  EXPECT_EQ(validation_error(scene), "path.waypoint has 1 elements; a path has two ends");
+  EXPECT_EQ(validation_error(scene), "path.waypoint has 1 elements; a path needs at least two");
 }
 
 TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
@@ -255,18 +256,20 @@ TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
 
   scene = one_wall();
   scene.add_material()->set_name("steel");
-  EXPECT_EQ(validation_error(scene), "material.1.name = \"steel\" is the name of another material already");
+  EXPECT_EQ(validation_error(scene), "material.1.name = \"steel\" is already the name of another material");
   scene.mutable_material(1)->clear_name();
-  EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs one");
+  EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs a name");
   scene.mutable_material(1)->set_name("a.b");
-  EXPECT_EQ(validation_error(scene),
-            "material.a.b.name = \"a.b\" cannot be part of a path; use letters, but neither \".\" nor \"=\"");
+  EXPECT_EQ(
+      validation_error(scene),
+      "material.a.b.name = \"a.b\" cannot be part of a path; use at least one letter, and neither \".\" "
+      "nor \"=\"");
   scene.mutable_material(1)->set_name("12");
   EXPECT_NE(validation_error(scene), "no error");
 
   scene = one_wall();
   *scene.add_surface() = scene.surface(0);
-  EXPECT_EQ(validation_error(scene), "surface.1.name = \"front\" is the name of another surface already");
+  EXPECT_EQ(validation_error(scene), "surface.1.name = \"front\" is already the name of another surface");
 }
 
 // Laws of the schema itself, over every field of a side: a number without a range would let anything in.

@@ -34,9 +34,9 @@ TEST(EstimateWords, SayWhatIsNotYetKnownAndWhatCannotBeTold) {
   e.lambda_verdict = Verdict::kNotIdentifiable;
   EXPECT_EQ(law_in_words(e), "n not yet known, lambda not identifiable");
   e.correlation = -0.95;
-  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not identifiable apart from k");
+  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not identifiable separately from k");
   e.lambda_verdict = Verdict::kNotYet;
-  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not yet known apart from k");
+  EXPECT_EQ(law_in_words(e), "n not yet known, lambda not yet known separately from k");
 }
 
 TEST(EstimateWords, SayThatTheExponentWasGiven) {

@@ -39,9 +39,9 @@ TEST(HoldCauses, ThePlaceIsInTheSentence) {
   EXPECT_EQ(sentence({HoldCause::kToolOutside, 0, 0.612, 0.5}),
             "the tool is 0.612 m from the centre of its workspace, whose radius is 0.5 m");
   EXPECT_EQ(sentence({HoldCause::kWallComes, 0, -1.0, 0.0}),
-            "a surface is moving towards the robot, the direction of retreat is -x");
+            "a surface is moving towards the robot; the direction of retreat is -x");
   EXPECT_EQ(sentence({HoldCause::kWallComes, 0, 3.0, 0.0}),
-            "a surface is moving towards the robot, the direction of retreat is +z");
+            "a surface is moving towards the robot; the direction of retreat is +z");
   for (const HoldCause cause : all_causes()) {
     EXPECT_NE(sentence({cause, 2, 1e300, -1e300}).find("joint 2"), std::string::npos) << text_of(cause).name;
     EXPECT_EQ(sentence(cause), text_of(cause).sentence);

@@ -108,7 +108,7 @@ TEST(CsvExport, OverwritesNothing) {
     FAIL();
   } catch (const RecordingError& e) {
     EXPECT_EQ(std::string(e.what()), (folder.path() / "t/slave_link.csv").string() +
-                                         " exists; give another folder with --out, or remove it");
+                                         " already exists; remove it, or give another folder with --out");
   }
   EXPECT_EQ(read_all(folder.path() / "t/slave_link.csv"), "edited");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t/slave_event.csv"));
@@ -165,7 +165,7 @@ TEST(CsvExport, LeavesOutTopicsThatAreNotProtobuf) {
   } catch (const RecordingError& e) {
     EXPECT_EQ(std::string(e.what()),
               (folder.path() / "json.mcap").string() +
-                  " has no protobuf messages, the only kind that can be exported, but /json (json)");
+                  " contains no protobuf messages, and only these can be exported; skipped: /json (json)");
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "json"));
 }
@@ -199,7 +199,7 @@ TEST(CsvExport, KeepsTheGoodRowsBesideMessagesThatCannotBeRead) {
   const CsvExport written = export_csv(folder.path() / "a.mcap", folder.path() / "t");
   ASSERT_EQ(written.tables.size(), 1u);
   EXPECT_EQ(written.tables[0].rows, 2u);
-  EXPECT_EQ(written.damaged, std::vector<std::string>{"1 message of /ft against the schema"});
+  EXPECT_EQ(written.damaged, std::vector<std::string>{"1 message does not match the schema of /ft"});
 }
 
 TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
@@ -210,7 +210,7 @@ TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
   for (const auto& [descriptors, why] :
        {std::pair{std::string("\x0a\x7f"), "/ft, as the schema longreach.proto.Scene cannot be read"},
         std::pair{not_utf8, "/ft, as the schema longreach.proto.Scene cannot be used: "},
-        std::pair{scene_descriptors(), "1 message of /ft against the schema"}}) {
+        std::pair{scene_descriptors(), "1 message does not match the schema of /ft"}}) {
     write_foreign(file, descriptors, {"\x0a\x7f"});
     testing::internal::CaptureStderr();
     try {

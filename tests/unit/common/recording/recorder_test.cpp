@@ -134,7 +134,7 @@ TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ASSERT_FALSE(recorder.status().running);
-  EXPECT_EQ(recorder.status().ended, "it has reached its maximum size of 1 MB");
+  EXPECT_EQ(recorder.status().ended, "it reached its maximum size of 1 MB");
   const std::uint64_t size = std::filesystem::file_size(folder.path() / "a.mcap");
   add_ticks(record_buffer, 0, 20'000);  // the loop goes on
   recorder.stop();

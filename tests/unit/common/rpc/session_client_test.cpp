@@ -107,7 +107,7 @@ TEST(SessionClient, SaysWhoDoesNotAnswerAndWhatToDoAndFindsItLater) {
   server.reset();
   Search search(address);
   ASSERT_TRUE(eventually([&] { return !search.session_client.trouble().empty(); }));
-  for (const std::string& part : {address, std::string("slave"), std::string("does not answer"),
+  for (const std::string& part : {address, std::string("slave"), std::string("does not respond"),
                                   std::string("longreach-slave"), std::string("link.slave_rpc")})
     EXPECT_NE(search.session_client.trouble().find(part), std::string::npos)
         << search.session_client.trouble();
@@ -143,7 +143,7 @@ TEST(SessionClient, SaysWhoHasTakenTheRobotAndDoesNotTakeItBack) {
   // The words follow a moment later.
   EXPECT_TRUE(eventually([&] {
     return search.session_client.trouble().find(
-               "another master (192.0.2.9:4711) has taken control of the robot") != std::string::npos;
+               "another master (192.0.2.9:4711) took control of the robot") != std::string::npos;
   }));
   ASSERT_TRUE(eventually([&] { return backend.calls().size() >= 4; }));
   const auto calls = backend.calls();
@@ -163,7 +163,7 @@ TEST(SessionClient, SaysThatDatagramsDoNotComeBackThoughRpcAnswers) {
   ASSERT_TRUE(eventually([&] {
     const std::string said = search.session_client.trouble();
     return said.starts_with("RPC at " + server.address() +
-                            " answers, but no datagram comes back from 192.0.2.7:47001") &&
+                            " responds, but no datagrams arrive from 192.0.2.7:47001") &&
            said.find("firewall") != std::string::npos && said.find("link.slave") != std::string::npos;
   })) << search.session_client.trouble();
   search.loop.speak_again();

@@ -86,9 +86,8 @@ TEST(Pairing, TheRightTokenIsGoodAtTheFifthTryAndInTheLastSecond) {
 TEST(Pairing, AnExpiredTokenIsRefusedWithWhatToDo) {
   Desk desk;
   const PairingRequest request(desk.token, "operator");
-  EXPECT_EQ(
-      desk.refusal(request.message(), minutes(10)),
-      "the token has expired: it was valid for 10 minutes; get another token with longreach-slave --pair");
+  EXPECT_EQ(desk.refusal(request.message(), minutes(10)),
+            "the token expired: it was valid for 10 minutes; get another token with longreach-slave --pair");
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10)), PairingOffer::State::kExpired);
   EXPECT_EQ(desk.offer.state(desk.began + minutes(10) - seconds(1)), PairingOffer::State::kOpen);
 }
@@ -97,8 +96,8 @@ TEST(Pairing, AUsedTokenIsRefusedAlsoToTheSameRequest) {
   Desk desk;
   const PairingRequest request(desk.token, "operator");
   (void)desk.answer(request);
-  EXPECT_NE(desk.refusal(request.message()).find("already been used"), std::string::npos);
-  EXPECT_NE(desk.refusal(PairingRequest(desk.token, "another").message()).find("already been used"),
+  EXPECT_NE(desk.refusal(request.message()).find("already used"), std::string::npos);
+  EXPECT_NE(desk.refusal(PairingRequest(desk.token, "another").message()).find("already used"),
             std::string::npos);
   // Nor does what was overheard help with the next token.
   Desk later;
@@ -227,7 +226,7 @@ TEST(Pairing, GoesOverASocketAndSaysWhatIsWrong) {
             "the slave at " + server.address() + " refuses: the token is wrong; 4 attempts are left");
   EXPECT_EQ(server.state(), PairingOffer::State::kOpen);
   EXPECT_EQ(join(token), "");
-  EXPECT_NE(join(token).find("already been used"), std::string::npos);
+  EXPECT_NE(join(token).find("already used"), std::string::npos);
   EXPECT_EQ(server.state(), PairingOffer::State::kUsed);
   EXPECT_EQ(tried.size(), 3U);
 }

@@ -104,7 +104,7 @@ TEST(Site, OneThatOthersMayOpenIsRefusedWithWhatToDo) {
   const fs::path site = folder.path() / "longreach";
   ASSERT_EQ(refusal_of(site), "");
   ::chmod((site / "master.key").c_str(), 0640);
-  EXPECT_NE(refusal_of(site).find("master.key is accessible to other users; close it with chmod"),
+  EXPECT_NE(refusal_of(site).find("master.key is accessible to other users; restrict it with chmod"),
             std::string::npos)
       << refusal_of(site);
   ::chmod((site / "master.key").c_str(), 0600);

@@ -15,13 +15,13 @@ TEST(Paint, StatesHaveTheirColoursAndLabelsAreDim) {
   EXPECT_EQ(painted("state    Engaged    Holding (link silent)"),
             "\x1b[2mstate\x1b[0m    \x1b[32mEngaged\x1b[0m    \x1b[33mHolding\x1b[0m (link silent)");
   EXPECT_EQ(painted("state  Fault (robot fault)"), "\x1b[2mstate\x1b[0m  \x1b[31mFault\x1b[0m (robot fault)");
-  EXPECT_NE(painted("the slave does not answer at x").find("\x1b[31mdoes not answer\x1b[0m"),
+  EXPECT_NE(painted("the slave does not respond at x").find("\x1b[31mdoes not respond\x1b[0m"),
             std::string::npos);
 }
 
 TEST(Paint, ChangesNoWordAndNoWidth) {
   for (const std::string row : {"", " ", "   master   slave", "state    Engaged  Engaged", "Stopped",
-                                "one word", "The master says: mend it", "label  "})
+                                "one word", "The master reports: repair it", "label  "})
     EXPECT_EQ(without_codes(painted(row)), row);
 }
 

@@ -13,7 +13,7 @@ namespace {
 BothReports reports() {
   BothReports both;
   both.master = {Side::kMaster, "127.0.0.1:47010", proto::Status(), {}};
-  both.slave = {Side::kSlave, "127.0.0.1:47020", {}, "the slave does not answer"};
+  both.slave = {Side::kSlave, "127.0.0.1:47020", {}, "the slave does not respond"};
   proto::Status& master = *both.master.status;
   master.set_state("Holding");
   master.set_cause("link silent");
@@ -53,13 +53,13 @@ TEST(StatusTable, ShowsOnlyCountersThatAreNotZero) {
 TEST(StatusLine, IsOneLineAndNamesTheSideThatIsDown) {
   const std::string line = status_line(reports());
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  EXPECT_NE(line.find("slave does not answer at 127.0.0.1:47020"), std::string::npos) << line;
+  EXPECT_NE(line.find("slave does not respond at 127.0.0.1:47020"), std::string::npos) << line;
 }
 
 TEST(StatusJson, HasNullForASideThatIsDownAndSaysWhy) {
   const std::string json = status_json(reports());
   EXPECT_NE(json.find("\"slave\":null"), std::string::npos) << json;
-  EXPECT_NE(json.find("\"error\":\"the slave does not answer\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"error\":\"the slave does not respond\""), std::string::npos) << json;
   EXPECT_NE(json.find("\"rtt_s\":1.302"), std::string::npos) << json;
   EXPECT_EQ(json.find('\n'), std::string::npos);
 }

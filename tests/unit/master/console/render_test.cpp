@@ -74,10 +74,10 @@ TEST(View, ShowsTheWholePictureOfAContact) {
   const std::string expected =
       "longreach master  21.3 s, 39 s left  operator: press\n"
       "\n"
-      "contact: the wall has 0.98 N/mm (1.3 s ago)\n"
+      "contact: wall stiffness 0.98 N/mm (1.3 s ago)\n"
       "\n"
       "state     Engaged, slave Engaged\n"
-      "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent 0.02 s\n"
+      "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent for 0.02 s\n"
       "datagrams 1.2 % lost, 0.0 % reordered\n"
       "mode      position, scale 0.80\n"
       "\n"
@@ -86,11 +86,11 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "forecast  x    +0.00  y    +0.00  z    +0.00 mm when the robot receives it\n"
       "tool at   x  +9.8123  y  +0.0000  z  +4.2500 m  (1.3 s ago)\n"
       "\n"
-      "stiffness 0.981 N/mm at the hand, slave measures 1.002 within 0.5 %\n"
+      "stiffness 0.981 N/mm at the hand, slave estimates 1.002 within 0.5 %\n"
       "contact   n 1.5 within 0.02, lambda not identifiable\n"
       "hand         3.00 N [========................................] 15 N\n"
       "robot        2.90 N [========................................]\n"
-      "energy    +4.60 mJ into the hand's port, minimum -0.12 mJ\n"
+      "energy    +4.60 mJ into the handle, minimum -0.12 mJ\n"
       "\n"
       "clamped   nothing\n"
       "loop      0 ticks late, 0 missed, 0 rejected\n";
@@ -157,16 +157,16 @@ TEST(View, FillsTheBarWithTheForce) {
 TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   ConsoleSnapshot s;
   s.link.silence_s = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(happening(s), "waiting for the first datagram of the slave");
+  EXPECT_EQ(happening(s), "waiting for the first datagram from the slave");
   s = touching();
   s.view.state = SafetyState::kObserving;
   EXPECT_TRUE(contains(happening(s), "engage to take control"));
   s.view.engaging = true;
-  EXPECT_EQ(happening(s), "engaging: waiting for the slave's answer");
+  EXPECT_EQ(happening(s), "engaging: waiting for the response of the slave");
   s.view.answer_in_s = 1.3;
-  EXPECT_EQ(happening(s), "engaging: the slave's answer can arrive in 1.3 s (round trip 2.60 s)");
+  EXPECT_EQ(happening(s), "engaging: the response of the slave is due in 1.3 s (round trip 2.60 s)");
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging: the slave's answer is due (round trip 2.60 s)");
+  EXPECT_EQ(happening(s), "engaging: the response of the slave is due (round trip 2.60 s)");
   s.view.engaging = false;
   s.view.state = SafetyState::kEngaged;
   s.view.far_state = SafetyState::kEngaged;
@@ -178,7 +178,7 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.stiffness_n_per_m = 0.0;
   EXPECT_EQ(happening(s), "contact: the slave is still measuring the wall (1.3 s ago)");
   s.view.stiffness_n_per_m = 981.0;
-  EXPECT_EQ(happening(s), "contact: the wall has 0.98 N/mm (1.3 s ago)");
+  EXPECT_EQ(happening(s), "contact: wall stiffness 0.98 N/mm (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
@@ -225,7 +225,7 @@ TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   ConsoleSnapshot s = touching();
   s.view.in_contact = false;
-  EXPECT_EQ(happening(s), "remembered wall, 0.98 N/mm; the robot does not touch it (1.3 s ago)");
+  EXPECT_EQ(happening(s), "remembered wall of 0.98 N/mm; the robot does not touch it (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {
@@ -236,7 +236,7 @@ TEST(Happening, SaysWhyTheRobotHolds) {
   s.view.silent = s.view.resumes = true;
   EXPECT_EQ(happening(s), "holding: nothing received from the slave for 0.7 s");
   EXPECT_TRUE(
-      contains(render(s, 80, false), "Holding, slave Engaged (no datagram arrives from the other side)"));
+      contains(render(s, 80, false), "Holding, slave Engaged (no datagrams arrive from the other side)"));
   s.view.resumes = false;
   EXPECT_EQ(happening(s),
             "holding: nothing received from the slave for 0.7 s; engage when the link has "
@@ -252,11 +252,12 @@ TEST(Happening, SaysOfASilenceThatIsOverThatItIsOver) {
   EXPECT_EQ(
       happening(s),
       "holding: nothing was received from the slave for 12.3 s; the link has recovered: engage to resume");
-  EXPECT_TRUE(contains(render(s, 80, false), "(the link was silent)"));
+  EXPECT_TRUE(contains(render(s, 80, false), "(no datagrams arrived from the other side)"));
   s.view.resumes = true;
-  EXPECT_TRUE(contains(happening(s), "the link has recovered: it resumes automatically"));
+  EXPECT_TRUE(contains(happening(s), "the link has recovered: the robot resumes automatically"));
   s.view.state = SafetyState::kObserving;
-  EXPECT_TRUE(contains(happening(s), "the link was silent; check the link, then engage")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "no datagrams arrived from the other side; check the link, then engage"))
+      << happening(s);
 }
 
 TEST(Happening, SaysOfTheSlavesCauseWhereItIsAndWhetherItIsOver) {
@@ -270,7 +271,7 @@ TEST(Happening, SaysOfTheSlavesCauseWhereItIsAndWhetherItIsOver) {
                        "2.094; check robot_file"))
       << happening(s);
   s.view.far_state = SafetyState::kObserving;
-  EXPECT_TRUE(contains(happening(s), "at the slave, now over: joint 5")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "at the slave (now over): joint 5")) << happening(s);
 }
 
 TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
@@ -279,17 +280,19 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   s.view.refusal = {HoldCause::kJointLimit, 5, 2.15, 2.094};
   s.view.refusal_is_far = true;
   const std::string why =
-      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move it back "
-      "with the robot's own controls, then engage";
+      "at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094; move the joint "
+      "back with the robot's own controls, then engage";
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging, not yet granted: " + why);
+  EXPECT_EQ(happening(s), "engaging, but not yet granted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
-  EXPECT_TRUE(contains(happening(s), "the slave did not respond; check")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "the slave did not respond to the request to engage; check"))
+      << happening(s);
   s.view.far_state = SafetyState::kIdle;
-  EXPECT_TRUE(contains(happening(s), "the slave does not receive what this master sends")) << happening(s);
+  EXPECT_TRUE(contains(happening(s), "the slave does not receive the datagrams of this master"))
+      << happening(s);
 }
 
 TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
@@ -297,33 +300,35 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
   s.view.state = SafetyState::kObserving;
   s.view.silent = true;
   s.link.silence_s = 140.0;
-  EXPECT_EQ(happening(s), "observing: nothing received from the slave for 140.0 s; engage when it is back");
+  EXPECT_EQ(happening(s),
+            "observing: nothing received from the slave for 140.0 s; engage when the link has recovered");
   s.view.silent = false;
   s.view.far_state = SafetyState::kFault;
   s.view.far.cause = HoldCause::kSensorFault;
   EXPECT_EQ(
       happening(s),
-      "observing: the slave has a fault, the force sensor reports values that no contact can cause; engage "
-      "when it is repaired");
+      "observing: the slave reports a fault: the force sensor reports values that no contact can cause; engage "
+      "when the fault is repaired");
 }
 
 TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
   ConsoleSnapshot s = touching();
   s.view.state = SafetyState::kHolding;
   s.view.cause = HoldCause::kDelayRose;
-  EXPECT_EQ(happening(s), "holding: the delay of the link has increased; engage to accept the new delay");
+  EXPECT_EQ(happening(s), "holding: the delay of the link increased; engage to accept the new delay");
   s.view.rtt_least_s = 0.05;
   s.view.rtt_s = 25.05;
-  EXPECT_EQ(happening(s), "holding: the round trip has risen from 0.05 to 25.05 s; engage to accept that");
+  EXPECT_EQ(happening(s),
+            "holding: the round trip rose from 0.05 to 25.05 s; engage to accept the new delay");
 }
 
 TEST(View, MarksWhatIsOldAsOld) {
   ConsoleSnapshot s = touching();
   s.view.far.clamps.tool_speed = true;
-  EXPECT_TRUE(contains(render(s, 80, false), "robot: at its tool speed limit"));
+  EXPECT_TRUE(contains(render(s, 80, false), "robot: the tool is at its speed limit"));
   EXPECT_FALSE(contains(render(s, 80, false), "when last received"));
   s.view.silent = true;
-  EXPECT_FALSE(contains(render(s, 80, false), "robot: at its tool speed limit"));
+  EXPECT_FALSE(contains(render(s, 80, false), "robot: the tool is at its speed limit"));
   EXPECT_TRUE(contains(render(s, 110, false), "when last received"));
 }
 

@@ -114,7 +114,7 @@ TEST(Keyboard, GoesHomeInRateModeTwoSecondsAfterTheLastKey) {
   EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 99).target_m.x(), 0.01);
   EXPECT_EQ(keyboard.notice(), "");
   EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());
-  EXPECT_NE(keyboard.notice().find("the hand went home"), std::string_view::npos);
+  EXPECT_NE(keyboard.notice().find("the hand returned to its home position"), std::string_view::npos);
   EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 1, "W", 1).target_m.x(), 0.005);
   EXPECT_EQ(keyboard.notice(), "");
 }
@@ -133,7 +133,7 @@ TEST(Keyboard, ReportsTextWithoutEndWhichKeepsNoHandOut) {
   Keyboard keyboard({}, pty.inner);
   ASSERT_EQ(::write(pty.outer, "WW\x1b[200~hello", 13), 13);
   EXPECT_EQ(polled(keyboard, pty, MotionMode::kRate, 160, "we", 10).target_m, Vector3::Zero());
-  EXPECT_NE(keyboard.notice().find("only the key x (stop) acts; press Esc"), std::string_view::npos);
+  EXPECT_NE(keyboard.notice().find("only the key x (stop) works; press Esc"), std::string_view::npos);
   EXPECT_TRUE(polled(keyboard, pty, MotionMode::kRate, 1, "x", 1).requests.stop);
 }
 
@@ -155,7 +155,7 @@ TEST(Keyboard, ReadsAPipeToItsEnd) {
   ::close(ends[1]);
   EXPECT_TRUE(keyboard.poll(MotionMode::kRate).requests.engage);
   EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.engage);
-  EXPECT_NE(keyboard.trouble().find("the keyboard input has ended (end of input)"), std::string::npos);
+  EXPECT_NE(keyboard.trouble().find("the keyboard input ended (end of input)"), std::string::npos);
   ::close(ends[0]);
 }
 
@@ -178,7 +178,7 @@ TEST(Keyboard, IsAHandThatLetsGoWhenItsInputEnds) {
   EXPECT_TRUE(state.requests.clutch);
   EXPECT_EQ(keyboard.trouble(), "");
   ::close(closed);  // a read error
-  EXPECT_NE(end_of(keyboard, state).find("the keyboard input has ended (Bad file descriptor)"),
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard input ended (Bad file descriptor)"),
             std::string::npos);
   EXPECT_EQ(state.target_m, Vector3::Zero());
   EXPECT_FALSE(state.requests.clutch);
@@ -191,7 +191,7 @@ TEST(Keyboard, SaysThatItsTerminalWasClosed) {
   KeyboardState state = keyboard.poll(MotionMode::kRate);
   EXPECT_GT(state.target_m.x(), 0.0);
   ::close(std::exchange(pty.outer, -1));
-  EXPECT_NE(end_of(keyboard, state).find("the keyboard input has ended (its terminal was closed)"),
+  EXPECT_NE(end_of(keyboard, state).find("the keyboard input ended (its terminal was closed)"),
             std::string::npos);
   EXPECT_EQ(state.target_m, Vector3::Zero());
 }

@@ -176,7 +176,7 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
   EXPECT_EQ(frame.state(), "Engaged");
   EXPECT_EQ(frame.mode(), "rate");
   EXPECT_EQ(frame.happening(),
-            "the robot is at the edge of its workspace: it follows no further in this direction");
+            "the robot is at the edge of its workspace: it cannot move further in this direction");
   ASSERT_EQ(frame.clamped_size(), 1);
   EXPECT_EQ(frame.clamped(0), "robot: the goal is outside the workspace");
   EXPECT_EQ(frame.goal_m(2), 0.3);

@@ -66,7 +66,7 @@ TEST(CalibratedArm, IsPlacedAsItsRowsSay) {
 TEST(CalibratedArm, IsSolvedFromTheClosedFormOfANearlyEqualOne) {
   const Inverse inverse(calibrated());
   EXPECT_EQ(inverse.words(),
-            "closed form of a nearly equal arm, then Newton steps, quadratic: axes 2-3-4 parallel");
+            "closed form of a similar arm, then Newton steps, quadratic: axes 2-3-4 parallel");
   Random random(2);
   int solutions = 0, missed = 0;
   for (int n = 0; n < 1000; ++n) {

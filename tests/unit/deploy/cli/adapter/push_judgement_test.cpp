@@ -49,7 +49,7 @@ TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
   const std::vector<Finding> found = judge_pushes(sensor);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].verdict, FindingVerdict::kFailure);
-  EXPECT_EQ(found[1].text, "reports nothing along z of the base");
+  EXPECT_EQ(found[1].text, "does not respond to a push along z of the base");
 }
 
 }  // namespace
