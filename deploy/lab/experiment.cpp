@@ -360,7 +360,7 @@ void make_folder(const std::filesystem::path& folder) {
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
     throw ConfigError("cannot create the folder " + folder.string() + ": " + error.message() +
-                      "; choose another with --out");
+                      "; choose another folder with --out");
 }
 
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,

@@ -175,7 +175,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     try {
       resolve_files(message, find_deploy_folder());
     } catch (const ConfigError& e) {
-      std::fprintf(stderr, "left out: %s\n", e.what());  // one that somebody edits at the moment
+      std::fprintf(stderr, "scene skipped: %s\n", e.what());  // one that somebody edits at the moment
       continue;
     }
     const SlaveConfig config = to_struct(message);

@@ -276,7 +276,7 @@ void spacecraft(PersonScenario& s) {
              {.to_m = {0.05, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0}};
 }
 PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"the tool never touched the body", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
+  return {{"the tool never touched anything", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           {"force at the tool, N", seen.move[0].tool_max_n, 1.35 * s.slave.command.force_guard_n},
           {"contact force of a body that moved away, N", seen.move[1].felt_max_n, kNothing_n}};
 }
@@ -308,7 +308,7 @@ void coming_wall(PersonScenario& s) {
              {.to_m = {-0.06, 0, 0}, .speed_m_per_s = 0.05, .wait_s = 1.0}};
 }
 PersonChecks judge_coming_wall(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"the tool never touched the body", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
+  return {{"the tool never touched anything", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           answers(s, seen.move[1]),
           {"force at the tool after the retreat, N", seen.move[1].tool_n, 0.0},
           {"force at the hand after the retreat, N", seen.move[1].felt_n, kNothing_n}};
