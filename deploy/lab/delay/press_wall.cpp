@@ -43,8 +43,9 @@ BilateralCase case_of(const ExperimentRun& run) {
 }  // namespace
 
 std::vector<Plot> press_wall_plots() {
-  std::vector<Panel> panels = {
-      {"hand (mm)", {}, ""}, {"force on the hand (N)", {}, ""}, {"energy from the hand (mJ)", {}, ""}};
+  std::vector<Panel> panels = {{"depth of the hand (mm)", {}, ""},
+                               {"force on the hand (N)", {}, ""},
+                               {"energy from the hand (mJ)", {}, ""}};
   for (std::size_t i = 0; i < kLaws; ++i) {
     const std::string law(kLawNames[i].column), title(kLawNames[i].title);
     panels[0].curves.push_back({.column = law + "_depth_m", .title = title, .factor = 1e3});
