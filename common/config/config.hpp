@@ -82,7 +82,7 @@ void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& depl
 /// validates everything. Throws ConfigError and then leaves `config` unchanged.
 void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
 
-/// Loads deploy/links/NAME.txtpb. If the file does not set `name`, the profile is called NAME. Throws
+/// Loads deploy/links/NAME.txtpb. If the file does not set `name`, the profile is called NAME. Throws a
 /// ConfigError that lists the known names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 

@@ -12,8 +12,8 @@ namespace longreach {
 
 struct Difference {
   FieldPath path;  // a field that contains no messages, or a list that has a different length
-  proto::Change change =
-      proto::NOT_WHILE_ENGAGED;  // strictest option of the field and the messages that contain it
+  /// Strictest option of the field and the messages that contain it.
+  proto::Change change = proto::NOT_WHILE_ENGAGED;
 };
 
 std::vector<Difference> differences(const google::protobuf::Message& before,

@@ -22,7 +22,7 @@ class FileSearch {
   /// Returns a search that first tries the folder of `file` and its parent folder.
   [[nodiscard]] FileSearch beside(const std::filesystem::path& file) const;
 
-  /// Returns the path of the file `name`; an absolute name is returned unchanged. Throws ConfigError that
+  /// Returns the path of the file `name`; an absolute name is returned unchanged. Throws a ConfigError that
   /// lists the searched folders and names `what`, the field or option.
   [[nodiscard]] std::filesystem::path find(std::string_view what, const std::string& name) const;
   /// Finds a file given as a path that ends with .txtpb or as NAME, which stands for FOLDER/NAME.txtpb. For
@@ -57,7 +57,7 @@ struct FileRead {
 /// Same as the functions in config.hpp; in addition, the files that were read are appended to `read`.
 void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read);
 void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read);
-/// Loads the profile that a command line names, or that is at a path relative to the working folder.
+/// Loads a profile that a command line gives as a name or as a path relative to the working folder.
 proto::LinkProfile load_link_profile(const FileSearch& search, const std::string& name,
                                      std::vector<FileRead>* read = nullptr);
 

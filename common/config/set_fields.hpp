@@ -1,5 +1,5 @@
 #pragma once
-// Sets several fields together, given by path and text as for set_field (config.hpp).
+// Sets several fields at once. Each is given by path and text, as for set_field (config.hpp).
 
 #include <google/protobuf/message.h>
 

@@ -71,7 +71,7 @@ class UrdfTree {
   tinyxml2::XMLDocument document_;
   std::string robot_name_;
   std::map<std::string, int> links_;     // name and line of each link
-  std::map<std::string, Edge> edge_to_;  // joint above each link, by the name of this child link
+  std::map<std::string, Edge> edge_to_;  // joint above each link, by the link's name
 };
 
 }  // namespace longreach

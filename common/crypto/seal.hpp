@@ -2,8 +2,8 @@
 // Authenticated encryption of the datagrams of one direction of one session (AEAD).
 //
 //   key   = KDF(secret; cipher, direction)    BLAKE2b, crypto_kdf_derive_from_key
-//  nonce = type (1) | 0 (3) | sequence (8)   big-endian, used once per key: the sender counts
-//  (body, header) -> encrypted body | tag (16); the header is authenticated but not encrypted
+//   nonce = type (1) | 0 (3) | sequence (8)   big-endian, used once per key: the sender counts
+//   (body, header) -> encrypted body | tag (16); the header is authenticated but not encrypted
 //
 // A datagram that was sealed for one direction cannot be opened in the other. common/link prevents repeated
 // nonces and handles reordering and replay. Does not allocate memory.

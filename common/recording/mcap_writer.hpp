@@ -51,8 +51,7 @@ class McapWriter {
     std::uint16_t schema = 0;
     std::string topic;
     std::uint32_t messages = 0;
-    std::vector<std::pair<std::uint64_t, std::uint64_t>>
-        index{};  // log time and offset of the messages in the current chunk
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> index{};  // log time, offset in the current chunk
   };
   struct Schema {
     std::string name;
@@ -61,8 +60,7 @@ class McapWriter {
   struct ChunkPlace {
     Span span{};
     std::uint64_t offset = 0, length = 0, size = 0, index_length = 0;
-    std::vector<std::pair<std::uint16_t, std::uint64_t>>
-        indexes{};  // channel and offset of its message index
+    std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes{};  // channel, offset of its message index
   };
   struct MetadataPlace {
     std::string name;

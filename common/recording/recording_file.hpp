@@ -25,9 +25,8 @@ class RecordingFile {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool failed() const { return !error_.empty(); }
-  [[nodiscard]] const std::string& error() const {
-    return error_;
-  }  // reason for the failure; empty if there was none
+  /// Returns the reason for the failure; empty if there was none.
+  [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:

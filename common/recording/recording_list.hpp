@@ -24,7 +24,7 @@ struct ListedRecording {
 std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder);
 
 /// Finds recordings by name. `name` is the path of a file; otherwise NAME, NAME.mcap, or both
-/// NAME-master.mcap and NAME-slave.mcap are searched for in `folder`. Throws RecordingError that lists the
+/// NAME-master.mcap and NAME-slave.mcap are searched for in `folder`. Throws a RecordingError that lists the
 /// searched folders.
 std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& folder,
                                                    const std::string& name);

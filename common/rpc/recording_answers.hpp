@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// Fills in the recording; leaves it empty if there was none.
+/// Fills in the status of the recording; leaves it empty if there was none.
 void fill(proto::Status& status, const RecordingStatus& recording);
 /// Returns "FILE: 12.3 s, 4.5 MB", and the number of missing ticks if there are any.
 std::string in_words(const RecordingStatus& recording);

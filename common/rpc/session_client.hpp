@@ -27,10 +27,9 @@ class SessionClient {
   /// State of the loop that determines whether a session is needed.
   struct Present {
     std::uint64_t session = 0;  // 0: no session
-    double silence_s =
-        0.0;  // time since the last datagram of the slave in this session; infinite if there was none
-    std::string slave{};   // address to which datagrams are sent
-    double delay_s = 0.0;  // artificial round-trip delay of datagrams, which does not apply to RPC
+    double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite if none
+    std::string slave{};        // address to which datagrams are sent
+    double delay_s = 0.0;       // artificial round-trip delay of datagrams, which does not apply to RPC
   };
   using Presence = std::function<Present()>;
   /// Passes a session to the loop. Returns false if the loop did not accept it.

@@ -20,8 +20,7 @@ struct AdapterFigures {
   bool failed = false;   // the adapter reports a failure
   std::uint64_t accepted = 0;
   std::uint64_t malformed = 0;  // datagrams that violate the protocol or contain a number that is not finite
-  std::uint64_t late =
-      0;  // datagrams that were overtaken, repeated, or from another session during a session
+  std::uint64_t late = 0;       // overtaken, repeated, or from another session during a session
   std::uint64_t restarts = 0;
   double silent_after_s = 0.0;  // time without a datagram when the last timeout was detected
   /// user that runs the listening program, if it was refused because it is another user
@@ -37,7 +36,7 @@ class AdapterPort {
     figures_.present = true;
   }
 
-  /// Receives at most kMost datagrams. Returns true if newest() has changed.
+  /// Receives at most kMost datagrams. Returns whether newest() changed.
   bool receive(Time now) {
     const std::int64_t now_ns = now.time_since_epoch().count();
     bool fresh = false;

@@ -155,8 +155,8 @@ const std::vector<Experiment> kExperiments = {
      "k_scale = 0.2 and {position_k_scale_time_s_at_1} s ({position_k_scale_error_m_at_1*1e3} mm) "
      "with k_scale = 1. Hybrid mode takes {hybrid_near_sd_time_s_at_0} s "
      "({hybrid_near_sd_error_m_at_0*1e3} mm) if it stays in rate mode up to the target, and "
-     "{hybrid_near_sd_time_s_at_4} s ({hybrid_near_sd_error_m_at_4*1e3} mm) if it switches 4 sd "
-     "before the target."},
+     "{hybrid_near_sd_time_s_at_4} s ({hybrid_near_sd_error_m_at_4*1e3} mm) if it switches 4 standard "
+     "deviations before the target."},
     {"fk-network",
      "Which method of forward kinematics of the 3-RRR device is the most accurate, and "
      "what does it cost?",

@@ -65,7 +65,7 @@ struct Sampler {
       if (((g - centre).cwiseAbs().array() <= half.array()).all()) samples.push_back({theta, g});
     }
     if (static_cast<int>(samples.size()) < count)
-      throw std::runtime_error("the workspace contains too few poses of a cell");
+      throw std::runtime_error("too few poses of the workspace lie in one of the cells");
     return samples;
   }
 };

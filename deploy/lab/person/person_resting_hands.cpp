@@ -28,7 +28,7 @@ double store_pays_n(const PersonScenario& s, double k, double more = 0.0) {
 /// In position mode; `depth_m` of the hand behind the surface.
 PersonChecks felt_by_depth(const PersonScenario& s, const MoveSeen& m, double k, double depth_m) {
   const double due_n = std::min({k * depth_m, s.master.rendering.force_max_n, store_pays_n(s, k)});
-  return {{"force deficit at the hand, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
+  return {{"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"excess of the hand force over the wall force, N", m.felt_n - 1.1 * k * depth_m, 0.05},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
@@ -46,7 +46,7 @@ void move_and_wait(PersonScenario& s) {
 PersonChecks judge_move_and_wait(const PersonScenario& s, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[0];
   PersonChecks all = felt_by_depth(s, m, 1000.0, behind_wall_m(s, m));
-  all.push_back({"force deficit at the hand below 1 N, N", 1.0 - m.felt_n, 0.0});
+  all.push_back({"shortfall of the hand force from 1 N, N", 1.0 - m.felt_n, 0.0});
   return all;
 }
 
@@ -79,7 +79,7 @@ PersonChecks judge_hold_and_engage(const PersonScenario&, const PersonSeen& seen
   return {
       {"the second engagement failed", m.engaged ? 0.0 : 1.0, 0.0},
       {"difference of the forces at hand and tool, N", std::abs(m.felt_n - m.tool_n), 0.3 + 0.1 * m.tool_n},
-      {"force deficit at the hand below 0.2 N, N", 0.2 - m.felt_n, 0.0},
+      {"shortfall of the hand force from 0.2 N, N", 0.2 - m.felt_n, 0.0},
       {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 
@@ -100,7 +100,7 @@ PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
   const double borne_n = k * hand * s.moves[0].to_m.x() / (k + hand + rate);
   const double due_n = std::min(
       {k * (m.goal_m.x() - wall_m), s.master.rendering.force_max_n, store_pays_n(s, k, rate), borne_n});
-  return {{"force deficit at the hand, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
+  return {{"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"excess of the hand force over the wall force, N",
            m.felt_n - 1.1 * k * std::max(0.0, m.goal_m.x() - wall_m), 0.05},
           {"displacement of the handle beyond its centre, m", -m.hand_m.x(), 1e-4},
@@ -114,7 +114,7 @@ PersonChecks judge_felt(const PersonScenario& s, const PersonSeen& seen) {
   const double low = 0.98 * rendered(s, s.slave.scene.material[0].stiffness_n_per_m);
   const double paid_n = store_pays_n(s, low, s.master.rendering.rate_stiffness_n_per_m);
   const double least_n = std::min(s.grip == Grip::kFirm ? 3.0 : 2.0, 0.96 * paid_n);
-  all.push_back({"deficit of the displayed force below the minimum, N", least_n - seen.move[0].felt_n, 0.0});
+  all.push_back({"shortfall of the displayed force from its minimum, N", least_n - seen.move[0].felt_n, 0.0});
   return all;
 }
 

@@ -76,7 +76,7 @@ void near_a_known_wall(PersonScenario& s) {
 }
 PersonChecks judge_near_a_known_wall(const PersonScenario&, const PersonSeen& seen) {
   const double forward_m = seen.move[3].goal_m.x() - seen.move[2].goal_m.x();
-  return {in_front(seen), {"deficit of the goal's motion below 1 mm, m", 1e-3 - forward_m, 0.0}};
+  return {in_front(seen), {"shortfall of the goal's motion from 1 mm, m", 1e-3 - forward_m, 0.0}};
 }
 
 // J: touches a narrow box, passes beside it.

@@ -34,7 +34,7 @@ void light_press(PersonScenario& s) {
 }
 PersonChecks judge_light_press(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
-          {"deficit of the force at the second touch below 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
+          {"shortfall of the force at the second touch from 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
 }
 
 // Letting go in contact: the tool stays where the last goal was.
@@ -165,7 +165,7 @@ PersonChecks judge_direction(const PersonSeen& seen, const Vector3& out) {
   const MoveSeen& m = seen.move.back();
   const double angle = std::atan2(m.felt.cross(out).norm(), m.felt.dot(out));
   return {in_front(seen),
-          {"deficit of the force at the hand below 0.5 N, N", 0.5 - m.felt_n, 0.0},
+          {"shortfall of the hand force from 0.5 N, N", 0.5 - m.felt_n, 0.0},
           {"angle between force and surface normal, rad", angle, kNormal_rad}};
 }
 void oblique(PersonScenario& s) {

@@ -195,7 +195,7 @@ int run_subcommand(const CLI::App& app, const Options& o) {
 }  // namespace longreach
 
 int main(int argc, char** argv) {
-  CLI::App app{"Run experiments with master and slave of longreach in deterministic virtual time."};
+  CLI::App app{"Run experiments with longreach's master and slave in deterministic virtual time."};
   app.name("longreach-lab");
   app.set_version_flag("--version", std::string(longreach::commit()));
   longreach::add_manual_options(app, "longreach-lab " + std::string(longreach::commit()));

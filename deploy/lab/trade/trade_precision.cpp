@@ -119,7 +119,7 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_precision() {
   return {.name = "precision",
-          .title = "Float against double: leg, arm, contact, least squares, integration",
+          .title = "Float versus double: leg, arm, contact, least squares, integration",
           .cost = "time per call",
           .cost_unit = "ns",
           .error = "maximum relative error",
