@@ -216,11 +216,11 @@ const std::vector<Experiment> kExperiments = {
      "it press?",
      "", run_sensor_faults, sensor_faults_plots, "",
      "In {runs} runs the robot moves at most {way_max_m*1e3} mm without a command and presses with at "
-     "most {true_force_over_guard} times the force guard; these numbers are "
-     "{faked_answer_way_max_m*1e3} mm and {faked_answer_true_force_over_guard} if the sensor drifts "
-     "in contact, because a drift then resembles an approaching wall. Implausible forces are reported "
-     "within {told_late_max_s} s, with {false_faults} false alarms. As a control, a false force that "
-     "decreases as the robot moves displaces the robot by {control_way_m*1e3} mm."},
+     "most {true_force_over_guard} times the force guard. If the sensor drifts in contact, which "
+     "resembles an approaching wall, these numbers are {faked_answer_way_max_m*1e3} mm and "
+     "{faked_answer_true_force_over_guard}. Implausible forces are reported within {told_late_max_s} "
+     "s, with {false_faults} false alarms. As a control, a false force that decreases as the robot "
+     "moves displaces the robot by {control_way_m*1e3} mm."},
     {"moving-wall",
      "Is the force limited if a wall approaches the robot, even if the sign of the force sensor is wrong?",
      "", run_moving_wall, moving_wall_plots, "",
