@@ -5,7 +5,7 @@
 
 namespace longreach {
 
-/// Sets the fields that `accuracy` controls and that are not set.
+/// Sets those fields controlled by `accuracy` that the configuration leaves unset.
 void apply_accuracy(proto::MasterConfig& config);
 void apply_accuracy(proto::SlaveConfig& config);
 

@@ -1,13 +1,15 @@
 #pragma once
-// Address of an adapter: unix:/PATH, a socket on this machine, whose owner the system reports.
+// Addresses of adapters: unix:/PATH names a socket on this machine. The operating system reports which user
+// owns the other end.
 
 #include <string>
 
 namespace longreach {
 
-/// Returns why the text is not such an address and what to write, or empty. It checks the form only.
+/// Returns an empty string if the text has the form of an adapter address; otherwise what is wrong with it
+/// and what to write instead. Does not access the socket.
 std::string adapter_address_trouble(const std::string& address);
-/// Returns the path in an address.
+/// Returns the path that an adapter address contains.
 std::string adapter_path(const std::string& address);
 
 }  // namespace longreach

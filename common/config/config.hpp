@@ -1,7 +1,7 @@
 #pragma once
-// Loading, validating and addressing configuration, with one reflection-based validator for all messages
-// (proto/config.proto). Errors name file, line and column, or the path of the field; the value; and what is
-// allowed.
+// Loads, validates and addresses configuration. One reflection-based validator handles all messages
+// (proto/config.proto). Errors name the file, line and column or the path of the field, the value, and what
+// is allowed.
 
 #include <filesystem>
 #include <optional>
@@ -16,77 +16,77 @@
 
 namespace longreach {
 
-/// One sentence that names file and line or field, the value, the problem, and what is allowed. Control
-/// characters of quoted text are escaped.
+/// Describes an invalid configuration in one sentence: file and line or field, value, problem, and what is
+/// allowed. Control characters in quoted text are escaped.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::string& sentence);
 };
 
 /// Parses a protobuf text file into `message` and validates it. Throws ConfigError "FILE:LINE:COLUMN: ..."
-/// (from 1; a tab advances to the next multiple of 8; no position for a file that cannot be read), and then
-/// `message` is unchanged.
+/// and then leaves `message` unchanged. Lines and columns count from 1, and a tab advances to the next
+/// multiple of 8; there is no position if the file cannot be read.
 void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
 
-/// The same for a text in memory; errors use `name` for it.
+/// Does the same for text in memory; errors refer to it as `name`.
 void load_text(const std::string& name, const std::string& text, google::protobuf::Message& message);
 
-/// Checks every field that is set: range, finiteness, count, known enum value, known field. Then checks
-/// fields that must be consistent: joint limits and start in order, release below touch, dead zone below
-/// radius, names of materials and surfaces, directions that are not zero. Throws ConfigError with the path of
-/// the field.
+/// Checks every field that is set: range, finiteness, number of elements, known enum value, known field. Then
+/// checks that the fields are consistent: the order of joint limits and start position, release threshold
+/// below touch threshold, dead zone below radius, names of materials and surfaces, directions of non-zero
+/// length. Throws ConfigError with the path of the field.
 void validate(const google::protobuf::Message& message);
 
-/// Sets one field from text, e.g. "estimator.forgetting" "0.995". An element of a repeated message is
-/// addressed by index or by its `name` ("scene.material.wall.exponent"), a repeated number by a
-/// comma-separated list (empty: not set). Times in seconds accept the units s, ms and us, fractions %; enums
-/// are given by name in any case; flags as true, false, 1, 0, on, off. Throws ConfigError, and then `message`
-/// is unchanged. It checks each field alone, since several may have to change together; call validate() after
-/// the last one.
+/// Sets one field from text, e.g. "estimator.forgetting" to "0.995". An element of a repeated message is
+/// addressed by its index or its `name` ("scene.material.wall.exponent"). A repeated number is given as a
+/// comma-separated list; an empty list clears the field. Times accept the units s, ms and us, and fractions
+/// accept %. Enums are given by name in upper or lower case, flags as true, false, 1, 0, on or off. Throws
+/// ConfigError and then leaves `message` unchanged. Checks only this field, because several fields may have
+/// to change together: call validate() after the last one.
 void set_field(google::protobuf::Message& message, std::string_view path, std::string_view value);
 
-/// Returns a field or sub-message as text; the whole message for an empty path. Fields that are not set print
-/// their default. set_field accepts the text of a field, load_text_file that of a message. Throws ConfigError
-/// for an unknown path. With `start`, the configuration at the start of the side, comments state what clients
-/// may set a field to.
+/// Returns a field or sub-message as text, or the whole message if the path is empty. Unset fields are
+/// printed with their defaults. set_field accepts the text of a field, and load_text_file that of a message.
+/// Throws ConfigError if the path is unknown. If `start`, the configuration with which the side started, is
+/// given, comments state which values clients may set.
 std::string get_field(const google::protobuf::Message& message, std::string_view path,
                       const google::protobuf::Message* start = nullptr);
 
-/// Sets "path=value" for a laboratory run like set_field, but `master.` or `slave.` may be omitted if only
-/// one of them (or the LabConfig itself) has the path. loop.rate_hz and accuracy must agree and are set on
-/// both sides. Throws ConfigError; for any other ambiguous path it names both.
+/// Sets "path=value" for a laboratory run, like set_field. The prefix `master.` or `slave.` may be omitted if
+/// only one side (or the LabConfig itself) has the path. loop.rate_hz and accuracy must agree, so they are
+/// set on both sides. Throws ConfigError; for any other ambiguous path, the error names both alternatives.
 void set_lab_field(proto::LabConfig& config, std::string_view setting);
 
-/// Returns the full paths of the fields that set_lab_field sets for `path`: one or both sides; `path` itself
-/// if it is unknown.
+/// Returns the full paths of the fields that set_lab_field sets for `path`, on one or both sides. Returns
+/// `path` itself if it is unknown.
 std::vector<std::string> lab_fields(const std::string& path);
 
-/// Returns the paths of the fields whose effective values differ between two messages of one type and that
-/// may not change while `engaged` (or, for AT_START fields and their content, while the program runs).
+/// Compares the effective values of two messages of one type. Returns the paths of the fields that differ but
+/// may not change: AT_START fields and their content while the program runs, others while `engaged`.
 std::vector<std::string> refused_changes(const google::protobuf::Message& before,
                                          const google::protobuf::Message& after, bool engaged);
 
-/// Returns the deploy folder: $LONGREACH_HOME, else the nearest `deploy` beside or above the program, else
-/// above the working folder. Throws ConfigError with a remedy.
+/// Returns the deploy folder: $LONGREACH_HOME if it is set, otherwise the nearest `deploy` folder next to or
+/// above the program, otherwise the nearest one above the working folder. Throws ConfigError with a remedy.
 std::filesystem::path find_deploy_folder();
 
-/// Reads the files in robots/ and scenes/ that a slave configuration names into its `robot` and `scene`. An
-/// inline robot with joints is used as it is; the fields of one without joints override those of its file. An
-/// inline scene is used as it is (an empty one is free space). Then sets the fields that `accuracy` controls,
-/// and validates everything, including the number of joints (six). Throws ConfigError, and then `config` is
-/// unchanged.
+/// Reads the robot and scene files that a slave configuration names (in robots/ and scenes/) into its `robot`
+/// and `scene`. An inline robot that has joints replaces the file; the fields of one without joints override
+/// those of the file. An inline scene replaces the file (an empty scene is free space). Then sets the fields
+/// that `accuracy` controls and validates everything, including the number of joints (six). Throws
+/// ConfigError and then leaves `config` unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
-/// Reads the file in devices/ that a master configuration names; fields of its `device` override it; an empty
-/// name reads none. Then sets the fields that `accuracy` controls, and validates everything. Throws
-/// ConfigError, and then `config` is unchanged.
+/// Reads the device file that a master configuration names (in devices/), unless the name is empty. The
+/// fields of an inline `device` override those of the file. Then sets the fields that `accuracy` controls and
+/// validates everything. Throws ConfigError and then leaves `config` unchanged.
 void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
 
-/// Loads deploy/links/NAME.txtpb; its `name` is used if the file gives none. Throws ConfigError that lists
-/// the known names.
+/// Loads deploy/links/NAME.txtpb. If the file does not set `name`, the profile is called NAME. Throws a
+/// ConfigError that lists the known names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 
-// Conversion of validated messages to plain structs and back. A test checks that no field is missing.
+// Convert validated messages to plain structs and back. A test checks that no field is missing.
 MasterConfig to_struct(const proto::MasterConfig& message);
 SlaveConfig to_struct(const proto::SlaveConfig& message);
 ImpairmentConfig to_struct(const proto::Impairment& message);

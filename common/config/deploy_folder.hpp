@@ -1,5 +1,5 @@
 #pragma once
-// Location of the files that a user edits.
+// Finds the folder with the files that a user edits.
 
 #include <filesystem>
 #include <optional>
@@ -10,15 +10,15 @@ namespace longreach {
 /// Inputs of find_deploy_folder().
 struct DeploySearch {
   std::optional<std::string> longreach_home;  // the environment variable
-  std::filesystem::path program_folder;       // of the running program
+  std::filesystem::path program_folder;       // folder of the running program
   std::filesystem::path working_folder;
 };
 
-/// Throws ConfigError.
+/// Throws ConfigError if there is no such folder.
 std::filesystem::path find_deploy_folder(const DeploySearch& search);
 
-/// Returns the nearest `deploy` or `share/longreach` beside or above the program, else above the working
-/// folder.
+/// Returns the nearest `deploy` or `share/longreach` folder next to or above the program, otherwise the
+/// nearest one above the working folder.
 std::optional<std::filesystem::path> installed_folder();
 
 }  // namespace longreach

@@ -1,5 +1,6 @@
 #pragma once
-// Effective differences of two messages of one type: a field that is not set counts as its default.
+// Finds the fields with different effective values in two messages of one type. An unset field has its
+// default value.
 
 #include <google/protobuf/message.h>
 
@@ -10,8 +11,9 @@
 namespace longreach {
 
 struct Difference {
-  FieldPath path;  // a field that contains no messages, or a list with a different length
-  proto::Change change = proto::NOT_WHILE_ENGAGED;  // strictest option of the field and its parents
+  FieldPath path;  // a field that contains no messages, or a list that has a different length
+  /// Strictest option of the field and the messages that contain it.
+  proto::Change change = proto::NOT_WHILE_ENGAGED;
 };
 
 std::vector<Difference> differences(const google::protobuf::Message& before,

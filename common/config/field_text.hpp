@@ -1,5 +1,5 @@
 #pragma once
-// Conversion of the value of one field to text and back. Printed text is accepted and gives the same value.
+// Converts the value of one field to text and back. Parsing the printed text gives the same value again.
 
 #include <google/protobuf/message.h>
 
@@ -10,11 +10,12 @@
 
 namespace longreach {
 
-/// Returns the value of a field that contains no messages; the default if it is not set. Strings are
-/// unquoted, a list is separated by ", ".
+/// Returns the value of a field that contains no messages, or the default if it is not set. Strings are not
+/// quoted; list elements are separated by ", ".
 std::string value_text(const google::protobuf::Message& message, const PathStep& step);
 
-/// Sets such a field from text. Throws ConfigError that begins with `path`; does not check ranges.
+/// Sets such a field from text. Does not check ranges. Throws ConfigError with a message that starts with
+/// `path`.
 void set_value(google::protobuf::Message& message, const google::protobuf::FieldDescriptor& field,
                std::string_view text, const std::string& path);
 

@@ -1,12 +1,13 @@
 #pragma once
-// Struct of a list of fields, for reading (const) or writing.
+// Concept for the structs in the field lists of struct_fields.hpp, which are visited for reading (const) or
+// writing.
 
 #include <concepts>
 #include <type_traits>
 
 namespace longreach {
 
-/// T, const or not.
+/// Satisfied by T and const T.
 template <class S, class T>
 concept Is = std::same_as<std::remove_const_t<S>, T>;
 

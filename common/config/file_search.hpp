@@ -1,7 +1,8 @@
 #pragma once
-// Search for files that a configuration, a scene or a command line names. One rule applies to all: an
-// absolute name is used as it is; other names are searched in the folder of the file that names it and its
-// parent (on a command line: in the working folder), then in LONGREACH_HOME, then in the installation.
+// Finds the files that a configuration, a scene or a command line names. The same rule applies to all of
+// them. An absolute name is used unchanged. A relative name is searched for in the folder of the file that
+// contains the name and in its parent folder (for a command line: in the working folder), then in
+// LONGREACH_HOME, then in the installation.
 
 #include <filesystem>
 #include <string>
@@ -18,14 +19,14 @@ class FileSearch {
 
   /// Returns a search that tries `folder` first.
   [[nodiscard]] FileSearch first_in(const std::filesystem::path& folder) const;
-  /// Returns a search that tries the folder of `file` and its parent first.
+  /// Returns a search that first tries the folder of `file` and its parent folder.
   [[nodiscard]] FileSearch beside(const std::filesystem::path& file) const;
 
-  /// Returns the path of `name`; an absolute name itself. Throws ConfigError that lists the folders. `what`
-  /// is the field or option, for the error.
+  /// Returns the path of the file `name`; an absolute name is returned unchanged. Throws a ConfigError that
+  /// lists the searched folders and names `what`, the field or option.
   [[nodiscard]] std::filesystem::path find(std::string_view what, const std::string& name) const;
-  /// Accepts a path that ends with .txtpb, or NAME, which stands for FOLDER/NAME.txtpb. `what` is "link
-  /// profile" in "links", for example.
+  /// Finds a file given as a path that ends with .txtpb or as NAME, which stands for FOLDER/NAME.txtpb. For
+  /// example, `what` is "link profile" and `folder` is "links".
   [[nodiscard]] std::filesystem::path find_named(const std::string& what, const std::string& folder,
                                                  const std::string& name) const;
 
@@ -33,29 +34,30 @@ class FileSearch {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// Base folder of relative names on a command line.
+/// Returns the folder to which relative names on a command line refer.
 std::filesystem::path working_folder();
 
-/// Searches LONGREACH_HOME, then the installation. Throws ConfigError if neither exists.
+/// Returns a search in LONGREACH_HOME, then in the installation. Throws ConfigError if neither exists.
 FileSearch installed_files();
-/// Searches `folder`, then the installation.
+/// Returns a search in `folder`, then in the installation.
 FileSearch files_of(const std::filesystem::path& folder);
 
-/// Resolves a setting PATH=VALUE of a command line (or of a file in `from`): if its field names a file in
-/// `from`, returns it with the full path. Throws ConfigError if the file is in no folder.
+/// Resolves the file name in a setting PATH=VALUE from a command line (or from a file in the folder `from`):
+/// if the field names a file that exists in `from`, the setting is returned with the full path. Throws
+/// ConfigError if no searched folder contains the file.
 std::string placed_setting(const std::string& setting, const FileSearch& search,
                            const std::filesystem::path& from = working_folder());
 
-/// A file that was read, and the field that names it.
+/// A file that was read, and the field that named it.
 struct FileRead {
   std::string field;
   std::filesystem::path path;
 };
 
-/// Like those of config.hpp; `read` receives the files that were read.
+/// Same as the functions in config.hpp; in addition, the files that were read are appended to `read`.
 void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read);
 void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read);
-/// For a command line: a name, or a path relative to the working folder.
+/// Loads a profile that a command line gives as a name or as a path relative to the working folder.
 proto::LinkProfile load_link_profile(const FileSearch& search, const std::string& name,
                                      std::vector<FileRead>* read = nullptr);
 

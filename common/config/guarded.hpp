@@ -1,7 +1,8 @@
 #pragma once
-// Checks whether the force guard can keep its bound with this robot, sensor and loop: a first touch at 50
-// mm/s (or at the speed limit of the tool, if that is lower) on 5 N/mm (or on the maximum stiffness that the
-// guard assumes) must stay below 1.35 times the guard (slave/config/guard_config.hpp).
+// Checks whether the force guard can limit the force with the configured robot, sensor and loop rate. The
+// force of a first touch must stay below 1.35 times the guard, at 50 mm/s (or the speed limit of the tool, if
+// that is lower) on 5 N/mm (or the maximum stiffness that the guard assumes, if that is lower); see
+// slave/config/guard_config.hpp.
 
 #include <string>
 
@@ -9,18 +10,19 @@
 
 namespace longreach {
 
-/// Returns why not, as the remainder of a sentence that begins with command.force_guard_n; empty if it can,
-/// or if the scene has no surfaces.
+/// Returns an empty string if the guard can limit the force or the scene has no surfaces. Otherwise returns
+/// the reason, as the continuation of a sentence that starts with command.force_guard_n.
 std::string unguarded(const proto::SlaveConfig& config);
 
-/// Returns the touch threshold that the checks of the guards use, N: as configured, or the upper bound of a
-/// derived one.
+/// Returns the touch threshold that the checks of the guards assume, N: the configured one, or the upper
+/// bound of one that is derived from the sensor noise.
 double guarded_touch_n(const proto::Sensing& sensing);
-/// Returns a description of it with its value.
+/// Returns a description of this threshold, with its value.
 std::string touch_text(const proto::Sensing& sensing);
 
-/// The same for sensing.force_range_n and sensing.moment_range_nm: a force beyond the range of the sensor is
-/// not guarded. Empty for a moment if nothing rotates the tool.
+/// Check sensing.force_range_n and sensing.moment_range_nm in the same way, because the guards cannot limit
+/// what exceeds the range of the sensor. unmeasured_moment() returns an empty string if no contact can rotate
+/// the tool.
 std::string unmeasured_force(const proto::SlaveConfig& config);
 std::string unmeasured_moment(const proto::SlaveConfig& config);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Addresses in user notation: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001".
+// Network addresses as users write them: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001".
 
 #include <cstdint>
 #include <optional>
@@ -12,10 +12,10 @@ struct HostAndPort {
   std::uint16_t port = 0;
 };
 
-/// Returns none if the form is invalid; does not resolve the host.
+/// Returns none if the text is not a valid address. Does not resolve the host name.
 std::optional<HostAndPort> host_and_port(const std::string& text);
 
-/// Describes the expected form, as the end of a sentence.
+/// End of an error message that describes the expected form.
 inline constexpr const char* kNoAddress =
     " is not an address; write address:port, e.g. 127.0.0.1:47001 or [::1]:47001, with a port from 0 to "
     "65535";

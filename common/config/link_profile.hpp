@@ -1,13 +1,13 @@
 #pragma once
-// Application of a link profile to one side of the link.
+// Applies a link profile to one side of the link.
 
 #include "proto/config.pb.h"
 
 namespace longreach {
 
-/// Impairs the received datagrams as the incoming direction of the profile specifies. Limits the sent data to
-/// 95 % of the rate of the outgoing direction, unless a budget is set, because an overloaded link adds the
-/// delay of its queue.
+/// Impairs the received datagrams as specified for the incoming direction of the profile. Unless a send
+/// budget is set, limits the sent data to 95 % of the rate of the outgoing direction, because an overloaded
+/// link adds queueing delay.
 void take_profile(proto::MasterLink& link, const proto::LinkProfile& profile);
 void take_profile(proto::SlaveLink& link, const proto::LinkProfile& profile);
 

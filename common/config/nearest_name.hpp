@@ -1,6 +1,6 @@
 #pragma once
-// Suggestion for a mistyped name: the known name with the minimum edit distance (Levenshtein 1966), if it is
-// small.
+// Suggests a correction for a mistyped name: the known name with the smallest edit distance (Levenshtein
+// 1966), if that distance is small enough.
 
 #include <optional>
 #include <string>
@@ -11,18 +11,18 @@ namespace longreach {
 
 using Names = std::vector<std::string>;
 
-/// Returns the nearest of `names`, if at most a third of the letters differ or if it is the only one that
-/// continues `word` with "_" (a missing unit: "delay" for "delay_s"). Case is ignored.
+/// Returns the nearest of `names` if at most a third of its letters differ, or if it is the only name that
+/// continues `word` with "_" (the unit is missing, as in "delay" for "delay_s"). Ignores case.
 std::optional<std::string> nearest_name(std::string_view word, const Names& names);
 
 /// Returns "; did you mean "NAME"?" or an empty string.
 std::string did_you_mean(std::string_view word, const Names& names);
 
-/// Returns the alternatives: "; did you mean "NAME"? It has: a, b" or "; it has: a, b", with the lower-case
-/// `lead` for "it has".
+/// Returns the alternatives, as "; did you mean "NAME"? It has: a, b" or "; it has: a, b". `lead` is the
+/// introduction (here "it has"), in lower case.
 std::string instead_of(std::string_view word, const Names& names, const std::string& lead);
 
-/// Returns "a, b, c"; "none" if there are no names.
+/// Returns the names as "a, b, c", or "none" if there are none.
 std::string list_names(const Names& names);
 
 /// Converts ASCII to lower case.

@@ -1,7 +1,7 @@
 #pragma once
-// Conversion between numbers and text. It is strict in both directions: printed text parses back to the same
-// bits, and only a complete, finite decimal number is accepted (std::from_chars: no locale, no hexadecimal,
-// no blanks, no sign "+").
+// Converts numbers to text and back, exactly and strictly: printed text parses back to the same bits, and
+// only a complete, finite decimal number is accepted (std::from_chars: no locale, hexadecimal notation,
+// spaces or "+" sign).
 
 #include <charconv>
 #include <optional>
@@ -16,8 +16,8 @@ std::string format_number(double value);
 /// Returns none for "nan", "inf", "1e999", "0x10", trailing text or empty text.
 std::optional<double> parse_number(std::string_view text);
 
-/// Like parse_number, with a unit: seconds accept s, ms, us; fractions accept %. The scale is applied to the
-/// decimal text, so that "0.1ms" is the double nearest to 0.0001.
+/// Like parse_number, but accept a unit: s, ms or us for seconds, % for fractions. The unit is applied to the
+/// decimal text, so that "0.1ms" gives the double nearest to 0.0001.
 std::optional<double> parse_seconds(std::string_view text);
 std::optional<double> parse_fraction(std::string_view text);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Rewords errors of the protobuf text parser: with the position of the faulty word itself, and a suggestion
-// for unknown names.
+// Rewords errors of the protobuf text parser: gives the position of the faulty word itself and suggests
+// corrections for unknown names.
 
 #include <google/protobuf/descriptor.h>
 
@@ -12,7 +12,7 @@
 namespace longreach {
 
 struct ParseError {
-  TextPosition position;  // from 0
+  TextPosition position;  // counted from 0
   std::string text;
 };
 

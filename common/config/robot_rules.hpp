@@ -1,5 +1,5 @@
 #pragma once
-// Fields of a robot that must agree with each other.
+// Checks that the fields of a robot are consistent.
 
 #include "common/config/rule.hpp"
 #include "proto/config.pb.h"

@@ -13,7 +13,7 @@ namespace longreach {
 using Finding = std::optional<Violation>;
 using google::protobuf::Message;
 
-// A violation within `message`: the path starts there.
+// Returns a violation at a field of `message`; the path starts at `message`.
 inline Violation at(const Message& message, const char* field, std::string text) {
   return {{{message.GetDescriptor()->FindFieldByName(field), -1}}, std::move(text)};
 }
@@ -29,7 +29,7 @@ struct Named {
   double value;
 };
 
-// `low` < `high`, or a violation at the one that is set in the message.
+// Returns none if `low` < `high`; otherwise a violation at the field that the message sets.
 inline Finding in_order(const Message& message, const Named& low, const Named& high) {
   if (low.value < high.value) return std::nullopt;
   const auto* high_field = message.GetDescriptor()->FindFieldByName(high.name);

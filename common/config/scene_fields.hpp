@@ -1,5 +1,5 @@
 #pragma once
-// The lists of struct_fields.hpp for the fields of a scene file.
+// Field lists, as in struct_fields.hpp, for the structs of a scene file.
 
 #include "common/config/field_visit.hpp"
 #include "slave/config/scene_config.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Sets several fields together, by path and text as in set_field (config.hpp).
+// Sets several fields at once. Each is given by path and text, as for set_field (config.hpp).
 
 #include <google/protobuf/message.h>
 
@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-/// Sets the fields in order, either all or none, and validates the result once. Throws ConfigError, and then
-/// `message` is unchanged.
+/// Sets the fields in order, either all of them or none, and validates the result once. Throws ConfigError
+/// and then leaves `message` unchanged.
 void set_fields(google::protobuf::Message& message,
                 const std::vector<std::pair<std::string, std::string>>& assignments);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Maps struct members to fields of the schema: one list per struct, used in both directions. A visitor is
-// called with the name of the field and the member. Members are numbers, flags, texts, enums, vectors,
-// structs or lists of structs.
+// Maps struct members to fields of the schema, with one list per struct that is used in both directions. The
+// visitor is called with the name of each field and the member, which is a number, flag, string, enum,
+// vector, struct or list of structs.
 
 #include "common/config/scene_fields.hpp"
 #include "master/config/master_config.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the position of a field in a text file, for errors that are detected after the file has been loaded.
+// Finds the position of a field in a text file, for errors that are detected after the file was loaded.
 
 #include <filesystem>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// Returns "FILE:LINE:COLUMN" of a field of the file's message, or of the nearest enclosing field; "FILE" if
-/// the file can no longer be read.
+/// Returns "FILE:LINE:COLUMN" for a field of the message in the file, or for the nearest enclosing field if
+/// the file does not set it. Returns "FILE" if the file can no longer be read.
 std::string place_in_file(const std::filesystem::path& file, const google::protobuf::Message& message,
                           const FieldPath& path);
 

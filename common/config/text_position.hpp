@@ -1,5 +1,5 @@
 #pragma once
-// Lines and columns of a text file, counted from 0 as protobuf's tokenizer does: a column is a byte, and a
+// Lines and columns of a text file, counted from 0 like in protobuf's tokenizer: each byte is a column, and a
 // tab advances to the next multiple of 8.
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct TextPosition {
 std::size_t offset_of(std::string_view text, TextPosition position);
 TextPosition position_of(std::string_view text, std::size_t offset);
 
-/// Returns the start of the last `word` before `position`: the parser reports some errors after the word that
-/// causes them.
+/// Returns the start of the last `word` before `position`, because the parser reports some errors at a
+/// position after the word that causes them.
 TextPosition last_before(std::string_view text, std::string_view word, TextPosition position);
 
 }  // namespace longreach

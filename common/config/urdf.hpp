@@ -1,7 +1,7 @@
 #pragma once
-// Robots from URDF files: the arm between two links, as rows of a Denavit-Hartenberg table. Geometry, limits
-// and names are read; meshes, inertias, sensors and what else such a file holds are not looked at.
-// W is the frame of the base link, E that of the tip link; joints count from the file's own zero.
+// Reads robots from URDF files: converts the arm between two links to a Denavit-Hartenberg table. Only
+// geometry, limits and names are read; meshes, inertias, sensors and all other content are ignored. W is the
+// frame of the base link and E that of the tip link. The joints have the same zero position as in the file.
 
 #include <filesystem>
 #include <string>
@@ -12,12 +12,13 @@ namespace longreach {
 
 inline constexpr const char* kUrdfExtension = ".urdf";
 
-/// A file that ends so.
+/// Returns whether the file name has this extension.
 bool is_urdf(const std::string& name);
 
-/// The robot of a URDF. `wanted`: base_link, tip_link and start_rad, where set, and the limits that a URDF
-/// does not have. Result: a robot with six joints, base_link and tip_link as found; continuous joints, and
-/// revolute ones with wider limits, may turn twice either way. Throws ConfigError "NAME:LINE: ...".
+/// Converts a URDF to a robot with six joints. `wanted` contains base_link, tip_link and start_rad, if they
+/// are set, and the limits that a URDF does not define. The result contains the base_link and tip_link that
+/// were found. Continuous joints, and revolute joints with wider limits, are limited to two turns in each
+/// direction. Throws ConfigError "NAME:LINE: ...".
 proto::Robot read_urdf(const std::string& name, const std::string& text, const proto::Robot& wanted);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The links and joints of a URDF, and the joints of the arm between two of its links.
+// Parses the links and joints of a URDF and finds the joints of the arm between two links.
 
 #include <tinyxml2.h>
 
@@ -17,28 +17,31 @@ struct UrdfJoint {
   std::string name;
   Kind kind = Kind::kFixed;
   int line = 0;
-  Pose X_PJ{};  // the joint in the frame of its parent link; with it at zero, that of its child link
-  Vector3 axis = Vector3::UnitX();  // unit, in its own frame
-  double min = 0.0, max = 0.0;      // rad or m; of a continuous joint unbounded
+  /// Pose of the joint in the frame of its parent link. With the joint at zero, it is the frame of the child
+  /// link.
+  Pose X_PJ{};
+  Vector3 axis = Vector3::UnitX();  // unit vector in the frame of the joint
+  double min = 0.0, max = 0.0;      // rad or m; unbounded for a continuous joint
   double speed_max = 0.0;           // rad/s or m/s
 };
 
 class UrdfTree {
  public:
-  /// Throws ConfigError "NAME:LINE: ...", as all here.
+  /// Like the other functions of this class, throws ConfigError "NAME:LINE: ...".
   UrdfTree(std::string name, const std::string& text);
 
   struct Arm {
     std::string base_link, tip_link;
-    std::vector<UrdfJoint> joints;  // base to tip, fixed ones too
+    std::vector<UrdfJoint> joints;  // from base to tip, including fixed joints
   };
-  /// Between two links; an empty name: the root; the only end with `moving` joints before it that move.
+  /// Returns the arm between two links. If base_link is empty, the arm starts at the root; if tip_link is
+  /// empty, it ends at the only link that is an end of the tree and has `moving` movable joints before it.
   [[nodiscard]] Arm arm(const std::string& base_link, const std::string& tip_link, int moving) const;
 
   [[nodiscard]] const std::string& robot_name() const { return robot_name_; }
 
  private:
-  /// Of a joint: what the shape of the tree takes.
+  /// The properties of a joint that define the shape of the tree.
   struct Edge {
     const tinyxml2::XMLElement* element = nullptr;
     std::string name, parent, child;
@@ -67,8 +70,8 @@ class UrdfTree {
   std::string name_;
   tinyxml2::XMLDocument document_;
   std::string robot_name_;
-  std::map<std::string, int> links_;     // and their lines
-  std::map<std::string, Edge> edge_to_;  // by the child link
+  std::map<std::string, int> links_;     // name and line of each link
+  std::map<std::string, Edge> edge_to_;  // joint above each link, by the link's name
 };
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// Reads files named by a user: configuration, robots, scenes, MJCF, meshes, devices. Only regular files of a
-// bounded size are read, because a FIFO would block until it is written and a device has no end. The check
-// uses the open descriptor.
+// Reads files that a user names: configuration, robots, scenes, MJCF, meshes, devices. Only regular files of
+// limited size are read, because a FIFO would block until a process writes to it, and a device has no end.
+// The check is done on the open descriptor.
 
 #include <cstddef>
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace longreach {
 
 inline constexpr std::size_t kUserFileMaxBytes = std::size_t{64} << 20U;
 
-/// Returns the whole file. Throws ConfigError "FILE: ..." with the reason.
+/// Returns the content of the whole file. Throws ConfigError "FILE: ..." with the reason.
 std::string read_user_file(const std::filesystem::path& file, std::size_t max_bytes = kUserFileMaxBytes);
 
 }  // namespace longreach

@@ -6,11 +6,13 @@
 
 namespace longreach {
 
-/// Length of the well-formed UTF-8 character at the front (RFC 3629); 0 if there is none.
+/// Returns the length of the well-formed UTF-8 character at the start of `text` (RFC 3629), or 0 if there is
+/// none.
 std::size_t utf8_length(std::string_view text);
 bool is_utf8(std::string_view text);
 
-/// Returns `text` in printable form: control characters and invalid UTF-8 become \x1b and the like.
+/// Returns `text` in printable form: control characters and invalid UTF-8 are replaced by escapes such as
+/// \x1b.
 std::string printable(std::string_view text);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Errors in a message and their positions. Two checks find them without access to files, so that a text file
-// can add the line, and a setting the path of the field.
+// Finds errors in a message and their positions. The two checks do not access files: the caller adds the line
+// of a text file, or the path of the field in a setting.
 
 #include <google/protobuf/message.h>
 
@@ -13,15 +13,16 @@ namespace longreach {
 
 struct Violation {
   FieldPath path;    // from the root of the checked message to the invalid field or element
-  std::string text;  // continues the text of the path: " = 7 is outside 0.05 to 1"
+  std::string text;  // follows the path in the error message, e.g. " = 7 is outside 0.05 to 1"
 };
 
-/// Finds the first field that violates its own options: range, finiteness, count, unknown enum value, unknown
-/// field number. One reflection walk visits the fields that are set.
+/// Finds the first field that violates its own options (range, finiteness, number of elements) or that has an
+/// unknown enum value or field number. Visits only the fields that are set.
 std::optional<Violation> find_violation(const google::protobuf::Message& message);
 
-/// Finds the first fields that are valid by themselves but not together: order of limits, references by name,
-/// directions of zero length. Defaults are included. Absent parts (a robot without joints) are skipped.
+/// Finds the first fields that are valid individually but inconsistent with each other: order of limits,
+/// references by name, directions of zero length. Unset fields count with their defaults. Missing parts, such
+/// as the joints of a robot, are not checked.
 std::optional<Violation> find_inconsistency(const google::protobuf::Message& message);
 
 /// Applies the two checks above, in this order.

@@ -1,7 +1,7 @@
 #pragma once
-// AES-256-GCM (NIST SP 800-38D) with one key, by Intel's Multi-Buffer Crypto library, which needs a third of
-// the time of libsodium for a short datagram. Only x86 with AES instructions is supported, because
-// table-based AES leaks the key through the cache.
+// AES-256-GCM (NIST SP 800-38D) with one key. Uses Intel's Multi-Buffer Crypto library, which takes a third
+// of the time of libsodium for a short datagram. Only x86 processors with AES instructions are supported,
+// because table-based AES leaks the key through the cache.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,8 @@ class AesGcm {
     std::size_t size = 0;
   };
 
-  /// Returns whether it was built in and the processor supports it; if not, no other function may be called.
+  /// Returns whether AES-256-GCM was built in and the processor supports it. If not, no other function may be
+  /// called.
   static bool available();
 
   AesGcm() = default;
@@ -26,10 +27,10 @@ class AesGcm {
   AesGcm& operator=(const AesGcm&) = delete;
 
   void set_key(const std::uint8_t* key);
-  /// Writes the encrypted body to `out`, which may be the body, followed by the tag.
+  /// Encrypts `body` and writes the result, followed by the tag, to `out`, which may be the memory of `body`.
   void close(const std::uint8_t* nonce, Bytes header, Bytes body, std::uint8_t* out) const;
-  /// Writes the body of `sealed` (body, then tag) to `out` if it was sealed with this key, nonce and header;
-  /// otherwise `out` is zero.
+  /// Decrypts `sealed` (body, then tag) into `out`. Returns true if it was sealed with this key, nonce and
+  /// header; otherwise fills `out` with zeros.
   [[nodiscard]] bool open(const std::uint8_t* nonce, Bytes header, Bytes sealed, std::uint8_t* out) const;
 
  private:

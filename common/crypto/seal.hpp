@@ -2,11 +2,11 @@
 // Authenticated encryption of the datagrams of one direction of one session (AEAD).
 //
 //   key   = KDF(secret; cipher, direction)    BLAKE2b, crypto_kdf_derive_from_key
-//  nonce = type (1) | 0 (3) | sequence (8)   big-endian, used once per key: the sender counts
-//  (body, header) -> encrypted body | tag (16); the header is authenticated but not encrypted
+//   nonce = type (1) | 0 (3) | sequence (8)   big-endian, used once per key: the sender counts
+//   (body, header) -> encrypted body | tag (16); the header is authenticated but not encrypted
 //
-// A datagram sealed in one direction does not open in the other. Repeated nonces, order and replay are
-// handled in common/link. Allocates nothing.
+// A datagram that was sealed for one direction cannot be opened in the other. common/link prevents repeated
+// nonces and handles reordering and replay. Does not allocate memory.
 
 #include <array>
 #include <cstddef>
@@ -34,11 +34,11 @@ class Seal {
   Seal(const Seal&) = delete;
   Seal& operator=(const Seal&) = delete;
 
-  /// Encrypts in place: `body` holds the body, followed by space for the tag.
+  /// Encrypts in place. `body` contains the body, followed by space for the tag.
   void close(const Nonce& nonce, std::span<const std::byte> header, std::span<std::byte> body) const;
 
-  /// Writes the body of `sealed` (body, then tag) to `body` and returns true if it was sealed with this key,
-  /// nonce and header. Otherwise `body` contains nothing of it. `body` has space for all but the tag.
+  /// Decrypts `sealed` (body, then tag) into `body`, which has space for everything except the tag. Returns
+  /// true if it was sealed with this key, nonce and header; otherwise `body` contains no decrypted data.
   [[nodiscard]] bool open(const Nonce& nonce, std::span<const std::byte> header,
                           std::span<const std::byte> sealed, std::span<std::byte> body) const;
 

@@ -1,8 +1,9 @@
 #pragma once
-// State shared by both sides during a connection: a number that every datagram carries unencrypted, and a
-// secret from which the keys of both directions are derived. The slave draws it from the system's random
-// source (libsodium) and gives it to one master. A restart of either side requires a new session, so that no
-// nonce is ever used twice with the same key.
+// A session: the state that both sides share during a connection. It consists of a number, which every
+// datagram contains unencrypted, and a secret, from which the keys of both directions are derived. The slave
+// generates the session with the random number generator of the system (libsodium) and gives it to one
+// master. Each side requires a new session when it restarts, so that no nonce is ever used twice with the
+// same key.
 
 #include <array>
 #include <cstddef>
@@ -13,12 +14,12 @@ namespace longreach {
 
 enum class Cipher : std::uint8_t {
   kChaCha20Poly1305,  // RFC 8439, fast everywhere
-  kAes256Gcm,         // NIST SP 800-38D; only where has_aes256gcm()
+  kAes256Gcm,         // NIST SP 800-38D; requires has_aes256gcm()
 };
 
 constexpr std::size_t kSecretBytes = 32;
 
-/// Erases itself from memory, both on destruction and when moved from.
+/// A secret that is erased from memory when it is destroyed or moved from.
 struct Secret : std::array<std::byte, kSecretBytes> {
   Secret() : array{} {}
   Secret(const Secret&) = default;
@@ -29,7 +30,7 @@ struct Secret : std::array<std::byte, kSecretBytes> {
 };
 
 struct Session {
-  std::uint64_t number = 0;  // 0: none
+  std::uint64_t number = 0;  // 0: no session
   Cipher cipher = Cipher::kChaCha20Poly1305;
   Secret secret{};
 };
@@ -37,10 +38,10 @@ struct Session {
 /// Returns whether this processor has the instructions for AES-256-GCM in libsodium.
 bool has_aes256gcm();
 
-/// Overwrites a copy of a secret after use.
+/// Overwrites the text; call it for each copy of a secret after use.
 void wipe(std::string& text);
 
-/// Draws a session with a non-zero number and an unpredictable secret.
+/// Generates a session with a non-zero number and an unpredictable secret.
 Session draw_session(Cipher cipher);
 
 }  // namespace longreach

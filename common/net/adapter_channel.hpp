@@ -1,5 +1,5 @@
 #pragma once
-// Socket to the adapter of a real device or robot.
+// Opens the socket to the adapter of a real device or robot.
 
 #include <memory>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace longreach {
 
-/// Returns null if no adapter is configured. Throws AddressError.
+/// Returns null if no adapter is configured. Throws AddressError for an invalid address.
 std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config);
 
-/// Refuses unencrypted RPC for a real device or robot. Throws ConfigError. `device`: "haptic device" or
-/// "robot".
+/// Throws ConfigError if RPC is unencrypted (`insecure`) although an adapter for a real device or robot is
+/// configured. `device` is "haptic device" or "robot".
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device);
 
-/// Shortens silence_s by one tick of a loop at `rate_hz`, so that the last tick within silence_s reports the
-/// silence, not the first tick after it.
+/// Shortens silence_s by one tick of a loop at `rate_hz`, so that a timeout is reported by the last tick
+/// within silence_s instead of the first tick after it.
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz);
 
-/// Describes the problem of an adapter and its remedy; empty if there is none. `device`: "haptic device" or
-/// "robot".
+/// Describes the problem of an adapter and how to solve it; empty if there is no problem. `device` is "haptic
+/// device" or "robot".
 struct AdapterFigures;
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address);

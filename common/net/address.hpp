@@ -1,6 +1,6 @@
 #pragma once
-// Addresses in user notation: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001". Resolving a name may
-// block, so it is done at start only.
+// Network addresses as users write them: "127.0.0.1:47001", "[::1]:47001", "robot.local:47001". Names are
+// only resolved when a program starts, because this may block.
 
 #include <asio/ip/udp.hpp>
 #include <stdexcept>
@@ -8,16 +8,16 @@
 
 namespace longreach {
 
-/// One sentence that names the invalid address and the expected form.
+/// Error for an invalid address: one sentence that contains the address and the expected form.
 class AddressError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws AddressError. Port 0 means any free port.
+/// Parses an address and resolves its host name. Port 0 stands for any free port. Throws AddressError.
 asio::ip::udp::endpoint parse_udp_address(const std::string& text);
 
-/// The notation that parse_udp_address reads.
+/// Returns the address in the form that parse_udp_address accepts.
 std::string to_string(const asio::ip::udp::endpoint& endpoint);
 
 }  // namespace longreach

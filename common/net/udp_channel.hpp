@@ -1,9 +1,10 @@
 #pragma once
-// Channel over one UDP socket, IPv4 or IPv6. It never blocks, and allocates nothing after construction.
+// Channel over one UDP socket, IPv4 or IPv6. It never blocks, and it does not allocate memory after
+// construction.
 //
-// The calling side (master) gives its peer: it sends to that address, and drops and counts datagrams from
-// other addresses. The answering side (slave) gives none: it receives from any address, and sends to the
-// origin of the newest authentic datagram (`answer_to`). Until then it sends nothing.
+// The master has a fixed peer: it sends to this address, and drops and counts datagrams from other addresses.
+// The slave has no fixed peer: it receives from any address and sends to the origin of the newest authentic
+// datagram (`answer_to`). It sends nothing before the first one.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -29,7 +30,7 @@ class UdpChannel : public Channel {
   [[nodiscard]] std::optional<std::string> peer_address() const;
   [[nodiscard]] std::uint64_t unknown_peers() const {
     return unknown_peers_;
-  }                                                               // datagrams from other addresses, dropped
+  }                                                               // dropped datagrams from other addresses
   [[nodiscard]] std::uint64_t unsent() const { return unsent_; }  // datagrams that the system refused to send
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
-// Channel to a program on this machine: one end of a Unix socket (SOCK_SEQPACKET). The other end listens at a
-// path and must belong to the same user or to root, according to the system; otherwise it is disconnected.
-// The other end may start later, end and restart. The channel never blocks, and allocates nothing after
-// construction.
+// Channel to a program on this machine over a Unix socket (SOCK_SEQPACKET). The other program listens at a
+// path and must run as the same user or as root, as reported by the operating system; otherwise the channel
+// disconnects. The other program may start later and may restart. The channel never blocks, and it does not
+// allocate memory after construction.
 
 #include <sys/types.h>
 
@@ -13,22 +13,22 @@
 
 namespace longreach {
 
-/// Returns the path in an adapter address. Throws AddressError.
+/// Returns the path in an adapter address. Does not connect yet. Throws AddressError for an invalid address.
 std::string unix_path(const std::string& address);
 
-/// Connects to the program that listens there; returns -1 with errno if there is none. Never blocks.
+/// Connects to the program that listens at `path`. Returns -1 and sets errno if there is none. Never blocks.
 int connect_unix(const std::string& path);
-/// The same, with the identity of `user` towards the other end, regardless of the mode of the path; needs
+/// The same, but the other end sees a connection by `user`. The permissions of the path are ignored. Requires
 /// root.
 int connect_unix_as(uid_t user, const std::string& path);
-/// Returns why there is no socket: "there is no such file", "it is a folder, not a socket"; empty: there is
-/// one.
+/// Returns why there is no socket at `path`, e.g. "there is no such file" or "it is a folder, not a socket";
+/// empty if there is one.
 std::string no_socket_there(const std::string& path);
 /// Returns why connect_unix(path) failed with `error`.
 std::string why_not_connected(const std::string& path, int error);
-/// Returns the user of the other end; none if the system does not report it.
+/// Returns the user that runs the program at the other end, or none if the system does not report it.
 std::optional<uid_t> peer_user(int socket);
-/// Returns whether it is this user or root.
+/// Returns whether `user` is the user of this program or root.
 bool may_be_trusted(uid_t user);
 
 class UnixChannel : public Channel {
@@ -40,11 +40,11 @@ class UnixChannel : public Channel {
   UnixChannel& operator=(const UnixChannel&) = delete;
 
   std::optional<std::size_t> receive(std::span<std::byte> buffer) override;
-  /// Tries to connect from time to time while there is no other end.
+  /// While there is no connection, tries to connect from time to time.
   void send(std::span<const std::byte> datagram) override;
 
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
-  /// The user of the listening program, if it was another user at the last attempt.
+  /// User of the listening program, if the last attempt to connect was refused because it is another user.
   [[nodiscard]] std::optional<uid_t> unknown_peer() const { return unknown_peer_; }
 
  private:
@@ -53,7 +53,7 @@ class UnixChannel : public Channel {
 
   std::string path_;
   int socket_ = -1;
-  int wait_ = 0;  // sends until the next attempt to connect
+  int wait_ = 0;  // number of calls of send() until the next attempt to connect
   std::optional<uid_t> unknown_peer_{};
 };
 

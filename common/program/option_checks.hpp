@@ -1,5 +1,5 @@
 #pragma once
-// Checks of command-line values before they are used, for all programs. Include it only in files with CLI11.
+// Checks of command-line values, shared by all programs. Include this header only in files that use CLI11.
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -11,8 +11,7 @@
 
 namespace longreach {
 
-/// Accepts a decimal number from `low` to `high`, but not NaN, which passes the comparisons of CLI11's own
-/// checks.
+/// Accepts decimal numbers from `low` to `high`. Rejects NaN, which passes CLI11's own range check.
 inline CLI::Validator number_between(double low, double high) {
   return {[low, high](const std::string& text) {
             const auto number = parse_number(text);
@@ -30,7 +29,7 @@ inline CLI::Validator number_above_zero() {
           ""};
 }
 
-/// CLI11 would accept -1 and numbers that are too long.
+/// Needed because CLI11 accepts -1 and numbers that are too large.
 inline CLI::Validator whole_number() {
   return {[](const std::string& text) {
             return parse_integer<std::uint64_t>(text)
@@ -47,8 +46,8 @@ inline CLI::Validator address_by_its_form() {
           ""};
 }
 
-/// Refuses empty option values: a script with an unset variable means a value, not the default. Call it after
-/// all options are defined; positionals may be empty.
+/// Rejects empty option values, because a script with an unset variable does not mean the default. Positional
+/// arguments may be empty. Call it after all options are defined.
 inline void refuse_empty_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options(
            [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_items_expected_max() > 0; }))

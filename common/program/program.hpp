@@ -1,6 +1,6 @@
 #pragma once
-// Common parts of both programs around their loop: options, configuration, exit status. Include it only in
-// main.cpp: CLI11 takes seconds to compile.
+// The parts that both programs share outside their loops: options, configuration and exit status. Include
+// this header only in main.cpp, because CLI11 takes seconds to compile.
 
 #include <unistd.h>
 
@@ -27,8 +27,8 @@
 
 namespace longreach {
 
-constexpr int kExitFailed = 1;    // could not start, or the run failed its checks
-constexpr int kExitBadUsage = 2;  // options or configuration
+constexpr int kExitFailed = 1;    // the program could not start, or the run failed its checks
+constexpr int kExitBadUsage = 2;  // invalid options or configuration
 
 struct ProgramOptions {
   std::string config;
@@ -83,13 +83,13 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
                "Check the configuration, print the effective configuration, and exit");
 }
 
-/// Throws SiteError.
+/// Returns the site folder. Throws SiteError.
 inline std::filesystem::path site_of(const ProgramOptions& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Call it before the program has a secret: forbids core dumps unless the options permit them. Throws
-/// SiteError.
+/// Returns the credentials of `role`, and disables core dumps unless the options permit them. Call it before
+/// the program has a secret. Throws SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
@@ -111,13 +111,14 @@ inline void apply_setting(google::protobuf::Message& message, const std::string&
   set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
 }
 
-/// Returns whether a setting affects the content of a separate file.
+/// Returns whether a setting changes content that comes from a separate file.
 inline bool concerns_named_file(const std::string& setting) {
   return setting.starts_with("scene.") || setting.starts_with("robot.");
 }
 
-/// Applies the file, then the profile, then the settings; files that these name are read before the settings
-/// that override their content. `read` receives the files. Throws ConfigError.
+/// Applies the configuration file, then the profile, then the settings. Files that the settings name are read
+/// before the settings that override their content. Appends the files that were read to `read`. Throws
+/// ConfigError.
 template <class Message>
 Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
   Message message;
@@ -137,12 +138,13 @@ Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) 
     if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
   }
   if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
-    resolve_files(message, search, nullptr);  // again, for files that the settings changed
+    resolve_files(message, search, nullptr);  // again, because the settings may have changed the files
   validate(message);
   return message;
 }
 
-/// "robot_file=/a scene_file=/b", each on its own line after "# " for --check.
+/// Lists the files as "FIELD=PATH", each between `before` and `behind`, e.g. one per line after "# " for
+/// --check.
 inline std::string files_text(const std::vector<FileRead>& read, const std::string& before,
                               const std::string& behind) {
   std::string text;
@@ -150,7 +152,8 @@ inline std::string files_text(const std::vector<FileRead>& read, const std::stri
   return text;
 }
 
-/// Parses the options, runs, and converts exceptions to one sentence on standard error and an exit status.
+/// Parses the options and calls `run`. Converts exceptions to one sentence on standard error and an exit
+/// status.
 template <class Run>
 int guarded_main(CLI::App& app, int argc, char** argv, const Run& run) {
   const auto complain = [&app](const std::exception& e, int status) {

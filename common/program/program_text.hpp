@@ -1,18 +1,19 @@
 #pragma once
-// Manual page and shell completion of a program, from the same texts as its --help.
+// Generates the manual page and shell completion of a program from the text of its --help.
 
 #include <CLI/App.hpp>
 #include <string>
 
 namespace longreach {
 
-/// Adds --man and --completion SHELL, which print and exit. `title`: name and version of the program.
+/// Adds the options --man and --completion SHELL, which print the text and exit. `title` is the name and
+/// version of the program.
 void add_manual_options(CLI::App& app, const std::string& title);
 
-/// Roff, for `man`. `title`: name and version of the program.
+/// Returns the manual page in roff format. `title` is the name and version of the program.
 std::string manual_page(const CLI::App& app, const std::string& title);
 
-/// `shell`: bash, zsh or fish.
+/// Returns the completion script for `shell`: bash, zsh or fish.
 std::string completion(const CLI::App& app, const std::string& shell);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// Version and commit of the build, for readers of a recording.
+// Version and commit of the build, which recordings contain.
 
 #include <string>
 #include <string_view>
@@ -7,9 +7,9 @@
 namespace longreach {
 
 std::string_view build_version();
-/// Commit, with "-dirty" if the tree differed.
+/// Returns the commit, with "-dirty" appended if the source tree contained other changes.
 std::string_view build_commit();
-/// "longreach 0.1.0 abcdef012345"
+/// Returns, for example, "longreach 0.1.0 abcdef012345".
 std::string build_name();
 
 }  // namespace longreach

@@ -1,5 +1,6 @@
 #pragma once
-// Bytes of MCAP records: little-endian numbers, length-prefixed texts. The buffer grows and keeps its memory.
+// Buffer for the bytes of MCAP records, with little-endian numbers and length-prefixed strings. It grows as
+// needed and reuses its memory.
 
 #include <algorithm>
 #include <cstddef>
@@ -40,13 +41,13 @@ class ByteBuffer {
   void add_bytes(std::span<const std::byte> bytes) {
     std::copy(bytes.begin(), bytes.end(), extend(bytes.size()));
   }
-  /// Space for `size` bytes, to be written by the caller.
+  /// Adds `size` bytes and returns a pointer to them. The caller must write them.
   std::byte* extend(std::size_t size) {
     bytes_.resize(bytes_.size() + size);
     return bytes_.data() + bytes_.size() - size;
   }
 
-  /// Reserves a length of 4 or 8 bytes that is filled in when the content is complete.
+  /// Reserves space for a length of 4 or 8 bytes. end_length() fills it in when the content is complete.
   template <class Length = std::uint32_t>
   std::size_t begin_length() {
     add(Length{0});

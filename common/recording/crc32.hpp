@@ -7,7 +7,7 @@
 
 namespace longreach {
 
-/// CRC of `bytes`, continued from the CRC `before` of preceding data; 0: none.
+/// Returns the CRC of `bytes`. `before` is the CRC of the preceding data, or 0 if there is none.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace longreach

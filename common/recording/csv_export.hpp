@@ -1,6 +1,7 @@
 #pragma once
-// Exports a recording as tables: a CSV file per topic, a row per message, a column per number. It uses the
-// schemas in the file, so that recordings of any version can be exported; numbers keep all their digits.
+// Exports a recording as tables, with one CSV file per topic, one row per message and one column per number.
+// It uses the schemas in the recording, so recordings of every version can be exported. Numbers are printed
+// with all their digits.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,16 +17,17 @@ struct CsvTable {
 
 struct CsvExport {
   std::vector<CsvTable> tables;
-  std::vector<std::string> skipped{};  // topics that are not protobuf, with the reason
-  std::vector<std::string> damaged{};  // topics and messages that were skipped because they cannot be read
+  std::vector<std::string> skipped{};  // topics that are not encoded as protobuf, with the reason
+  std::vector<std::string> damaged{};  // topics and messages that were skipped because they are damaged
   double last_s = 0.0;                 // t_s of the last message
-  bool whole = false;                  // false: the recording is truncated, or still being written
+  bool whole = false;                  // false if the recording is truncated or still being written
 };
 
-/// Creates `folder` with one TOPIC.csv per topic, '/' replaced by '_'. First columns: t_s since `zero_ns` (0:
-/// the first message of the recording), log_time_ns (Unix time, comparable across recordings). A missing
-/// value is an empty cell, a repeated field a text. Existing files are not overwritten. Throws
-/// RecordingError, and then removes the tables and the folder that it created.
+/// Creates `folder` with one file TOPIC.csv per topic ('/' is replaced by '_'). The first columns are t_s,
+/// the time since `zero_ns` (0: since the first message of the recording), and log_time_ns, the Unix time,
+/// which is comparable across recordings. Missing values become empty cells, and repeated fields become text.
+/// Existing files are not overwritten. Throws RecordingError after removing the tables and the folder that it
+/// created.
 CsvExport export_csv(const std::filesystem::path& recording, const std::filesystem::path& folder,
                      std::uint64_t zero_ns = 0);
 

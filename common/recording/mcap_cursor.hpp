@@ -1,5 +1,5 @@
 #pragma once
-// Reads numbers and texts from the content of an MCAP record, with bounds checks.
+// Reads numbers and strings from the content of an MCAP record, with bounds checks.
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,8 @@
 #pragma once
-// Reads the messages of an MCAP file from start to end, in the order in which they were written. It needs no
-// summary: a truncated file ends with its last complete record. Lengths are checked before allocation, chunks
-// against their CRC. Compressed chunks of other programs (zstd, lz4) are supported.
+// Reads the messages of an MCAP file from start to end, in the order in which they were written. The summary
+// is not required: reading a truncated file ends after its last complete record. Lengths are checked before
+// memory is allocated, and chunks are checked against their CRC. Compressed chunks (zstd, lz4), which other
+// programs write, are supported.
 //
 // Attachments are skipped.
 
@@ -32,7 +33,7 @@ struct McapChannel {
 };
 
 struct McapMessage {
-  const McapChannel* channel = nullptr;  // valid as long as the reader
+  const McapChannel* channel = nullptr;  // valid during the lifetime of the reader
   std::uint32_t sequence = 0;
   std::uint64_t log_time_ns = 0;
   std::string_view bytes{};  // valid until the next message
@@ -43,8 +44,8 @@ class McapReader {
   /// Throws RecordingError if the file cannot be read or is not an MCAP file.
   explicit McapReader(const std::filesystem::path& path);
 
-  /// Returns the next message; none at the end, and whole() then tells whether the file was completed. Throws
-  /// RecordingError if the file is damaged.
+  /// Returns the next message, or none at the end of the file; whole() then reports whether the file is
+  /// complete. Throws RecordingError if the file is damaged.
   std::optional<McapMessage> next();
   [[nodiscard]] bool whole() const { return whole_; }
 
@@ -58,7 +59,7 @@ class McapReader {
     std::string_view content{};
   };
 
-  /// Returns the next record of the file or of the present chunk; none if there is no further complete one.
+  /// Returns the next record of the current chunk or of the file, or none if no complete record follows.
   std::optional<Record> next_record();
   std::optional<Record> next_in_chunk();
   void open_chunk(std::string_view content);
@@ -69,22 +70,22 @@ class McapReader {
   std::filesystem::path path_;
   std::ifstream file_;
   std::uint64_t left_ = 0;  // remaining bytes of the file
-  std::string buffer_;      // the present record of the file
-  std::string unpacked_;    // the present chunk, if it was compressed
-  std::string_view chunk_;  // remainder of the present chunk, in buffer_ or unpacked_
+  std::string buffer_;      // current record of the file
+  std::string unpacked_;    // current chunk, if it was compressed
+  std::string_view chunk_;  // remainder of the current chunk, in buffer_ or unpacked_
   bool whole_ = false;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::map<std::string, TextMap> metadata_;
 };
 
-/// Content of a file, from its summary if it has one.
+/// Statistics of a file, from its summary if it has one.
 struct McapFigures {
   std::uint64_t messages = 0;
-  std::uint64_t first_ns = 0, last_ns = 0;  // log times; 0 without messages
+  std::uint64_t first_ns = 0, last_ns = 0;  // log times; 0 if there are no messages
   bool whole = false;
 };
-/// Throws RecordingError.
+/// Reads the statistics of a file. Throws RecordingError.
 McapFigures mcap_figures(const std::filesystem::path& path);
 
 }  // namespace longreach

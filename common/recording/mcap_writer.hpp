@@ -1,11 +1,11 @@
 #pragma once
-// Writes an MCAP file of protobuf messages with their schemas: header, metadata, chunks with their message
-// indexes, summary with schemas, channels, statistics, chunk and metadata indexes, offsets, footer; all with
-// CRCs, uncompressed.
+// Writes an MCAP file of protobuf messages with their schemas. The file consists of header, metadata, chunks
+// with message indexes, a summary (schemas, channels, statistics, chunk and metadata indexes, offsets) and
+// footer. It is uncompressed and protected by CRCs.
 //
-// Messages are collected in a chunk until it is large enough, or until flush(); the chunk is then written at
-// once. A file that ends there is complete except for its summary, which finish() writes. After a write error
-// all calls have no effect.
+// Messages are collected in a chunk, which is written as a whole when it is large enough or when flush() is
+// called. A file that ends after a chunk lacks only the summary, which finish() writes. After a write error,
+// no call has an effect.
 //
 // Attachments, compression and other encodings are not supported.
 
@@ -24,20 +24,20 @@ namespace longreach {
 
 class McapWriter {
  public:
-  /// `file` is empty and outlives the writer. `library` is the name of the writing program.
+  /// `file` must be empty and outlive the writer. `library` is the name of the writing program.
   McapWriter(RecordingFile& file, const std::string& library);
 
-  /// Call it before the first message, so that a truncated file contains the metadata.
+  /// Call it before the first message, so that the metadata is in the file even if it is truncated.
   void add_metadata(const std::string& name, const TextMap& entries);
   std::uint16_t add_channel(const std::string& topic, const google::protobuf::Descriptor& type);
   void write(std::uint16_t channel, std::uint64_t log_time_ns, const google::protobuf::Message& message);
 
-  /// Ends the present chunk, unless it is empty.
+  /// Writes the current chunk, unless it is empty.
   void flush();
-  /// Ends the file.
+  /// Writes the current chunk, the summary and the footer.
   void finish();
 
-  /// Includes the present chunk, but not the summary.
+  /// Size CRC of the file so far, including the current chunk, but not the summary.
   [[nodiscard]] std::uint64_t size() const { return file_.size() + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages() const { return messages_; }
 
@@ -51,7 +51,7 @@ class McapWriter {
     std::uint16_t schema = 0;
     std::string topic;
     std::uint32_t messages = 0;
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> index{};  // in the present chunk: log time, offset
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> index{};  // log time, offset in the current chunk
   };
   struct Schema {
     std::string name;
@@ -82,8 +82,8 @@ class McapWriter {
   ByteBuffer out_;
   ByteBuffer chunk_;
   Span chunk_span_{}, span_{};
-  std::vector<Schema> schemas_;    // id: index + 1
-  std::vector<Channel> channels_;  // likewise
+  std::vector<Schema> schemas_;    // the id of a schema is its index + 1
+  std::vector<Channel> channels_;  // the id of a channel is its index + 1
   std::vector<ChunkPlace> chunks_;
   std::vector<MetadataPlace> metadata_;
   std::uint64_t messages_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// While an instance exists, protobuf prints nothing to standard error; the caller reports errors of a damaged
-// file. For programs that read files in one thread.
+// While an instance exists, protobuf does not print to standard error, because the caller reports damaged
+// files itself. For programs that read files in one thread.
 
 #include <google/protobuf/stubs/logging.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Buffer between the loop of a side and the recorder: records that the loop adds in its ticks, and records
-// that other threads add (configurations, events). The loop's part is specific to each side
-// (master_record_buffer, slave_record_buffer); this class has the common part for the other threads.
+// Buffer between the threads of a side and the recorder. The loop adds records in its ticks; other threads
+// add configurations and events. The part for the loop is specific to each side (master_record_buffer,
+// slave_record_buffer). This class contains the common part, for the other threads.
 
 #include <atomic>
 #include <cstdint>
@@ -15,37 +15,38 @@
 
 namespace longreach {
 
-/// Periodic sample of the link and the loop, as in status.
+/// Periodic sample of the statistics of link and loop that the RPC status also contains.
 struct LinkSample {
   Time now{};
   LinkFigures link{};
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t session = 0;  // 0: none
+  std::uint64_t session = 0;  // 0: no session
   std::uint64_t missed_ticks = 0;
   std::uint64_t ticks_late_100ms = 0;
 };
 
 class RecordBuffer {
  public:
-  /// `side`: master or slave, the first part of all topics. `to_log_time`: offset from the clock of the loop
-  /// to that of the file.
+  /// `side`, "master" or "slave", is the first part of all topics. `to_log_time` is the offset from the clock
+  /// of the loop to the log time of the file.
   RecordBuffer(std::string side, Duration to_log_time);
   virtual ~RecordBuffer() = default;
   RecordBuffer(const RecordBuffer&) = delete;
   RecordBuffer& operator=(const RecordBuffer&) = delete;
 
-  /// For all threads except the loop. A configuration is added before the loop receives it.
+  /// Add a configuration or an event; called by any thread except the loop. A configuration must be added
+  /// before the loop receives it.
   void add_config(Time now, std::uint32_t number, std::string text);
   void add_event(Time now, std::string text);
 
-  /// Recorder: call once, before the first drain.
+  /// Declares the topics. The recorder calls it once, before the first drain().
   void declare(McapWriter& writer);
-  /// Recorder: writes all collected records.
+  /// Writes all collected records. Called by the recorder.
   void drain(McapWriter& writer);
-  /// Recorder: stops collecting records.
+  /// Stops collecting records. Called by the recorder.
   void close();
-  /// Number of configurations and events that wait for the recorder.
+  /// Returns the number of configurations and events that are not yet written.
   [[nodiscard]] std::size_t notes() const {
     const std::lock_guard lock(noting_);
     return notes_.size();
@@ -85,10 +86,10 @@ class RecordBuffer {
   recording::Link link_;
 };
 
-/// Text of a configuration for a recording: the fields that are set, with all digits.
+/// Returns the text of a configuration for a recording: the fields that are set, with all digits.
 std::string recorded_text(const google::protobuf::Message& config);
 
-/// Present offset from CLOCK_MONOTONIC to Unix time.
+/// Returns the current offset from the clock of the loop (CLOCK_BOOTTIME) to Unix time.
 Duration monotonic_to_unix();
 
 }  // namespace longreach

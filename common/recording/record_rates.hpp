@@ -1,5 +1,5 @@
 #pragma once
-// Rates and capacities of a record buffer for records that are not stored in every tick.
+// Rates of the records that are not stored in every tick, and capacities of a record buffer.
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,13 @@ namespace longreach {
 constexpr double kViewHz = 100.0;
 constexpr double kLinkHz = 20.0;
 
-/// Returns the number of ticks between records that are due `hz` times a second.
+/// Returns the number of ticks between records that are stored `hz` times per second.
 inline std::uint64_t ticks_between(double rate_hz, double hz) {
   return static_cast<std::uint64_t>(std::max(1.0, std::round(rate_hz / hz)));
 }
 
-/// Capacity for 4 s, the maximum delay of the recorder thread; more than the records of one tick.
+/// Returns a capacity for 4 s, the maximum delay of the recorder thread. It is always larger than the number
+/// of records in one tick.
 inline std::size_t record_capacity(double rate_hz) {
   return static_cast<std::size_t>(std::clamp(4.0 * 1.5 * rate_hz, 4096.0, 65536.0));
 }

@@ -1,7 +1,7 @@
 #pragma once
-// A bounded queue from one writing thread to one reading thread, in memory that is allocated once. Neither
-// thread waits for the other, locks or makes system calls. The writer checks for space, fills slots and
-// publishes them; it must drop records without space.
+// A bounded queue from one writing thread to one reading thread. Its memory is allocated once. Neither thread
+// waits for the other, uses locks or makes system calls. The writer checks for space, fills slots and
+// publishes them; if there is no space, it must drop the record.
 
 #include <atomic>
 #include <cstddef>
@@ -17,14 +17,14 @@ class RecordRing {
  public:
   explicit RecordRing(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
 
-  /// Writer: number of free slots. At least this number stays free until the next publish().
+  /// Writer: returns the number of free slots. At least this number stays free until the next publish().
   [[nodiscard]] std::size_t room() const {
     return slots_.size() - static_cast<std::size_t>(written_.load(std::memory_order_relaxed) + pending_ -
                                                     read_.load(std::memory_order_acquire));
   }
-  /// Writer: returns the next free slot; there must be space.
+  /// Writer: returns the next free slot. Requires room() > 0.
   T& next() { return slots_[(written_.load(std::memory_order_relaxed) + pending_++) % slots_.size()]; }
-  /// Writer: publishes the slots filled since the last call.
+  /// Writer: publishes the slots that were filled since the last call.
   void publish() {
     written_.store(written_.load(std::memory_order_relaxed) + pending_, std::memory_order_release);
     pending_ = 0;
@@ -42,7 +42,7 @@ class RecordRing {
  private:
   std::vector<T> slots_;
   alignas(64) std::atomic<std::uint64_t> written_{0};
-  std::uint64_t pending_ = 0;  // of the writer: filled, not yet published
+  std::uint64_t pending_ = 0;  // slots that the writer filled but did not publish yet
   alignas(64) std::atomic<std::uint64_t> read_{0};
 };
 

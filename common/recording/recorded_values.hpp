@@ -1,9 +1,9 @@
 #pragma once
-// Values of a recording (proto/recording.proto): converts structs of the lower layers to messages and back
-// exactly: every double bit for bit, every instant to the nanosecond. Reading throws RecordingError for
+// Converts structs of the lower layers to recorded messages (proto/recording.proto) and back. The conversion
+// is exact: doubles keep all bits, and times are exact to the nanosecond. Reading throws RecordingError for
 // values that the struct cannot represent.
 //
-// A new field of a recorded struct must be recorded too; the assertions of the sizes check that.
+// Every new field of a recorded struct must be recorded; static assertions of the struct sizes enforce that.
 
 #include <string>
 #include <type_traits>
@@ -19,14 +19,14 @@
 
 namespace longreach {
 
-/// Enumeration with values from zero to `last`.
+/// Reads an enumeration with the values zero to `last`.
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))
     throw RecordingError("a recorded value is not part of its enumeration: " + std::to_string(value));
   return static_cast<Enum>(value);
 }
-/// The enumerations of the schema have the same numbers as those of the structs.
+/// Converts an enumeration; the schema and the structs use the same numbers.
 template <class RecordedEnum, class Enum>
 RecordedEnum to_recorded(Enum value) {
   return static_cast<RecordedEnum>(static_cast<int>(value));
@@ -45,7 +45,7 @@ void write(const MotionCommand& command, recording::MotionCommand& out);
 void write(const StiffnessReport& report, recording::StiffnessReport& out);
 void write(const Telemetry& telemetry, recording::Telemetry& out);
 
-/// Six numbers: an array or an Eigen vector.
+/// Writes six numbers from an array or an Eigen vector.
 template <class Six>
 void write_joints(const Six& joints, recording::Joints& out) {
   out.set_joint1(joints[0]);

@@ -1,5 +1,5 @@
 #pragma once
-// Error of writing or reading a recording: one sentence that names the file and the reason.
+// Error while writing or reading a recording: one sentence that names the file and the reason.
 
 #include <stdexcept>
 

@@ -1,7 +1,7 @@
 #pragma once
-// A file that only grows, in complete pieces: a piece that cannot be written, because the disk is full, is
-// removed again, and nothing is written after that. Appended data has been passed to the system: it survives
-// the end of this program, but not a crash of the machine.
+// An append-only file to which data is written in complete pieces. If a piece cannot be written completely,
+// for example because the disk is full, it is removed again, and nothing more is written. Appended data is
+// passed to the operating system immediately, so it survives a crash of this program, but not of the machine.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,18 +13,20 @@ namespace longreach {
 
 class RecordingFile {
  public:
-  /// Creates the file. Throws RecordingError, also if the file exists: no recording is overwritten.
+  /// Creates the file. Throws RecordingError, even if the file merely exists, so that no recording is
+  /// overwritten.
   explicit RecordingFile(const std::filesystem::path& path);
   ~RecordingFile();
   RecordingFile(const RecordingFile&) = delete;
   RecordingFile& operator=(const RecordingFile&) = delete;
 
-  /// Returns false if it was not written; error() gives the reason.
+  /// Returns false if the bytes were not written; error() then returns the reason.
   bool append(std::span<const std::byte> bytes);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool failed() const { return !error_.empty(); }
-  [[nodiscard]] const std::string& error() const { return error_; }  // reason of the failure; empty: none
+  /// Returns the reason for the failure; empty if there was none.
+  [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:

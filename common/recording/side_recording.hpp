@@ -1,6 +1,7 @@
 #pragma once
-// The recordings of a side, one at a time: owns record buffer and recorder, and passes the buffer to the
-// loop. Called by one thread at a time other than the loop; status() by any thread except the loop.
+// Makes the recordings of a side, one at a time. Owns the record buffer and the recorder, and passes the
+// buffer to the loop. Only one thread at a time may use an object, except for status(), which is thread-safe;
+// the loop must not use it.
 
 #include <chrono>
 #include <functional>
@@ -19,12 +20,12 @@
 
 namespace longreach {
 
-/// The present time of the loop's clock.
+/// Returns the current time of the loop's clock.
 inline Time recording_now() { return boottime_now(); }
 
-/// Folder of the recordings of a side, and its seed.
+/// Folder for the recordings of a side, and the seed of the side.
 struct RecordingPlace {
-  std::string folder{};  // empty: the default folder
+  std::string folder{};  // empty for the default folder
   std::uint64_t seed = 0;
 };
 
@@ -43,7 +44,8 @@ class SideRecording {
   SideRecording(std::string side, std::function<void(const RecordingStatus&)> ended)
       : side_(std::move(side)), ended_(std::move(ended)) {}
 
-  /// attach(buffer) passes the buffer to the loop; false: the loop did not respond. Throws RecordingError.
+  /// Starts a recording. attach(buffer) passes the buffer to the loop and returns false if the loop did not
+  /// respond. Throws RecordingError.
   template <class Attach>
   void start(const Request& request, const Attach& attach) {
     if (status().running)
@@ -63,7 +65,7 @@ class SideRecording {
     }
   }
 
-  /// Throws RecordingError if nothing is being recorded.
+  /// Stops the recording. Throws RecordingError if there is none.
   template <class Attach>
   RecordingStatus stop(const Attach& attach) {
     const RecordingStatus before = status();
@@ -82,7 +84,7 @@ class SideRecording {
     if (record_buffer_) record_buffer_->add_event(recording_now(), text);
   }
 
-  /// Status of the present or last recording; without a recording, the file is empty.
+  /// Returns the status of the current or last recording. Its `file` is empty if there was none.
   [[nodiscard]] RecordingStatus status() const {
     const std::lock_guard lock(mutex_);
     return recorder_ ? recorder_->status() : RecordingStatus{};
@@ -108,20 +110,21 @@ class SideRecording {
             {"began", recording_name_now()}};
   }
 
-  /// Previous recordings are ended outside of the lock, since this may take as long as the disk needs.
+  /// Replaces buffer and recorder. The previous recorder is ended outside of the lock, because this takes as
+  /// long as the disk needs.
   void keep(std::unique_ptr<RecordType> record_buffer, std::unique_ptr<Recorder> recorder) {
     {
       const std::lock_guard lock(mutex_);
       recorder_.swap(recorder);
       record_buffer_.swap(record_buffer);
     }
-    recorder.reset();  // before its buffer
+    recorder.reset();  // must end before its buffer
   }
   void drop() { keep(nullptr, nullptr); }
 
   std::string side_;
   std::function<void(const RecordingStatus&)> ended_;
-  mutable std::mutex mutex_;  // for the pointers; never locked by the loop
+  mutable std::mutex mutex_;  // protects the pointers; never locked by the loop
   std::unique_ptr<RecordType> record_buffer_;
   std::unique_ptr<Recorder> recorder_;  // ends before its buffer
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Certificate of the caller of an RPC, and refusal of revoked certificates (common/site/revocations).
+// Reads the certificate of the caller of an RPC, and rejects revoked certificates (common/site/revocations).
 
 #include <memory>
 #include <string>
@@ -11,12 +11,12 @@ class AuthMetadataProcessor;
 
 namespace longreach {
 
-/// Fingerprint of the caller's certificate; empty: none.
+/// Returns the fingerprint of the caller's certificate, or an empty string if there is none.
 std::string fingerprint_of(const grpc::AuthContext& caller);
-/// "role=client.longreach certificate=SHA256:5f0c...", or "certificate=none".
+/// Returns, for example, "role=client.longreach certificate=SHA256:5f0c..." or "certificate=none".
 std::string certificate_text(const grpc::AuthContext& caller);
 bool is_revoked(const grpc::AuthContext& caller);
-/// Refuses every call with a revoked certificate.
+/// Returns a processor that rejects every call with a revoked certificate.
 std::shared_ptr<grpc::AuthMetadataProcessor> revocation_check();
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
-// Turns assignments by path into a complete, valid configuration, or a reason for refusal. The schema defines
-// what may change when; only the loop knows whether the robot is engaged, in the tick that applies the
-// change.
+// Converts assignments by path into a complete, valid configuration, or returns why the change is refused.
+// The schema defines which fields may change at which time. Whether the robot is engaged is checked by the
+// loop, in the tick that applies the change.
 
 #include <chrono>
 #include <memory>
@@ -17,32 +17,33 @@ namespace longreach {
 
 struct ConfigChange {
   std::unique_ptr<google::protobuf::Message> after;
-  std::string not_while_engaged;  // fields that forbid the change while engaged; empty: none
+  std::string not_while_engaged;  // fields that cannot be changed while engaged; empty if there are none
 };
 
 struct Configured {
-  /// the configuration at the start of the side: the bounds of its limits
+  /// configuration with which the side started; it bounds the limits
   const google::protobuf::Message& start;
   const google::protobuf::Message& present;
 };
 
-/// Maximum number of assignments in one call, so that it is processed quickly.
+/// Maximum number of assignments in one call, which limits the time to process it.
 inline constexpr std::size_t kAssignmentsMax = 256;
 inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
 
-/// Does not apply the change: `after` is a copy of the present configuration with the assignments.
+/// Plans the change without applying it: `after` is a copy of the current configuration with the assignments.
 std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const Assignments& assignments);
 
 enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master has control
 
-/// Requests the loop to stop.
+/// Requests a stop from the loop. Returns none if the loop confirms it in time.
 inline std::optional<Refusal> ask(StopLevel& stops) {
   if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
   return Refusal{Refusal::Kind::kUnavailable,
                  "the control loop did not respond within 1 s; the robot stops as soon as the loop resumes"};
 }
 
-/// Passes a command to the loop. `not_while_engaged`: that of the change, for the refusal.
+/// Passes a command to the loop. Returns none if the loop carried it out. `not_while_engaged` is the member
+/// of the ConfigChange, which the refusal names.
 template <class Command>
 std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command command,
                             const std::string& not_while_engaged = {}) {

@@ -1,10 +1,10 @@
 #pragma once
-// Accepts the connections of a server and admits those that send data. A silent connection only costs a
-// descriptor: it is closed after kSilent, or if there are kSilentMax newer ones or no descriptor is left. At
-// most kInsideMax are admitted at once, never more than half of the descriptors of the program, and at most
-// half of them from one host, so that no host can exclude another one. If there is no room, the oldest
-// connection without a verified certificate is closed. Closed connections are counted as refused
-// (rpc_refusals). Uses its own thread.
+// Accepts the connections of a server and admits those that send data. A connection that does not send data
+// costs only a descriptor. It is closed after kSilent, or earlier if there are more than kSilentMax such
+// connections or no descriptor is left. At most kInsideMax connections are admitted at the same time, but not
+// more than half of the program's descriptors, and at most half of these from one host, so that no host can
+// exclude another. If there is no room for a new connection, the oldest one that has not completed its
+// handshake is closed. Closed connections are counted as refused (rpc_refusals). Runs in its own thread.
 
 #include <sys/types.h>
 
@@ -19,16 +19,16 @@
 
 namespace longreach {
 
-/// A listening socket, closed with the object.
+/// A listening socket, which the destructor closes.
 class ListeningSocket {
  public:
-  /// `listen`: address:port; port 0: any free one. Invalid if the socket cannot be opened.
+  /// `listen` is address:port; port 0 stands for any free port. The socket is invalid if it cannot be opened.
   explicit ListeningSocket(const std::string& listen);
   ~ListeningSocket();
   ListeningSocket(const ListeningSocket&) = delete;
   ListeningSocket& operator=(const ListeningSocket&) = delete;
 
-  [[nodiscard]] int fd() const { return fd_; }  // -1: invalid
+  [[nodiscard]] int fd() const { return fd_; }  // -1 if the socket is invalid
   [[nodiscard]] int port() const;
 
  private:
@@ -43,7 +43,8 @@ class ConnectionLimiter {
   static constexpr std::size_t kInsideMax = 256;
   static constexpr std::chrono::seconds kSilent{10};
 
-  /// `let_in` takes ownership of a connection and closes it at its end. `socket` must outlive this object.
+  /// `let_in` takes ownership of an admitted connection and closes it at the end. `socket` must outlive this
+  /// object.
   ConnectionLimiter(const ListeningSocket& socket, std::function<void(int)> let_in);
   ~ConnectionLimiter();
   ConnectionLimiter(const ConnectionLimiter&) = delete;
@@ -54,11 +55,12 @@ class ConnectionLimiter {
     int fd = -1;
     Clock::time_point since{};
   };
-  /// The descriptor now belongs to other code; the number of its socket tells whether it is still open.
+  /// An admitted connection. Other code owns its descriptor; the inode number of the socket shows whether the
+  /// connection is still open.
   struct Inside {
     int fd = -1;
     ino_t socket = 0;
-    std::array<unsigned char, 16> host{};  // IPv6, or IPv4 at the front
+    std::array<unsigned char, 16> host{};  // IPv6 address, or IPv4 address in the first four bytes
   };
 
   void run();
@@ -77,7 +79,7 @@ class ConnectionLimiter {
   const std::function<void(int)> let_in_;
   std::deque<Silent> silent_;  // oldest first
   std::vector<Inside> inside_;
-  std::size_t most_inside_ = 0;  // since memory was last released
+  std::size_t most_inside_ = 0;  // maximum since memory was last released
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

@@ -1,10 +1,10 @@
 #pragma once
-// The calls of proto/control.proto without their transport: validates a request, merges it, and passes
-// complete, valid requests to the backend of the side. Changes are processed one at a time, so that a change
-// of the link is read, merged and written atomically; stop and status do not wait for them. A refused call
-// changes nothing. Callable from any thread.
+// Implements the calls of proto/control.proto independently of their transport. Validates each request,
+// merges it with the current state and passes it to the backend of the side. Changes are processed one at a
+// time, so that a change of the link is read, merged and written atomically; stop and status do not wait for
+// changes. A refused call changes nothing. Thread-safe.
 //
-// Field paths of the configuration are handled by the backend, the rate of Watch by RpcServer.
+// The backend handles field paths of the configuration, and RpcServer handles the rate of Watch.
 
 #include <atomic>
 #include <chrono>
@@ -16,9 +16,9 @@
 
 namespace longreach {
 
-/// Returns the impairment that is equivalent to `link` after `elapsed_s`: the drift is included in the delay,
-/// and the windows of step and blackout are shifted or have ended. Changing one field therefore does not
-/// repeat a blackout. A periodic blackout in progress ends; the next one comes when it is due.
+/// Returns an impairment that continues `link` after `elapsed_s`: the drift so far is added to the delay, and
+/// the times of the delay step and the blackout are shifted or have passed. Changing another field therefore
+/// does not repeat a blackout. A periodic blackout that is in progress ends; the next one starts on time.
 proto::Impairment continued(proto::Impairment link, double elapsed_s);
 
 class ControlService {
@@ -32,7 +32,7 @@ class ControlService {
   proto::Status status();
   Result<proto::GetConfigResponse> get_config(const proto::GetConfigRequest& request);
   Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
-  /// The impairment from now on: see continued().
+  /// Returns the impairment from now on; see continued().
   proto::Impairment get_link();
   Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
   Result<proto::Outcome> set_mode(const proto::SetModeRequest& request);
@@ -52,8 +52,8 @@ class ControlService {
 
   ControlBackend& backend_;
   std::mutex changing_;
-  std::mutex printing_;               // one configuration at a time
-  std::atomic<Instant> link_set_at_;  // when the windows of the present impairment started
+  std::mutex printing_;               // serializes the printing of configurations
+  std::atomic<Instant> link_set_at_;  // time to which the windows of the current impairment refer
 };
 
 }  // namespace longreach

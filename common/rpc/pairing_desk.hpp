@@ -1,6 +1,7 @@
 #pragma once
-// longreach-slave --pair: prints a token and waits for the host that joins the site with it. It is a separate
-// run of the program, with or without a running slave; they share only the site folder.
+// Implements longreach-slave --pair, which prints a token and waits for a host to join the site with it. This
+// is a separate process: it works whether or not the slave is running, and shares only the site folder with
+// it.
 
 #include <atomic>
 #include <filesystem>
@@ -8,8 +9,8 @@
 
 namespace longreach {
 
-/// Runs until a host is paired, the token is invalid, or `stop`. Logs each attempt, but not the token.
-/// Returns whether a host was paired. Throws SiteError, or std::runtime_error if it cannot listen.
+/// Runs until a host is paired, the token becomes invalid or `stop` is set. Logs each attempt, but not the
+/// token. Returns whether a host was paired. Throws SiteError, or std::runtime_error if it cannot listen.
 bool run_pairing_desk(const std::filesystem::path& site, const std::string& listen,
                       const std::atomic<bool>& stop);
 

@@ -1,6 +1,7 @@
 #pragma once
-// Transport of pairing: a separate server that is open while the token is valid, and the call of the joining
-// host. Not encrypted; common/site/pairing explains why that is sufficient.
+// Transport of the pairing messages: a separate server, which is open while the token is valid, and the call
+// that the joining host makes. The connection is not encrypted; common/site/pairing explains why this is
+// secure.
 
 #include <functional>
 #include <memory>
@@ -14,19 +15,20 @@ inline constexpr std::string_view kPairingAddress = "0.0.0.0:47021";
 
 class PairingServer {
  public:
-  /// Called for each attempt with the address and the reason for refusal; empty: the host is paired. Called
-  /// in the server's threads, one call at a time.
+  /// Called for each attempt with the address of the host and the reason for the refusal, which is empty if
+  /// the host is paired. Called in the server's threads, one call at a time.
   using Tried = std::function<void(const std::string& from, const std::string& refusal)>;
 
-  /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence.
+  /// `listen` is address:port; port 0 stands for any free port. Throws std::runtime_error with a one-sentence
+  /// message.
   PairingServer(const std::string& listen, PairingOffer& offer, Tried tried);
-  /// Completes an answer in progress.
+  /// Completes a response that is in progress.
   ~PairingServer();
   PairingServer(const PairingServer&) = delete;
   PairingServer& operator=(const PairingServer&) = delete;
 
   [[nodiscard]] const std::string& address() const { return address_; }
-  /// State of the offer while it is served.
+  /// Returns the current state of the offer.
   [[nodiscard]] PairingOffer::State state() const;
 
  private:
@@ -35,8 +37,9 @@ class PairingServer {
   std::string address_;
 };
 
-/// Sends `request` to the pairing server at `address`. Throws PairingError: refused, no answer within
-/// `timeout_s`, or the program there is not a pairing slave.
+/// Sends `request` to the pairing server at `address` and returns its response. Throws PairingError if the
+/// request is refused, if there is no response within `timeout_s`, or if the program there is not a slave in
+/// pairing mode.
 proto::PairingMessage ask_to_join(const std::string& address, const PairingRequest& request,
                                   double timeout_s);
 

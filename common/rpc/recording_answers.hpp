@@ -1,6 +1,6 @@
 #pragma once
-// Status of the recording of a side for RPC and log, and start and stop of a recording for the backend of a
-// side.
+// Reports the status of a side's recording to RPC and log, and starts and stops a recording for the backend
+// of the side.
 
 #include <string>
 #include <variant>
@@ -10,11 +10,11 @@
 
 namespace longreach {
 
-/// Leaves the status empty if there has been no recording.
+/// Fills in the status of the recording; leaves it empty if there was none.
 void fill(proto::Status& status, const RecordingStatus& recording);
-/// "FILE: 12.3 s, 4.5 MB", and the number of missing ticks.
+/// Returns "FILE: 12.3 s, 4.5 MB", and the number of missing ticks if there are any.
 std::string in_words(const RecordingStatus& recording);
-/// Called by the recorder with the reason for the end, also after a requested stop.
+/// Logs the end of a recording and its reason. The recorder calls it, even if the stop was requested.
 void log_end(const RecordingStatus& recording);
 void log_start(const RecordingStatus& recording);
 

@@ -1,6 +1,6 @@
 #pragma once
-// gRPC connection of a client to a side: direct, without a proxy; with timeouts for a link of seconds, where
-// connecting takes several round trips; with fast reconnection to a restarted side.
+// gRPC connection from a client to a side. It does not use a proxy, its timeouts allow for delays of seconds
+// (connecting takes several round trips), and it reconnects quickly to a side that restarted.
 
 #include <grpcpp/channel.h>
 #include <grpcpp/support/status.h>
@@ -13,18 +13,18 @@
 
 namespace longreach {
 
-/// `address`: address:port of the RPC server of `side`. Does not wait: the first call connects. Throws
-/// std::runtime_error for an unencrypted connection to another machine.
+/// `address` is the address:port of the RPC server of `side`. Returns immediately; the first call connects.
+/// Throws std::runtime_error for an unencrypted connection to another machine.
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security);
 
-/// Unencrypted connection to any address: for pairing only, which has its own protection.
+/// Returns an unencrypted connection to any address. Only for pairing, which has its own protection.
 std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
 
-/// Returns whether a call failed because the program there has another role of the same site.
+/// Returns whether a call failed because the program at the address has a different role in the same site.
 bool other_role(const grpc::Status& status);
-/// Returns whether a call failed because one side does not trust the certificate of the other; kMistrust has
-/// the remedy.
+/// Returns whether a call failed because one side does not trust the certificate of the other. kMistrust
+/// describes the remedy.
 bool distrusted(const grpc::Status& status);
 inline constexpr std::string_view kMistrust =
     "does not trust this program's certificate, or has a certificate of another site; use the same site "

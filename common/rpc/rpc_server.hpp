@@ -1,11 +1,11 @@
 #pragma once
-// Serves proto/control.proto for one side over gRPC: many clients, one backend call at a time, without a
-// thread of the caller. A client needs a certificate of the same site (mutual TLS); only the role master may
-// open sessions. Without encryption it serves loopback only. Connections pass a ConnectionLimiter. It raises
-// the descriptor limit of the program.
+// Serves proto/control.proto for one side over gRPC, to many clients with one backend call at a time. Uses
+// its own threads. A client needs a certificate of the same site (mutual TLS), and only the role master may
+// open sessions. Without encryption, only the loopback interface is served. Connections pass through a
+// ConnectionLimiter. The server raises the descriptor limit of the program.
 //
-// A refusal of the backend becomes INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE, with the trailing
-// metadata kRefusedBy, which distinguishes a refusal from an unreachable side.
+// A refusal by the backend is reported as INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE, with the
+// trailing metadata kRefusedBy, which distinguishes it from an unreachable side.
 
 #include <memory>
 #include <string>
@@ -24,28 +24,29 @@ namespace longreach {
 inline constexpr std::string_view kMasterRpcAddress = "127.0.0.1:47010";
 inline constexpr std::string_view kSlaveRpcAddress = "127.0.0.1:47020";
 inline constexpr std::string_view kRefusedBy = "longreach-refused-by";
-inline constexpr std::string_view kHeldBy = "longreach-held-by";  // Refusal::holder
-inline constexpr int kWatchersMax = 64;                           // more are refused with RESOURCE_EXHAUSTED
-inline constexpr double kWatchHzMin = 0.1;                        // rates outside are clamped
+inline constexpr std::string_view kHeldBy = "longreach-held-by";  // value: Refusal::holder
+inline constexpr int kWatchersMax = 64;     // further watchers are refused with RESOURCE_EXHAUSTED
+inline constexpr double kWatchHzMin = 0.1;  // rates outside this range are clamped
 inline constexpr double kWatchHzMax = 60.0;
 inline constexpr double kWatchHzDefault = 4.0;
 
 class RpcServer {
  public:
-  /// Starts serving. `listen`: address:port; port 0: any free one; empty: the default address of the side.
-  /// `side`: "master" or "slave". `more`: services besides Control. They and `backend` must outlive the
-  /// server. Throws std::runtime_error, one sentence, if it cannot listen, or if it would serve other
-  /// machines without encryption.
+  /// Starts the server. `listen` is address:port; port 0 stands for any free port, and an empty string for
+  /// the default address of the side. `side` is "master" or "slave". `more` contains services in addition to
+  /// Control. These and `backend` must outlive the server. Throws std::runtime_error with a one-sentence
+  /// message if the server cannot listen, or if it would serve other machines without encryption.
   RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
             const RpcSecurity& security = {}, const std::vector<grpc::Service*>& more = {});
   ~RpcServer();
   RpcServer(const RpcServer&) = delete;
   RpcServer& operator=(const RpcServer&) = delete;
 
-  /// Ends all calls, including watchers, and returns within 1 s, or when the present backend call returns.
+  /// Ends all calls, including those of watchers. Returns within 1 s, or when the current backend call
+  /// returns.
   void stop();
 
-  /// Address and port of the server.
+  /// Returns the address and port of the server.
   [[nodiscard]] const std::string& address() const;
 
  private:

@@ -1,8 +1,9 @@
 #pragma once
-// Keeps the master in a session with its slave: requests one at the start, and again if the slave was silent,
-// since it may have been restarted. Uses its own thread: the loop never waits for it. A session that the
-// slave still knows is kept. After a failure it retries after 0.1 s, later up to 2 s, until it is ended. If
-// another master has taken control of the robot, it waits until that master returns it.
+// Keeps the master in a session with its slave. It requests a session at the start, and again if no datagram
+// of the slave arrived for some time, because the slave may have restarted. A session that the slave still
+// has is kept. After a failure it retries, first after 0.1 s and then at intervals of up to 2 s. If another
+// master has taken control of the robot, it retries until that master returns control. Runs in its own
+// thread, for which the loop never waits.
 
 #include <chrono>
 #include <condition_variable>
@@ -23,30 +24,32 @@ namespace longreach {
 
 class SessionClient {
  public:
-  /// State of the loop.
+  /// State of the loop that determines whether a session is needed.
   struct Present {
-    std::uint64_t session = 0;  // 0: none
-    double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite: none
-    std::string slave{};        // destination of datagrams
-    double delay_s = 0.0;       // artificial round-trip delay, which RPC does not have
+    std::uint64_t session = 0;  // 0: no session
+    double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite if none
+    std::string slave{};        // address to which datagrams are sent
+    double delay_s = 0.0;       // artificial round-trip delay of datagrams, which does not apply to RPC
   };
   using Presence = std::function<Present()>;
-  /// Passes a session to the loop; false: the loop did not accept it.
+  /// Passes a session to the loop. Returns false if the loop did not accept it.
   using Adopt = std::function<bool(const Session&)>;
 
-  /// `address`: address of the slave's RPC server. Both functions are called in the thread of this object.
-  /// `take`: once, take control from another master. `send_hz`: rate of this master.
+  /// `address` is the address of the slave's RPC server. If `take` is set, the first session takes control
+  /// from another master. `send_hz` is the rate at which this master sends commands. Both functions are
+  /// called in the thread of this object.
   SessionClient(std::string address, const RpcSecurity& security, bool take, double send_hz,
                 Presence presence, Adopt adopt);
-  /// Returns the robot, within 2 s. Cancels a call in progress.
+  /// Cancels a call call in progress and returns control of the robot. Takes at most 2 s.
   ~SessionClient();
   SessionClient(const SessionClient&) = delete;
   SessionClient& operator=(const SessionClient&) = delete;
 
-  /// Returns why there is no session, or why none of its datagrams arrives: one sentence with the address of
-  /// the slave and a remedy. Empty: there is a session, or the first answer is pending.
+  /// Returns why there is no session or why none of its datagrams arrive: one sentence with the address of
+  /// the slave and a remedy. Empty if there is a session or the first response is pending.
   [[nodiscard]] std::string trouble() const;
-  /// Address of the master that has taken control of the robot. Empty: this master has control, or never had.
+  /// Returns the address of the master that took control of the robot. Empty if this master has control or
+  /// never had it.
   [[nodiscard]] std::string taken_by() const;
 
  private:
@@ -67,7 +70,7 @@ class SessionClient {
   bool take_;
   const double send_hz_;
   grpc::ClientContext* call_ = nullptr;  // in progress
-  // Used by this thread only: when the session was adopted, and the duration of a call.
+  // Used only by the thread of this object: when the session was adopted, and how long the last call took.
   std::chrono::steady_clock::time_point adopted_at_{};
   std::chrono::steady_clock::duration call_took_{};
   std::string trouble_;
@@ -75,8 +78,8 @@ class SessionClient {
   std::thread thread_;
 };
 
-/// Address of the slave's RPC server: `slave_rpc`, or if that is empty the default port at the address of
-/// `slave`.
+/// Returns the address of the slave's RPC server: `slave_rpc`, or, if that is empty, the default port at the
+/// host of `slave`.
 std::string slave_rpc_address(const std::string& slave, const std::string& slave_rpc);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The configuration of a side for its RPC threads: the one at the start, and the present one, which is
-// replaced as a whole. Readers do not wait for a change in progress.
+// The configuration of a side for its RPC threads: the one with which the side started, and the current one,
+// which is replaced as a whole. Readers do not wait while a change is prepared.
 
 #include <memory>
 #include <mutex>
@@ -27,7 +27,7 @@ class SideConfig {
 
  private:
   const std::shared_ptr<const Config> start_;
-  mutable std::mutex mutex_;  // for the pointer
+  mutable std::mutex mutex_;  // protects the pointer
   std::shared_ptr<const Config> present_;
 };
 

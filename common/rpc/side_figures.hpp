@@ -1,6 +1,6 @@
 #pragma once
-// Statistics that the loops of both sides publish besides their view: link, loop and dropped datagrams. Plain
-// values.
+// Statistics that the loops of both sides publish in addition to their view: link, loop and dropped
+// datagrams. Contains only plain values.
 
 #include "common/loop/loop_figures.hpp"
 #include "common/net/udp_channel.hpp"
@@ -15,17 +15,17 @@ struct SideFigures {
   std::uint64_t accepted = 0;
   ImpairmentCounts impaired{};
   LoopFigures loop{};
-  std::uint64_t session = 0;        // 0: none yet
-  std::uint32_t peer_restarts = 0;  // sessions after the first
-  std::uint64_t unknown_peers = 0;  // datagrams from addresses other than the peer's
+  std::uint64_t session = 0;        // 0 before the first session
+  std::uint32_t peer_restarts = 0;  // number of sessions after the first
+  std::uint64_t unknown_peers = 0;  // datagrams from addresses other than that of the peer
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 
-/// Values for a recording.
+/// Returns the statistics that a recording contains.
 LinkSample link_sample(Time now, const SideFigures& figures);
 
-/// Maintains the statistics of a side. A tick costs a few copies; the statistics of the link, which sort a
-/// window, are computed twenty times a second.
+/// Maintains the statistics of a side. In most ticks it only copies a few values: the statistics of the link
+/// require sorting a window and are computed only twenty times per second.
 class SideObserver {
  public:
   const SideFigures& observe(Time now, Port& port, const UdpChannel& channel, const LoopFigures& loop);

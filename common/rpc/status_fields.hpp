@@ -1,5 +1,5 @@
 #pragma once
-// Fields of the RPC status that both sides fill in the same way.
+// Fills in the fields of the RPC status that both sides have in common.
 
 #include <string>
 #include <string_view>
@@ -16,23 +16,24 @@
 
 namespace longreach {
 
-std::string_view to_string(SafetyState state);  // as in proto/control: Idle, Observing, ...
-std::string_view to_string(HoldCause cause);    // its name
-std::string because(const Reason& reason);      // position of a joint for a log line; otherwise empty
+std::string_view to_string(SafetyState state);  // name as in proto/control: Idle, Observing, ...
+std::string_view to_string(HoldCause cause);    // name of the cause
+std::string because(const Reason& reason);  // because="..." for a log line; empty if no joint is the reason
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
-/// rejected, and rejected_REASON for each reason.
+/// Adds rejected, and rejected_REASON for each reason.
 void add_counts(proto::Status& status, const RejectionCounts& counts);
-/// ticks, missed_ticks, ticks_late_100ms, lateness_p99_us, lateness_max_us, busy_max_us.
+/// Adds ticks, missed_ticks, ticks_late_100ms, lateness_p99_us, lateness_max_us and busy_max_us.
 void add_counts(proto::Status& status, const LoopFigures& loop);
-/// impaired_REASON for each effect of the artificial impairment.
+/// Adds impaired_REASON for each effect of the artificial impairment.
 void add_counts(proto::Status& status, const ImpairmentCounts& counts);
-/// adapter_accepted, adapter_malformed, adapter_late, adapter_restarts, adapter_silent_after_us, if there is
-/// an adapter.
+/// Adds adapter_accepted, adapter_malformed, adapter_late, adapter_restarts and adapter_silent_after_us, if
+/// there is an adapter.
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
-/// Names of the active limits.
+/// Adds the names of the active limits.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
-/// Link and counters of the side: all of the above and accepted, peer_restarts, strangers, unsent.
+/// Fills in the link and all counters of the side: those above except the adapter's, and accepted,
+/// peer_restarts, strangers and unsent.
 void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);
 

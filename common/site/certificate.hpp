@@ -1,7 +1,7 @@
 #pragma once
 // Certificates of a site (X.509 v3, ECDSA P-256, OpenSSL): an authority and the certificates that it issues.
-// Clocks may be wrong, so certificates are valid from 1970 to 9999 by default: a site is replaced explicitly,
-// it does not expire.
+// By default they are valid from 1970 to 9999, because clocks may be wrong. A site does not expire; it has to
+// be replaced explicitly.
 
 #include <string>
 
@@ -16,7 +16,7 @@ struct Certificate {
 enum class CertificateUse { kServer, kClient, kBoth };
 
 struct CertificateTerms {
-  std::string name;  // DNS name of its holder, such as "slave.longreach"
+  std::string name;  // DNS name of the holder, such as "slave.longreach"
   CertificateUse use = CertificateUse::kBoth;
   std::string not_before = "19700101000000Z";  // YYYYMMDDhhmmssZ
   std::string not_after = "99991231235959Z";
@@ -28,34 +28,36 @@ Certificate make_authority(const std::string& name);
 /// Creates a new key and its certificate. Throws std::runtime_error if OpenSSL fails.
 Certificate issue(const Certificate& authority, const CertificateTerms& terms);
 
-/// A new key, and a request to certify it by another authority (PKCS #10), as PEM text.
+/// A new key, and a request to certify it (PKCS #10), both as PEM text.
 struct CertificateRequest {
   std::string request_pem;
   std::string key_pem;
 };
 CertificateRequest make_request();
 
-/// Issues a certificate for the key of the request, which its holder must have signed. All other terms are
-/// given by the caller, not by the request. Throws std::runtime_error if it is not a signed request of a
+/// Issues a certificate for the key in a request, which must be signed with that key. The caller, not the
+/// request, determines all other terms. Throws std::runtime_error if the text is not a signed request for a
 /// P-256 key.
 std::string certify(const Certificate& authority, const std::string& request_pem,
                     const CertificateTerms& terms);
 
-/// Returns whether the text is a readable certificate, which a damaged file is not.
+/// Returns whether the text is a valid certificate; false for a damaged file.
 bool is_certificate(const std::string& certificate_pem);
 bool is_key(const std::string& key_pem);
-/// Returns whether the key belongs to the certificate and both are readable.
+/// Returns whether certificate and key are valid and belong together.
 bool belong_together(const Certificate& certificate);
 
-/// "SHA256:5f0c...", like `openssl x509 -fingerprint -sha256`. Throws std::runtime_error if it is not a
-/// certificate.
+/// Returns the fingerprint, e.g. "SHA256:5f0c...", that `openssl x509 -fingerprint -sha256` prints. Throws
+/// std::runtime_error if the text is not a certificate.
 std::string fingerprint(const std::string& certificate_pem);
 
-/// "9999-12-31". Throws std::runtime_error if it is not a certificate.
+/// Returns the last day of validity, e.g. "9999-12-31". Throws std::runtime_error if the text is not a
+/// certificate.
 std::string valid_until(const std::string& certificate_pem);
 
-/// Returns why a peer that trusts the authority rejects the certificate: one clause, such as "it is not
-/// signed by the authority". Empty: it is valid. `key_pem`: empty, or the private key that must match.
+/// Returns why a peer that trusts the authority would reject the certificate, as a clause such as "it is not
+/// signed by the authority". Empty if the certificate is valid. If `key_pem` is not empty, it must be the
+/// matching private key.
 std::string certificate_trouble(const std::string& authority_pem, const std::string& certificate_pem,
                                 const std::string& key_pem, const std::string& name);
 

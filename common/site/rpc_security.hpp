@@ -1,5 +1,5 @@
 #pragma once
-// Protection of RPC connections: mutual TLS between roles of one site, or, on loopback only, none.
+// Protection of RPC connections: mutual TLS between the roles of one site, or none (on loopback only).
 
 #include <optional>
 #include <string>
@@ -9,7 +9,8 @@ namespace longreach {
 
 enum class RpcRole { kSlave, kMaster, kClient };
 
-/// The role is a DNS name in the certificate, so that the address of a side does not matter.
+/// Returns the DNS name that stands for a role in the certificate, so that the address of a side does not
+/// matter.
 constexpr std::string_view name_of(RpcRole role) {
   switch (role) {
     case RpcRole::kSlave:
@@ -22,9 +23,9 @@ constexpr std::string_view name_of(RpcRole role) {
   return "";
 }
 
-/// PEM texts.
+/// Certificates and key as PEM text.
 struct RpcCredentials {
-  std::string authority;  // authority to trust
+  std::string authority;  // trusted authority
   std::string certificate;
   std::string key;
 };
@@ -33,7 +34,7 @@ struct RpcSecurity {
   std::optional<RpcCredentials> credentials{};  // none: unencrypted, on loopback only
 };
 
-/// Returns whether address:port is reachable from this machine only.
+/// Returns whether address:port is reachable only from this machine.
 bool is_loopback(const std::string& address);
 
 }  // namespace longreach

@@ -1,15 +1,16 @@
 #pragma once
-// Angle of the direction (x, y) in (-π, π], for code that computes many per step: it needs a third of the
-// instructions of the C library's atan2. One division, reduction to |t| <= tan(π/8) by atan t = π/4 + atan((t
-// - 1)/(t + 1)), the polynomial of fdlibm's atan (Sun Microsystems 1993): within 2.5 units in the last place.
-// Not for infinities and subnormal numbers; a NaN gives NaN; (0, 0) gives 0.
+// Fast arc tangent: the angle of the direction (x, y) in (-π, π], with a third of the instructions of the C
+// library's atan2, for code that computes many angles per step. It uses one division, the reduction to |t| <=
+// tan(π/8) by atan t = π/4 + atan((t - 1)/(t + 1)), and the polynomial of fdlibm's atan (Sun Microsystems
+// 1993). The error is at most 2.5 units in the last place. Infinities and subnormal numbers are not
+// supported. NaN gives NaN, and (0, 0) gives 0.
 
 #include <cmath>
 #include <cstddef>
 
 namespace longreach {
 
-/// For |t| <= tan(π/8).
+/// Returns atan(t) for |t| <= tan(π/8).
 inline double arc_tangent_of_small(double t) {
   const double z = t * t, w = z * z;
   const double even =
@@ -41,7 +42,8 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-/// Angle in (-π/2, π/2) from its sine s, |s| <= kSmallSine: Taylor series, accurate to rounding.
+/// Returns the angle in (-π/2, π/2) with the sine s, for |s| <= kSmallSine. Uses a Taylor series that is
+/// accurate to rounding.
 constexpr double kSmallSine = 0.1;
 inline double arc_of_small_sine(double s) {
   const double z = s * s;
@@ -51,7 +53,7 @@ inline double arc_of_small_sine(double s) {
                                          z * (35.0 / 1152.0 + z * (63.0 / 2816.0 + z * (231.0 / 13312.0))))));
 }
 
-/// Angles of several directions at once, without branches: two take the time of one.
+/// Computes the angles of several directions at once, without branches: two directions take the time of one.
 template <std::size_t n>
 inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&angle)[n]) {
   constexpr double kEighth = 0.41421356237309503, kTiny = 1e-300;

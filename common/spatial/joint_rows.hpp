@@ -1,11 +1,12 @@
 #pragma once
-// Rows of Denavit and Hartenberg for a chain of joint axes, whatever frames it was described in:
+// Computes Denavit-Hartenberg rows for a chain of joint axes, independently of the frames in which it was
+// described:
 //   X_WE = B A₁(q₁) ... Aₙ(qₙ) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
-// Between axes that are far from parallel a row follows the common normal, β = 0 (Denavit,
-// Hartenberg 1955). The common normal of parallel axes is anywhere, that of nearly parallel ones far away:
-// there the next frame is where the plane through this origin, normal to this axis, cuts the next axis;
-// d = 0, and β takes what α leaves of the direction (Hayati 1983). So no length of a row is much greater
-// than the arm.
+// For axes that are far from parallel, a row follows their common normal, and β = 0 (Denavit, Hartenberg
+// 1955). The common normal of parallel axes is not unique, and that of nearly parallel axes is far away. In
+// these cases the next origin is the point where the next axis intersects the plane through the current
+// origin that is normal to the current axis; d = 0, and α and β together define the direction of the next
+// axis (Hayati 1983). Therefore no length in a row is much greater than the arm.
 
 #include <span>
 #include <vector>
@@ -14,10 +15,10 @@
 
 namespace longreach {
 
-/// Axis of a joint, where all joints are at zero. In W.
+/// Axis of a joint in W while all joints are at zero.
 struct JointAxis {
-  Vector3 point_m = Vector3::Zero();     // of a revolute joint: a point on the axis
-  Vector3 direction = Vector3::UnitZ();  // unit
+  Vector3 point_m = Vector3::Zero();     // a point on the axis; for a prismatic joint, its origin
+  Vector3 direction = Vector3::UnitZ();  // unit vector
   bool slides = false;
 };
 
@@ -25,8 +26,8 @@ struct JointRow {
   double a_m = 0.0, alpha_rad = 0.0, beta_rad = 0.0, d_m = 0.0, theta_rad = 0.0;
 };
 
-/// Tz(d) Tx(a) Rx(α) Ry(β): what follows the joint. Sines and cosines below 4e-16 count as zero: a right
-/// angle in a file is meant exactly.
+/// Returns the rotation of Tz(d) Tx(a) Rx(α) Ry(β), the part of a row that follows the joint. Sines and
+/// cosines below 4e-16 are set to zero, because a right angle in a file is meant exactly.
 Matrix3 rotation_behind(const JointRow& row);
 
 struct JointRows {
@@ -35,7 +36,8 @@ struct JointRows {
   Pose tool{};  // E, in the frame of the last row
 };
 
-/// `axes`: at least one, directions of length 1; `X_WE`: the tool with all joints at zero. Exact to rounding.
+/// Computes the rows for at least one axis. `X_WE` is the pose of the tool with all joints at zero. The
+/// result is exact except for rounding.
 JointRows joint_rows(std::span<const JointAxis> axes, const Pose& X_WE);
 
 }  // namespace longreach

@@ -1,9 +1,9 @@
 #pragma once
-// Sine and cosine of one angle together, for code that computes many per step: a third of the instructions of
-// the C library, which also saves the rounding mode. Reduction to [-π/4, π/4] with π/2 in two parts (33 + 53
-// bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems 1993): the error is
-// within 1 unit in the last place of 1. Beyond kReducible radians, and for arguments that are not finite, the
-// C library is used.
+// Fast sine and cosine of the same angle, with a third of the instructions of the C library (which also saves
+// the rounding mode), for code that computes many per step. It uses the reduction to [-π/4, π/4] with π/2 in
+// two parts (33 + 53 bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems
+// 1993). The error is at most one unit in the last place of 1. The C library is used beyond kReducible
+// radians and for arguments that are not finite.
 
 #include <array>
 #include <bit>
@@ -17,8 +17,8 @@ struct SinCos {
   double c = 1.0;
 };
 
-/// Before the quadrant is applied: sine and cosine of x minus the nearest multiple of π/2, to be swapped and
-/// negated according to the last bits of `quadrant`. |x| < kReducible.
+/// Intermediate result: sine and cosine of x minus the nearest multiple of π/2, for |x| < kReducible.
+/// in_quadrant() swaps and negates them according to the last bits of `quadrant`.
 struct ReducedSinCos {
   static constexpr double kReducible = 1e5;
   double s, c, quadrant;
@@ -63,7 +63,7 @@ inline SinCos sin_cos(double x) {
   return in_quadrant(reduced_sin_cos(x));
 }
 
-/// The same for several angles at once: two take the time of one.
+/// Computes sine and cosine of several angles at once: two angles take the time of one.
 template <std::size_t n>
 inline std::array<SinCos, n> sin_cos(const std::array<double, n>& x) {
   double s[n], c[n];

@@ -1,8 +1,8 @@
 #pragma once
-// Poses, twists, wrenches and the exponential coordinates of rotations.
-// Frames: W slave world, M master base, H handle, S robot base, E tool, F force sensor, C contact.
-// X_AB is the pose of B in A; V_AB a twist [angular; linear]; F_E_W a wrench [moment; force] at E in W, by
-// the environment on the tool.
+// Poses, twists, wrenches and the exponential coordinates of rotations. Frames: W slave world, M master base,
+// H handle, S robot base, E tool, F force sensor, C contact. X_AB is the pose of B in A, V_AB a twist
+// [angular; linear], and F_E_W the wrench [moment; force] at E, expressed in W, that the environment exerts
+// on the tool.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -32,27 +32,29 @@ struct Wrench {
   Vector3 force = Vector3::Zero();   // N
 };
 
-/// Euclidean norm; the slower scaled computation is used only where the square is out of range.
+/// Returns the Euclidean norm. The slower scaled computation is used only if the square is out of range.
 inline double norm(const Vector3& v) {
   const double square = v.squaredNorm();
   if (square > 1e-200 && square < 1e200) return std::sqrt(square);
   return v.isZero(0.0) ? 0.0 : v.stableNorm();
 }
 
-/// [v]×, so that [v]× w = v × w.
+/// Returns the cross-product matrix [v]×, for which [v]× w = v × w.
 inline Matrix3 cross_matrix(const Vector3& v) {
   Matrix3 m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return m;
 }
 
-/// Rotation vector (axis times angle, rad) to unit quaternion; exact at zero, valid for every finite vector.
+/// Converts a rotation vector (axis times angle, rad) to a unit quaternion. Exact at zero, and valid for
+/// every finite vector.
 Quaternion exp_rotation(const Vector3& rotation_rad);
 
-/// Unit quaternion to the shortest rotation vector, |result| <= pi; accurate near zero and near pi.
+/// Converts a unit quaternion to the shortest rotation vector, |result| <= pi. Accurate near zero and near
+/// pi.
 Vector3 log_rotation(const Quaternion& q);
 
-/// `a` composed with `b`: X_AC = X_AB * X_BC.
+/// Composes two poses: X_AC = X_AB * X_BC.
 inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {
   return {X_AB.p + X_AB.q * X_BC.p, (X_AB.q * X_BC.q).normalized()};
 }
@@ -62,7 +64,7 @@ inline Pose inverse(const Pose& X_AB) {
   return {-(q * X_AB.p), q};
 }
 
-/// Returns `v` shortened to at most `limit` (>= 0); the direction is kept; a zero vector stays zero.
+/// Returns `v`, shortened to the length `limit` (>= 0) if it is longer. The direction is kept.
 inline Vector3 clamp_norm(const Vector3& v, double limit) {
   const double n = norm(v);
   return n > limit ? Vector3(v * (limit / n)) : v;

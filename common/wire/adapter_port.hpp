@@ -1,6 +1,6 @@
 #pragma once
-// This side's end of the exchange with an adapter (common/link/adapter_datagram.hpp) over a channel. It never
-// waits, allocates nothing, throws nothing. An invalid datagram changes nothing except a counter.
+// Exchanges datagrams with an adapter (common/link/adapter_datagram.hpp) over a channel. It never blocks,
+// allocates memory or throws. An invalid datagram only changes a counter.
 
 #include <array>
 #include <cstdint>
@@ -13,30 +13,30 @@
 
 namespace longreach {
 
-/// Statistics and present state of an adapter.
+/// Statistics and current state of an adapter.
 struct AdapterFigures {
   bool present = false;  // an adapter is configured
-  bool silent = true;    // no datagram for silence_s
+  bool silent = true;    // no datagram was received for silence_s
   bool failed = false;   // the adapter reports a failure
   std::uint64_t accepted = 0;
-  std::uint64_t malformed = 0;  // not of this protocol, or with a number that is not finite
-  std::uint64_t late = 0;       // overtaken, repeated, or of another session during one
+  std::uint64_t malformed = 0;  // datagrams that violate the protocol or contain a number that is not finite
+  std::uint64_t late = 0;       // overtaken, repeated, or from another session during a session
   std::uint64_t restarts = 0;
-  double silent_after_s = 0.0;  // duration of the last silence when it became a fault
-  /// the other user to which the listening program belongs, if it is refused
+  double silent_after_s = 0.0;  // time without a datagram when the last timeout was detected
+  /// user that runs the listening program, if it was refused because it is another user
   std::optional<std::uint32_t> unknown_peer{};
 };
 
 template <class Out, class In>
 class AdapterPort {
  public:
-  /// `channel` must outlive the port. `session`: random at each start, not 0.
+  /// `channel` must outlive the port. `session` is a non-zero number that is chosen randomly at each start.
   AdapterPort(Channel& channel, std::uint64_t session, double silence_s)
       : channel_(channel), exchange_(session, from_seconds(silence_s).count()) {
     figures_.present = true;
   }
 
-  /// Receives at most kMost datagrams. Returns true if newest() has changed.
+  /// Receives at most kMost datagrams. Returns whether newest() changed.
   bool receive(Time now) {
     const std::int64_t now_ns = now.time_since_epoch().count();
     bool fresh = false;
@@ -69,10 +69,10 @@ class AdapterPort {
     channel_.send(std::as_bytes(std::span(&out, 1)));
   }
 
-  /// At the last receive(): datagrams arrive and the adapter reports no failure.
+  /// Returns whether, at the last receive(), datagrams were arriving and the adapter reported no failure.
   [[nodiscard]] bool ok() const { return !figures_.silent && !figures_.failed; }
   [[nodiscard]] const In& newest() const { return newest_; }
-  /// Time since it was received.
+  /// Returns the time since newest() was received.
   [[nodiscard]] double age_s(Time now) const { return to_seconds(now - received_); }
   [[nodiscard]] const AdapterFigures& figures() const { return figures_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Transport of datagrams: a UDP socket in the programs, a queue in memory in the laboratory.
+// Transport of datagrams: a UDP socket in the programs, or a queue in memory in the laboratory.
 
 #include <cstddef>
 #include <optional>
@@ -13,16 +13,16 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  /// Receives the next datagram into `buffer` and returns its true size, which may exceed the buffer (the
-  /// datagram is then truncated); none if there is none. Never waits.
+  /// Receives the next datagram into `buffer`. Returns its true size, which may exceed that of the buffer if
+  /// the datagram was truncated, or none if there is no datagram. Never blocks.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
-  /// Origin of the datagram that receive() returned last.
+  /// Returns the origin of the last datagram that receive() returned.
   [[nodiscard]] virtual const Origin& origin() const { return kNowhere; }
-  /// Sets the origin of an authentic datagram: a channel without a fixed peer sends to it from now on. All
-  /// zero: it does not send.
+  /// Reports the origin of an authentic datagram. From now on, a channel without a fixed peer sends to this
+  /// address, or not at all if the address is all zero.
   virtual void answer_to(const Origin&) {}
 
-  /// Sends the datagram, or drops it if that is not possible now. Never waits.
+  /// Sends the datagram, or drops it if it cannot be sent immediately. Never blocks.
   virtual void send(std::span<const std::byte> datagram) = 0;
 };
 

@@ -1,8 +1,9 @@
 #pragma once
-// Converts bodies of datagrams between protobuf (proto/motion, stiffness, telemetry) and the structs of
-// common/link. Decoding checks every value, so that the result is finite, of the right shape and within the
-// bounds below: a body that is not the message gives kDecode, an invalid value kValue. Messages of this codec
-// need no allocation; unknown fields are ignored (they cost an allocation each).
+// Converts the bodies of datagrams from protobuf (proto/motion, stiffness, telemetry) to the structs of
+// common/link and back. Decoding checks every value, so that the result is complete, finite and within the
+// bounds below. A body that cannot be parsed gives kDecode, and an invalid value gives kValue. Decoding
+// messages of this codec does not allocate memory. Unknown fields are ignored, but each of them costs an
+// allocation.
 
 #include <cstddef>
 #include <memory>
@@ -18,26 +19,27 @@
 namespace longreach {
 
 constexpr std::size_t kBodyMaxBytes = kDatagramMaxBytes - kOverheadBytes;
-constexpr double kGoalMaxM = 1e3;    // displacement from the anchor, each component
-constexpr double kGoalMaxRad = 1e2;  // rotation vector from the anchor, each component
+constexpr double kGoalMaxM = 1e3;    // each component of the displacement from the anchor
+constexpr double kGoalMaxRad = 1e2;  // each component of the rotation vector from the anchor
 constexpr double kScaleMin = 0.05;
 constexpr double kScaleMax = 1.0;
-constexpr std::int64_t kInstantMaxNs = 4'000'000'000'000'000'000;  // 126 years: differences cannot overflow
-constexpr std::int64_t kHeldMaxNs = 1'000'000'000'000'000'000;     // 31 years
+constexpr std::int64_t kInstantMaxNs =
+    4'000'000'000'000'000'000;  // 126 years, so that differences cannot overflow
+constexpr std::int64_t kHeldMaxNs = 1'000'000'000'000'000'000;  // 31 years
 
-/// One per side and thread: it keeps the protobuf objects, so that they are allocated once. For
-/// MotionCommand, StiffnessReport and Telemetry.
+/// Encodes and decodes MotionCommand, StiffnessReport and Telemetry. Each side and thread needs its own
+/// codec, because it keeps the protobuf objects, which are allocated only once.
 class Codec {
  public:
   Codec();
   ~Codec();
 
-  /// Writes the body and returns its size; `body` has kBodyMaxBytes. Every message fits. An estimate that is
-  /// not finite is sent as not valid.
+  /// Writes the body and returns its size. `body` must have kBodyMaxBytes, which is enough for every message.
+  /// An estimate that is not finite is sent as invalid.
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
-  /// After a rejection the content of `stamp` and `message` is undefined.
+  /// Reads a body. If it is rejected, the content of `stamp` and `message` is unspecified.
   template <class Message>
   [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Stamp& stamp,
                                                 Message& message);

@@ -1,6 +1,6 @@
 #pragma once
-// Messages accepted in one receive(), in order of arrival, in memory that is allocated once. When it is full
-// the newest messages are kept.
+// Stores the messages that one receive() accepted, in order of arrival. The memory is allocated once. If
+// there are too many, only the newest messages are kept.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,16 +19,16 @@ class Inbox {
   /// Removes all items.
   void open() { size_ = next_ = 0; }
 
-  /// Returns the next slot, to be written completely; keep() adds it.
+  /// Returns the next slot. The caller writes it completely and then calls keep() to add it.
   T& next() { return slots_[next_]; }
   void keep() {
     next_ = next_ + 1 < slots_.size() ? next_ + 1 : 0;
     size_ = std::min(size_ + 1, slots_.size() - 1);
   }
 
-  /// Orders the items; call it once, after the last keep() and before items().
+  /// Sorts the items by arrival. Call it once, after the last keep() and before items().
   void close() {
-    if (next_ == size_) return;  // it never wrapped around
+    if (next_ == size_) return;  // the slots did not wrap around
     std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>((next_ + 1) % slots_.size()),
                 slots_.end());
   }

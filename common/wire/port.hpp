@@ -1,15 +1,15 @@
 #pragma once
-// Connects a node to a channel: impairment, header, session, replay, authentication, decoding and value
-// checks; and the opposite direction. The programs and the laboratory use the same code, so they exchange the
-// same bytes.
+// Connects a node to a channel. Received datagrams pass through the artificial impairment, the checks of
+// header, session, replay and authentication, decoding and value checks; sent messages are encoded and
+// encrypted. The programs and the laboratory use the same code, so they exchange the same bytes.
 //
-// Without a session (`follow`) nothing is sent or accepted. receive() reads the channel through the
-// impairment; accepted messages stay available until the next receive(). A datagram that is not authentic
-// changes nothing except a counter; an authentic one uses up its number, whatever its values. Nothing
-// allocates after construction. Datagrams that arrived while this side was stalled (`stalled`) are too old to
-// follow: they use up their number and are counted as stalled, but are otherwise ignored, except a stop,
-// which is always obeyed. Bounded: at most kDatagramsPerReceive datagrams per call; of the accepted ones the
-// newest kInboxCapacity of a type.
+// Without a session (`follow`), no datagram is sent or accepted. Accepted messages stay available until the
+// next receive(). A datagram that is not authentic only changes a counter. An authentic one uses up its
+// sequence number, even if its values are invalid. No memory is allocated after construction. Datagrams that
+// arrived while this side was stalled (`stalled`) are too old to be obeyed: they use up their sequence number
+// and are counted as stalled, but otherwise ignored, except for a stop, which is always obeyed. Each call
+// reads at most kDatagramsPerReceive datagrams and keeps the newest kInboxCapacity accepted messages of each
+// type.
 
 #include <array>
 #include <cstdint>
@@ -34,46 +34,46 @@ namespace longreach {
 constexpr int kDatagramsPerReceive = 1024;
 constexpr std::size_t kInboxCapacity = 256;
 
-/// Direction of datagrams of this type; a side accepts only those of its incoming direction.
+/// Returns the direction of datagrams of this type. A side accepts only datagrams of its incoming direction.
 constexpr Way way_of(DatagramType type) {
   return type == DatagramType::kMotionCommand ? Way::kToSlave : Way::kToMaster;
 }
 
-/// Common part of the ports of both sides.
+/// The part that the ports of both sides have in common.
 class Port {
  public:
-  /// `channel` must outlive the port. `out`: direction of the sent datagrams.
+  /// `channel` must outlive the port. `out` is the direction of the sent datagrams.
   Port(Channel& channel, const ImpairmentConfig& impairment, Random random, Way out);
   virtual ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Joins a session with a non-zero number, and leaves the previous one.
+  /// Leaves the previous session, if any, and joins `session`, which must have a non-zero number.
   void follow(const Session& session);
   /// Leaves the session.
   void leave();
 
-  /// Maximum send rate, kbit/s; 0: no limit. The sender must check whether it may send.
+  /// Sets the maximum send rate, kbit/s; 0 means unlimited. The caller must check may_send() before sending.
   void limit(double kbit_per_s) { budget_.configure(kbit_per_s); }
   [[nodiscard]] bool may_send(Time now) const { return budget_.allows(now); }
 
   [[nodiscard]] const Endpoint& endpoint() const { return endpoint_; }
   [[nodiscard]] const RejectionCounts& rejected() const { return rejected_; }
   [[nodiscard]] std::uint64_t rejected_total() const;
-  /// Datagrams that passed every check.
+  /// Returns the number of datagrams that passed every check.
   [[nodiscard]] std::uint64_t accepted_total() const { return accepted_; }
   Impairment& impairment() { return impairment_; }
 
  protected:
   /// Receives all pending datagrams.
   void drain(Time now, bool stalled);
-  /// An authentic datagram: header, decrypted body, and whether no newer one of its type has arrived.
+  /// An authentic datagram: header, decrypted body, and whether it is the newest of its type so far.
   struct Opened {
     Header header{};
     std::span<const std::byte> body{};
     bool newest = false;
   };
-  /// Decodes, records and stores its message.
+  /// Decodes and stores the message of an authentic datagram.
   virtual std::optional<Rejection> accept(Time now, const Opened& datagram) = 0;
 
   template <class Message>
@@ -85,7 +85,7 @@ class Port {
   std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram, const Origin& origin);
   void count(std::optional<Rejection> rejection);
 
-  /// Keys of a session.
+  /// The keys of both directions of a session.
   struct Seals {
     Seals(const Session& session, Way way_out);
     Seal out;
@@ -104,7 +104,7 @@ class Port {
   std::array<std::byte, kDatagramMaxBytes> buffer_{};
   std::array<std::byte, kBodyMaxBytes> body_{};
   bool stalled_ = false;  // the datagrams of this receive() arrived during a stall
-  bool more_ = false;     // and it did not receive all of them
+  bool more_ = false;     // the last receive() did not read all of them
 };
 
 class MasterPort : public Port {
@@ -131,7 +131,7 @@ class SlavePort : public Port {
   /// `stalled`: this side was stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
-  /// Returns the size of the datagram in bytes; 0: none was sent.
+  /// Returns the size of the sent datagram in bytes, or 0 if none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
   void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
 

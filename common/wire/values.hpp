@@ -1,7 +1,7 @@
 #pragma once
-// Values of a body except for its stamp: converts structs of common/link to protobuf messages and back, and
-// checks every value. Private to the codec. `read` returns false if a value is missing, not finite or out of
-// range; the content of `out` is then undefined.
+// Converts the values of a body, except for its stamp, from structs of common/link to protobuf messages and
+// back, and checks every value. Used only by the codec. `read` returns false if a value is missing, not
+// finite or out of range; the content of `out` is then unspecified.
 
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
@@ -29,14 +29,14 @@ struct WireMessageOf<Telemetry> {
 template <class Message>
 using WireMessage = typename WireMessageOf<Message>::Type;
 
-inline constexpr int kLineNumbers = 5;  // numbers in a report for the line of a surface
+inline constexpr int kLineNumbers = 5;  // numbers in a report that describe the line of a surface
 
-// Overwrites every field of `out` except its stamp; reuses its memory.
+// Overwrite every field of `out` except its stamp, and reuse its memory.
 void write(const MotionCommand& command, proto::MotionCommand& out);
 void write(const StiffnessReport& report, proto::StiffnessReport& out);
 void write(const Telemetry& telemetry, proto::Telemetry& out);
 
-// Overwrites every field of `out`.
+// Overwrite every field of `out`.
 [[nodiscard]] bool read(const proto::MotionCommand& in, MotionCommand& out);
 [[nodiscard]] bool read(const proto::StiffnessReport& in, StiffnessReport& out);
 [[nodiscard]] bool read(const proto::Telemetry& in, Telemetry& out);

@@ -45,10 +45,8 @@ void ContactConvention::step(const ContactRow& row, bool time_has_unit) {
     const double step = steps_s_[kSteps / 2];
     const char* unit = step < 50.0 ? "ms" : step < 5e4 ? "us" : "ns";
     if (step > kStepMaxS)
-      throw BadRequest("\"t\" grows by " + format_number(step) +
-                       " per line and has the unit s, but seems "
-                       "to be in " +
-                       unit + "; name it \"t [" + unit + "]\", or \"t [s]\" if it is in s");
+      throw BadRequest("\"t\" increases by " + format_number(step) + " per line, so it seems to be in " +
+                       unit + "; name the column \"t [" + unit + "]\", or \"t [s]\" if it is in s");
   }
   if (last_ && row.v_m_per_s && last_->v_m_per_s) {
     const double growth = (row.x_m - last_->x_m) / (row.t_s - last_->t_s);
@@ -80,7 +78,10 @@ void ContactConvention::keep(const ContactRow& row) {
 }
 
 void ContactConvention::require(bool x_has_unit) const {
-  if (rows_ == 0) throw BadRequest("no samples; give a header as t,x,f and lines of numbers below it");
+  if (rows_ == 0)
+    throw BadRequest(
+        "there are no samples; write a header such as t,x,f and lines of "
+        "numbers below it");
   if (static_cast<double>(kept_.size()) < kRowsMin) return;
   std::vector<double> forces;
   for (const ContactRow& row : kept_) forces.push_back(row.f_n);
@@ -107,8 +108,8 @@ void ContactConvention::require_length(double free_n, double force_n) const {
   const bool fast = speed > kSpeedMax_m_per_s && span > 0.1 * kSpanMax_m;
   if (span <= kSpanMax_m && !fast) return;
   const std::string unit = span < 1e3 * kSpanMax_m ? "mm" : "um";
-  throw BadRequest("\"x\" spans " + three_digits(span) + " m under force, at up to " + three_digits(speed) +
-                   " m/s, so it seems to be in " + unit + "; name it \"x [" + unit +
+  throw BadRequest("\"x\" spans " + three_digits(span) + " m in contact, at up to " + three_digits(speed) +
+                   " m/s, so it seems to be in " + unit + "; name the column \"x [" + unit +
                    "]\", or \"x [m]\" if it is in m");
 }
 
@@ -118,11 +119,11 @@ void ContactConvention::require_speed() const {
   const double correlation = speeds_.vg / std::sqrt(speeds_.vv * speeds_.gg);
   if (std::abs(correlation) * std::sqrt(speeds_.n) < kSignificant) return;
   if (correlation < 0.0)
-    throw BadRequest("\"v\" falls where \"x\" grows; change the sign of v, which is dx/dt");
+    throw BadRequest("\"v\" is negative where \"x\" increases; change the sign of v, which must be dx/dt");
   const double times = speeds_.vv / speeds_.vg;  // not biased by noise of x
   if (times > kTimes || times < 1.0 / kTimes)
     throw BadRequest("\"v\" is " + three_digits(times) +
-                     " times the growth of \"x\"; give the units, as in \"v [mm/s]\" and \"x [mm]\"");
+                     " times the derivative of \"x\"; state the units, as in \"v [mm/s]\" and \"x [mm]\"");
 }
 
 void ContactConvention::require_tare() const {
@@ -136,7 +137,7 @@ void ContactConvention::require_tare() const {
   // Where the force of the contact is no more than the noise, nothing is pressed.
   if (contact_n < 5.0 * spread_n || std::abs(free_n) < std::max(kShareMax * contact_n, 2.0 * spread_n))
     return;
-  throw BadRequest("f is " + three_digits(free_n) + " N in free space (x <= 0); subtract that from f");
+  throw BadRequest("f is " + three_digits(free_n) + " N in free space (x <= 0); subtract this offset from f");
 }
 
 void ContactConvention::require_surface(double free_n, double force_n) const {
@@ -149,15 +150,15 @@ void ContactConvention::require_surface(double free_n, double force_n) const {
   }
   // A tool that is accelerated in free space makes forces, too, which do not grow with x.
   if (static_cast<double>(early.size()) >= kRowsMin && outside_.correlation() > kCorrelation)
-    throw BadRequest("the force begins at x = " + three_digits(quantile_of(early, 0.01)) +
-                     " m or less; subtract that from x, which is 0 at the surface");
+    throw BadRequest("the force starts at x = " + three_digits(quantile_of(early, 0.01)) +
+                     " m or less; subtract this value from x, which must be 0 at the surface");
   if (static_cast<double>(touching.size()) < kRowsMin) return;
   const double first = quantile_of(touching, 0.01), deepest = quantile_of(inside, 1.0);
   // A press that never lets go has no sample at the surface.
   const auto before = std::ranges::count_if(inside, [&](double x) { return x < first; });
   if (first < kShareMax * deepest || static_cast<double>(before) < kRowsMin) return;
-  throw BadRequest("the force begins at x = " + three_digits(first) +
-                   " m; subtract that from x, which is 0 at the surface");
+  throw BadRequest("the force starts at x = " + three_digits(first) +
+                   " m; subtract this value from x, which must be 0 at the surface");
 }
 
 void ContactConvention::require_signs() const {
@@ -167,14 +168,13 @@ void ContactConvention::require_signs() const {
   if (outside_.n >= kRows && outside_.ff > kShare * all && follows > kCorrelation) {
     throw BadRequest(
         outside_.f < 0.0
-            ? "the press has negative signs: x and f are below 0 where the force grows; change the sign of "
-              "both"
-            : "the press has a negative sign: the force grows where x is below 0; change the sign "
-              "of x, which is 0 at the surface and positive inside");
+            ? "x and f are negative in contact; change the sign of both"
+            : "the force increases where x is negative; change the sign of x, which must be 0 at the "
+              "surface and positive inside the material");
   }
   if (inside_.n >= kRows && inside_.ff > kShare * all && inside_.f < 0.0 &&
       inside_.correlation() < -kCorrelation)
-    throw BadRequest("the press has a negative sign: f falls while x grows; change the sign of f");
+    throw BadRequest("f decreases while x increases; change the sign of f");
 }
 
 }  // namespace longreach

@@ -100,7 +100,8 @@ std::string advice(char key, const std::string& cell) {
                   [](char c) { return std::string_view("+-.,' ").find(c) != std::string_view::npos; }) ==
           static_cast<std::ptrdiff_t>(cell.size()))
     return "; write numbers without thousands separators";
-  if (key == 't' && cell.find(':') != std::string::npos) return "; write times as seconds since any instant";
+  if (key == 't' && cell.find(':') != std::string::npos)
+    return "; write times in seconds, counted from any instant";
   return "";
 }
 
@@ -154,8 +155,7 @@ ContactTable::Column ContactTable::column(const std::string& name) {
       return {quantity.key, name, known.si};
     }
     if (lower_case(name) == "x_value") return {' ', name, 1.0};  // LabVIEW's time
-    throw BadRequest("the unit \"" + unit + "\" of \"" + name + "\" is unknown; give " +
-                     unit_names(quantity));
+    throw BadRequest("the unit \"" + unit + "\" of \"" + name + "\" is unknown; use " + unit_names(quantity));
   }
   return {' ', name, 1.0};
 }
@@ -177,7 +177,7 @@ std::vector<std::string> ContactTable::cells(const std::string& line) const {
       result.back() += c;
     }
   }
-  if (quoted) throw BadRequest("a quotation mark is not closed");
+  if (quoted) throw BadRequest("a closing quotation mark is missing");
   for (std::string& cell : result) cell = trimmed(cell);
   if (*separator_ == ' ') std::erase(result, "");
   return result;
@@ -223,7 +223,7 @@ void ContactTable::require_known(const std::vector<Column>& columns) {
   for (const Column& one : columns) {
     if (one.key != ' ' || one.name.empty()) continue;
     unknown += (count++ > 0 ? ", \"" : "\"") + one.name + "\"";
-    if (lower_case(one.name) == "x_value") unknown += " (LabVIEW's time: name it t)";
+    if (lower_case(one.name) == "x_value") unknown += " (the time in LabVIEW files; name it t)";
   }
   if (count == 0) return;
   throw BadRequest((count == 1 ? "unknown column " : "unknown columns ") + unknown +
@@ -249,7 +249,7 @@ ContactRow ContactTable::from_json(const std::string& line) {
   std::string keys;
   for (const auto& [name, value] : object.items()) {
     const Column found = column(name);
-    if (found.key == ' ') throw BadRequest("unknown key \"" + name + "\"; known are t, x, v and f");
+    if (found.key == ' ') throw BadRequest("unknown key \"" + name + "\"; the keys are t, x, v and f");
     if (keys.find(found.key) != std::string::npos) throw BadRequest("key \"" + name + "\" is given twice");
     keys += found.key;
     set(row, found.key, found.unit * solve_json::number(object, name));
@@ -277,9 +277,9 @@ ContactRow ContactTable::from_csv(const std::vector<std::string>& values) const 
     const auto value = number(values[i]);
     if (!value)
       throw BadRequest("\"" + at.name + "\" must be a number, not \"" + values[i] + "\"" +
-                       (values[i] == at.name ? "; a second table begins here, put each table into its own "
-                                               "file"
-                                             : advice(at.key, values[i])));
+                       (values[i] == at.name
+                            ? "; a second table starts here; put each table into its own file"
+                            : advice(at.key, values[i])));
     if (!std::isfinite(*value))
       throw BadRequest("\"" + at.name + "\" is not a finite number" + advice(at.key, values[i]));
     set(row, at.key, at.unit * *value);
@@ -310,8 +310,8 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
     row = from_csv(values);
   }
   if (rows_ > 0 && !(row.t_s > last_t_s_))
-    throw BadRequest("\"t\" does not rise: " + format_number(row.t_s) + " s after " +
-                     format_number(last_t_s_) + " s; sort the lines by t, and remove lines with equal times");
+    throw BadRequest("\"t\" does not increase: " + format_number(row.t_s) + " s after " +
+                     format_number(last_t_s_) + " s; sort the lines by t and remove lines with equal times");
   if (rows_ > 0 && row.v_m_per_s.has_value() != has_v_)
     throw BadRequest(has_v_ ? "key \"v\" is missing, although the previous lines have it"
                             : "key \"v\" is given, although the previous lines do not have it");

@@ -17,238 +17,286 @@ namespace longreach {
 namespace {
 
 const std::vector<Experiment> kExperiments = {
-    {"touch", "Approach, touch, press and probe a wall across the link: is the displayed stiffness correct?",
+    {"touch",
+     "Is the displayed stiffness correct when a simulated operator touches, presses and probes "
+     "a wall?",
      "master slave duration_s trace_hz", run_touch, touch_plots, "",
-     "{displayed_stiffness_n_per_m} N/m displayed for a wall of {reference_stiffness_n_per_m} N/m at a "
-     "round trip of {rtt_s} s; surface found within {wall_registration_error_m*1e6} µm"},
+     "{displayed_stiffness_n_per_m} N/m are displayed for a wall of {reference_stiffness_n_per_m} N/m "
+     "at a round trip of {rtt_s} s. The surface is found within {wall_registration_error_m*1e6} µm."},
     {"first-touch",
-     "First touch of a wall at 50 mm/s and a round trip of 3 s: the force on the hand at the first and "
-     "second touch.",
+     "What does the hand feel when the tool first hits a wall at 50 mm/s, over a round trip of 3 s?",
      "master slave -link.impairment -operator -hand -mapping.mode -mapping.scale -rendering.registration "
      "-scene.material.stiffness_n_per_m -scene.surface",
      run_first_touch, first_touch_plots, "",
-     "force on the hand {felt_after_round_trip_s} s after the round trip of {round_trip_s} s, largest "
-     "step {force_step_max_n} N, wall registered within {registration_error_m*1e6} µm, without the touch"
-     " sequence {registration_error_without_touch_sequence_m*1e3} mm; force at the tool at most "
-     "{guard_peak_over_guard_max} times the guard, {guard_peak_over_guard_max_without_guard} times without "
-     "the guard"},
-    {"spike", "The delay steps from 0.8 to 12 s in contact: force, energy, and recovery.",
+     "The hand feels the wall {felt_after_round_trip_s} s after the round trip of {round_trip_s} s; "
+     "the largest force step is {force_step_max_n} N. The wall is registered within "
+     "{registration_error_m*1e6} µm, or within {registration_error_without_touch_sequence_m*1e3} mm "
+     "if the touch sequence is ignored. The force at the tool is at most {guard_peak_over_guard_max} "
+     "times the force guard, or {guard_peak_over_guard_max_without_guard} times if the guard is off."},
+    {"spike", "What happens to force and energy if the round trip jumps from 0.8 to 12 s during contact?",
      "master slave -link.impairment -operator.rate_distance_m -operator.probe_cycles -scene.surface.plane",
      run_spike, spike_plots, "",
-     "{stiffness_left_after_time_constant*100} % of the stiffness remains after one time constant; the force "
-     "rises by at most {force_rise_max_n} N; {engagements} engagements, pressed again: {pressed_again}"},
+     "{stiffness_left_after_time_constant*100} % of the stiffness remains after one time constant, "
+     "and the force rises by at most {force_rise_max_n} N per tick. {engagements} engagements take "
+     "place, and the operator presses on the wall again in {pressed_again} of 1 run."},
     {"person",
-     "Operators hold out, lean on limits, miss the surface, clutch and stop in contact; five links, two "
-     "hands.",
+     "Is the contact correct if the operator holds the handle out, rests, retreats, clutches or "
+     "releases it?",
      "master slave -link.impairment -operator -hand -mapping.mode -scene", run_person_experiment,
      person_plots, "",
-     "{rows} rows, {trials} trials over five links with light and firm hands: {failed} failed; without "
-     "the position of the tool in the reports {controls_failed} of {controls}"},
-    {"rate-contact", "Pressing on a wall in rate mode: the force at the hand against the force at the slave.",
+     "{failed} of {trials} trials failed ({rows} scenarios, five links, light and firm hands). If the "
+     "reports lack the position of the tool, {controls_failed} of {controls} trials fail."},
+    {"rate-contact", "In rate mode, does the hand feel the force with which the tool presses on a wall?",
      "master slave -operator -hand -mapping.mode -scene.surface.plane", run_rate_contact, rate_contact_plots,
-     "", "the force on the hand is {felt_over_tool_force} of the force at the tool of {tool_force_n} N"},
-    {"six-dof-contact", "An oblique plane, corners and a rotational stop, without a model of the scene.",
+     "",
+     "The force on the hand is {felt_over_tool_force} times the force at the tool, which is "
+     "{tool_force_n} N."},
+    {"six-dof-contact",
+     "Is the force correct on an oblique plane, in corners and at a rotational stop, "
+     "without a model of the scene?",
      "master slave -operator -hand -mapping.mode -mapping.scale -rendering.friction_n -rendering.friction_nm "
      "-rendering.rotational_stiffness_nm_per_rad -scene",
      run_six_dof_contact, six_dof_contact_plots, "",
-     "force error {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} and "
-     "{corner_y_force_error*100} % in a corner, {diagonal_x_force_error*100} and "
-     "{diagonal_y_force_error*100} % in a corner that is pressed diagonally; stiffness error "
-     "{oblique_displayed_error*100} %, {corner_x_displayed_error*100} and {corner_y_displayed_error*100}"
-     " %, {diagonal_x_displayed_error*100} and {diagonal_y_displayed_error*100} %, in torsion "
-     "{torque_displayed_error*100} %"},
-    {"tensor-rendering", "The same contacts from given surface reports: the error of the rendering alone.",
+     "The force error is {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} "
+     "and {corner_y_force_error*100} % (x and y) in a corner, and {diagonal_x_force_error*100} and "
+     "{diagonal_y_force_error*100} % in a corner that is pressed diagonally. The stiffness error is "
+     "{oblique_displayed_error*100} %, {corner_x_displayed_error*100} and "
+     "{corner_y_displayed_error*100} %, and {diagonal_x_displayed_error*100} and "
+     "{diagonal_y_displayed_error*100} % in the same contacts, and {torque_displayed_error*100} % in "
+     "torsion."},
+    {"tensor-rendering", "How large is the error of the rendering alone if the surface reports are exact?",
      "device mapping rendering -mapping.mode -mapping.scale -rendering.friction_n "
      "-rendering.rotational_stiffness_nm_per_rad",
      run_tensor_rendering, tensor_rendering_plots, "",
-     "error {oblique_displayed_error*100} % on an oblique plane, {corner_displayed_error_x*100} and "
-     "{corner_displayed_error_y*100} % in a corner, {torque_displayed_error*100} % in torsion"},
+     "The error is {oblique_displayed_error*100} % on an oblique plane, "
+     "{corner_displayed_error_x*100} and {corner_displayed_error_y*100} % (x and y) in a corner, and "
+     "{torque_displayed_error*100} % in torsion."},
     {"hostile-updates",
-     "Half a million hostile stiffness reports with four hands: does the rendering stay passive and "
-     "limited?",
+     "Does the rendering stay passive, and its force limited, under half a million hostile stiffness "
+     "reports?",
      "device rendering mapping -device.delay_samples -rendering.law", run_hostile_updates,
      hostile_updates_plots, "",
-     "{updates*1e-6} million updates, {unsafe_wrenches} unsafe wrenches; minimum port energy "
-     "{port_energy_min_j*1e3} mJ, without the rules {naive_port_energy_min_j} J"},
-    {"idle", "A hand at rest: energy, ripple and limit cycles, free, pressed and released.",
+     "{updates*1e-6} million reports cause {unsafe_wrenches} unsafe wrenches. The minimum port energy "
+     "is {port_energy_min_j*1e3} mJ, or {naive_port_energy_min_j} J without the passivity rules."},
+    {"idle",
+     "Is the rendering free of returned energy, force ripple and limit cycles while the hand "
+     "rests?",
      "mapping rendering -mapping.mode -mapping.scale -rendering.home_spring", run_idle, idle_plots, "",
-     "{draws} random devices, positions, grips and walls: {bad} bad; at most {energy_out_max_j*1e3} mJ "
-     "are returned beyond the store, the ripple of the force exceeds one count by at most "
-     "{ripple_beyond_a_count_max_n*1e3} mN; with damping on the encoders' velocity {control_bad} of "
-     "{control_draws} bad"},
-    {"home-rotation", "The rotational handle returns home on a spring: damping and stiffness.", "device",
-     run_home_rotation, home_rotation_plots, "Fig. 9, 10",
-     "settling within {settling_difference_max*100} % of the closed form; overshoot {overshoot_at_0.5*100} % "
-     "at a damping ratio of {zeta_at_0.5}, none at 1"},
-    {"home-translation", "The translational handle returns home: on a spring, and gliding.", "device",
-     run_home_translation, home_translation_plots, "Fig. 17",
-     "settling within {settling_difference_max*100} % of the closed form; {left_gliding*1e3} mm remain "
-     "after gliding home"},
-    {"wall-rotation", "Turning into a virtual wall.", "device", run_wall_rotation, wall_rotation_plots,
-     "Fig. 11, 12", "at 20 mN m depth {depth_at_20} degrees, expected {depth_expected_at_20}"},
+     "{bad} of {draws} random combinations of device, position, grip and wall fail. At most "
+     "{energy_out_max_j*1e3} mJ are returned beyond the store. The force ripple minus the ripple that "
+     "one encoder count causes is at most {ripple_beyond_a_count_max_n*1e3} mN. With damping on the "
+     "raw encoder velocity, {control_bad} of {control_draws} fail."},
+    {"home-rotation",
+     "How do damping and stiffness affect the return of the rotational handle to its "
+     "home position?",
+     "device", run_home_rotation, home_rotation_plots, "Fig. 9, 10",
+     "The settling time differs from the closed form by at most {settling_difference_max*100} %. The "
+     "overshoot is {overshoot_at_0.5*100} % at a damping ratio of {zeta_at_0.5}."},
+    {"home-translation",
+     "How does the translational handle return to its home position, on a spring "
+     "and with a moving anchor?",
+     "device", run_home_translation, home_translation_plots, "Fig. 17",
+     "On a spring, the settling time differs from the closed form by at most "
+     "{settling_difference_max*100} %. With a moving anchor, the handle stops {left_gliding*1e3} mm "
+     "from home."},
+    {"wall-rotation", "How deep does a light hand turn the handle into a virtual wall?", "device",
+     run_wall_rotation, wall_rotation_plots, "Fig. 11, 12",
+     "At a stiffness of 20 mN m per degree the depth is {depth_at_20} degrees; "
+     "{depth_expected_at_20} degrees are expected."},
     {"wall-translation",
-     "The maximum stable stiffness of a virtual wall against sample time, hand, delay, encoders and "
-     "friction.",
+     "How do sample time, grip, delay, encoders and friction limit the stable stiffness of a virtual "
+     "wall?",
      "device", run_wall_translation, wall_translation_plots, "Fig. 18",
-     "stability limit within {limit_difference_max*100} % of the sampled model; 5 N/mm at 1 kHz is stable, "
-     "limit {paper_wall_limit_light*1e-3}, {paper_wall_limit_firm*1e-3}, {paper_wall_limit_released*1e-3} "
-     "N/mm (light, firm, released)"},
-    {"gravity", "Gravity compensation of the translational device, and its drift when released.", "device",
-     run_gravity, gravity_plots, "Fig. 15, 16",
-     "{torque_home_1} mN m at home, {torque_paper_home_1} to {torque_paper_home_3} in the paper; drift "
-     "{drift_real_max*1e6} µm, without compensation {drift_without_compensation*1e3} mm"},
-    {"rate-mapping", "Rate control: deflection and speed of the robot, both laws, dead zone.",
+     "The stability limit differs from the sampled model by at most {limit_difference_max*100} %. At "
+     "1 kHz the limit is {paper_wall_limit_light*1e-3} N/mm with a light hand, "
+     "{paper_wall_limit_firm*1e-3} N/mm with a firm hand and {paper_wall_limit_released*1e-3} N/mm "
+     "with a released handle."},
+    {"gravity",
+     "How far does the released translational handle drift, with and without gravity "
+     "compensation?",
+     "device", run_gravity, gravity_plots, "Fig. 15, 16",
+     "The handle drifts {drift_real_max*1e6} µm, or {drift_without_compensation*1e3} mm without "
+     "compensation. The motor torque at home is {torque_home_1} mN m; the paper reports "
+     "{torque_paper_home_1} to {torque_paper_home_3} mN m."},
+    {"rate-mapping",
+     "How does the deflection of the handle command the speed of the robot in rate "
+     "mode, under two control laws?",
      "master slave -operator -hand -mapping.mode -mapping.rate_law", run_rate_mapping, rate_mapping_plots,
      "Fig. 13, 14",
-     "at the edge of the dead zone the speed steps by {speed_step_translation_continuous*1e3} mm/s, with the "
-     "literal law by {speed_step_translation_literal*1e3} mm/s"},
+     "At the edge of the dead zone, the speed jumps by {speed_step_translation_continuous*1e3} mm/s "
+     "under the continuous law and by {speed_step_translation_literal*1e3} mm/s under the literal law."},
     {"scale-steps",
-     "The buttons change the scale during motion: do goal and force step, is the friction f / k_scale?",
+     "Do the goal or the force jump if a button changes the scale during motion, and is the friction "
+     "f / k_scale?",
      "master slave -operator -mapping.mode", run_scale_steps, scale_steps_plots, "",
-     "{scale_steps} changes of the scale: the goal steps by {goal_step_max_m} m, the force by "
-     "{force_step_max_n} N; friction within {friction_error_max*100} % of f / k_scale"},
+     "In {scale_steps} changes of the scale, the goal jumps by at most {goal_step_max_m} m and the "
+     "force by {force_step_max_n} N. The friction differs from f / k_scale by at most "
+     "{friction_error_max*100} %."},
     {"path-task",
-     "Simulated operators follow a path to targets: rate, position and hybrid mode, over the delay, with"
-     " a ghost.",
+     "How fast and how accurately do simulated operators follow a path in rate, position and hybrid mode?",
      "master slave -link.impairment -operator -mapping.mode -mapping.base_rotation_rad -robot -scene",
      run_path_task, path_task_plots, "Fig. 19, Table 2",
-     "{operators} simulated operators at a round trip of 2.6 s: rate {rate_time_s_at_2.6} s and "
-     "{rate_error_m_at_2.6*1e3} mm off the path, position {position_time_s_at_2.6} s and "
-     "{position_error_m_at_2.6*1e3} mm, hybrid {hybrid_time_s_at_2.6} s and {hybrid_error_m_at_2.6*1e3} "
-     "mm; with the ghost {ghost_hybrid_time_s_at_2.6} s; on average hybrid is faster than position at "
-     "{hybrid_gains_on_position_delays} and closer to the path than rate at "
-     "{hybrid_gains_on_rate_delays} of 4 delays (p < 0.05 at {hybrid_gains_on_position_delays_surely} "
-     "and {hybrid_gains_on_rate_delays_surely})"},
+     "At a round trip of 2.6 s, {operators} simulated operators need {rate_time_s_at_2.6} s in rate "
+     "mode (path error {rate_error_m_at_2.6*1e3} mm), {position_time_s_at_2.6} s in position mode "
+     "({position_error_m_at_2.6*1e3} mm) and {hybrid_time_s_at_2.6} s in hybrid mode "
+     "({hybrid_error_m_at_2.6*1e3} mm), or {ghost_hybrid_time_s_at_2.6} s in hybrid mode with a "
+     "ghost. On average, hybrid mode is faster than position mode at "
+     "{hybrid_gains_on_position_delays} of 4 delays (p < 0.05 at "
+     "{hybrid_gains_on_position_delays_surely}) and more accurate than rate mode at "
+     "{hybrid_gains_on_rate_delays} of 4 (p < 0.05 at {hybrid_gains_on_rate_delays_surely})."},
     {"mapping-trade",
-     "Trade-offs of the mapping: time against error over kv, k_scale, the dead zone and the switching "
-     "distance of hybrid mode.",
+     "How do kv, k_scale, the dead zone and the switching distance of hybrid mode affect time and error?",
      "master slave -link.impairment -operator -mapping.kv_per_s -mapping.scale -mapping.dead_zone_m "
      "-mapping.mode -mapping.base_rotation_rad -robot -scene",
      run_mapping_trade, mapping_trade_plots, "",
-     "round trip {rtt_s} s: rate {rate_kv_per_s_error_m_at_0.5*1e3} mm off the path at kv 0.5/s, "
-     "{rate_kv_per_s_error_m_at_4*1e3} mm at 4/s; position {position_k_scale_time_s_at_0.2} s and "
-     "{position_k_scale_error_m_at_0.2*1e3} mm at k_scale 0.2, {position_k_scale_time_s_at_1} s and "
-     "{position_k_scale_error_m_at_1*1e3} mm at 1; hybrid {hybrid_near_sd_time_s_at_0} s and "
-     "{hybrid_near_sd_error_m_at_0*1e3} mm in rate mode up to the target, {hybrid_near_sd_time_s_at_4} s"
-     " and {hybrid_near_sd_error_m_at_4*1e3} mm if rate mode ends 4 sd before"},
-    {"fk-network", "Forward kinematics of the 3-RRR device: error against cost of every method.", "",
-     run_fk_network, fk_network_plots, "",
-     "largest error: tracking {tracking_error_max_rad} rad, network {network_error_max_rad} rad, network"
-     " and one Newton step {network_newton_error_max_rad} rad"},
+     "At a round trip of {rtt_s} s, the path error in rate mode is {rate_kv_per_s_error_m_at_0.5*1e3} "
+     "mm with kv = 0.5/s and {rate_kv_per_s_error_m_at_4*1e3} mm with kv = 4/s. Position mode takes "
+     "{position_k_scale_time_s_at_0.2} s (path error {position_k_scale_error_m_at_0.2*1e3} mm) with "
+     "k_scale = 0.2 and {position_k_scale_time_s_at_1} s ({position_k_scale_error_m_at_1*1e3} mm) "
+     "with k_scale = 1. Hybrid mode takes {hybrid_near_sd_time_s_at_0} s "
+     "({hybrid_near_sd_error_m_at_0*1e3} mm) if it stays in rate mode up to the target, and "
+     "{hybrid_near_sd_time_s_at_4} s ({hybrid_near_sd_error_m_at_4*1e3} mm) if it switches 4 standard "
+     "deviations before the target."},
+    {"fk-network",
+     "Which method of forward kinematics of the 3-RRR device is the most accurate, and "
+     "what does it cost?",
+     "", run_fk_network, fk_network_plots, "",
+     "The maximum error is {tracking_error_max_rad} rad for tracking, {network_error_max_rad} rad for "
+     "the network, and {network_newton_error_max_rad} rad for the network followed by one Newton step."},
     {"identify",
-     "Seven estimators of k, λ and n of a contact against the Cramér-Rao bound and a batch fit, from "
-     "sponge to steel",
+     "How accurately do seven estimators identify a contact, compared with a batch fit and the "
+     "Cramér-Rao bound?",
      "", run_identify, identify_plots, "",
-     "worst error of the stiffness while probing: maximum likelihood "
-     "{stiffness_error_worst_maximum_likelihood_probe} %, batch fit {stiffness_error_worst_batch_probe} %, "
-     "extended Kalman filter {stiffness_error_worst_extended_kalman_probe} %, weighted log-linear "
+     "While probing, the worst stiffness errors are: maximum likelihood "
+     "{stiffness_error_worst_maximum_likelihood_probe} %, batch fit "
+     "{stiffness_error_worst_batch_probe} %, extended Kalman filter "
+     "{stiffness_error_worst_extended_kalman_probe} %, weighted log-linear "
      "{stiffness_error_worst_weighted_log_linear_probe} %, log-linear "
-     "{stiffness_error_worst_log_linear_probe} %, two-stage {stiffness_error_worst_two_stage_probe} %"},
+     "{stiffness_error_worst_log_linear_probe} %, two-stage {stiffness_error_worst_two_stage_probe} %."},
     {"synthesis",
-     "Dimensions of a DELTA by GA, by SQP and by GA followed by SQP: which search and which design is "
-     "best?",
+     "Which search finds the best dimensions of a DELTA: a genetic algorithm, SQP, or one after the "
+     "other?",
      "", run_synthesis, synthesis_plots, "",
-     "worst conditioning in a 60 mm cube {a_conditioning}; of the reconstructed device "
-     "{catalog_conditioning}"},
-    {"delay-sweep", "Displayed stiffness over the delay: this law and five textbook laws, and their limits.",
+     "The worst conditioning in a 60 mm cube is {a_conditioning} for the best design and "
+     "{catalog_conditioning} for the reconstructed device."},
+    {"delay-sweep", "How stiff a wall can longreach and five textbook laws display at each delay?",
      "master slave -link.impairment.delay_s -hand -rendering.law -scene.material.stiffness_n_per_m",
      run_delay_sweep, delay_sweep_plots, "",
-     "{stiffness_within_5_percent} of {stiffness_cases} cases within 5 %; direct force displays at most "
-     "{direct_limit_at_3*1e-3} N/mm at 3 s, wave variables {wave_limit_at_3*1e-3} N/mm"},
+     "longreach displays the stiffness within 5 % in {stiffness_within_5_percent} of "
+     "{stiffness_cases} cases. At a round trip of 3 s, direct force feedback displays at most "
+     "{direct_limit_at_3*1e-3} N/mm and wave variables {wave_limit_at_3*1e-3} N/mm."},
     {"press-wall",
-     "One wall across one link: each textbook law over time, or the law that rendering.law names.",
+     "How does a wall feel across a link under each textbook law, or under the one that rendering.law "
+     "names?",
      "device hand rendering.law link.impairment.delay_s link.impairment.jitter_s link.impairment.loss "
      "scene.material.stiffness_n_per_m",
      run_press_wall, press_wall_plots, "",
-     "{wall_n_per_m} N/m at a round trip of {rtt_s} s: direct force returns "
-     "{direct_port_energy_min_j*-1} J to the operator; passivity observer {tdpa_displayed_n_per_m} N/m, "
-     "position-position {position_position_displayed_n_per_m} N/m",
+     "For a wall of {wall_n_per_m} N/m at a round trip of {rtt_s} s, direct force feedback returns "
+     "{direct_port_energy_min_j*-1} J to the operator. Passivity control displays "
+     "{tdpa_displayed_n_per_m} N/m and position-position control "
+     "{position_position_displayed_n_per_m} N/m.",
      fit_press_wall},
-    {"delay-seeds", "The worst of many seeds, over every round trip and every named link without an outage.",
+    {"delay-seeds",
+     "Is the displayed stiffness correct with every seed, over each round trip and each "
+     "named link without outages?",
      "master slave -link.impairment -hand -rendering.law -scene.material.stiffness_n_per_m", run_delay_seeds,
      delay_seeds_plots, "",
-     "{held_within_5_percent} of {held_runs} runs within 5 %, worst {displayed_error_max*100} %; limit "
-     "cycles {held_limit_cycles}, with a released handle {released_limit_cycles} of {released_runs}"},
+     "In {held_within_5_percent} of {held_runs} runs the stiffness is displayed within 5 %; the "
+     "maximum error is {displayed_error_max*100} %. Limit cycles occur in {held_limit_cycles} of "
+     "these runs, and in {released_limit_cycles} of {released_runs} runs with a released handle."},
     {"singular-paths",
-     "The tool moves through the wrist, elbow and shoulder singularities of a PUMA 560: error and joint "
-     "speeds.",
+     "How large is the error when the tool passes the wrist, elbow and shoulder singularities of a "
+     "PUMA 560?",
      "", run_singular_paths, singular_paths_plots, "",
-     "error at most {wrist_off_goal_max_m*1e3} (wrist), {elbow_off_goal_max_m*1e3} (elbow), "
-     "{shoulder_off_goal_max_m*1e3} mm (shoulder)"},
+     "The position error is at most {wrist_off_goal_max_m*1e3} mm at the wrist singularity, "
+     "{elbow_off_goal_max_m*1e3} mm at the elbow and {shoulder_off_goal_max_m*1e3} mm at the shoulder "
+     "singularity."},
     {"sensor-faults",
-     "A faulty force sensor on four arms in every state: how far does the robot move, how hard does it "
-     "press?",
+     "If the force sensor is faulty, how far does the robot move without a command, and how hard does "
+     "it press?",
      "", run_sensor_faults, sensor_faults_plots, "",
-     "{runs} runs: at most {way_max_m*1e3} mm of uncommanded motion and {true_force_over_guard} times the "
-     "guard; a drift in contact responds like an approaching wall: {faked_answer_way_max_m*1e3} mm and "
-     "{faked_answer_true_force_over_guard} times the guard; every fault reported within {told_late_max_s} "
-     "s, {false_faults} false faults; a false force that responds to the motion moves the robot by "
-     "{control_way_m*1e3} "
-     "mm"},
+     "In {runs} runs the robot moves at most {way_max_m*1e3} mm without a command and presses with at "
+     "most {true_force_over_guard} times the force guard. If the sensor drifts in contact, which "
+     "resembles an approaching wall, these numbers are {faked_answer_way_max_m*1e3} mm and "
+     "{faked_answer_true_force_over_guard}. Implausible forces are reported within {told_late_max_s} "
+     "s, with {false_faults} false alarms. As a control, a false force that decreases as the robot "
+     "moves displaces the robot by {control_way_m*1e3} mm."},
     {"moving-wall",
-     "A wall approaches a robot at rest, four arms, 0.1 to 50 mm/s, 200 to 20,000 N/m; walls of layers, "
-     "moving hands; and the same with a wrong sign of the force sensor.",
+     "Is the force limited if a wall approaches the robot, even if the sign of the force sensor is wrong?",
      "", run_moving_wall, moving_wall_plots, "",
-     "{runs} walls: force at most {force_over_guard_max} times the guard up to 250 N/s, and "
-     "{force_over_bound_max} times the bound of the formula beyond; {layers_force_over_guard_max} times the "
-     "guard where layers make the wall four times as stiff; {hand_moves_force_over_guard_max} and "
-     "{hand_moves_layers_force_over_guard_max} times with {hand_moves_runs} moving hands; reported within "
-     "{told_beside_stop_max_s} s of the stop, {false_signs} false sign faults; wrong sign found in "
-     "{wrong_sign_found} of {wrong_sign_pressed}, at rest at {wrong_sign_at_rest_force_over_guard} times "
-     "the guard; with a retreat of only 20 mm {control_force_over_guard} times the guard"},
-    {"impact", "A mass hits a contact of any stiffness: restitution, energy and cost of four integrators.",
+     "With {runs} walls, the force is at most {force_over_guard_max} times the force guard if it "
+     "grows by up to 250 N/s, and {force_over_bound_max} times the theoretical bound if it grows "
+     "faster. It is at most {layers_force_over_guard_max} times the guard if a layer makes the wall "
+     "four times as stiff. In {hand_moves_runs} runs with a moving hand it is at most "
+     "{hand_moves_force_over_guard_max} times the guard, or {hand_moves_layers_force_over_guard_max} "
+     "times with layers. The robot reports that its retreat budget is exhausted within "
+     "{told_beside_stop_max_s} s of stopping. A wrong sign is detected in {wrong_sign_found} of "
+     "{wrong_sign_pressed} runs, at no more than {wrong_sign_at_rest_force_over_guard} times the "
+     "guard if the wall is at rest; there are {false_signs} false alarms. With a retreat of only 20 "
+     "mm, the force reaches {control_force_over_guard} times the guard."},
+    {"impact",
+     "Which of four integrators computes the restitution of an impact correctly, and at what "
+     "cost?",
      "", run_impact, impact_plots, "",
-     "{impacts} impacts; restitution correct in {discrete_gradient_right} % by the discrete gradient "
-     "(error {discrete_gradient_error_max}), {rk4_right} % by Runge-Kutta, {semi_implicit_euler_right} %"
-     " by semi-implicit Euler"},
-    {"unknown-contact", "Random materials without a model: is the displayed contact correct?",
+     "In {impacts} impacts, the discrete gradient computes a correct restitution in "
+     "{discrete_gradient_right} % (maximum error {discrete_gradient_error_max}), Runge-Kutta in "
+     "{rk4_right} % and semi-implicit Euler in {semi_implicit_euler_right} %."},
+    {"unknown-contact",
+     "Is the displayed contact correct for random materials, without a model of the "
+     "material?",
      "master slave -link.impairment -hand -mapping.scale -operator.press_n -operator.probe_n "
      "-operator.probe_cycles -sensing.force_noise_n -scene",
      run_unknown_contact, unknown_contact_plots, "",
-     "{right} of {cells} within 5 % in slope and 10 % in mean force, worst {slope_error_max*100} and "
-     "{force_error_max*100} %; the error is within 3 sd in {covered}, the sd is {sd_over_bound_median} "
-     "times the Cramér-Rao bound; of {outside_cells} without a power law "
-     "{outside_tangent_within_15_percent} are within 15 %"},
+     "In {right} of {cells} cases the slope is within 5 % and the mean force within 10 %; the maximum "
+     "errors are {slope_error_max*100} and {force_error_max*100} %. The error is within 3 sd in "
+     "{covered} cases, and the sd is {sd_over_bound_median} times the Cramér-Rao bound (median). Of "
+     "{outside_cells} materials that follow no power law, {outside_tangent_within_15_percent} are "
+     "within 15 %."},
     {"material-steps",
-     "Slide from soft to hard, press through layers: how soon is the new material identified?",
+     "How soon is a new material identified when the tool slides onto it or presses through a layer?",
      "master slave -operator -hand -mapping.mode -mapping.scale -estimator.kind -scene", run_material_steps,
      material_steps_plots, "",
-     "{layers_maximum_likelihood_followed} of {layers_maximum_likelihood_changes} layers reported within"
-     " {layers_maximum_likelihood_slowest_s} s and {layers_maximum_likelihood_farthest_m*1e3} mm, the "
-     "hard tile within {soft_to_hard_maximum_likelihood_slowest_s} s, the soft one within "
-     "{hard_to_soft_maximum_likelihood_slowest_s} s of pressing; with a given exponent within "
-     "{layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
-     "{hard_to_soft_fixed_exponent_slowest_s} s"},
-    {"drag", "Unknown loads are dragged: is their inertia mistaken for a contact, is their mass identified?",
-     "", run_drag_study, drag_plots, "",
-     "{dragged} of {drags} dragged, {phantom_contacts} with a false contact, {holds} with a hold; mass "
-     "within 5 % in {mass_within_5_percent} of {mass_above_noise} whose inertia is above 20 times the "
-     "noise, within 3 sd in {mass_within_3_sd} of {mass_told}; a wall that the load touches is found "
-     "within {wall_found_max_s} s"},
+     "{layers_maximum_likelihood_followed} of {layers_maximum_likelihood_changes} layers are reported "
+     "within {layers_maximum_likelihood_slowest_s} s and {layers_maximum_likelihood_farthest_m*1e3} "
+     "mm, a hard tile within {soft_to_hard_maximum_likelihood_slowest_s} s, and a soft tile within "
+     "{hard_to_soft_maximum_likelihood_slowest_s} s of pressing. If the exponent is given, these "
+     "times are {layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
+     "{hard_to_soft_fixed_exponent_slowest_s} s."},
+    {"drag", "Is the mass of a dragged load identified, and is its inertia ever mistaken for a contact?", "",
+     run_drag_study, drag_plots, "",
+     "{dragged} of {drags} unknown loads are dragged, {phantom_contacts} with a false contact and "
+     "{holds} with a hold. The mass is within 5 % for {mass_within_5_percent} of {mass_above_noise} "
+     "loads with an inertial force above 20 times the noise, and within 3 sd for {mass_within_3_sd} "
+     "of {mass_told} loads. A wall that the load touches is detected within {wall_found_max_s} s."},
     {"free-motion",
-     "Unknown force sensors in free motion: do noise, bias and drift cause false contacts, are real contacts found?",
+     "Do noise, bias or drift of an unknown force sensor cause false contacts, and are real contacts "
+     "detected?",
      "", run_free_motion_study, free_motion_plots, "",
-     "{false_contacts} false contacts in {moved_s} s of motion with {sensors} sensors; {walls_found} of {walls} walls "
-     "found within 50 ms of twice the threshold, {slow_walls_found} of {slow_walls} at 0.1 mm/s; with a fixed "
-     "threshold of 0.3 N {fixed_false_contacts} false contacts"},
-    {"docking", "A free-floating spacecraft is grasped, dragged and docked across the link; three mistakes.",
+     "{false_contacts} false contacts occur in {moved_s} s of motion with {sensors} sensors. "
+     "{walls_found} of {walls} walls are detected within 50 ms after the force reaches twice the "
+     "threshold, and {slow_walls_found} of {slow_walls} walls at 0.1 mm/s. A fixed threshold of 0.3 N "
+     "causes {fixed_false_contacts} false contacts."},
+    {"docking",
+     "Can an operator dock a free-floating spacecraft across the link, and does the operator "
+     "feel mistakes?",
      "master slave -operator -hand -mapping.mode -mapping.scale -rendering.ke "
      "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "
      "-sensing.touch_n -sensing.release_n -robot -scene",
      run_docking, docking_plots, "Fig. 20, 21",
-     "{docked} of {seeds} docked, displayed as a force of at least {felt_least_n} N that rises and "
-     "vanishes; {mistakes_felt} of {mistakes} mistakes displayed, {mistakes_safe} safe; force at the "
-     "tool at most {tool_force_max_n} N"},
-    {"scenes-cost", "Time per step of each scene, and with 1 to 10,000 surfaces.", "", run_scenes_cost,
-     scenes_cost_plots},
-    {"trade", "Cost against error of each method of a stage: fronts, and the position of the defaults.",
-     "device", run_trade, trade_plots, "",
-     "presets FAST, BALANCED, EXACT: displayed stiffness error {accuracy_stiffness_fast_error}, "
-     "{accuracy_stiffness_balanced_error}, {accuracy_stiffness_exact_error} % for walls of 500 to 4000 "
-     "N/m, tracking error {accuracy_tracking_fast_error}, {accuracy_tracking_balanced_error}, "
-     "{accuracy_tracking_exact_error} mm (rms); inverse of the arm within "
-     "{arm_inverse_closed_form_error} of its reach, restitution within "
-     "{contact_discrete_gradient_1000us_error}"},
+     "{docked} of {seeds} spacecraft are docked; the operator feels the latching as a force that "
+     "rises to at least {felt_least_n} N and vanishes. {mistakes_felt} of {mistakes} mistakes are "
+     "felt and {mistakes_safe} are safe. The force at the tool is at most {tool_force_max_n} N."},
+    {"scenes-cost", "How long does a simulation step take in each scene, and with 1 to 10,000 surfaces?", "",
+     run_scenes_cost, scenes_cost_plots},
+    {"trade", "Are the default methods on the Pareto front of cost against error?", "device", run_trade,
+     trade_plots, "",
+     "With the presets FAST, BALANCED and EXACT, the error of the displayed stiffness is "
+     "{accuracy_stiffness_fast_error}, {accuracy_stiffness_balanced_error} and "
+     "{accuracy_stiffness_exact_error} % for walls of 500 to 4000 N/m, and the rms tracking error is "
+     "{accuracy_tracking_fast_error}, {accuracy_tracking_balanced_error} and "
+     "{accuracy_tracking_exact_error} mm. The error of the inverse kinematics is "
+     "{arm_inverse_closed_form_error} of the reach, and that of the restitution "
+     "{contact_discrete_gradient_1000us_error}."},
 };
 
 }  // namespace
@@ -312,7 +360,7 @@ void make_folder(const std::filesystem::path& folder) {
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
     throw ConfigError("cannot create the folder " + folder.string() + ": " + error.message() +
-                      "; choose another with --out");
+                      "; choose another folder with --out");
 }
 
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,

@@ -36,8 +36,8 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       script_(master.operator_, master.mapping, master.hand.grip) {
   if (is_comparison(master.rendering.law)) {
     throw std::invalid_argument(
-        "the comparison laws run in the experiments press-wall and delay-sweep; this one accepts "
-        "rendering.law = STIFFNESS or NAIVE");
+        "this experiment accepts only rendering.law = STIFFNESS or NAIVE; the comparison laws run in "
+        "the experiments press-wall and delay-sweep");
   }
   master_port_.limit(master.link.budget_kbit_per_s);
   slave_port_.limit(slave.link.budget_kbit_per_s);

@@ -88,7 +88,7 @@ std::string draw(const std::filesystem::path& folder, const Plot& plot) {
   if (error) return "cannot enter " + folder.string();
   const int status = std::system(("gnuplot " + plot.name + ".gp 2> gnuplot.log").c_str());
   std::filesystem::current_path(before, error);
-  if (status != 0) return "no plot: gnuplot failed, see " + (folder / "gnuplot.log").string();
+  if (status != 0) return "gnuplot failed, so a plot is missing; see " + (folder / "gnuplot.log").string();
   std::filesystem::remove(folder / "gnuplot.log", error);
   return "";
 }

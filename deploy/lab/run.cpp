@@ -61,12 +61,12 @@ std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun ru
 int run(const LabRunOptions& o) {
   if (std::ranges::find(kPrograms, o.name) != std::end(kPrograms))
     throw ConfigError(o.name +
-                      " verifies longreach itself and is a separate program: build it with `cmake "
-                      "--build --preset release --target " +
+                      " is not an experiment but a separate program that verifies longreach. Build it "
+                      "with `cmake --build --preset release --target " +
                       o.name + "` and run `build/release/bin/" + o.name + "`");
   const Experiment* experiment = find_experiment(o.name);
   if (!experiment)
-    throw ConfigError("there is no experiment '" + o.name + "'; `longreach-lab list` shows them");
+    throw ConfigError("unknown experiment '" + o.name + "'; `longreach-lab list` prints the names");
   ExperimentRun r;
   r.config = configure(o.settings, find_deploy_folder());
   r.seed = o.seed;
@@ -76,7 +76,8 @@ int run(const LabRunOptions& o) {
   if (o.record) {
     if (o.name != "touch" || o.out.empty())
       throw ConfigError(
-          "--record needs --out DIR and the experiment touch, the only experiment with a single run");
+          "--record requires --out DIR and the experiment touch; the other experiments consist of "
+          "several runs");
     chosen.run = run_touch_recorded;
   }
   return outcome_of(run_and_print(chosen, r, o.quiet)).empty() ? kDone : kNoContact;

@@ -70,8 +70,9 @@ bool uses_setting(const Experiment& experiment, const std::string& path) {
 
 std::string unused_sentence(const Experiment& experiment, const std::string& path) {
   const std::string name(experiment.name);
-  if (experiment.uses.empty()) return name + " does not use " + path + ", nor any other setting";
-  return name + " does not use " + path + "; it uses: " + std::string(experiment.uses) + " (-: except)";
+  if (experiment.uses.empty()) return name + " does not use " + path + " or any other setting";
+  return name + " does not use " + path + "; it uses these settings: " + std::string(experiment.uses) +
+         " (-NAME: except NAME)";
 }
 
 void refuse_unused(const Experiment& experiment, const std::vector<std::string>& settings) {

@@ -14,7 +14,8 @@ Trace::Trace(const std::filesystem::path& folder, std::string_view name,
   if (folder.empty()) return;
   file_ = folder / (std::string(name) + ".csv");
   stream_.open(file_, std::ios::trunc);
-  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + ": choose another --out folder");
+  if (!stream_)
+    throw std::runtime_error("cannot write " + file_.string() + "; choose another folder with --out");
   for (const std::string_view column : columns) {
     if (!line_.empty()) line_ += ',';
     line_ += column;
@@ -39,7 +40,7 @@ void Trace::row(const std::vector<double>& values) {
 void Trace::close() {
   if (file_.empty()) return;
   stream_.close();
-  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + ": check free disk space");
+  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + ": check the free disk space");
 }
 
 }  // namespace longreach

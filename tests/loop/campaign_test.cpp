@@ -95,13 +95,13 @@ TEST(CampaignPlan, FindsFilesBesideTheGrid) {
 TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> mistakes = {
-      {"# nothing\n", ": no experiment is given"},
-      {"experiment: 'toch'", ":1:1: there is no experiment \"toch\"; did you mean \"touch\"?"},
+      {"# nothing\n", ": the file must name at least one experiment"},
+      {"experiment: 'toch'", ":1:1: unknown experiment \"toch\"; did you mean \"touch\"?"},
       {"experiment: 'touch'\nexperiment: 'touch'", ":2:1: experiment \"touch\" is given twice"},
-      {"experiment: 'touch'\nsetting { value: '1' }", ":2:1: setting has no path"},
+      {"experiment: 'touch'\nsetting { value: '1' }", ":2:1: the setting has no path"},
       {"experiment: 'touch'\nsetting { path: 'profile' }", ":2:1: setting \"profile\" has no value"},
       {"experiment: 'touch'\nsetting {\n path: 'profile' value: 'moon'\n value: 'moon'\n}",
-       ":4:2: setting \"profile\" has the value \"moon\" twice"},
+       ":4:2: setting \"profile\" contains the value \"moon\" twice"},
       {"experiment: 'touch'\nsetting { path: 'profile' value: 'moon' value: 'mars' }",
        ":2:41: there is no link profile \"mars\""},
       {"experiment: 'touch'\nsetting { path: 'no.such' value: '1' }", ":2:27: neither the laboratory nor"},
@@ -116,7 +116,7 @@ TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
       {"experiment: 'touch'\nsetting { path: 'duration_s' value: '2' }\n"
        "setting { path: 'mapping.scale' also: 'operator.press_n' value: '1' value: '0.25' }",
        ":3:69: master.operator.press_n = 0.25 is outside"},
-      {"experiment: 'touch'\nseeds { from: 3 to: 2 }", ":2:1: seeds.from = 3 is above seeds.to = 2"},
+      {"experiment: 'touch'\nseeds { from: 3 to: 2 }", ":2:1: seeds.from = 3 is larger than seeds.to = 2"},
       {"experiment: 'touch'\nseed { from: 3 }", ":2:1: "},
       {"experiment: 'touch'\nseeds { from: -3 }", ":2:15: "},
       {"experiment: 'touch'\nseeds { to: 100001 }", ": the grid has more than 100000 cells"}};
@@ -152,12 +152,13 @@ TEST(ChildProcesses, AJobThatThrowsAbortsOrCrashesFailsAloneAndSaysWhy) {
                        .ended = [&](std::size_t job, const std::string& why) { ended[job] = why; },
                        .waited = [] {}};
   EXPECT_EQ(run_in_children({0, 1, 2, 3, 4, 5}, 2, work), 0);
-  const std::map<std::size_t, std::string> expected = {{0, ""},
-                                                       {1, "no such wall"},
-                                                       {2, "it was ended by Aborted: it is broken"},
-                                                       {3, "it was ended by Killed"},
-                                                       {4, "it failed without an error message"},
-                                                       {5, ""}};
+  const std::map<std::size_t, std::string> expected = {
+      {0, ""},
+      {1, "no such wall"},
+      {2, "the process was ended by a signal (Aborted): it is broken"},
+      {3, "the process was ended by a signal (Killed)"},
+      {4, "the process failed without an error message"},
+      {5, ""}};
   EXPECT_EQ(ended, expected);
 }
 
@@ -217,10 +218,10 @@ TEST(CampaignFolderTest, OfAnotherCampaignIsRefused) {
   ours.write(0, result_of(0.1));
   EXPECT_EQ(error_of([&] { CampaignFolder(a, record_of("c1")); }), "no error");
   EXPECT_EQ(error_of([&] { CampaignFolder(a, record_of("c2")); }),
-            a.string() + " holds results of commit c1, not c2; choose another --out folder");
+            a.string() + " contains results from commit c1, not c2; choose another folder with --out");
   proto::CampaignRecord changed = record_of("c1");
   changed.mutable_campaign()->mutable_seeds()->set_to(3);
-  EXPECT_NE(error_of([&] { CampaignFolder(a, changed); }).find("of another grid"), std::string::npos);
+  EXPECT_NE(error_of([&] { CampaignFolder(a, changed); }).find("from another grid"), std::string::npos);
   changed = record_of("c1");
   changed.set_full(true);
   EXPECT_NE(error_of([&] { CampaignFolder(a, changed); }).find("LONGREACH_FULL"), std::string::npos);

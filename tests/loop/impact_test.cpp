@@ -69,11 +69,11 @@ TEST(SolveImpact, SaysWhatIsWrongWithAQuestion) {
     }
     return answer(request).value("error", "none");
   };
-  EXPECT_EQ(error("m", 0), "\"m\" must be above 0");
-  EXPECT_EQ(error("k", -1), "\"k\" must be above 0");
+  EXPECT_EQ(error("m", 0), "\"m\" must be greater than 0");
+  EXPECT_EQ(error("k", -1), "\"k\" must be greater than 0");
   EXPECT_EQ(error("k", nullptr), "key \"k\" is missing");
-  EXPECT_EQ(error("n", 0), "\"n\" must be from 1 to 3");
-  EXPECT_EQ(error("lambda", -1), "\"lambda\" must not be below 0");
+  EXPECT_EQ(error("n", 0), "\"n\" must be between 1 and 3");
+  EXPECT_EQ(error("lambda", -1), "\"lambda\" must not be negative");
   EXPECT_EQ(error("v", "fast"), "\"v\" must be a number");
   EXPECT_EQ(error("stiffness", 1), "unknown key \"stiffness\"");
   EXPECT_EQ(error("integrator", "midpoint"),

@@ -191,7 +191,7 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
        "degrees");
   EXPECT_EQ(error("robot-fk", R"({"robot": "ur10", "q": [0,0,0]})"), "\"q\" must be a list of six numbers");
   EXPECT_EQ(error("robot-fk", R"({"dh": [], "q": [0,0,0,0,0,0]})"),
-            "\"dh\" must be a list of six rows; this has 0");
+            "\"dh\" must be a list of six rows, not 0");
   EXPECT_EQ(error("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0]]})"), "\"X\" must be a list of four rows");
 }
 

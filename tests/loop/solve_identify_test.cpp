@@ -116,11 +116,11 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,2\n0.1,1\n", "line 3: 2 values for 3 columns"},
       {"t,x,f\n0,1,nan\n", "line 2: \"f\" is not a finite number"},
       {"t,y,f\n", "line 1: unknown column \"y\"; remove columns other than t, x, v and f"},
-      {"t,x [inch],f\n", "line 1: the unit \"inch\" of \"x [inch]\" is unknown; give m, mm or um"},
+      {"t,x [inch],f\n", "line 1: the unit \"inch\" of \"x [inch]\" is unknown; use m, mm or um"},
       {"0,0.1,3\n", "line 1: the first line must name the columns, for example t,x,f"},
       {"t,x,f\n0,1,0,2,0,3\n",
        "line 2: 6 values for 3 columns; with decimal commas, separate the columns by"},
-      {"t,x,f\n0,\"1,2\n", "line 2: a quotation mark is not closed"},
+      {"t,x,f\n0,\"1,2\n", "line 2: a closing quotation mark is missing"},
       {"\xFF\xFEt,x,f\n", "line 1: the text is UTF-16; save it as UTF-8"},
       {"t,x,f\r0,1,2\r", "line 1: lines end with CR only"},
       {"t,x\n", "line 1: column \"f\" is missing"},
@@ -128,13 +128,13 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"{\"t\": 0, \"x\": 1}\n", "line 1: key \"f\" is missing"},
       {"\n{\"t\": 0, \"x\": 1, \"f\": \"2\"}\n", "line 2: \"f\" must be a number"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2, \"z\": 3}\n", "line 1: unknown key \"z\""},
-      {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 0, \"x\": 1, \"f\": 2}\n", "line 2: \"t\" does not rise"},
+      {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 0, \"x\": 1, \"f\": 2}\n", "line 2: \"t\" does not increase"},
       {"{\"t\": 0, \"x\": 1, \"f\": 2}\n{\"t\": 1, \"x\": 1, \"f\": 2, \"v\": 0}\n",
        "line 2: key \"v\" is given, although the previous lines do not have it"},
-      {"{\"t\": 0, \"x\": 1, \"f\": 2}\nt,x,f\n", "line 2: not JSON"},
+      {"{\"t\": 0, \"x\": 1, \"f\": 2}\nt,x,f\n", "line 2: invalid JSON"},
       {"LabVIEW Measurement\t\n", "delete all lines up to the last ***End_of_Header***"},
       {"X_Value\tx\tf\tComment\n",
-       "line 1: unknown columns \"X_Value\" (LabVIEW's time: name it t), \"Comment\"; remove columns other than"},
+       "line 1: unknown columns \"X_Value\" (the time in LabVIEW files; name it t), \"Comment\"; remove columns other than"},
       {"t,x,f,temp,run\n",
        "line 1: unknown columns \"temp\", \"run\"; remove columns other than t, x, v and f"},
       {"\"t\" \"x\" \"f\"\n\"1\" 0 1 2\n",
@@ -144,15 +144,15 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,NaN\n", "\"f\" is not a finite number; remove the lines that lack a value"},
       {"t;x;f\n0;1;-2.000,5\n", "not \"-2.000,5\"; write numbers without thousands separators"},
       {"t,x,f\n0,1,\"2,000.5\"\n", "not \"2,000.5\"; write numbers without thousands separators"},
-      {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times as seconds since any instant"},
+      {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times in seconds, counted from any instant"},
       {"t,x,f\n0.5,1,2\n0.5,1,2\n",
-       "line 3: \"t\" does not rise: 0.5 s after 0.5 s; sort the lines by t, and remove lines with"},
+       "line 3: \"t\" does not increase: 0.5 s after 0.5 s; sort the lines by t and remove lines with"},
       {"[{\"t\": 0, \"x\": 1, \"f\": 2},\n",
        "line 1: a JSON array is not supported; write one object per line"},
       {"t [s];x [\xb5m];f [N]\r\n", "line 1: the text is not UTF-8: \"t [s];x [\\xb5m];f [N]\"; save it as"},
       {"t,x,f\n0,\x1b[2J,3\n", "line 2: \"x\" must be a number, not \"\\x1b[2J\""},
-      {"", "no samples; give a header as t,x,f and lines of numbers below it"},
-      {"t,x,f\n", "no samples; give a header as t,x,f and lines of numbers below it"},
+      {"", "there are no samples; write a header such as t,x,f and lines of numbers below it"},
+      {"t,x,f\n", "there are no samples; write a header such as t,x,f and lines of numbers below it"},
   };
   for (const auto& [input, reason] : cases) {
     const Result r = run(input);
@@ -264,12 +264,12 @@ TEST(SolveIdentify, DetectsWrongUnitsOfTimeAndWrongSigns) {
   };
   const std::pair<std::string, const char*> cases[] = {
       {scaled(1e3, 1, 1),
-       "line 6: \"t\" grows by 1 per line and has the unit s, but seems to be in ms; name it \"t [ms]\""},
+       "line 6: \"t\" increases by 1 per line, so it seems to be in ms; name the column \"t [ms]\""},
       {scaled(1e6, 1, 1), "seems to be in us"},
       {scaled(1e9, 1, 1), "seems to be in ns"},
-      {scaled(1, -1, -1), "negative signs: x and f are below 0"},
-      {scaled(1, -1, 1), "a negative sign: the force grows where x is below 0"},
-      {scaled(1, 1, -1), "a negative sign: f falls while x grows"}};
+      {scaled(1, -1, -1), "x and f are negative in contact"},
+      {scaled(1, -1, 1), "the force increases where x is negative"},
+      {scaled(1, 1, -1), "f decreases while x increases"}};
   for (const auto& [input, words] : cases) {
     const Result r = run(input);
     EXPECT_EQ(r.status, 2) << words;
@@ -303,13 +303,16 @@ std::string altered(const std::string& names, bool with_v, double by_x, double p
 
 TEST(SolveIdentify, DetectsLengthsSpeedsForcesAndSurfacesOfAnotherKind) {
   const std::pair<std::string, const char*> cases[] = {
-      {altered("t,x,f", false, 1e3, 0, 0, 0), "so it seems to be in mm; name it \"x [mm]\", or \"x [m]\""},
-      {altered("t,x,f", false, 1e6, 0, 0, 0), "so it seems to be in um; name it \"x [um]\""},
-      {altered("t,x,f", false, 1, 0.3, 0, 0), "the force begins at x = 0.30"},
-      {altered("t,x,f", false, 1, -0.004, 0, 0), "the force begins at x = -0.00"},
-      {altered("t,x,f", false, 1, 0, 0, 2), "f is 2 N in free space (x <= 0); subtract that from f"},
-      {altered("t,x,v,f", true, 1, 0, -1, 0), "\"v\" falls where \"x\" grows; change the sign of v"},
-      {altered("t,x,v,f", true, 1, 0, 1e3, 0), "\"v\" is 1e+03 times the growth of \"x\"; give the units"}};
+      {altered("t,x,f", false, 1e3, 0, 0, 0),
+       "so it seems to be in mm; name the column \"x [mm]\", or \"x [m]\""},
+      {altered("t,x,f", false, 1e6, 0, 0, 0), "so it seems to be in um; name the column \"x [um]\""},
+      {altered("t,x,f", false, 1, 0.3, 0, 0), "the force starts at x = 0.30"},
+      {altered("t,x,f", false, 1, -0.004, 0, 0), "the force starts at x = -0.00"},
+      {altered("t,x,f", false, 1, 0, 0, 2), "f is 2 N in free space (x <= 0); subtract this offset from f"},
+      {altered("t,x,v,f", true, 1, 0, -1, 0),
+       "\"v\" is negative where \"x\" increases; change the sign of v"},
+      {altered("t,x,v,f", true, 1, 0, 1e3, 0),
+       "\"v\" is 1e+03 times the derivative of \"x\"; state the units"}};
   for (const auto& [input, words] : cases) {
     const Result r = run(input);
     EXPECT_EQ(r.status, 2) << words;
@@ -322,11 +325,11 @@ TEST(SolveIdentify, DetectsLengthsSpeedsForcesAndSurfacesOfAnotherKind) {
 TEST(SolveIdentify, SaysThatNothingIsTouchedAndThatASecondTableBegins) {
   const Result free = run("t,x,f\n0,-0.003,0.01\n0.001,-0.002,-0.01\n");
   EXPECT_EQ(free.status, 0);
-  EXPECT_NE(free.errors.find("no sample has \"x\" above 0, so there is no contact"), std::string::npos)
+  EXPECT_NE(free.errors.find("no sample has a positive \"x\", so there is no contact"), std::string::npos)
       << free.errors;
   const Result twice = run("t,x,f\n0,0.001,1\n0.001,0.002,2\nt,x,f\n0,0.001,1\n");
   EXPECT_EQ(twice.status, 2);
-  EXPECT_NE(twice.errors.find("line 4: \"t\" must be a number, not \"t\"; a second table begins here"),
+  EXPECT_NE(twice.errors.find("line 4: \"t\" must be a number, not \"t\"; a second table starts here"),
             std::string::npos)
       << twice.errors;
 }

@@ -193,7 +193,7 @@ TEST_F(Recording, IsReplayedBitForBitAfterAllThatMayChangeOnTheWay) {
   EXPECT_EQ(replay.wait(std::chrono::seconds(120)), 0) << replay.output();
   EXPECT_NE(replay.output().find("master: "), std::string::npos) << replay.output();
   EXPECT_NE(replay.output().find("slave: "), std::string::npos) << replay.output();
-  EXPECT_NE(replay.output().find("slave.mcap was truncated"), std::string::npos) << replay.output();
+  EXPECT_NE(replay.output().find("slave.mcap is truncated"), std::string::npos) << replay.output();
   EXPECT_EQ(replay.output().find("difference"), std::string::npos) << replay.output();
 }
 
@@ -238,7 +238,8 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   }
   RunningProgram replay("longreach-lab", {"replay", folder + "/drill-slave.mcap"});
   EXPECT_EQ(replay.wait(std::chrono::seconds(60)), 2) << replay.output();
-  EXPECT_NE(replay.output().find("a replay needs a recording from the start (--record)"), std::string::npos)
+  EXPECT_NE(replay.output().find("a replay requires a recording from the start (--record)"),
+            std::string::npos)
       << replay.output();
   // And a second one.
   EXPECT_TRUE(client({"record", "start", "drill"}).starts_with("1 ")) << "nothing is overwritten";

@@ -119,30 +119,31 @@ TEST_F(Sweep, FoldersOfOtherGridsOrCommitsAreNotMixed) {
   const std::string other = folder_.write("other.txtpb", "experiment: 'touch' seeds { from: 1 to: 3 }");
   const Ended mixed = lab({"sweep", other, "--out", path("a")});
   EXPECT_EQ(mixed.status, 2) << mixed.output;
-  EXPECT_NE(mixed.output.find("holds results of another grid"), std::string::npos) << mixed.output;
+  EXPECT_NE(mixed.output.find("contains results from another grid"), std::string::npos) << mixed.output;
   fs::copy(path("a"), path("b"), fs::copy_options::recursive);
   std::string record = text_of(path("b/campaign.txtpb"));
   record.replace(0, record.find('\n'), "commit: \"0123456789ab\"");
   folder_.write("b/campaign.txtpb", record);
   const Ended merged = lab({"merge", path("a"), path("b")});
   EXPECT_EQ(merged.status, 2) << merged.output;
-  EXPECT_NE(merged.output.find("its results are of commit 0123456789ab, not "), std::string::npos)
+  EXPECT_NE(merged.output.find("its results are from commit 0123456789ab, not "), std::string::npos)
       << merged.output;
   const Ended nothing = lab({"merge", path("a"), path("c")});
   EXPECT_EQ(nothing.status, 2) << nothing.output;
-  EXPECT_NE(nothing.output.find("is not a folder of `longreach-lab sweep`"), std::string::npos)
+  EXPECT_NE(nothing.output.find("was not written by `longreach-lab sweep`"), std::string::npos)
       << nothing.output;
 }
 
 TEST_F(Sweep, ACellThatFailsIsNamedTheOthersGoOnAndItIsTriedAgain) {
   const std::string grid =
       write_grid("setting { path: 'rendering.law' value: ['WAVE', 'STIFFNESS'] }\nseeds { from: 1 to: 2 }");
-  for (const char* summary :
-       {"4 cells: 0 were done, 4 run, 2 of them failed", "4 cells: 2 were done, 2 run, 2 of them failed"}) {
+  for (const char* summary : {"4 cells: 0 were already done, 4 were run, 2 of these failed",
+                              "4 cells: 2 were already done, 2 were run, 2 of these failed"}) {
     const Ended ended = lab({"sweep", grid, "--out", path("a")});
     EXPECT_EQ(ended.status, 1) << ended.output;
     for (const std::string part :
-         {summary, "cell 0 failed: touch duration_s=2 rendering.law=WAVE seed=1: the comparison laws run in",
+         {summary,
+          "cell 0 failed: touch duration_s=2 rendering.law=WAVE seed=1: this experiment accepts only",
           "cell 1 failed: "})
       EXPECT_NE(ended.output.find(part), std::string::npos) << part << "\n" << ended.output;
   }
@@ -176,7 +177,7 @@ TEST_F(Sweep, MistakesExitWithStatus2BeforeAnythingRuns) {
       "unused.txtpb",
       "experiment: ['touch', 'first-touch']\nsetting { path: 'profile' value: ['lab', 'moon'] }\n");
   expect({"sweep", unused, "--out", path("a")},
-         "unused.txtpb:2:11: first-touch does not use profile; it uses: ");
+         "unused.txtpb:2:11: first-touch does not use profile; it uses these settings: ");
   expect({"sweep", path("none.txtpb"), "--out", path("a")}, "none.txtpb: there is no such file");
   for (const char* shard : {"0/2", "3/2", "half"})
     expect({"sweep", good, "--out", path("a"), "--shard", shard}, std::string("--shard ") + shard);

@@ -74,13 +74,14 @@ TEST(Usage, OfTheLaboratoryToo) {
   expect({"run", "touch", "--out", ""}, "--out: is empty");
   expect({"run", "touch", "--out", "/proc/longreach"}, "cannot create the folder /proc/longreach");
   expect({"run", "touch", "--out", "/etc/passwd"}, "cannot create the folder /etc/passwd");
-  expect({"run", "first-touch", "--set", "profile=lab"}, "first-touch does not use profile; it uses: ");
+  expect({"run", "first-touch", "--set", "profile=lab"},
+         "first-touch does not use profile; it uses these settings: ");
   expect({"run", "scenes-cost", "--set", "profile=lab"},
-         "scenes-cost does not use profile, nor any other setting");
+         "scenes-cost does not use profile or any other setting");
   expect({"run", "faults"}, "run `build/release/bin/faults`");
   expect({"run", "press-wall", "--set", "rendering.law=STIFFNESS"},
-         "press-wall shows the textbook laws; rendering.law = STIFFNESS runs in the experiment touch");
-  expect({"report", "--out", "/proc/longreach"}, "choose another with --out");
+         "press-wall runs only the textbook laws; for rendering.law = STIFFNESS use the experiment touch");
+  expect({"report", "--out", "/proc/longreach"}, "choose another folder with --out");
   expect({"solve", "identify", "--exponent", "nan"}, "nan is not a number from 0.5 to 3.5");
   expect({"nope"}, "nope is not a command");
 }

@@ -19,7 +19,7 @@ struct VerificationOptions {
 };
 
 inline void add_options(CLI::App& app, VerificationOptions& o) {
-  app.add_option("--seed", o.seed, "Seed of every random stream")
+  app.add_option("--seed", o.seed, "Seed of all random streams")
       ->check(whole_number())
       ->capture_default_str();
   app.add_option("--out", o.out, "Folder for metrics.json and the table; created if missing")

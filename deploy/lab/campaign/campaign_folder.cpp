@@ -42,14 +42,13 @@ void write_whole(const fs::path& file, const std::string& text) {
   std::error_code ignored;
   fs::remove(part, ignored);
   throw std::runtime_error("cannot write " + file.string() +
-                           ": check free disk space and permissions of "
-                           "the folder");
+                           ": check the free disk space and the permissions of the folder");
 }
 
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other) {
-  if (one.commit() != other.commit()) return "of commit " + one.commit() + ", not " + other.commit();
-  if (text_of(one.campaign()) != text_of(other.campaign())) return "of another grid";
-  if (one.configs() != other.configs()) return "of this grid, but with other files in deploy/";
+  if (one.commit() != other.commit()) return "from commit " + one.commit() + ", not " + other.commit();
+  if (text_of(one.campaign()) != text_of(other.campaign())) return "from another grid";
+  if (one.configs() != other.configs()) return "from this grid, but with other files in deploy/";
   if (one.full() != other.full())
     return one.full() ? "of full size (LONGREACH_FULL), not of small size"
                       : "of small size, not of full size (LONGREACH_FULL)";
@@ -61,18 +60,18 @@ CampaignFolder::CampaignFolder(fs::path folder, const proto::CampaignRecord& rec
   if (fs::exists(folder_ / kRecord)) {
     const std::string why = difference(CampaignFolder(folder_).record(), record);
     if (!why.empty())
-      throw ConfigError(folder_.string() + " holds results " + why + "; choose another --out folder");
+      throw ConfigError(folder_.string() + " contains results " + why + "; choose another folder with --out");
   }
   std::error_code error;
   fs::create_directories(folder_ / "cells", error);
-  if (error) throw ConfigError(folder_.string() + " cannot be made: " + error.message());
+  if (error) throw ConfigError(folder_.string() + " cannot be created: " + error.message());
   if (!fs::exists(folder_ / kRecord)) write_whole(folder_ / kRecord, text_of(record));
 }
 
 CampaignFolder::CampaignFolder(fs::path folder) : folder_(std::move(folder)) {
   if (!fs::exists(folder_ / kRecord))
-    throw ConfigError(folder_.string() + " is not a folder of `longreach-lab sweep`: " + kRecord +
-                      " is not in it");
+    throw ConfigError(folder_.string() + " was not written by `longreach-lab sweep`: it does not contain " +
+                      kRecord);
   load_text_file(folder_ / kRecord, record_);
   name_ = name_hash(text_of(record_));
 }
@@ -93,7 +92,7 @@ std::optional<proto::CellRecord> CampaignFolder::result(std::size_t cell) const 
   if (!parser.ParseFromString(text, &record) || !record.complete()) return std::nullopt;
   if (record.campaign() != name_ || record.cell() != cell)
     throw ConfigError(file_of(cell).string() +
-                      " belongs to another campaign; remove it, or choose another folder");
+                      " belongs to another campaign; remove it or choose another folder");
   return record;
 }
 

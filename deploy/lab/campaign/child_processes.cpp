@@ -83,8 +83,9 @@ std::string last_line(int file) {
 std::string failure_of(const Child& child, int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
   const std::string said = last_line(child.said);
-  if (WIFEXITED(status)) return said.empty() ? "it failed without an error message" : said;
-  const std::string ended = std::string("it was ended by ") + strsignal(WTERMSIG(status));
+  if (WIFEXITED(status)) return said.empty() ? "the process failed without an error message" : said;
+  const std::string ended =
+      std::string("the process was ended by a signal (") + strsignal(WTERMSIG(status)) + ")";
   return said.empty() ? ended : ended + ": " + said;
 }
 

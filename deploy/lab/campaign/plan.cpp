@@ -24,7 +24,8 @@ class Checker {
   Checker(const fs::path& file, const proto::Campaign& campaign) : file_(file), campaign_(campaign) {}
 
   void experiments() const {
-    if (campaign_.experiment().empty()) throw ConfigError(file_.string() + ": no experiment is given");
+    if (campaign_.experiment().empty())
+      throw ConfigError(file_.string() + ": the file must name at least one experiment");
     Names known;
     for (const Experiment& e : longreach::experiments()) known.emplace_back(e.name);
     std::set<std::string> names;
@@ -32,7 +33,7 @@ class Checker {
       const std::string& name = campaign_.experiment(i);
       if (find_experiment(name) == nullptr)
         refuse({step(campaign_, "experiment", i)},
-               "there is no experiment \"" + name + "\"" + instead_of(name, known, "there are"));
+               "unknown experiment \"" + name + "\"" + instead_of(name, known, "known are"));
       if (!names.insert(name).second)
         refuse({step(campaign_, "experiment", i)}, "experiment \"" + name + "\" is given twice");
     }
@@ -43,7 +44,7 @@ class Checker {
     for (int i = 0; i < campaign_.setting_size(); ++i) {
       const auto& setting = campaign_.setting(i);
       const PathStep at = step(campaign_, "setting", i);
-      if (setting.path().empty()) refuse({at}, "setting has no path");
+      if (setting.path().empty()) refuse({at}, "the setting has no path");
       take(setting.path(), {at, step(setting, "path", -1)}, paths);
       for (int k = 0; k < setting.also_size(); ++k)
         take(setting.also(k), {at, step(setting, "also", k)}, paths);
@@ -53,7 +54,7 @@ class Checker {
       for (int v = 0; v < setting.value_size(); ++v) {
         if (!values.insert(setting.value(v)).second)
           refuse({at, step(setting, "value", v)},
-                 "setting \"" + setting.path() + "\" has the value \"" + setting.value(v) + "\" twice");
+                 "setting \"" + setting.path() + "\" contains the value \"" + setting.value(v) + "\" twice");
       }
     }
   }
@@ -62,7 +63,7 @@ class Checker {
     const auto& seeds = campaign_.seeds();
     if (seeds.from() > seeds.to())
       refuse({step(campaign_, "seeds", -1)}, "seeds.from = " + std::to_string(seeds.from()) +
-                                                 " is above seeds.to = " + std::to_string(seeds.to()) +
+                                                 " is larger than seeds.to = " + std::to_string(seeds.to()) +
                                                  "; the grid is empty");
   }
 
@@ -99,7 +100,8 @@ class Checker {
         refuse({setting, step(campaign_.setting(setting.index), "value", value)}, e.what());
       }
     }
-    throw ConfigError(file_.string() + ": the files in " + deploy.string() + " are being changed");
+    throw ConfigError(file_.string() + ": the files in " + deploy.string() +
+                      " changed while the grid was being checked; run the command again");
   }
 
  private:

@@ -89,7 +89,7 @@ std::size_t complain_of_missing(const Grid& grid, const CellResults& results) {
     if (results[i] || ++missing > kNamed) continue;
     std::fprintf(stderr, "cell %zu has no result: %s\n", i, grid.name(grid.cell(i)).c_str());
   }
-  if (missing > kNamed) std::fprintf(stderr, "and %zu more\n", missing - kNamed);
+  if (missing > kNamed) std::fprintf(stderr, "and %zu more cells\n", missing - kNamed);
   return missing;
 }
 

@@ -29,8 +29,8 @@ double seconds_since(Clock::time_point began) {
 std::size_t jobs_of(const SweepOptions& options) {
   constexpr int kJobsMax = 1024;
   if (options.jobs < 0 || options.jobs > kJobsMax)
-    throw ConfigError("--jobs " + std::to_string(options.jobs) + " is outside 0 (one per processor) to " +
-                      std::to_string(kJobsMax));
+    throw ConfigError("--jobs " + std::to_string(options.jobs) +
+                      " must be between 0 (one per processor) and " + std::to_string(kJobsMax));
   if (options.jobs > 0) return static_cast<std::size_t>(options.jobs);
   return std::max(1U, std::thread::hardware_concurrency());  // those that this process may use
 }
@@ -98,8 +98,8 @@ void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder&
   if (shard.count > 1) {
     if (!options.quiet)
       std::printf(
-          "when all shards are done: longreach-lab merge %s and the folders of the other shards, if "
-          "any\n",
+          "When all shards are done, run `longreach-lab merge %s` with the folders of the other "
+          "shards, if any.\n",
           folder.path().c_str());
     return;
   }
@@ -139,8 +139,7 @@ Shard parse_shard(const std::string& text) {
     if (index && count && *index >= 1 && *index <= *count) return {*index, *count};
   }
   throw ConfigError("--shard " + text +
-                    " is not a shard; write I/N, e.g. 1/4, 2/4, 3/4 and 4/4 on four "
-                    "hosts");
+                    " is not a valid shard; write I/N, e.g. 1/4, 2/4, 3/4 and 4/4 on four hosts");
 }
 
 int sweep(const SweepOptions& options) {
@@ -171,8 +170,8 @@ int sweep(const SweepOptions& options) {
     return 128 + signal;
   }
   if (!options.quiet)
-    std::printf("%zu cells: %zu were done, %zu run, %zu of them failed; commit %s\n", of_shard, before,
-                cells.size(), progress.failed(), plan.record.commit().c_str());
+    std::printf("%zu cells: %zu were already done, %zu were run, %zu of these failed; commit %s\n", of_shard,
+                before, cells.size(), progress.failed(), plan.record.commit().c_str());
   const std::size_t no_contact = without_contact(results_in(folder, plan.grid.size()));
   if (no_contact > 0 && !options.quiet) std::printf("outcome: no contact in %zu cells\n", no_contact);
   finish(options, plan, folder, shard);
@@ -200,7 +199,8 @@ int merge(const MergeOptions& options) {
       if (result && results[i] && !alike(*result, *results[i]))
         throw ConfigError("cell " + std::to_string(i) + " (" + grid.name(grid.cell(i)) + ") in " +
                           folder.path().string() +
-                          " differs between the folders: check for another processor or C library");
+                          " differs between the folders; check whether the hosts have different "
+                          "processors or C libraries");
       if (result) results[i] = result;
     }
   }

@@ -30,21 +30,23 @@ std::vector<Plot> docking_plots() {
         .title = title,
         .x_column = "t_s",
         .x_label = "time (s)",
-        .panels = {{"tool from its start (mm)",
+        .panels = {{"displacement of the tool (mm)",
                     {{"tool_x_m", "x", 1e3}, {"tool_y_m", "y", 1e3}, {"tool_z_m", "z", 1e3}},
                     ""},
-                   {"tip to catch (mm)", {{"striker_m", "tip of the probe", 1e3}}, ""},
+                   {"distance from tip to catch (mm)", {{"striker_m", "tip of the probe", 1e3}}, ""},
                    {"force on the tool (N)", {{"force_x_n", "along x"}, {"force_n", "magnitude"}}, ""},
-                   {"force at the hand against the push (N)", {{"felt_n", "contact at the hand"}}, ""},
+                   {"resisting force at the hand (N)", {{"felt_n", "contact at the hand"}}, ""},
                    {"state",
-                    {{"mode", "position mode"}, {"holds", "gripper holds", 0.9}, {"latched", "latched", 0.8}},
+                    {{"mode", "position mode (1: yes)"},
+                     {"holds", "gripper holds the target", 0.9},
+                     {"latched", "latched", 0.8}},
                     "set yrange [-0.1:1.3]"}},
         .panel_px = 150.0};
   };
-  return {plot("docking", "Docking across the link: approach, grasp, drag, dock"),
+  return {plot("docking", "Docking across the link: approach, grasp, drag and dock"),
           plot("docking_tilted", "Mistake: the target is not aligned"),
-          plot("docking_misses_guide", "Mistake: beside the guide"),
-          plot("docking_pushes_on", "Mistake: pushing on after the latch has yielded")};
+          plot("docking_misses_guide", "Mistake: the probe misses the guide"),
+          plot("docking_pushes_on", "Mistake: the operator keeps pushing after the latch yielded")};
 }
 
 std::vector<Metric> run_docking(const ExperimentRun& run) {
@@ -93,10 +95,10 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
   metrics.push_back({"felt_success", static_cast<double>(felt), ""});
   metrics.push_back({"safe", static_cast<double>(safe), ""});
   metrics.push_back({"time_to_dock_s", time_s, "s, mean"});
-  metrics.push_back({"felt_least_n", felt_least_n, "N, maximum force of the rise, minimum over the seeds"});
-  metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, mistakes included"});
-  metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without the mistakes"});
-  metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, mistakes included"});
+  metrics.push_back({"felt_least_n", felt_least_n, "N, peak of the rise, minimum over the seeds"});
+  metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, including mistakes"});
+  metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without mistakes"});
+  metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, including mistakes"});
   metrics.push_back({"energy_created_max_j", worst.energy_created_j, "J"});
   metrics.push_back({"port_energy_min_j", worst.port_energy_min_j, "J"});
   metrics.insert(metrics.end(), of_mistakes.begin(), of_mistakes.end());

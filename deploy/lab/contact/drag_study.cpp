@@ -106,14 +106,14 @@ std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
 std::vector<Plot> drag_plots() {
   return {{.name = "drag",
            .csv = "loads",
-           .title = "Unknown loads, dragged: their identified mass",
+           .title = "Identified mass of unknown loads while they are dragged",
            .x_column = "mass_kg",
            .x_label = "mass of the load (kg)",
-           .panels = {{"error of the mass (%)",
-                       {{.column = "mass_error_percent", .title = "a load", .points = true}},
+           .panels = {{"mass error (%)",
+                       {{.column = "mass_error_percent", .title = "load", .points = true}},
                        "set logscale x\nset yrange [-20:20]"},
-                      {"distance from the rest position with an empty gripper (mm)",
-                       {{.column = "overrun_m", .title = "a load", .factor = 1e3, .points = true}},
+                      {"distance from the stopping point with an empty gripper (mm)",
+                       {{.column = "overrun_m", .title = "load", .factor = 1e3, .points = true}},
                        "set logscale x"}}}};
 }
 

@@ -57,14 +57,14 @@ void write(const ExperimentRun& run, const std::vector<const Motions*>& all) {
 std::vector<Plot> free_motion_plots() {
   return {{.name = "free-motion",
            .csv = "motions",
-           .title = "Unknown force sensors: touch thresholds as derived, and walls",
+           .title = "Unknown force sensors: derived touch thresholds and detected walls",
            .x_column = "noise_n",
-           .x_label = "noise of a sample along an axis (N)",
+           .x_label = "noise per sample and axis (N)",
            .panels = {{"touch threshold (N)",
-                       {{.column = "touch_n", .title = "a sensor", .points = true}},
+                       {{.column = "touch_n", .title = "sensor", .points = true}},
                        "set logscale x"},
-                      {"force at which the wall was found (N)",
-                       {{.column = "found_n", .title = "a wall", .points = true}},
+                      {"force at detection of the wall (N)",
+                       {{.column = "found_n", .title = "wall", .points = true}},
                        "set logscale x"}}}};
 }
 

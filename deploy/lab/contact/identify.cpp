@@ -158,7 +158,7 @@ std::vector<Plot> identify_plots() {
   for (const char* way : kExcitationNames) {
     std::vector<Panel> panels;
     for (const auto& [parameter, label] :
-         {std::pair{"k_", "error of k (%)"}, std::pair{"stiffness_", "error of stiffness (%)"},
+         {std::pair{"k_", "error of k (%)"}, std::pair{"stiffness_", "error of the stiffness (%)"},
           std::pair{"lambda_", "error of λ (%)"}}) {
       const auto curve = [&parameter](const char* of, const char* title, bool points, int mark, int colour) {
         return Curve{std::string(parameter) + of, title, 100.0, points, mark, colour};
@@ -167,14 +167,14 @@ std::vector<Plot> identify_plots() {
           {label,
            {curve("voigt", "Kelvin-Voigt", false, 0, 3), curve("two_stage", "two-stage", false, 0, 4),
             curve("log", "log-linear", false, 0, 1), curve("weighted_log", "weighted log", true, 9, 0),
-            curve("kalman", "Kalman filter", true, 11, 3), curve("fixed", "fixed n, correct", false, 0, 5),
+            curve("kalman", "Kalman filter", true, 11, 3), curve("fixed", "correct fixed n", false, 0, 5),
             curve("likelihood", "maximum likelihood", false, 0, 0),
             curve("batch", "batch fit (Ceres)", true, 6, 2), curve("bound", "Cramér-Rao bound", true, 2, 1)},
            "set logscale xy\nset yrange [1e-2:1e4]\nset format y '%g'\nset ytics 100"});
     }
     plots.push_back({.name = std::string("identify_") + way,
                      .csv = std::string("identify_") + way,
-                     .title = std::string("estimates after 2 s, n = 1.5, noise 0.05 N, motion: ") + way,
+                     .title = std::string("Estimates after 2 s, n = 1.5, noise 0.05 N, motion: ") + way,
                      .x_column = "k",
                      .x_label = "k (N/m^{1.5})",
                      .panels = panels,

@@ -94,21 +94,21 @@ std::vector<Plot> impact_plots() {
     return {{"discrete_gradient" + what, "discrete gradient"},
             {"explicit_euler" + what, "explicit Euler"},
             {"semi_implicit_euler" + what, "semi-implicit Euler"},
-            {"rk4" + what, "Runge-Kutta 4"}};
+            {"rk4" + what, "Runge-Kutta (4th order)"}};
   };
   const std::string axes = "set logscale xy\nset xrange [1e-6:1e6]\nset format y '10^{%L}'\n";
   const std::string drawn = axes + "set yrange [1e-17:1e4]\nset ytics 1e-16,1e4,1e4\n";
   return {{.name = "impact",
            .csv = "impact",
-           .title = "A free impact, n = 1.5, a v = 0.5: four integrators over the relative stiffness of the "
-                    "contact",
+           .title = "Four integrators in a free impact (n = 1.5, a v = 0.5) over the relative stiffness "
+                    "of the contact",
            .x_column = "kappa",
            .x_label = "stiffness k (v dt)^{n-1} dt^2 / m",
-           .panels = {{"restitution: error", curves("_restitution"), drawn},
+           .panels = {{"error of the restitution", curves("_restitution"), drawn},
                       {"generated energy", curves("_rise"), drawn},
-                      {"time of contact: error", curves("_time"),
+                      {"error of the contact time", curves("_time"),
                        axes + "set yrange [1e-8:1e4]\nset ytics 1e-8,1e4,1e4\n"},
-                      {"evaluations of the force", curves("_evaluations"),
+                      {"force evaluations", curves("_evaluations"),
                        axes + "set yrange [1:1e5]\nset ytics auto\nset format x '10^{%L}'\n"}}}};
 }
 
@@ -133,9 +133,9 @@ std::vector<Metric> run_impact(const ExperimentRun& run) {
   std::vector<Metric> metrics{{"impacts", kCases, ""}};
   for (std::size_t k = 0; k < std::size(kIntegrators); ++k) {
     const std::string name(kIntegrators[k].name);
-    metrics.push_back({name + "_right", 100.0 * right[k] / kCases, "% within 1e-10"});
-    metrics.push_back({name + "_error_max", worst[k].restitution, "of restitution"});
-    metrics.push_back({name + "_rise_max", worst[k].rise, "of energy at touch"});
+    metrics.push_back({name + "_right", 100.0 * right[k] / kCases, "% of the impacts, within 1e-10"});
+    metrics.push_back({name + "_error_max", worst[k].restitution, "share of the speed"});
+    metrics.push_back({name + "_rise_max", worst[k].rise, "share of the energy at touch"});
     metrics.push_back({name + "_evaluations", evaluations[k], "mean"});
   }
   return metrics;

@@ -225,7 +225,7 @@ Plot plot_of(const std::string& name, const std::string& title, const Panel& pla
 }  // namespace
 
 std::vector<Plot> material_steps_plots() {
-  const Panel way{"way (mm)", {{"beside_m", "along", 1e3}, {"depth_m", "inwards", 1e3}}, "unset logscale y"};
+  const Panel way{"path (mm)", {{"beside_m", "along", 1e3}, {"depth_m", "inwards", 1e3}}, "unset logscale y"};
   const Panel depth{"depth (mm)", {{"depth_m", "tool", 1e3}}, "unset logscale y"};
   return {plot_of("layers", "Pressing through layers of 0.3, 1.3 and 11.3 N/mm", depth),
           plot_of("soft_to_hard", "Sliding from a tile of 1 N/mm onto one of 10 N/mm", way),

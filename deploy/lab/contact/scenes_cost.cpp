@@ -106,8 +106,8 @@ void bodies_growth(const ExperimentRun& run, std::vector<Metric>& metrics) {
   for (const int count : {1, 2, 3, 4}) {
     const double apart = row_us(count, 1e-3), touching = row_us(count, -1e-4);
     trace.row({static_cast<double>(count), apart, touching});
-    metrics.push_back({std::to_string(count) + "_bodies_apart_us", apart, "bodies alone", true});
-    metrics.push_back({std::to_string(count) + "_bodies_touching_us", touching, "bodies alone", true});
+    metrics.push_back({std::to_string(count) + "_bodies_apart_us", apart, "only the bodies", true});
+    metrics.push_back({std::to_string(count) + "_bodies_touching_us", touching, "only the bodies", true});
   }
   trace.close();
 }
@@ -138,26 +138,26 @@ std::vector<std::string> ready_scenes() {
 }  // namespace
 
 std::vector<Plot> scenes_cost_plots() {
-  return {
-      {.name = "scenes_cost",
-       .csv = "scenes_cost",
-       .title = "Spheres in a cube of 2 m: spheres at rest are found through a tree, moving ones one by one",
-       .x_column = "surfaces",
-       .x_label = "surfaces",
-       .panels = {{"time of a step (µs)",
-                   {{"resting_us", "at rest"}, {"moving_us", "moving"}},
-                   "set logscale xy\nset yrange [0.005:1000]\nset format y '%g'"},
-                  {"distances computed",
-                   {{"resting_asked", "at rest"}, {"moving_asked", "moving"}},
-                   "set logscale xy\nset yrange [0.01:20000]\nset format y '%g'"}}},
-      {.name = "scenes_cost_bodies",
-       .csv = "scenes_cost_bodies",
-       .title = "Free bodies in a row",
-       .x_column = "bodies",
-       .x_label = "bodies",
-       .panels = {{"time of a step (µs)",
-                   {{"apart_us", "apart"}, {"touching_us", "each touching the next"}},
-                   "set xrange [0.8:4.2]\nset xtics 1\nset yrange [0:*]"}}}};
+  return {{.name = "scenes_cost",
+           .csv = "scenes_cost",
+           .title = "Spheres in a cube of 2 m: a tree finds spheres at rest, moving ones are tested one by "
+                    "one",
+           .x_column = "surfaces",
+           .x_label = "surfaces",
+           .panels = {{"time per step (µs)",
+                       {{"resting_us", "at rest"}, {"moving_us", "moving"}},
+                       "set logscale xy\nset yrange [0.005:1000]\nset format y '%g'"},
+                      {"distance computations",
+                       {{"resting_asked", "at rest"}, {"moving_asked", "moving"}},
+                       "set logscale xy\nset yrange [0.01:20000]\nset format y '%g'"}}},
+          {.name = "scenes_cost_bodies",
+           .csv = "scenes_cost_bodies",
+           .title = "Free bodies in a row",
+           .x_column = "bodies",
+           .x_label = "bodies",
+           .panels = {{"time per step (µs)",
+                       {{"apart_us", "apart"}, {"touching_us", "touching each other"}},
+                       "set xrange [0.8:4.2]\nset xtics 1\nset yrange [0:*]"}}}};
 }
 
 std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
@@ -175,7 +175,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     try {
       resolve_files(message, find_deploy_folder());
     } catch (const ConfigError& e) {
-      std::fprintf(stderr, "left out: %s\n", e.what());  // one that somebody edits at the moment
+      std::fprintf(stderr, "scene skipped: %s\n", e.what());  // one that somebody edits at the moment
       continue;
     }
     const SlaveConfig config = to_struct(message);
@@ -187,17 +187,17 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     if (config.scene.bodies) {
       const Vector3 docking_m{0.441, -0.45, 0.05};  // of scene dock: the striker presses the keeper
       metrics.push_back(
-          {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "bodies alone", true});
+          {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "only the bodies", true});
       metrics.push_back(
-          {name + "_held_us", bodies_us(config.scene, Vector3::Zero(), true), "bodies alone", true});
+          {name + "_held_us", bodies_us(config.scene, Vector3::Zero(), true), "only the bodies", true});
       metrics.push_back(
-          {name + "_pressing_us", bodies_us(config.scene, docking_m, true), "bodies alone", true});
+          {name + "_pressing_us", bodies_us(config.scene, docking_m, true), "only the bodies", true});
       continue;
     }
     const Pose start = SimulatedArm(config, Random(1)).start_pose();
     const ContactCost cost = contact_cost(Scene(config.scene, start), start.p + Vector3(0.12, 0, 0), 0.05);
-    metrics.push_back({name + "_contact_us", cost.us, "contact alone", true});
-    metrics.push_back({name + "_touching", 100.0 * cost.touching, "% of these places"});
+    metrics.push_back({name + "_contact_us", cost.us, "only the contact", true});
+    metrics.push_back({name + "_touching", 100.0 * cost.touching, "% of the sampled positions"});
   }
   Trace trace(run.out, "scenes_cost",
               {"surfaces", "resting_us", "moving_us", "resting_asked", "moving_asked"});
@@ -206,8 +206,8 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     const ContactCost resting = contact_cost(many(count, false), Vector3::Zero(), 1.0);
     const ContactCost moving = contact_cost(many(count, true), Vector3::Zero(), 1.0);
     trace.row({static_cast<double>(count), resting.us, moving.us, resting.asked, moving.asked});
-    metrics.push_back({std::to_string(count) + "_resting_us", resting.us, "contact alone", true});
-    metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "contact alone", true});
+    metrics.push_back({std::to_string(count) + "_resting_us", resting.us, "only the contact", true});
+    metrics.push_back({std::to_string(count) + "_moving_us", moving.us, "only the contact", true});
   }
   trace.close();
   report();

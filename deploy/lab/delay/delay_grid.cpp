@@ -32,7 +32,7 @@ const Pressed& DelayResults::at(RenderingLaw law, double rtt_s, double wall_n_pe
   for (const DelayResult& r : results_) {
     if (r.law == law && r.rtt_s == rtt_s && r.wall_n_per_m == wall_n_per_m && r.grip == grip) return r.found;
   }
-  throw std::out_of_range("the delay sweep does not have this case");
+  throw std::out_of_range("the delay sweep does not contain this case");
 }
 
 double DelayResults::displayable_n_per_m(RenderingLaw law, double rtt_s, Grip grip) const {

@@ -28,7 +28,9 @@ Plot displayable_plot() {
   line("wall_n_per_m", "wall, 5 N/mm", 5);
   return {.name = "displayable",
           .csv = "displayable",
-          .title = "Stable displayed stiffness over the delay (light hand, walls up to 5 N/mm)",
+          .title =
+              "Maximum stable displayed stiffness over the round-trip time (light hand, walls up "
+              "to 5 N/mm)",
           .x_column = "rtt_s",
           .x_label = "round-trip time (s)",
           .panels = {panel},
@@ -37,8 +39,9 @@ Plot displayable_plot() {
 
 Plot wall_plot(const std::string& wall, const std::string& title) {
   const std::string axis = "set logscale x\nset xrange [0.02:10]\n";
-  Panel shown{"displayed/true", {}, axis + "set logscale y\nset yrange [0.003:2]\nset format y '%g'"};
-  Panel given{"returned to the operator (mJ)",
+  Panel shown{
+      "displayed / true stiffness", {}, axis + "set logscale y\nset yrange [0.003:2]\nset format y '%g'"};
+  Panel given{"energy returned to the operator (mJ)",
               {},
               axis +
                   "set logscale y\nset yrange [1e-4:*]\nset format y "
@@ -60,7 +63,7 @@ Plot wall_plot(const std::string& wall, const std::string& title) {
   limit("wave", "limit: 2 b/RTT", 2);
   return {.name = "wall_" + wall,
           .csv = wall + "_n_per_m",
-          .title = "A wall of " + title + " and a light hand; no point: limit cycle",
+          .title = "A wall of " + title + " and a light hand (no point where there is a limit cycle)",
           .x_column = "rtt_s",
           .x_label = "round-trip time (s)",
           .panels = {shown, given},

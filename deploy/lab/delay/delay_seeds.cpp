@@ -122,8 +122,8 @@ void write_worst(const ExperimentRun& run, const std::vector<DelayResult>& resul
 }  // namespace
 
 std::vector<Plot> delay_seeds_plots() {
-  Panel error{"worst error (%)", {}, "set xrange [-0.2:7.2]\nset yrange [0:6]"};
-  Panel sd{"worst sd of the estimate (%)", {}, "set xrange [-0.2:7.2]\nset yrange [0:1.2]"};
+  Panel error{"maximum error (%)", {}, "set xrange [-0.2:7.2]\nset yrange [0:6]"};
+  Panel sd{"maximum sd of the estimate (%)", {}, "set xrange [-0.2:7.2]\nset yrange [0:1.2]"};
   for (const char* wall : {"200", "500", "1000", "5000"}) {
     const std::string title = std::to_string(std::stod(wall) / 1000.0).substr(0, 3) + " N/mm";
     error.curves.push_back(
@@ -134,9 +134,9 @@ std::vector<Plot> delay_seeds_plots() {
   sd.curves.push_back({.column = "sd_bound_percent", .title = "bound"});
   return {{.name = "delay_seeds",
            .csv = "delay_seeds",
-           .title = "Displayed stiffness: worst of all seeds, light and firm hand",
+           .title = "Displayed stiffness: maximum over all seeds, light and firm hands",
            .x_column = "rtt_s",
-           .x_label = "round-trip time (s), delays and named links",
+           .x_label = "round-trip time (s) of delays and named links",
            .panels = {error, sd}}};
 }
 

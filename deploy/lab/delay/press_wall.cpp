@@ -43,8 +43,9 @@ BilateralCase case_of(const ExperimentRun& run) {
 }  // namespace
 
 std::vector<Plot> press_wall_plots() {
-  std::vector<Panel> panels = {
-      {"hand (mm)", {}, ""}, {"force on the hand (N)", {}, ""}, {"energy from the hand (mJ)", {}, ""}};
+  std::vector<Panel> panels = {{"depth of the hand (mm)", {}, ""},
+                               {"force on the hand (N)", {}, ""},
+                               {"energy from the hand (mJ)", {}, ""}};
   for (std::size_t i = 0; i < kLaws; ++i) {
     const std::string law(kLawNames[i].column), title(kLawNames[i].title);
     panels[0].curves.push_back({.column = law + "_depth_m", .title = title, .factor = 1e3});
@@ -53,7 +54,7 @@ std::vector<Plot> press_wall_plots() {
   }
   return {{.name = "press_wall",
            .csv = "press_wall",
-           .title = "Pressing on a wall across the link by the textbook laws",
+           .title = "Pressing on a wall across the link, under the textbook laws",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = panels}};
@@ -63,10 +64,10 @@ std::vector<Plot> press_wall_plots() {
 void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics) {
   std::map<std::string, double> found;
   for (const Metric& m : metrics) found[m.name] = m.value;
-  plot.title = "Pressing on a wall of " + figure(1e-3 * found["wall_n_per_m"]) + " N/mm, " +
-               figure(found["rtt_s"]) + " s away";
+  plot.title = "Pressing on a wall of " + figure(1e-3 * found["wall_n_per_m"]) +
+               " N/mm over a round trip of " + figure(found["rtt_s"]) + " s";
   if (found["direct_limit_cycle"] == 0.0 || !found.contains("wave_limit_cycle")) return;
-  plot.title += "; direct force exceeds the axes, up to " + figure(found["direct_force_peak_n"]) + " N and " +
+  plot.title += "; direct force leaves the axes: " + figure(found["direct_force_peak_n"]) + " N and " +
                 figure(1e3 * found["direct_port_energy_min_j"]) + " mJ";
   for (Panel& panel : plot.panels) panel.curves.front().scales = false;
 }
@@ -75,9 +76,9 @@ std::vector<Metric> run_press_wall(const ExperimentRun& run) {
   BilateralCase c = case_of(run);
   const RenderingLaw only = to_struct(run.config.master()).rendering.law;
   if (run.config.master().rendering().has_law() && !is_comparison(only))
-    throw ConfigError("press-wall shows the textbook laws; rendering.law = " +
+    throw ConfigError("press-wall runs only the textbook laws; for rendering.law = " +
                       proto::Rendering::Law_Name(run.config.master().rendering().law()) +
-                      " runs in the experiment touch");
+                      " use the experiment touch");
   std::vector<std::array<Seen, kLaws>> rows;
   std::vector<Metric> metrics = {{"rtt_s", c.rtt_s, "s"}, {"wall_n_per_m", c.wall_n_per_m, "N/m"}};
   for (std::size_t i = 0; i < kLaws; ++i) {

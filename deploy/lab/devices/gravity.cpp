@@ -87,11 +87,11 @@ DeviceConfig frictionless(DeviceConfig device) {
 std::vector<Plot> gravity_plots() {
   return {{.name = "gravity",
            .csv = "drift",
-           .title = "The handle released at (20, 20, 20) mm",
+           .title = "Drift of the handle after its release at (20, 20, 20) mm",
            .x_column = "t_s",
            .x_label = "time (s)",
-           .panels = {{"way (mm)",
-                       {{"without_m", "no compensation", 1e3},
+           .panels = {{"drift (mm)",
+                       {{"without_m", "without compensation", 1e3},
                         {"real_m", "compensated, real device", 1e3},
                         {"ideal_m", "compensated, ideal", 1e3}},
                        "set logscale y\nset yrange [1e-13:100]"}}}};

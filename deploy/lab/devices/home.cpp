@@ -160,19 +160,19 @@ std::vector<Plot> home_rotation_plots() {
   };
   std::vector<Curve> stiff;
   for (const double k : kStiffnesses) stiff.push_back({"stiffness_" + text(k), text(k) + " N mm/deg"});
-  return {
-      {.name = "home-rotation",
-       .csv = "damping",
-       .title = "Home function of the rotational handle, released at 10 degrees",
-       .x_column = "t_s",
-       .x_label = "time (s)",
-       .panels = {{"no friction (deg)", curves("ideal_"), ""}, {"real device (deg)", curves("real_"), ""}}},
-      {.name = "home-rotation-stiffness",
-       .csv = "stiffness",
-       .title = "Home function against stiffness, damping 0.8 N mm/(r/min), real device",
-       .x_column = "t_s",
-       .x_label = "time (s)",
-       .panels = {{"rotation (deg)", stiff, ""}}}};
+  return {{.name = "home-rotation",
+           .csv = "damping",
+           .title = "Return of the rotational handle to its home position after release at 10 degrees",
+           .x_column = "t_s",
+           .x_label = "time (s)",
+           .panels = {{"without friction (deg)", curves("ideal_"), ""},
+                      {"real device (deg)", curves("real_"), ""}}},
+          {.name = "home-rotation-stiffness",
+           .csv = "stiffness",
+           .title = "Return to the home position at four stiffnesses (damping 0.8 N mm/(r/min), real device)",
+           .x_column = "t_s",
+           .x_label = "time (s)",
+           .panels = {{"rotation (deg)", stiff, ""}}}};
 }
 
 std::vector<Metric> run_home_rotation(const ExperimentRun& run) {
@@ -216,15 +216,18 @@ std::vector<Metric> run_home_rotation(const ExperimentRun& run) {
 }
 
 std::vector<Plot> home_translation_plots() {
-  return {{.name = "home-translation",
-           .csv = "home",
-           .title = "Home function of the translational handle, released at (20, -15, 10) mm",
-           .x_column = "t_s",
-           .x_label = "time (s)",
-           .panels = {{"spring at home (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}, {"z_m", "z", 1e3}}, ""},
-                      {"gliding home (mm)",
-                       {{"glide_x_m", "x", 1e3}, {"glide_y_m", "y", 1e3}, {"glide_z_m", "z", 1e3}},
-                       ""}}}};
+  return {
+      {.name = "home-translation",
+       .csv = "home",
+       .title = "Return of the translational handle to its home position after release at (20, -15, "
+                "10) mm",
+       .x_column = "t_s",
+       .x_label = "time (s)",
+       .panels = {
+           {"spring anchored at home (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}, {"z_m", "z", 1e3}}, ""},
+           {"spring with a moving anchor (mm)",
+            {{"glide_x_m", "x", 1e3}, {"glide_y_m", "y", 1e3}, {"glide_z_m", "z", 1e3}},
+            ""}}}};
 }
 
 std::vector<Metric> run_home_translation(const ExperimentRun& run) {

@@ -64,10 +64,10 @@ std::vector<Plot> wall_rotation_plots() {
     angles.push_back({"angle_" + name + "_deg", name + " N mm/deg"});
     moments.push_back({"moment_" + name + "_nm", name + " N mm/deg", 1e3});
   }
-  angles.push_back({"wanted_deg", "hand wants"});
+  angles.push_back({"wanted_deg", "commanded by the hand"});
   return {{.name = "wall-rotation",
            .csv = "wall",
-           .title = "Turning into a virtual wall at 5 degrees (light hand)",
+           .title = "A light hand turns the handle into a virtual wall at 5 degrees",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"rotation (deg)", angles, ""}, {"moment (N mm)", moments, ""}}}};

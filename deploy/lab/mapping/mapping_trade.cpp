@@ -69,7 +69,7 @@ Panel panel_of(const Sweep& sweep) {
                  .colour = colour,
                  .csv = csv};
   };
-  Panel panel{.y_label = "off the path (mm)", .curves = {}, .extra = "set yrange [0:*]"};
+  Panel panel{.y_label = "distance from the path (mm)", .curves = {}, .extra = "set yrange [0:*]"};
   panel.curves.push_back({.column = "error_m",
                           .title = mode + ", sd",
                           .factor = 1e3,
@@ -95,7 +95,7 @@ std::vector<Plot> mapping_trade_plots() {
   for (const Sweep& sweep : kSweeps)
     plots.push_back({.name = "mapping-trade-" + std::string(sweep.name),
                      .csv = name_of(sweep),
-                     .title = "Time against error, " + std::string(to_string(sweep.strategy)) +
+                     .title = "Error against time, " + std::string(to_string(sweep.strategy)) +
                               " mode, round trip 0.225 s: " + std::string(sweep.title),
                      .x_column = "time_s",
                      .x_label = "time (s)",

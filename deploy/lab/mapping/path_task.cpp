@@ -48,8 +48,8 @@ void add_samples(std::vector<Metric>& metrics, const Samples& s, bool ghost) {
       add_spread(metrics, name + "_time_s", at_delay(d), sample.time_s, "s");
       add_spread(metrics, name + "_error_m", at_delay(d), sample.error_m, "m");
       add_spread(metrics, name + "_target_error_m", at_delay(d), sample.target_error_m, "m");
-      metrics.push_back({name + "_moves_" + at_delay(d), sample.moves, "a trial"});
-      metrics.push_back({name + "_relocations_" + at_delay(d), sample.relocations, "a trial"});
+      metrics.push_back({name + "_moves_" + at_delay(d), sample.moves, "per trial"});
+      metrics.push_back({name + "_relocations_" + at_delay(d), sample.relocations, "per trial"});
       if (d > 0) add_spread(metrics, name + "_slow_down", at_delay(d), slow_down(s, strategy, d), "");
     }
   }
@@ -63,7 +63,7 @@ void compare(std::vector<Metric>& metrics, const Samples& s, const std::string& 
     const std::vector<double> gain = paired(at(s, other, d).*figure, at(s, PathStrategy::kHybrid, d).*figure);
     const double mean = spread_of(gain).mean, p = signed_rank_p(gain);
     add_spread(metrics, name, at_delay(d), gain, unit);
-    metrics.push_back({name + "_p_" + at_delay(d), p, "signed rank, two-sided"});
+    metrics.push_back({name + "_p_" + at_delay(d), p, "two-sided signed-rank test"});
     better += mean > 0.0;
     surely += mean > 0.0 && p < 0.05;
   }
@@ -126,36 +126,34 @@ Panel over_delay(const std::string& label, const std::string& column, double fac
 
 Panel trace_panel(PathStrategy strategy) {
   const std::string name(to_string(strategy));
-  return {
-      .y_label = name + " (mm)",
-      .curves = {{.column = "up_m", .title = "the way", .factor = 1e3, .colour = 4, .csv = "way"},
-                 {.column = "up_m", .title = "the tool", .factor = 1e3, .colour = 0, .csv = "trace_" + name}},
-      .extra = "set xrange [-10:290]"};
+  return {.y_label = name + " (mm)",
+          .curves = {{.column = "up_m", .title = "path", .factor = 1e3, .colour = 4, .csv = "way"},
+                     {.column = "up_m", .title = "tool", .factor = 1e3, .colour = 0, .csv = "trace_" + name}},
+          .extra = "set xrange [-10:290]"};
 }
 
 }  // namespace
 
 std::vector<Plot> path_task_plots() {
-  return {
-      {.name = "path-task",
-       .csv = "rate",
-       .title = "Path and target task: median and quartiles of the simulated operators",
-       .x_column = "rtt_s",
-       .x_label = "round trip (s)",
-       .panels = {over_delay("time (s)", "time", 1.0, false),
-                  over_delay("ghost: time (s)", "time", 1.0, true),
-                  over_delay("off the path (mm)", "error", 1e3, false),
-                  over_delay("ghost: off the path (mm)", "error", 1e3, true)}},
-      {.name = "path-task-traces",
-       .csv = "way",
-       .title = "One simulated operator, round trip 2.6 s, viewed across the diagonal of x, y and z; heights "
-                "stretched",
-       .x_column = "right_m",
-       .x_label = "along x + y + z (mm)",
-       .x_factor = 1e3,
-       .panels = {trace_panel(PathStrategy::kRate), trace_panel(PathStrategy::kPosition),
-                  trace_panel(PathStrategy::kHybrid)},
-       .panel_px = 190.0}};
+  return {{.name = "path-task",
+           .csv = "rate",
+           .title = "Path and target task: median and quartiles over the simulated operators",
+           .x_column = "rtt_s",
+           .x_label = "round trip (s)",
+           .panels = {over_delay("time (s)", "time", 1.0, false),
+                      over_delay("time with ghost (s)", "time", 1.0, true),
+                      over_delay("path error (mm)", "error", 1e3, false),
+                      over_delay("path error with ghost (mm)", "error", 1e3, true)}},
+          {.name = "path-task-traces",
+           .csv = "way",
+           .title = "One simulated operator at a round trip of 2.6 s, seen perpendicular to the diagonal "
+                    "(heights stretched)",
+           .x_column = "right_m",
+           .x_label = "along x + y + z (mm)",
+           .x_factor = 1e3,
+           .panels = {trace_panel(PathStrategy::kRate), trace_panel(PathStrategy::kPosition),
+                      trace_panel(PathStrategy::kHybrid)},
+           .panel_px = 190.0}};
 }
 
 std::vector<Metric> run_path_task(const ExperimentRun& run) {

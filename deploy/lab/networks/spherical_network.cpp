@@ -74,17 +74,16 @@ void require_same(const SphericalGeometry& mine, const SphericalGeometry& traine
 
 void require_numbers(const SphericalNetworkConfig& c) {
   const int n = c.cells.per_axis;
-  require(n >= 1 && n <= 9 && n % 2 == 1, "cells.per_axis of the network is not odd, 1 to 9");
+  require(n >= 1 && n <= 9 && n % 2 == 1, "cells.per_axis of the network must be an odd number from 1 to 9");
   require(c.fine.size() == static_cast<std::size_t>(n * n * n),
-          "the number of parts of the network differs "
-          "from its number of cells");
+          "the network must have one fine network per cell");
   require((c.cells.width.array() > 0.0).all() && c.cells.width.allFinite(),
-          "cells.width of the network is not above 0");
+          "cells.width of the network must be finite and greater than 0");
   require(c.cells.overlap > 0.0 && c.cells.overlap <= 0.5,
           "cells.overlap of the network is outside (0, 0.5]");
   const SphericalWorkspace& w = c.workspace;
   require(w.home_rad.allFinite() && std::abs(w.q_home.norm() - 1.0) <= kTrainedAxis,
-          "the home of the network is not a unit quaternion with finite angles");
+          "the home orientation of the network must be a unit quaternion, with finite motor angles");
   require(w.common_rad > 0.0 && w.differential_rad > 0.0 && std::isfinite(w.common_rad + w.differential_rad),
           "the workspace of the network is empty");
   require(is_finite(c.rough) && std::all_of(c.fine.begin(), c.fine.end(), is_finite),
@@ -120,7 +119,7 @@ SphericalNetwork::SphericalNetwork(const SphericalGeometry& geometry, SphericalN
   }
   const SphericalWorkspace& w = config_.workspace;
   const double volume = Closures(geometry_, w.home_rad, w.q_home).adjugate().volume;
-  require(std::abs(volume) > kSingularStep, "the home of the network is singular");
+  require(std::abs(volume) > kSingularStep, "the home orientation of the network is singular");
   side_ = volume > 0.0 ? 1 : -1;
 }
 

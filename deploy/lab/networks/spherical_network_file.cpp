@@ -103,8 +103,8 @@ SphericalNetworkFile load_spherical_network(const std::filesystem::path& file) {
     throw ConfigError(file.string() + ": " + path_text(message, *path) + " is missing");
   const auto n = message.cells().per_axis();
   if (static_cast<unsigned>(message.fine_size()) != n * n * n) {
-    throw ConfigError(file.string() + ": there are " + std::to_string(message.fine_size()) +
-                      " times fine; cells.per_axis = " + std::to_string(n) + " needs " +
+    throw ConfigError(file.string() + ": fine occurs " + std::to_string(message.fine_size()) +
+                      " times, but cells.per_axis = " + std::to_string(n) + " requires " +
                       std::to_string(n * n * n));
   }
   return {message.name(), to_struct(message), message.error_max_rad(), message.error_rms_rad()};

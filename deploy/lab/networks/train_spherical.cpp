@@ -64,7 +64,8 @@ struct Sampler {
       const Vector3 g = turn_from_home(workspace, followed_from_home(kinematics, workspace, theta));
       if (((g - centre).cwiseAbs().array() <= half.array()).all()) samples.push_back({theta, g});
     }
-    if (static_cast<int>(samples.size()) < count) throw std::runtime_error("a subspace is out of reach");
+    if (static_cast<int>(samples.size()) < count)
+      throw std::runtime_error("too few poses of the workspace lie in one of the cells");
     return samples;
   }
 };
@@ -128,13 +129,13 @@ SphericalNetworkFile train_spherical(const SphericalTraining& t,
   c.workspace.differential_rad = kDifferential_rad;
 
   const int n = t.cells_per_axis, count = n * n * n;
-  if (progress) progress("a rough network and " + std::to_string(count) + " of subspaces to train");
+  if (progress) progress("training a rough network and " + std::to_string(count) + " fine networks");
   const Random random = Random(t.seed).child("spherical");
   const Sampler sample{kinematics, c.workspace};
   const auto everywhere =
       sample(t.rough_samples, Vector3::Zero(), Vector3::Constant(1e9), random.child("rough"));
   c.rough = train_perceptron(everywhere, t.iterations, random.child("rough weights"));
-  if (progress) progress("rough network over the whole workspace: trained");
+  if (progress) progress("trained the rough network of the whole workspace");
 
   Vector3 reach = Vector3::Zero();
   for (const PerceptronSample& s : everywhere) reach = reach.cwiseMax(s.out.cwiseAbs());
@@ -148,15 +149,16 @@ SphericalNetworkFile train_spherical(const SphericalTraining& t,
                                 random.child(name));
     c.fine.push_back(train_perceptron(samples, t.iterations, random.child(name + " weights")));
     if (progress)
-      progress("subspace " + std::to_string(i + 1) + " of " + std::to_string(count) + ": trained");
+      progress("trained the fine network of cell " + std::to_string(i + 1) + " of " + std::to_string(count));
   }
 
   const AngleError error = network_error(kinematics, SphericalNetwork(kinematics.geometry(), c), t.checks);
   file.error_max_rad = error.max_rad;
   file.error_rms_rad = error.rms_rad;
   if (progress) {
-    progress("error over " + std::to_string(t.checks) + " other samples: max " + figure(error.max_rad) +
-             ", rms " + figure(error.rms_rad) + " rad; refused " + std::to_string(error.refused));
+    progress("error over " + std::to_string(t.checks) + " test samples: maximum " + figure(error.max_rad) +
+             ", rms " + figure(error.rms_rad) +
+             " rad; samples without a result: " + std::to_string(error.refused));
   }
   return file;
 }

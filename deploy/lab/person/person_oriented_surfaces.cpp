@@ -29,10 +29,10 @@ double most_n(const PersonScenario& s, double k, double more = 0.0, double given
 PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double k, double least_n = 0.5) {
   const double due_n = m.tool_n / s.master.mapping.scale;
   const double most = most_n(s, k, 0.0, m.given_j);
-  return {{"the tool presses too weakly to judge, N", least_n - m.tool_n, 0.0},
-          {"shortfall of the force, N", (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
-          {"force over the tool's, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
-          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
+  return {{"shortfall of the tool force from the minimum for this check, N", least_n - m.tool_n, 0.0},
+          {"shortfall of the hand force, N", (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
+          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
+          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 
 void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -63,10 +63,10 @@ PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
   const double rate = s.master.rendering.rate_stiffness_n_per_m, hand = hand_model(s.grip).stiffness_n_per_m;
   const double borne_n = k * hand * std::abs(s.moves[0].to_m.x()) / (k + hand + rate);
   const double due_n = std::min({m.tool_n, most_n(s, k, rate, m.given_j), borne_n});
-  return {{"the tool presses too weakly to judge, N", 0.5 - m.tool_n, 0.0},
-          {"shortfall of the force, N", (1.0 - kShare) * due_n - m.felt_n, kNoise_n},
-          {"force over the tool's, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
-          {"swing of the force, N", m.felt_swing_n, kQuiet_n}};
+  return {{"shortfall of the tool force from the minimum for this check, N", 0.5 - m.tool_n, 0.0},
+          {"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, kNoise_n},
+          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
+          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 PersonChecks judge_slot_in_rate_mode(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all{in_front(seen)};
@@ -99,9 +99,10 @@ void new_master(PersonScenario& s) {
 PersonChecks judge_new_master(const PersonScenario& s, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[3];
   PersonChecks all = felt_as_pressed(s, m, 1000.0, 0.2);  // the handle was driven back from home
-  all.push_back({"not engaged", m.engaged ? 0.0 : 1.0, 0.0});
+  all.push_back({"the engagement failed", m.engaged ? 0.0 : 1.0, 0.0});
   // Engaging takes a round trip itself, and the list comes with its answer.
-  all.push_back({"displayed after, s", m.felt_s < 0.0 ? 1e3 : m.felt_s, 2.0 * s.rtt_s + 1.5});
+  all.push_back({"time from the engagement to the displayed force, s", m.felt_s < 0.0 ? 1e3 : m.felt_s,
+                 2.0 * s.rtt_s + 1.5});
   return all;
 }
 
@@ -164,9 +165,10 @@ PersonChecks judge_hinge(const PersonScenario& s, const PersonSeen& seen) {
     if (!position)
       due_nm = std::min(due_nm, k * wrist * s.moves[i].turn_rad.norm() /
                                     (k + wrist + rendering.rotational_stiffness_nm_per_rad));
-    add(all, {{"the tool presses too weakly to judge, N m", 0.05 - m.tool_nm, 0.0},
-              {"shortfall of the moment, N m", (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
-              {"moment over the tool's, N m", m.felt_nm - (1.0 + kShare) * ke * m.tool_nm, 1e-3}});
+    add(all, {{"shortfall of the tool moment from the minimum for this check, N m", 0.05 - m.tool_nm, 0.0},
+              {"shortfall of the hand moment, N m", (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
+              {"excess of the hand moment over the tool moment, N m",
+               m.felt_nm - (1.0 + kShare) * ke * m.tool_nm, 1e-3}});
   }
   return all;
 }
@@ -177,20 +179,21 @@ void add_oriented_surfaces(std::vector<PersonRow>& rows) {
   constexpr MotionMode kPosition = MotionMode::kPosition, kRate = MotionMode::kRate;
   const std::vector<PersonRow> more = {
       {"slot", "presses on both sides of a slot", slot, judge_slot},
-      {"slot-rate", "likewise in rate mode", slot_in_rate_mode, judge_slot_in_rate_mode},
-      {"behind", "a wall behind the start, touched and pressed", behind, judge_pressed},
-      {"new-master", "engages in a contact that another master has left", new_master, judge_new_master},
-      {"starts-in-contact", "the slave starts in contact", started_in_contact, judge_pressed},
-      {"curved-1.5", "a law with exponent 1.5", [](PersonScenario& s) { curved(s, 1.5, 600.0, kPosition); },
-       judge_curved},
-      {"curved-2", "a law with exponent 2", [](PersonScenario& s) { curved(s, 2.0, 300.0, kPosition); },
-       judge_curved},
-      {"curved-2-rate", "likewise in rate mode", [](PersonScenario& s) { curved(s, 2.0, 300.0, kRate); },
-       judge_curved_rate},
-      {"hinge", "turns into both stops of a hinge",
+      {"slot-rate", "presses on both sides of a slot in rate mode", slot_in_rate_mode,
+       judge_slot_in_rate_mode},
+      {"behind", "touches and presses a wall behind the start", behind, judge_pressed},
+      {"new-master", "engages where another master left the tool in contact", new_master, judge_new_master},
+      {"starts-in-contact", "starts with the tool already in contact", started_in_contact, judge_pressed},
+      {"curved-1.5", "presses on a material with exponent 1.5",
+       [](PersonScenario& s) { curved(s, 1.5, 600.0, kPosition); }, judge_curved},
+      {"curved-2", "presses on a material with exponent 2",
+       [](PersonScenario& s) { curved(s, 2.0, 300.0, kPosition); }, judge_curved},
+      {"curved-2-rate", "presses on a material with exponent 2 in rate mode",
+       [](PersonScenario& s) { curved(s, 2.0, 300.0, kRate); }, judge_curved_rate},
+      {"hinge", "turns a hinge against both of its stops",
        [](PersonScenario& s) { hinge(s, kPosition, 0.12, 5.0, 5.0); }, judge_hinge},
-      {"hinge-rate", "likewise in rate mode", [](PersonScenario& s) { hinge(s, kRate, 0.25, 4.0, 16.0); },
-       judge_hinge},
+      {"hinge-rate", "turns a hinge against both of its stops in rate mode",
+       [](PersonScenario& s) { hinge(s, kRate, 0.25, 4.0, 16.0); }, judge_hinge},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }

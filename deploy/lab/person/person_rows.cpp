@@ -29,7 +29,9 @@ void off_the_edge(PersonScenario& s) {
 PersonChecks judge_off_the_edge(const PersonScenario& s, const PersonSeen& seen) {
   // On its way off, and after it, along the normal of the face that it left.
   const double leap_m = seen.move[1].tool_most_m.x() - seen.move[0].tool_m.x();
-  return {lead_before(s, seen, 0), lead_after(seen, 0), {"jump along the normal, m", leap_m, kMostLead_m}};
+  return {lead_before(s, seen, 0),
+          lead_after(seen, 0),
+          {"jump of the tool along the face's normal, m", leap_m, kMostLead_m}};
 }
 
 // K: pushes on at the edge of the workspace, then back.
@@ -74,7 +76,7 @@ void near_a_known_wall(PersonScenario& s) {
 }
 PersonChecks judge_near_a_known_wall(const PersonScenario&, const PersonSeen& seen) {
   const double forward_m = seen.move[3].goal_m.x() - seen.move[2].goal_m.x();
-  return {in_front(seen), {"shortfall of the goal's motion, m", 1e-3 - forward_m, 0.0}};
+  return {in_front(seen), {"shortfall of the goal's motion from 1 mm, m", 1e-3 - forward_m, 0.0}};
 }
 
 // J: touches a narrow box, passes beside it.
@@ -88,7 +90,7 @@ void beside_a_box(PersonScenario& s) {
              {.to_m = {0.052, 0.035, 0}, .wait_s = 1.0, .wait_rtt = 0.0}};
 }
 PersonChecks judge_gone(const PersonScenario&, const PersonSeen& seen) {
-  return {{"contact force beside a surface that is gone, N", seen.move.back().felt_max_n, kNothing_n}};
+  return {{"contact force next to the box, N", seen.move.back().felt_max_n, kNothing_n}};
 }
 
 // J, two faces 3 mm apart: from the near one to where the far one is not reached yet.
@@ -109,7 +111,7 @@ void two_faces(PersonScenario& s) {
 
 // Less deep than twice the touch threshold nothing proves that the nearer face is not there.
 PersonChecks judge_two_faces(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"contact force of a possible face, N", seen.move.back().felt_max_n,
+  return {{"contact force in front of the farther face, N", seen.move.back().felt_max_n,
            1.1 * 2.0 * configured_touch_n(s.slave.sensing) / s.master.mapping.scale}};
 }
 
@@ -148,22 +150,24 @@ PersonChecks judge_freed(const PersonScenario&, const PersonSeen& seen) {
 const std::vector<PersonRow>& person_rows() {
   static const std::vector<PersonRow> kRows = [] {
     std::vector<PersonRow> all = {
-        {"held-out", "rate mode, the handle held out against a wall, then a retreat", held_out,
+        {"held-out", "holds the handle out against a wall in rate mode, then retreats", held_out,
          judge_held_out, true},
-        {"off-the-edge", "rate mode, pressing on a block, then sideways off its edge", off_the_edge,
+        {"off-the-edge", "presses on a block in rate mode, then moves sideways off its edge", off_the_edge,
          judge_off_the_edge, true},
-        {"workspace", "rate mode, a long time at the edge of the workspace, then a retreat", workspace_rate,
-         judge_workspace_rate, true},
-        {"strokes", "position mode, strokes with the clutch beyond the workspace, then back",
+        {"workspace",
+         "pushes against the edge of the workspace in rate mode for a long time, then "
+         "retreats",
+         workspace_rate, judge_workspace_rate, true},
+        {"strokes", "clutches beyond the edge of the workspace in position mode, then returns",
          workspace_strokes, judge_workspace_strokes, true},
-        {"near-a-known-wall", "rate mode in front of a stiff wall that was touched once", near_a_known_wall,
-         judge_near_a_known_wall},
-        {"beside-a-box", "touches a narrow box, then passes beside it", beside_a_box, judge_gone, true},
-        {"two-faces", "touches the nearer of two faces, then continues in front of the farther one",
-         two_faces, judge_two_faces},
-        {"clutch", "the clutch in contact, the hand moves in and out", clutch_in_contact,
+        {"near-a-known-wall", "approaches a stiff wall in rate mode after having touched it once",
+         near_a_known_wall, judge_near_a_known_wall},
+        {"beside-a-box", "touches a narrow box, then moves past it", beside_a_box, judge_gone, true},
+        {"two-faces", "touches the nearer of two faces, then moves in front of the farther one", two_faces,
+         judge_two_faces},
+        {"clutch", "holds the clutch in contact and moves the hand in and out", clutch_in_contact,
          judge_clutch_in_contact},
-        {"stop", "a stop while the hand presses", freed_by_stop, judge_freed},
+        {"stop", "stops the robot while the hand presses on a wall", freed_by_stop, judge_freed},
     };
     add_resting_hands(all);
     add_oriented_surfaces(all);

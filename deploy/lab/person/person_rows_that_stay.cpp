@@ -34,7 +34,7 @@ void light_press(PersonScenario& s) {
 }
 PersonChecks judge_light_press(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
-          {"shortfall of the force of the second touch, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
+          {"shortfall of the force at the second touch from 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
 }
 
 // Letting go in contact: the tool stays where the last goal was.
@@ -47,8 +47,8 @@ void let_go_in_contact(PersonScenario& s) {
 }
 PersonChecks judge_let_go(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
-  return {{"the tool moves, m", m.tool_span_m(), 1e-4},
-          {"the handle from its home, m", m.hand_m.norm(), kHome_m}};
+  return {{"displacement of the tool, m", m.tool_span_m(), 1e-4},
+          {"distance of the handle from its home position, m", m.hand_m.norm(), kHome_m}};
 }
 void let_go_in_rate_mode(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
@@ -70,7 +70,7 @@ void mode_switched(PersonScenario& s) {
 PersonChecks judge_mode_switched(const PersonScenario&, const PersonSeen& seen) {
   double step_m = 0.0;
   for (const MoveSeen& m : seen.move) step_m = std::max(step_m, m.goal_step_m);
-  return {in_front(seen), {"step of the goal in a tick, m", step_m, 2.5e-4}};
+  return {in_front(seen), {"maximum jump of the goal in a tick, m", step_m, 2.5e-4}};
 }
 
 // The scale is changed in contact: the goal does not step, and the force rises by no step.
@@ -87,7 +87,8 @@ PersonChecks judge_scale(const PersonScenario&, const PersonSeen& seen) {
     step_m = std::max(step_m, seen.move[i].goal_step_m);
     rise_n = std::max(rise_n, seen.move[i].felt_step_n);
   }
-  return {{"step of the goal in a tick, m", step_m, 1e-4}, {"rise of the force in a tick, N", rise_n, 0.1}};
+  return {{"maximum jump of the goal in a tick, m", step_m, 1e-4},
+          {"maximum rise of the force in a tick, N", rise_n, 0.1}};
 }
 
 // A wall behind the start; leaving after a long press.
@@ -99,7 +100,9 @@ void behind_and_back(PersonScenario& s) {
              {.to_m = {0.0, 0, 0}, .wait_s = 2.0, .wait_rtt = 1.0}};
 }
 PersonChecks judge_behind(const PersonScenario& s, const PersonSeen& seen) {
-  return {in_front(seen), answers(s, seen.move[1]), {"force after leaving, N", seen.move[1].felt_n, 0.0}};
+  return {in_front(seen),
+          answers(s, seen.move[1]),
+          {"force at the hand after the retreat, N", seen.move[1].felt_n, 0.0}};
 }
 
 // Stop and engage again in contact: the tool does not leap.
@@ -113,8 +116,8 @@ void stop_and_engage(PersonScenario& s) {
 PersonChecks judge_stop_and_engage(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
   return {stable(seen),
-          {"more force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
-          {"not engaged again", m.engaged ? 0.0 : 1.0, 0.0}};
+          {"increase of the force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
+          {"the second engagement failed", m.engaged ? 0.0 : 1.0, 0.0}};
 }
 
 // The clutch while the hand moves: the goal stays where it was.
@@ -128,7 +131,7 @@ void clutch_in_motion(PersonScenario& s, MotionMode mode) {
 }
 PersonChecks judge_clutch_in_motion(const PersonScenario&, const PersonSeen& seen) {
   const double way_m = (seen.move[2].goal_m - seen.move[0].goal_m).norm();
-  return {{"way of the goal while clutched, m", way_m, 1e-3}, stable(seen)};
+  return {{"displacement of the goal while clutched, m", way_m, 1e-3}, stable(seen)};
 }
 
 // A stop at speed; limits, scale and mode that are changed in motion.
@@ -139,7 +142,7 @@ void stop_at_speed(PersonScenario& s) {
              {.to_m = {0.045, 0, 0}, .speed_m_per_s = 0.15, .wait_s = 2.0, .stop = true}};
 }
 PersonChecks judge_stop_at_speed(const PersonScenario&, const PersonSeen& seen) {
-  return {stable(seen), {"still engaged", seen.move[1].engaged ? 1.0 : 0.0, 0.0}};
+  return {stable(seen), {"the robot is still engaged", seen.move[1].engaged ? 1.0 : 0.0, 0.0}};
 }
 void set_in_motion(PersonScenario& s) {
   clear(s);
@@ -162,8 +165,8 @@ PersonChecks judge_direction(const PersonSeen& seen, const Vector3& out) {
   const MoveSeen& m = seen.move.back();
   const double angle = std::atan2(m.felt.cross(out).norm(), m.felt.dot(out));
   return {in_front(seen),
-          {"shortfall of the force, N", 0.5 - m.felt_n, 0.0},
-          {"angle from the normal, rad", angle, kNormal_rad}};
+          {"shortfall of the hand force from 0.5 N, N", 0.5 - m.felt_n, 0.0},
+          {"angle between force and surface normal, rad", angle, kNormal_rad}};
 }
 void oblique(PersonScenario& s) {
   clear(s);
@@ -198,7 +201,7 @@ void soft_wall(PersonScenario& s) {
 PersonChecks judge_soft_wall(const PersonScenario& s, const PersonSeen& seen) {
   const double depth_m = seen.move.back().goal_m.x() - 0.02;
   return {in_front(seen),
-          {"force over that of the wall, N",
+          {"excess of the hand force over the wall force, N",
            seen.move.back().felt_n - 50.0 * depth_m / s.master.mapping.scale, 0.1}};
 }
 void hard_wall(PersonScenario& s) {
@@ -208,8 +211,7 @@ void hard_wall(PersonScenario& s) {
              {.to_m = {0.0400, 0, 0}, .speed_m_per_s = 0.01, .wait_s = 1.0}};
 }
 PersonChecks judge_hard_wall(const PersonScenario&, const PersonSeen& seen) {
-  return {in_front(seen),
-          {"the limit of the stiffness is not reported", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
+  return {in_front(seen), {"the limited stiffness is not reported", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
 }
 
 // Through a thin sheet, then against its far side.
@@ -222,7 +224,7 @@ void thin_sheet(PersonScenario& s) {
 }
 PersonChecks judge_thin_sheet(const PersonScenario&, const PersonSeen& seen) {
   return {{"force behind the sheet, N", seen.move[1].felt_max_n, kNothing_n},
-          {"force into the far side, N", -seen.move[2].felt.x(), 0.05}};
+          {"force that pulls the hand into the far side, N", -seen.move[2].felt.x(), 0.05}};
 }
 
 // The link is silent in contact, and while a wall is met.
@@ -233,7 +235,7 @@ void blackout_in_contact(PersonScenario& s) {
              {.to_m = {0.041, 0, 0}, .wait_s = 3.0, .wait_rtt = 2.0, .blackout_s = 0.7}};
 }
 PersonChecks judge_blackout_in_contact(const PersonScenario&, const PersonSeen& seen) {
-  return {in_front(seen), stable(seen), {"the tool moves, m", seen.move[1].tool_span_m(), 1e-3}};
+  return {in_front(seen), stable(seen), {"displacement of the tool, m", seen.move[1].tool_span_m(), 1e-3}};
 }
 void blackout_at_a_touch(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
@@ -246,8 +248,8 @@ void blackout_at_a_touch(PersonScenario& s) {
 PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
           stable(seen),
-          {"more force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
-          {"not engaged again", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
+          {"increase of the force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
+          {"the second engagement failed", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }
 
 // A spacecraft that floats freely is pushed, flies off, and is felt no more.
@@ -274,9 +276,9 @@ void spacecraft(PersonScenario& s) {
              {.to_m = {0.05, 0, 0}, .wait_s = 1.0, .wait_rtt = 0.0}};
 }
 PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"never touched", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
+  return {{"the tool never touched anything", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           {"force at the tool, N", seen.move[0].tool_max_n, 1.35 * s.slave.command.force_guard_n},
-          {"force of a body that has moved away, N", seen.move[1].felt_max_n, kNothing_n}};
+          {"contact force of a body that moved away, N", seen.move[1].felt_max_n, kNothing_n}};
 }
 
 // A load in the gripper raises the resistance, once the slave tells of it and the hand moves.
@@ -306,7 +308,7 @@ void coming_wall(PersonScenario& s) {
              {.to_m = {-0.06, 0, 0}, .speed_m_per_s = 0.05, .wait_s = 1.0}};
 }
 PersonChecks judge_coming_wall(const PersonScenario& s, const PersonSeen& seen) {
-  return {{"never touched", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
+  return {{"the tool never touched anything", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           answers(s, seen.move[1]),
           {"force at the tool after the retreat, N", seen.move[1].tool_n, 0.0},
           {"force at the hand after the retreat, N", seen.move[1].felt_n, kNothing_n}};
@@ -317,36 +319,40 @@ PersonChecks judge_coming_wall(const PersonScenario& s, const PersonSeen& seen) 
 void add_rows_that_stay(std::vector<PersonRow>& rows) {
   constexpr double kEighth = std::numbers::pi / 4.0;
   const std::vector<PersonRow> more = {
-      {"light-press", "a long light press, then a second touch", light_press, judge_light_press},
+      {"light-press", "presses lightly for 20 s, retreats, then touches again", light_press,
+       judge_light_press},
       {"let-go", "releases the handle in contact", let_go_in_contact, judge_let_go},
-      {"let-go-rate", "releases the handle in contact, in rate mode", let_go_in_rate_mode, judge_let_go},
-      {"mode", "switches the mode in contact and while deflected", mode_switched, judge_mode_switched},
+      {"let-go-rate", "releases the handle in contact in rate mode", let_go_in_rate_mode, judge_let_go},
+      {"mode", "switches the mode in contact and with a deflected handle", mode_switched,
+       judge_mode_switched},
       {"scale", "changes the scale in contact", scale_in_contact, judge_scale},
-      {"clutch-moving", "the clutch while the hand moves",
+      {"clutch-moving", "holds the clutch while the hand moves",
        [](PersonScenario& s) { clutch_in_motion(s, MotionMode::kPosition); }, judge_clutch_in_motion},
-      {"clutch-rate", "the clutch while the robot moves in rate mode",
+      {"clutch-rate", "holds the clutch while the robot moves in rate mode",
        [](PersonScenario& s) { clutch_in_motion(s, MotionMode::kRate); }, judge_clutch_in_motion},
-      {"stop-at-speed", "a stop while the robot moves", stop_at_speed, judge_stop_at_speed},
+      {"stop-at-speed", "stops the robot while it moves", stop_at_speed, judge_stop_at_speed},
       {"set-in-motion", "changes limits, scale and mode while the robot moves", set_in_motion,
        judge_set_in_motion},
       {"oblique", "presses on an oblique wall and slides along it", oblique, judge_oblique},
-      {"base-45", "the device's base turned by 45 degrees",
+      {"base-45", "presses on a wall with the device's base turned by 45 degrees",
        [](PersonScenario& s) { turned_base(s, kEighth); }, judge_turned_base},
-      {"base-90", "the device's base turned by 90 degrees",
+      {"base-90", "presses on a wall with the device's base turned by 90 degrees",
        [](PersonScenario& s) { turned_base(s, 2.0 * kEighth); }, judge_turned_base},
-      {"base-180", "the device's base turned by 180 degrees",
+      {"base-180", "presses on a wall with the device's base turned by 180 degrees",
        [](PersonScenario& s) { turned_base(s, 4.0 * kEighth); }, judge_turned_base},
       {"soft-wall", "presses on a wall of 50 N/m", soft_wall, judge_soft_wall},
       {"hard-wall", "presses on a wall of 1000 kN/m", hard_wall, judge_hard_wall},
-      {"thin-sheet", "through a thin sheet, then against its far side", thin_sheet, judge_thin_sheet},
-      {"behind", "a wall behind the start, a long press, a retreat", behind_and_back, judge_behind},
-      {"blackout", "the link is silent for 0.7 s in contact", blackout_in_contact, judge_blackout_in_contact},
-      {"blackout-touch", "the link is silent for 3 s while a wall is touched", blackout_at_a_touch,
+      {"thin-sheet", "pushes through a thin sheet, then presses on its far side", thin_sheet,
+       judge_thin_sheet},
+      {"behind", "presses on a wall behind the start for a long time, then retreats", behind_and_back,
+       judge_behind},
+      {"blackout", "loses the link for 0.7 s in contact", blackout_in_contact, judge_blackout_in_contact},
+      {"blackout-touch", "loses the link for 3 s while the tool reaches a wall", blackout_at_a_touch,
        judge_blackout_at_a_touch},
       {"engage", "stops and engages again in contact", stop_and_engage, judge_stop_and_engage},
-      {"spacecraft", "pushes a spacecraft that floats freely", spacecraft, judge_spacecraft},
+      {"spacecraft", "pushes a free-floating spacecraft", spacecraft, judge_spacecraft},
       {"load", "closes the gripper on a load", load, judge_load},
-      {"coming-wall", "a wall approaches, then a retreat", coming_wall, judge_coming_wall},
+      {"coming-wall", "retreats from an approaching wall", coming_wall, judge_coming_wall},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }

@@ -52,14 +52,14 @@ PersonCheck answers(const PersonScenario& s, const MoveSeen& retreat) {
           one_way(s) + kAnswer_s};
 }
 PersonCheck lead_before(const PersonScenario& s, const PersonSeen& seen, std::size_t move) {
-  return {"lead before the report, m", seen.move[move].lead_max_m,
+  return {"lead of the goal before the report arrives, m", seen.move[move].lead_max_m,
           seen.goal_m_per_s * (s.rtt_s + kAnswer_s) + kMostLead_m};
 }
 PersonCheck lead_after(const PersonSeen& seen, std::size_t move) {
-  return {"lead after the report, m", seen.move[move].lead_m, kMostLead_m};
+  return {"lead of the goal after the report arrived, m", seen.move[move].lead_m, kMostLead_m};
 }
 PersonCheck in_front(const PersonSeen& seen) {
-  return {"contact force with the goal in front, N", seen.front_n, kNothing_n};
+  return {"contact force with the goal in front of every surface, N", seen.front_n, kNothing_n};
 }
 
 }  // namespace longreach

@@ -40,118 +40,138 @@ struct Options {
 void add_run(CLI::App& app, LabRunOptions& o) {
   CLI::App* run = app.add_subcommand(
       "run",
-      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. A setting that the "
-      "experiment does not use is refused.\n\n"
-      "Exit status: 0 done, 1 failed, 2 invalid option or setting (nothing was run), 3 no contact (touch).");
+      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the "
+      "experiment does not use are rejected.\n\n"
+      "Exit status: 0 if it is done, 1 if it failed, 2 if an option or setting is invalid (nothing "
+      "was run), 3 if there was no contact (touch).");
   run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of every random stream")
+  run->add_option("--seed", o.seed, "Seed of all random streams")
       ->check(whole_number())
       ->capture_default_str();
   run->add_option("--set", o.settings,
-                  "Set a field of the configuration, e.g. --set profile=analog --set mapping.scale=0.2 "
-                  "--set scene.material.wall.stiffness_n_per_m=5000; may be repeated")
+                  "Set a field of the configuration, e.g. --set profile=analog --set "
+                  "mapping.scale=0.2 --set scene.material.wall.stiffness_n_per_m=5000; can be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   run->add_option("--out", o.out, "Folder for metrics.json, traces and plots; created if missing")
       ->type_name("DIR");
   run->add_flag("--record", o.record,
-                "Record both sides as the programs do, into DIR/touch.mcap (only touch, with --out); "
-                "`longreach-lab replay` can replay it");
+                "Record both sides into DIR/touch.mcap, as the programs do, for `longreach-lab "
+                "replay` (touch only, requires --out)");
   run->add_flag("--quiet", o.quiet, "Print nothing");
 }
 
 void add_replay(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* replay = app.add_subcommand(
       "replay",
-      "Run the nodes again on the inputs of recordings (`longreach-master --record FILE`, `longreach-slave --record FILE`) and compare their outputs with the recorded outputs, bit for bit.\n\n"
-      "Exit status: 0 equal, 1 different (the first difference is printed), 2 not completely replayed (the reason is printed).");
+      "Run the nodes again on recorded inputs (`longreach-master --record FILE`, `longreach-slave "
+      "--record FILE`) and compare their outputs with the recorded outputs, bit for bit.\n\n"
+      "Exit status: 0 if they are equal, 1 if they differ (the first difference is printed), 2 if the "
+      "replay is incomplete (the reason is printed).");
   replay->add_option("files", files, "Recordings")->type_name("FILE...")->required();
 }
 
 void add_sweep(CLI::App& app, SweepOptions& o) {
   CLI::App* sweep = app.add_subcommand(
       "sweep",
-      "Run a campaign: every experiment with every combination of settings and every seed of a grid, on all processors. After an interruption, run the same command again to resume.\n\n"
+      "Run a campaign: each experiment of a grid, with every combination of settings and every seed, "
+      "on all processors. To resume after an interruption, run the same command again.\n\n"
       "FILE defines the grid, e.g.\n"
       "  experiment: \"touch\"\n"
       "  setting { path: \"profile\" value: \"moon\" value: \"lab\" }\n"
       "  setting { path: \"scene.material.wall.stiffness_n_per_m\" value: \"500\" value: \"5000\" }\n"
       "  seeds { from: 1 to: 20 }\n"
-      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. DIR/results.csv has a row per cell, DIR/results.times.csv the results that depend on the machine.\n\n"
-      "Exit status: 0 all cells are done, 1 some failed (the same command runs them again), 2 invalid grid or option (nothing was run), 3 all are done, some without contact, 128 and more: stopped by a signal.");
-  sweep->add_option("file", o.file, "The grid")->type_name("FILE")->required();
-  sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ and the name of FILE")
+      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. "
+      "DIR/results.csv has one row per cell; DIR/results.times.csv has the results that depend on the "
+      "machine.\n\n"
+      "Exit status: 0 if all cells are done, 1 if some failed (the same command runs them again), 2 "
+      "if the grid or an option is invalid (nothing was run), 3 if all are done but some had no "
+      "contact, 128 or more if a signal stopped it.");
+  sweep->add_option("file", o.file, "File that defines the grid")->type_name("FILE")->required();
+  sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ followed by the name of FILE")
       ->type_name("DIR");
-  sweep->add_option("--jobs", o.jobs, "Parallel cells; 0: one per processor")->capture_default_str();
+  sweep->add_option("--jobs", o.jobs, "Number of cells to run in parallel; 0: one per processor")
+      ->capture_default_str();
   sweep
       ->add_option("--shard", o.shard,
-                   "Only every N-th cell, from the I-th on: N hosts that run 1/N to N/N share a campaign, "
-                   "in one folder or in several; `merge` then writes the results")
+                   "Run only every N-th cell, starting with the I-th. N hosts that run 1/N to N/N "
+                   "share a campaign, in one folder or in several; `merge` then writes the results")
       ->type_name("I/N")
       ->capture_default_str();
-  sweep->add_flag("--quiet", o.quiet, "Print failures only");
+  sweep->add_flag("--quiet", o.quiet, "Print only failures");
 }
 
 void add_merge(CLI::App& app, MergeOptions& o) {
   CLI::App* merge = app.add_subcommand(
       "merge",
-      "Write the results of a campaign whose shards are in one or several folders, byte for byte as from a single run. Exit status 1 if cells are missing; they are printed.");
-  merge->add_option("folders", o.folders, "Folders of `longreach-lab sweep`")
+      "Write the results of a campaign that was run in shards, in one or several folders. They are "
+      "byte for byte the same as from a single run.\n\n"
+      "Exit status: 0 if all cells are there, 1 if some are missing (they are printed).");
+  merge->add_option("folders", o.folders, "Folders that `longreach-lab sweep` wrote")
       ->type_name("DIR...")
       ->required();
-  merge->add_option("--out", o.out, "Default: results.csv in the first folder; times go to NAME.times.csv")
+  merge
+      ->add_option("--out", o.out,
+                   "Output file; default: results.csv in the first folder. Times are "
+                   "written to NAME.times.csv")
       ->type_name("FILE.csv");
 }
 
 void add_report(CLI::App& app, ReportOptions& o) {
   CLI::App* report = app.add_subcommand(
       "report",
-      "Run all experiments one by one into DIR/NAME, and write DIR/index.html, a self-contained page");
-  report->add_option("--out", o.out, "Folder; created if missing")->type_name("DIR")->required();
-  report->add_flag("--quick", o.quick, "Small campaigns that take minutes instead of hours");
-  report->add_option("--seed", o.seed, "Seed of every random stream")
+      "Run all experiments one after the other, write the files of each into DIR/NAME, and write a "
+      "self-contained page, DIR/index.html");
+  report->add_option("--out", o.out, "Output folder; created if missing")->type_name("DIR")->required();
+  report->add_flag("--quick", o.quick, "Run small campaigns, which take minutes instead of hours");
+  report->add_option("--seed", o.seed, "Seed of all random streams")
       ->check(whole_number())
       ->capture_default_str();
-  report->add_option("--only", o.only, "Only these experiments")->type_name("NAME...");
+  report->add_option("--only", o.only, "Run only these experiments")->type_name("NAME...");
 }
 
 void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
   CLI::App* solve = app.add_subcommand(
       "solve",
-      "Answer requests on standard input, one JSON object per line: kinematics of a haptic device or of a "
-      "robot; "
-      "identify: the stiffness of a contact from samples of t, x, f and, if known, v, also as CSV");
+      "Answer requests from standard input, one JSON object per line: the kinematics of a haptic "
+      "device or a robot, or an impact. `identify` estimates the stiffness of a contact from samples "
+      "of t, x, f and optionally v, as JSON or CSV");
   std::vector<std::string> kinds = solve_kinds();
   kinds.emplace_back("identify");
   solve->add_option("kind", kind, "Kind of request")->required()->check(CLI::IsMember(kinds));
   CLI::Option_group* of_identify = solve->add_option_group("identify");
-  of_identify->add_option("--estimator", identify.estimator, "Estimator; all: a summary of each at the end")
+  of_identify
+      ->add_option("--estimator", identify.estimator,
+                   "Estimator; all: print a summary of every estimator at the end")
       ->check(CLI::IsMember(identify_estimators()))
       ->capture_default_str();
-  of_identify->add_option("--exponent", identify.exponent, "Exponent of fixed-exponent")
+  of_identify->add_option("--exponent", identify.exponent, "Exponent for the estimator fixed-exponent")
       ->check(number_between(0.5, 3.5))
       ->capture_default_str();
   of_identify
       ->add_option("--force-noise", identify.force_noise_n,
-                   "Standard deviation of the force, N; 0: estimated from the samples")
+                   "Standard deviation of the force noise, N; 0: estimate it from the samples")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
-  of_identify->add_option("--position-noise", identify.position_noise_m, "Likewise, m")
+  of_identify
+      ->add_option("--position-noise", identify.position_noise_m,
+                   "Standard deviation of the position noise, m")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
   solve->callback([of_identify, &kind] {
     if (kind != "identify" && of_identify->count_all() > 0)
-      throw CLI::ValidationError("solve " + kind, "has no options");
+      throw CLI::ValidationError("solve " + kind, "does not accept these options");
   });
 }
 
 void add_train(CLI::App& app, Options& o) {
   CLI::App* train = app.add_subcommand(
       "train",
-      "Train the networks of a haptic device's forward kinematics (Levenberg-Marquardt by Ceres Solver, one "
-      "thread, a few minutes); the same seed writes the same bytes. deploy/devices/ holds those of seed 1");
+      "Train the networks for the forward kinematics of a haptic device (Levenberg-Marquardt by Ceres "
+      "Solver, one thread, a few minutes). The same seed gives the same bytes; deploy/devices/ "
+      "contains the networks of seed 1");
   train->add_option("kind", o.kind, "Device")->required()->check(CLI::IsMember(train_kinds()));
-  train->add_option("--seed", o.train_seed, "Seed of samples and first weights")
+  train->add_option("--seed", o.train_seed, "Seed of the samples and the initial weights")
       ->check(whole_number())
       ->capture_default_str();
   train->add_option("--out", o.train_out, "Output file")->type_name("FILE")->capture_default_str();
@@ -175,7 +195,7 @@ int run_subcommand(const CLI::App& app, const Options& o) {
 }  // namespace longreach
 
 int main(int argc, char** argv) {
-  CLI::App app{"Experiments with both nodes of longreach in deterministic virtual time."};
+  CLI::App app{"Run experiments with longreach's master and slave in deterministic virtual time."};
   app.name("longreach-lab");
   app.set_version_flag("--version", std::string(longreach::commit()));
   longreach::add_manual_options(app, "longreach-lab " + std::string(longreach::commit()));

@@ -62,7 +62,7 @@ void LabRecording::finish() {
   finished_ = true;
   if (file_.failed()) throw RecordingError("cannot write " + file_.path().string() + ": " + file_.error());
   if (master_.ticks_dropped() + slave_.ticks_dropped() > 0)
-    throw RecordingError(file_.path().string() + " lacks ticks");
+    throw RecordingError(file_.path().string() + " is incomplete: some ticks could not be recorded");
 }
 
 }  // namespace longreach

@@ -13,7 +13,7 @@ namespace {
 template <class Message>
 void parse(std::string_view bytes, Message& out) {
   if (!out.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-    throw RecordingError("a message does not follow the schema " + out.GetTypeName());
+    throw RecordingError("a message does not match the schema " + out.GetTypeName());
 }
 
 template <class Message>
@@ -47,17 +47,18 @@ void NodeReplay::take(std::string_view name, std::string_view bytes) {
 
 bool NodeReplay::prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete) {
   if (!began() && tick != 0) {
-    stop("the recording begins at tick " + std::to_string(tick) +
-         ", without the previous state of the node: a replay needs a recording from the start (--record)");
+    stop("the recording starts at tick " + std::to_string(tick) +
+         ", so the previous state of the node is unknown; a replay requires a recording from the "
+         "start (--record)");
     return false;
   }
   if (tick != next_tick_) {
     stop("ticks " + std::to_string(next_tick_) + " to " + std::to_string(tick - 1) +
-         " are not in the recording: it could not be written fast enough");
+         " are missing because the recording could not be written fast enough");
     return false;
   }
   if (!complete) {
-    stop("messages that tick " + std::to_string(tick) + " used are not in the recording");
+    stop("some messages that tick " + std::to_string(tick) + " used are not in the recording");
     return false;
   }
   if (!began() || config != config_) {

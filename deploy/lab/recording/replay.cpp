@@ -42,8 +42,8 @@ int judge(const SideReplay& side, double spent_s, std::ostream& out) {
         << d.field << " is " << d.recorded << " in the recording, " << d.replayed << " in the replay\n";
     return kDifferent;
   }
-  out << line("%llu ticks, %.1f s, %llu messages: outputs and views are bit for bit as recorded", ticks,
-              side.seconds, static_cast<unsigned long long>(side.messages));
+  out << line("%llu ticks, %.1f s, %llu messages: outputs and views equal the recorded ones, bit for bit",
+              ticks, side.seconds, static_cast<unsigned long long>(side.messages));
   if (side.seconds > 0.0) out << line(", %.0f times faster than real time", side.seconds / spent_s);
   if (!side.stopped.empty()) out << "; stopped: " << side.stopped;
   out << "\n";
@@ -65,9 +65,9 @@ void refuse_other_wire(const McapReader& reader, const std::filesystem::path& fi
   const std::string wire = fact(reader, "wire"), commit = fact(reader, "commit");
   if (wire == std::to_string(kWireVersion) || (wire.empty() && commit.empty())) return;
   throw RecordingError(file.string() + " was recorded with wire version " +
-                       (wire.empty() ? "3 or older" : wire) + ", this program has " +
-                       std::to_string(kWireVersion) + ": replay it with the program of commit " + commit +
-                       "; this version of `longreach record export` can read it");
+                       (wire.empty() ? "3 or older" : wire) + ", but this program uses version " +
+                       std::to_string(kWireVersion) + "; replay it with the program of commit " + commit +
+                       ", or read it with `longreach record export` of this version");
 }
 
 FileReplay replay_file(const std::filesystem::path& file) {
@@ -125,13 +125,13 @@ int replay(const std::vector<std::string>& files, std::ostream& out, std::ostrea
       worst = kNotReplayed;
     }
     if (!result.commit.empty() && result.commit != build_commit())
-      err << "longreach-lab: " << file << " was recorded by commit " << result.commit << ", this is "
-          << build_commit() << "\n";
+      err << "longreach-lab: " << file << " was recorded with commit " << result.commit
+          << "; this program is commit " << build_commit() << "\n";
     for (const SideReplay& side : result.sides) {
       const int status = judge(side, spent_s, out);
       if (status == kDifferent || worst == kSame) worst = status;
     }
-    if (!result.whole) out << file << line(" was truncated: data after %.1f s is lost\n", result.last_s);
+    if (!result.whole) out << file << line(" is truncated: data after %.1f s is lost\n", result.last_s);
   }
   return worst;
 }

@@ -269,7 +269,7 @@ class AttackRun {
 std::vector<Plot> hostile_updates_plots() {
   return {{.name = "hostile-updates",
            .csv = "attacks",
-           .title = "Minimum port energy under hostile reports (whole set: 11 attacks x 4 hands)",
+           .title = "Minimum port energy under hostile reports (11 attacks with each of 4 hands)",
            .x_column = "case",
            .x_label = "case",
            .panels = {{"STIFFNESS (mJ)",

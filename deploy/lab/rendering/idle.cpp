@@ -100,16 +100,17 @@ void write_draws(const ExperimentRun& run, const std::vector<Judged>& all) {
 }  // namespace
 
 std::vector<Plot> idle_plots() {
-  return {{.name = "draws",
-           .csv = "draws",
-           .title = "A hand at rest: each draw",
-           .x_column = "number",
-           .x_label = "draw",
-           .panels = {{"energy out (mJ)",
-                       {{"energy_out_j", "translation", 1e3}, {"rotation_energy_out_j", "rotation", 1e3}},
-                       ""},
-                      {"ripple (mN)", {{"ripple_n", "ripple", 1e3}, {"allowed_n", "one count", 1e3}}, ""},
-                      {"true motion (µm)", {{"motion_m", "", 1e6}, {"count_m", "one count", 1e6}}, ""}}}};
+  return {
+      {.name = "draws",
+       .csv = "draws",
+       .title = "A hand at rest: energy, ripple and motion of each random draw",
+       .x_column = "number",
+       .x_label = "draw",
+       .panels = {{"energy returned (mJ)",
+                   {{"energy_out_j", "translation", 1e3}, {"rotation_energy_out_j", "rotation", 1e3}},
+                   ""},
+                  {"force ripple (mN)", {{"ripple_n", "ripple", 1e3}, {"allowed_n", "one count", 1e3}}, ""},
+                  {"true motion (µm)", {{"motion_m", "", 1e6}, {"count_m", "one count", 1e6}}, ""}}}};
 }
 
 std::vector<Metric> run_idle(const ExperimentRun& run) {

@@ -85,7 +85,7 @@ std::vector<Plot> rate_contact_plots() {
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"hand_m", "deflection", 1e3}}, ""},
-                      {"commanded depth (mm)", {{"depth_m", "of the goal behind the wall", 1e3}}, ""},
+                      {"depth (mm)", {{"depth_m", "goal behind the wall", 1e3}}, ""},
                       {"contact force (N)", {{"felt_n", "at the hand"}, {"tool_n", "at the tool"}}, ""},
                       {"energy (mJ)",
                        {{"port_energy_j", "into the device", 1e3}, {"tank_j", "in the tank", 1e3}},

@@ -195,7 +195,7 @@ void torque(const ExperimentRun& run, std::vector<Metric>& metrics) {
 std::vector<Plot> six_dof_contact_plots() {
   return {{.name = "six-dof-contact",
            .csv = "oblique",
-           .title = "An oblique plane of 1 N/mm without a model",
+           .title = "Pressing on an oblique plane of 1 N/mm without a model of the scene",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}}, ""},

@@ -16,7 +16,7 @@ constexpr double kSpike_s = 30.0;  // by then the hand presses
 constexpr double kSpikeLength_s = 60.0;
 constexpr double kDuration_s = 160.0;
 constexpr const char* kStateAxis =
-    "set yrange [-0.3:3.3]\nset ytics ('idle' 0, 'observes' 1, 'engaged' 2, 'holds' 3)";
+    "set yrange [-0.3:3.3]\nset ytics ('idle' 0, 'observing' 1, 'engaged' 2, 'holding' 3)";
 
 /// What happened to the force, tick by tick.
 class Spike {
@@ -76,7 +76,7 @@ void spike_into(ImpairmentConfig& way) {
 std::vector<Plot> spike_plots() {
   return {{.name = "spike",
            .csv = "spike",
-           .title = "The delay steps to 12 s in contact (at 30 s, for 60 s)",
+           .title = "The round trip jumps to 12 s during contact (at 30 s, for 60 s)",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"contact force (N)", {{"felt_n", "at the hand"}, {"tool_n", "at the tool"}}, ""},

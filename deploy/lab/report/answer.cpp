@@ -17,7 +17,7 @@ double value_of(std::string_view place, const std::vector<Metric>& metrics) {
   const std::string_view name = place.substr(0, place.find('*'));
   const auto metric = std::ranges::find(metrics, name, &Metric::name);
   if (metric == metrics.end()) refuse(place, "is not a metric");
-  if (metric->of_machine) refuse(place, "is not the same in every run");
+  if (metric->of_machine) refuse(place, "differs between machines");
   if (name.size() == place.size()) return metric->value;
   const std::string_view text = place.substr(name.size() + 1);
   double factor = 0.0;

@@ -72,7 +72,7 @@ std::string answer_of(const ReportChapter& c) {
 }
 
 std::string overview(const std::vector<ReportChapter>& chapters) {
-  std::string html = "<table>\n<tr><th>experiment</th><th>asks</th><th>answer</th></tr>\n";
+  std::string html = "<table>\n<tr><th>experiment</th><th>question</th><th>answer</th></tr>\n";
   for (const ReportChapter& c : chapters) {
     const std::string name = escaped(c.experiment->name);
     html += "<tr><td><a href=\"#" + name + "\">" + name + "</a></td><td>" + escaped(c.experiment->summary) +
@@ -92,10 +92,10 @@ std::string number(double value) {
 std::string metrics_table(const std::vector<Metric>& metrics) {
   std::string html =
       "<details><summary>" + std::to_string(metrics.size()) +
-      " figures</summary>\n<table>\n<tr><th>figure</th><th class=\"number\">value</th><th>unit</th></tr>\n";
+      " metrics</summary>\n<table>\n<tr><th>metric</th><th class=\"number\">value</th><th>unit</th></tr>\n";
   for (const Metric& m : metrics) {
     html += "<tr><td>" + escaped(m.name) +
-            (m.of_machine ? " <span class=\"soft\">(of this machine)</span>" : "") +
+            (m.of_machine ? " <span class=\"soft\">(depends on the machine)</span>" : "") +
             "</td><td class=\"number\">" + number(m.value) + "</td><td>" + escaped(m.unit) + "</td></tr>\n";
   }
   return html + "</table></details>\n";
@@ -115,7 +115,7 @@ std::string chapter(const ReportChapter& c) {
             base64(picture.svg) + "\">\n";
   }
   html += metrics_table(c.metrics);
-  return html + "<p class=\"soft\"><code>" + escaped(c.command) + "</code> configuration " +
+  return html + "<p class=\"soft\"><code>" + escaped(c.command) + "</code>, configuration " +
          escaped(c.config) + "</p>\n";
 }
 
@@ -128,8 +128,8 @@ std::string report_page(const ReportHead& head, const std::vector<ReportChapter>
   html += kStyle;
   html += "</style></head><body>\n<h1>longreach: results</h1>\n<p class=\"soft\">commit " +
           escaped(head.commit) + ", seed " + std::to_string(head.seed) + ", " + escaped(head.size) +
-          "; virtual time: the same commit, configuration and seed give the same figures, except those of "
-          "the machine.</p>\n";
+          ". The experiments run in virtual time: the same commit, configuration and seed give the "
+          "same metrics, except for those that depend on the machine.</p>\n";
   html += overview(chapters);
   for (const ReportChapter& c : chapters) html += chapter(c);
   return html + "</body></html>\n";

@@ -32,7 +32,7 @@ std::vector<const Experiment*> chosen(const std::vector<std::string>& only) {
   for (const std::string& name : only) {
     const Experiment* experiment = find_experiment(name);
     if (experiment == nullptr)
-      throw ConfigError("there is no experiment '" + name + "'; `longreach-lab list` shows them");
+      throw ConfigError("unknown experiment '" + name + "'; `longreach-lab list` prints the names");
     all.push_back(experiment);
   }
   if (!only.empty()) return all;

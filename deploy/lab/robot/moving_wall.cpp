@@ -276,11 +276,10 @@ std::vector<Plot> moving_wall_plots() {
   return {
       {.name = "moving_wall",
        .csv = "moving_wall",
-       .title = "An approaching wall: true force relative to its bound, and motion of the robot; one point "
-                "per run",
+       .title = "An approaching wall: true force / bound, and retreat of the robot (one point per run)",
        .x_column = "growth_n_per_s",
        .x_label = "stiffness times speed (N/s)",
-       .panels = {{"force over bound", {{"over_bound", ""}}, ""}, {"way (mm)", {{"way_m", "", 1e3}}, ""}}}};
+       .panels = {{"force / bound", {{"over_bound", ""}}, ""}, {"retreat (mm)", {{"way_m", "", 1e3}}, ""}}}};
 }
 
 std::vector<Metric> run_moving_wall(const ExperimentRun& run) {

@@ -172,10 +172,11 @@ struct Cell {
 std::vector<Plot> sensor_faults_plots() {
   return {{.name = "sensor_faults",
            .csv = "sensor_faults",
-           .title = "A faulty force sensor: uncommanded motion and true force; one point per run",
+           .title = "A faulty force sensor: uncommanded motion and true force (one point per run)",
            .x_column = "run",
-           .x_label = "run: arm, state, fault",
-           .panels = {{"way (mm)", {{"way_m", "", 1e3}}, ""}, {"true force (N)", {{"force_n", ""}}, ""}}}};
+           .x_label = "run (arm, state, fault)",
+           .panels = {{"uncommanded motion (mm)", {{"way_m", "", 1e3}}, ""},
+                      {"true force (N)", {{"force_n", ""}}, ""}}}};
 }
 
 std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {

@@ -96,13 +96,12 @@ std::vector<Plot> singular_paths_plots() {
         {.column = "joint" + std::to_string(i) + "_speed", .title = "joint " + std::to_string(i)});
   return {{.name = "singular_paths",
            .csv = "singular_paths",
-           .title =
-               "Straight through the wrist, the elbow and the shoulder singularity of a PUMA 560: three runs",
+           .title = "Straight paths through the wrist, elbow and shoulder singularities of a PUMA 560",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"position error (mm)", {{"off_m", "", 1e3}}, passage_marks()},
                       {"angle error (mrad)", {{"turned_rad", "", 1e3}}, "unset label"},
-                      {"joint speed / its limit", joints, "set yrange [-1.05:1.05]"},
+                      {"joint speed / limit", joints, "set yrange [-1.05:1.05]"},
                       {"conditioning (0: singular)", {{"conditioning", ""}}, ""}}}};
 }
 
@@ -143,7 +142,7 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run) {
     const std::string name = passage.name;
     metrics.push_back({name + "_off_goal_max_m", off_max_m, "m"});
     metrics.push_back({name + "_arrived_after_s", late_s, "s"});
-    metrics.push_back({name + "_joint_speed_max", speed_max, "of the limit"});
+    metrics.push_back({name + "_joint_speed_max", speed_max, "share of the limit"});
   }
   trace.close();
   metrics.push_back({"limit_violations", static_cast<double>(motion.limit_violations()), ""});

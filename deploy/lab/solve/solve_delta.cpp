@@ -52,7 +52,7 @@ struct ClosedPose {
 
 ClosedPose closed_pose(const Json& request, const DeltaKinematics& k) {
   if (request.contains("p") == request.contains("theta"))
-    throw BadRequest("give the pose by either \"p\" or \"theta\"");
+    throw BadRequest("give the pose as either \"p\" or \"theta\"");
   if (request.contains("p")) {
     const Vector3 p = vector3(request, "p");
     const DeltaAngles angles = k.inverse(p);
@@ -91,9 +91,7 @@ Json solve_delta_statics(const Json& request) {
   const DeltaVelocity at = velocity(k.geometry(), pose.theta, pose.p);
   const DeltaTorques torques = gravity_torques(k.geometry(), m, gravity, pose.theta, at);
   if (torques.status != SolutionStatus::kFound)
-    throw BadRequest(
-        "the pose is singular: it cannot be held "
-        "by torques");
+    throw BadRequest("the pose is singular: no motor torques can hold it");
   return {{"tau", solve_json::to_json(torques.tau_nm)}};
 }
 

@@ -141,8 +141,8 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
     return refuse(e.what());
   }
   if (!convention.touches())
-    errors << "longreach-lab: no sample has \"x\" above 0, so there is no contact; x is the penetration, 0 "
-              "and below in free space\n";
+    errors << "longreach-lab: no sample has a positive \"x\", so there is no contact; x is the "
+              "penetration, which is 0 or negative in free space\n";
   for (std::size_t i = 0; options.estimator == "all" && i < chosen.size(); ++i) {
     Json answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};
     answer.update(to_json(identifiers[i].answer()));

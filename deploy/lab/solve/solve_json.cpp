@@ -49,10 +49,10 @@ Json parse(const std::string& line) {
   } catch (const Json::parse_error& e) {
     const bool literal =
         e.byte > 0 && e.byte <= line.size() && line.find_first_of("NI", e.byte - 1) <= e.byte;
-    throw BadRequest("not JSON, at byte " + std::to_string(e.byte) +
-                     (literal ? ": NaN and Infinity are not finite numbers" : ""));
+    throw BadRequest("invalid JSON at byte " + std::to_string(e.byte) +
+                     (literal ? ": NaN and Infinity are not allowed" : ""));
   }
-  if (!request.is_object()) throw BadRequest("a line must be one JSON object");
+  if (!request.is_object()) throw BadRequest("each line must be one JSON object");
   if (!twice.empty()) throw BadRequest("key \"" + twice + "\" is given twice");
   return request;
 }
@@ -96,16 +96,16 @@ Quaternion rotation(const Json& object, const std::string& key) {
   const Matrix3 R = matrix3(object, key);
   const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kGiven))
-    throw BadRequest("\"" + key + "\" is not a rotation matrix: R R^T differs from 1 by " + rounded(off) +
-                     ", and " + rounded(kGiven) + " is allowed; give more digits");
+    throw BadRequest("\"" + key + "\" is not a rotation matrix: R R^T differs from the identity by " +
+                     rounded(off) + ", but only " + rounded(kGiven) + " is allowed; give more digits");
   if (R.determinant() < 0.0)
-    throw BadRequest("\"" + key + "\" is not a rotation matrix: its determinant is -1, a reflection");
+    throw BadRequest("\"" + key + "\" is not a rotation matrix but a reflection: its determinant is -1");
   return Quaternion(R).normalized();
 }
 
 std::string text(const Json& object, const std::string& key) {
   const Json& value = member(object, key);
-  if (!value.is_string()) throw BadRequest("\"" + key + "\" must be a text");
+  if (!value.is_string()) throw BadRequest("\"" + key + "\" must be a string");
   return value.get<std::string>();
 }
 

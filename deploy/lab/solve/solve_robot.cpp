@@ -42,7 +42,7 @@ Json to_json(const JointVector& q) { return Json(std::vector<double>(q.begin(), 
 double angle(const Json& row, const std::string& key, double most) {
   const double value = number(row, key);
   if (std::abs(value) <= most) return value;
-  throw BadRequest("\"" + key + "\" = " + format_number(value) + " of a row of \"dh\" is outside " +
+  throw BadRequest("\"" + key + "\" = " + format_number(value) + " in a row of \"dh\" is outside " +
                    format_number(-most) + " to " + format_number(most) +
                    "; the unit is rad, and this value seems to be in degrees");
 }
@@ -50,7 +50,7 @@ double angle(const Json& row, const std::string& key, double most) {
 RobotConfig rows(const Json& request) {
   const Json& dh = solve_json::member(request, "dh");
   if (!dh.is_array() || dh.size() != kMaxJoints)
-    throw BadRequest("\"dh\" must be a list of six rows; this has " +
+    throw BadRequest("\"dh\" must be a list of six rows, not " +
                      std::to_string(dh.is_array() ? dh.size() : 0));
   RobotConfig robot;
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
@@ -75,9 +75,9 @@ RobotConfig named(const std::string& name) {
 
 RobotConfig robot(const Json& request) {
   const bool by_name = request.contains("robot");
-  if (by_name && request.contains("dh")) throw BadRequest("either \"robot\" or \"dh\", not both");
+  if (by_name && request.contains("dh")) throw BadRequest("give either \"robot\" or \"dh\", not both");
   if (by_name && request.contains("convention"))
-    throw BadRequest("\"convention\" is for \"dh\"; a robot file contains its own");
+    throw BadRequest("\"convention\" requires \"dh\"; a robot file states its own convention");
   RobotConfig robot = by_name ? named(solve_json::text(request, "robot")) : rows(request);
   if (request.contains("convention")) {
     const std::string word = solve_json::text(request, "convention");
@@ -96,7 +96,8 @@ Pose pose(const Json& request) {
   if (!rows.is_array() || rows.size() != 4) throw BadRequest("\"X\" must be a list of four rows");
   Eigen::Matrix4d X;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (!rows[i].is_array() || rows[i].size() != 4) throw BadRequest("a row of \"X\" must be four numbers");
+    if (!rows[i].is_array() || rows[i].size() != 4)
+      throw BadRequest("a row of \"X\" must be a list of four numbers");
     for (std::size_t k = 0; k < 4; ++k)
       X(static_cast<int>(i), static_cast<int>(k)) = element(rows[i], k, "X");
   }

@@ -12,7 +12,8 @@ using solve_json::number;
 SphericalGeometry geometry(const Json& request) {
   const bool by_angles = request.contains("beta1") || request.contains("beta2");
   const bool by_axes = request.contains("u") || request.contains("v") || request.contains("w0");
-  if (by_angles && by_axes) throw BadRequest("either \"beta1\", \"beta2\" or \"u\", \"v\", \"w0\", not both");
+  if (by_angles && by_axes)
+    throw BadRequest("give either \"beta1\" and \"beta2\" or \"u\", \"v\" and \"w0\", not both");
   const double alpha1 = number(request, "alpha1"), alpha2 = number(request, "alpha2");
   if (by_axes) {
     return SphericalGeometry(SphericalAxes{alpha1, alpha2, solve_json::matrix3(request, "u"),

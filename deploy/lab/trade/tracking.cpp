@@ -95,7 +95,7 @@ Touched touched(const ExperimentRun& run, std::vector<std::string> settings) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     one.seed = run.seed + seed;
     const std::vector<Metric> metrics = run_touch(one);
-    if (!outcome_of(metrics).empty()) throw std::runtime_error("trade: a wall was not touched");
+    if (!outcome_of(metrics).empty()) throw std::runtime_error("trade: the tool did not touch the wall");
     for (const Metric& m : metrics) {
       if (m.name == "displayed_stiffness_error") sum.stiffness_error = std::max(sum.stiffness_error, m.value);
       if (m.name == "haptic_return_bit_per_s") sum.return_bit_per_s += m.value / kSeeds;

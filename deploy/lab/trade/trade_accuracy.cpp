@@ -48,7 +48,7 @@ TradeStage stage(std::string_view name, std::string_view title, std::string_view
                  std::vector<TradePoint> (*measure)(const ExperimentRun&)) {
   return {.name = name,
           .title = title,
-          .cost = "time of both sides per millisecond",
+          .cost = "computing time of both sides per simulated ms",
           .cost_unit = "µs",
           .error = error,
           .error_unit = unit,
@@ -59,13 +59,13 @@ TradeStage stage(std::string_view name, std::string_view title, std::string_view
 }  // namespace
 
 TradeStage trade_accuracy_tracking() {
-  return stage("accuracy_tracking", "Presets of accuracy: tracking error of the tool",
-               "tracking error of the tool, rms", "mm", measure_tracking);
+  return stage("accuracy_tracking", "Accuracy presets: tracking error of the tool",
+               "rms tracking error of the tool", "mm", measure_tracking);
 }
 
 TradeStage trade_accuracy_stiffness() {
-  return stage("accuracy_stiffness", "Presets of accuracy: walls of 500 to 4000 N/m",
-               "error of the displayed stiffness, worst wall", "%", measure_stiffness);
+  return stage("accuracy_stiffness", "Accuracy presets: displayed stiffness of walls of 500 to 4000 N/m",
+               "maximum error of the displayed stiffness", "%", measure_stiffness);
 }
 
 }  // namespace longreach

@@ -98,8 +98,8 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_contact() {
   return {.name = "contact",
-          .title = "A free impact of 3 ms: integrators with steps of 2 ms to 10 µs",
-          .cost = "time of an impact",
+          .title = "Integrators of a free impact of 3 ms, with steps of 2 ms to 10 µs",
+          .cost = "computing time per impact",
           .cost_unit = "ns",
           .error = "error of the restitution",
           .error_unit = "share of the speed",

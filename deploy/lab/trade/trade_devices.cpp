@@ -91,9 +91,9 @@ std::vector<TradePoint> measure_delta(const ExperimentRun&) {
 TradeStage trade_spherical_forward() {
   return {.name = "spherical_forward",
           .title = "Orientation of the 3-RRR device from its motor angles",
-          .cost = "time of a call",
+          .cost = "time per call",
           .cost_unit = "ns",
-          .error = "largest error",
+          .error = "maximum error",
           .error_unit = "rad",
           .series = {"tracking", "one_newton_step", "two_newton_steps", "network", "network_and_step",
                      "all_solutions"},
@@ -102,10 +102,10 @@ TradeStage trade_spherical_forward() {
 
 TradeStage trade_delta_forward() {
   return {.name = "delta_forward",
-          .title = "Position of the DELTA from its motor angles, from tick to tick",
-          .cost = "time of a call",
+          .title = "Position of the DELTA from its motor angles, tracked from tick to tick",
+          .cost = "time per call",
           .cost_unit = "ns",
-          .error = "largest error",
+          .error = "maximum error",
           .error_unit = "m",
           .series = {"closed_form", "newton_steps"},
           .measure = measure_delta};

@@ -92,10 +92,10 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_estimator() {
   return {.name = "estimator",
-          .title = "Stiffness of a contact (n = 1.5) after 2 s",
-          .cost = "time of a sample",
+          .title = "Estimated stiffness of a contact (n = 1.5) after 2 s",
+          .cost = "computing time per sample",
           .cost_unit = "ns",
-          .error = "error of the stiffness at 5 N",
+          .error = "stiffness error at 5 N",
           .error_unit = "%",
           .series = {"fixed_exponent", "fixed_exponent_1", "two_stage", "log_linear", "weighted_log_linear",
                      "extended_kalman", "kelvin_voigt", "maximum_likelihood", "unknown_surface", "batch_fit"},

@@ -60,10 +60,10 @@ std::vector<TradePoint> measure_deadband(const ExperimentRun& run) {
 
 TradeStage trade_send_rate() {
   return {.name = "send_rate",
-          .title = "Commands per second, 50 to 1000",
-          .cost = "commands on the wire",
+          .title = "50 to 1000 commands per second",
+          .cost = "data rate of the commands",
           .cost_unit = "kbit/s",
-          .error = "tracking error of the tool, rms",
+          .error = "rms tracking error of the tool",
           .error_unit = "mm",
           .of_machine = false,
           .series = {"adaptive_playout", "fixed_20_ms"},
@@ -72,10 +72,10 @@ TradeStage trade_send_rate() {
 
 TradeStage trade_playout() {
   return {.name = "playout",
-          .title = "Playout delay, which smooths the goal against jitter",
+          .title = "Playout delay, which protects the goal from jitter",
           .cost = "additional delay",
           .cost_unit = "ms",
-          .error = "acceleration of the tool, rms",
+          .error = "rms acceleration of the tool",
           .error_unit = "m/s^2",
           .of_machine = false,
           .series = {"fixed", "adaptive"},
@@ -84,8 +84,8 @@ TradeStage trade_playout() {
 
 TradeStage trade_deadband() {
   return {.name = "deadband",
-          .title = "Reported change of the stiffness, 0.5 to 30 %",
-          .cost = "haptic return",
+          .title = "Dead band of the reported stiffness, 0.5 to 30 %",
+          .cost = "data rate of the stiffness reports",
           .cost_unit = "bit/s",
           .error = "error of the displayed stiffness",
           .error_unit = "%",

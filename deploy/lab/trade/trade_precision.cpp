@@ -119,10 +119,10 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_precision() {
   return {.name = "precision",
-          .title = "float and double: leg, arm, contact, least squares, integration",
-          .cost = "time of a call",
+          .title = "Float versus double: leg, arm, contact, least squares, integration",
+          .cost = "time per call",
           .cost_unit = "ns",
-          .error = "largest relative error",
+          .error = "maximum relative error",
           .error_unit = "1",
           .series = {"float", "double"},
           .measure = measure};

@@ -48,10 +48,10 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_sample_rate() {
   return {.name = "sample_rate",
-          .title = "Ticks per second, 250 to 8000, over the maximum displayed stiffness",
-          .cost = "time of the master's ticks per second",
+          .title = "250 to 8000 ticks per second, and the maximum displayed stiffness",
+          .cost = "computing time of the master per second",
           .cost_unit = "µs",
-          .error = "deflection at that wall under 10 N",
+          .error = "deflection of the stiffest wall under 10 N",
           .error_unit = "mm",
           .series = {"light_hand", "firm_hand", "released"},
           .measure = measure};

@@ -81,7 +81,7 @@ TEST(SphericalNetworkFile, SaysWhereItIsWrong) {
   EXPECT_EQ(error("name:", "nmae:").substr(0, 5), ":2:1:");
   EXPECT_NE(error("per_axis: 1", "per_axis: 11").find("cells.per_axis = 11 is outside 1 to 9"),
             std::string::npos);
-  EXPECT_EQ(error("per_axis: 1", "per_axis: 3"), ": there are 1 times fine; cells.per_axis = 3 needs 27");
+  EXPECT_EQ(error("per_axis: 1", "per_axis: 3"), ": fine occurs 1 times, but cells.per_axis = 3 requires 27");
   EXPECT_EQ(error("overlap: 0.25", ""), ": cells.overlap is missing");
   EXPECT_EQ(error("  offset:", "# "), ": rough.offset is missing");
   EXPECT_NE(error("common_rad: ", "common_rad: nan # ").find("is not a finite number"), std::string::npos);
