@@ -62,15 +62,6 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      "move the tool back with the robot's own controls, or start the slave with a larger command.workspace_m; "
      "then engage",
      By::kSystem},
-    {"joint too fast", "a joint reports an impossible speed", "check the encoder of the joint, then engage",
-     By::kSystem},
-    {"joint limit", "a joint is beyond its limit",
-     "move the joint back with the robot's own controls, then engage", By::kSystem},
-    {"robot moves", "the robot is not at rest", "wait until it is at rest, then engage", By::kSystem},
-    {"tool outside", "the tool is outside its workspace",
-     "move the tool back with the robot's own controls, or start the slave with a larger "
-     "command.workspace_m; then engage",
-     By::kSystem},
     {"sensor zeroing", "the force sensor is being zeroed",
      "keep the tool free of contact for sensing.zero_s, then engage", By::kSystem},
     {"surface approaching", "a surface is moving towards the robot", "engage, then retreat from the surface",
