@@ -1,5 +1,5 @@
 #pragma once
-// Longer help texts of the command line, and the options of `link set` with their fields.
+// The longer help texts of the command line, and the options of `link set` with the fields that they set.
 
 #include <array>
 
@@ -75,7 +75,7 @@ The address contains a token that changes with every start. A user with the addr
 page is not encrypted: across an untrusted network (--listen 0.0.0.0:8080) use ssh -L instead.
 Example: longreach view)";
 
-/// Options of `link set` with their fields.
+/// An option of `link set` and the field of proto::Impairment that it sets.
 struct FieldOption {
   const char* name;
   const char* field;

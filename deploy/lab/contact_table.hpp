@@ -1,6 +1,6 @@
 #pragma once
-// Reads a recording of a contact line by line, in the formats of spreadsheets, loggers and programs: JSON
-// objects, one per line, or CSV with a header:
+// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header as
+// written by spreadsheets, data loggers and programs:
 //   separator   comma, semicolon, tab, bar or spaces, detected in the header; a line `sep=;` is supported
 //   cells       may be quoted; a decimal comma is accepted if it cannot be a separator; `+0.1`, `1E-3`
 //   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
@@ -17,8 +17,8 @@ namespace longreach {
 
 struct ContactRow {
   double t_s = 0.0;
-  double x_m = 0.0;                   // penetration; 0 and below: free space
-  std::optional<double> v_m_per_s{};  // of x
+  double x_m = 0.0;                   // penetration; <= 0: free space
+  std::optional<double> v_m_per_s{};  // derivative of x
   double f_n = 0.0;                   // derivative of x
 };
 
