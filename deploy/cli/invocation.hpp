@@ -37,7 +37,7 @@ enum class Direction { kUp, kDown, kBoth };
 struct StatusCommand {};
 struct WatchCommand {
   double rate_hz = 4.0;
-  std::optional<std::uint64_t> count{};  // none: until Ctrl-C
+  std::optional<std::uint64_t> count{};  // number of updates; std::nullopt: until Ctrl-C
   bool plain = false;                    // one line per update, even on a terminal
 };
 /// Serves the page until Ctrl-C.
@@ -109,7 +109,7 @@ struct RobotCommand {
   enum class What { kShow, kDenavitHartenberg, kUrdf };
   What what = What::kShow;
   std::string file;
-  std::string base_link{}, tip_link{};  // links of a URDF between which the arm is
+  std::string base_link{}, tip_link{};  // first and last link of the arm in a URDF
   std::string picture{};                // SVG file to write; empty: none
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Delays and drops real packets with the kernel's NFQUEUE: the kernel stores the packets, and this class
-// decides whether and when each one is forwarded. It applies to the network namespace of the thread that
-// creates it.
+// decides whether and when each one is forwarded.
+// It applies to the network namespace of the thread that creates it.
 
 #include <chrono>
 #include <cstdint>

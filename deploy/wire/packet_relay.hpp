@@ -1,6 +1,7 @@
 #pragma once
-// Delays and drops packets on systems whose kernel has no NFQUEUE. Two network namespaces are connected by a
-// pair of TUN interfaces, and this class forwards every IP packet from one to the other.
+// Delays and drops packets on systems whose kernel has no NFQUEUE.
+// Two network namespaces are connected by TUN interfaces.
+// This class forwards every IP packet from one interface to the other.
 
 #include <sys/types.h>
 
@@ -31,8 +32,8 @@ class Descriptor {
 
 class PacketRelay {
  public:
-  /// Creates the interface `cable` in the network namespaces of two processes. Throws a std::runtime_error
-  /// with a one-sentence message if the kernel or the permissions do not allow it.
+  /// Creates the interface `cable` in the network namespaces of two processes.
+  /// Throws a std::runtime_error with a one-sentence message if the kernel or the permissions do not allow it.
   PacketRelay(const WireConfig& config, std::array<pid_t, 2> hosts);
 
   /// Waits for new packets or for the time at which a packet is due, at most 0.1 s, and processes them.

@@ -89,8 +89,8 @@ struct Arrival {
 struct Outcome {
   double off_m = 0.0;  // maximum distance of the tool from the path of the goal
   bool arrived = false;
-  bool hindered =
-      false;  // at the end the arm blocked itself, or its goal was out of reach, and it was reported
+  /// At the end the arm was blocked or its goal was out of reach, and this was reported.
+  bool hindered = false;
   Arrival from_rest{};  // from the time when the goal came to rest
   Arrival from_free{};  // from the last time that the arm reported being blocked
   /// Maximum distance of the tool from its goal while nothing was reported.

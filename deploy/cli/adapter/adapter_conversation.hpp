@@ -74,13 +74,13 @@ class Conversation {
       }
       while (const auto arrival = socket_.receive(due_ns + kPeriod_ns)) {
         take(*arrival, say != nullptr, seen);
-        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // a flood
+        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // the adapter floods this end
       }
     }
     return seen;
   }
 
-  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // in this session
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // datagrams sent in this session
   [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
   /// Number of invalid datagrams received, by reason.
   [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }

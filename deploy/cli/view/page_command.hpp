@@ -1,7 +1,7 @@
 #pragma once
 // A command from a page: one JSON object per message.
 //
-//   {"take": true}                     takes the hand; false: returns it
+//   {"take": true}                     takes control; false: returns it
 //   {"aim": [x, y, z], "turn": [x, y, z], "clutch": false, "grip": false}    m and rad from the handle's home
 //   {"do": "engage"}                   or "stop"
 //   {"mode": "rate"}                   or "position"

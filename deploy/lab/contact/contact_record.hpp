@@ -31,7 +31,7 @@ struct ContactCell {
   }
 };
 
-/// Returns the depth relative to the maximum depth, and its derivative in 1/s. The force is 0.
+/// Returns the depth relative to the maximum depth, and its derivative in 1/s. The force of the sample is 0.
 inline PenetrationSample motion(Excitation excitation, double t) {
   constexpr double w = 2.0 * std::numbers::pi;
   switch (excitation) {

@@ -15,7 +15,7 @@ namespace longreach {
 
 struct DelayLineConfig {
   int samples = 0;
-  /// Standard deviation; the delay is limited to 0 and to six standard deviations above the mean.
+  /// Standard deviation of the delay, which is clamped between 0 and six standard deviations above its mean.
   double jitter_samples = 0.0;
   double loss = 0.0;
 };

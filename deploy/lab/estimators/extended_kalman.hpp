@@ -18,7 +18,8 @@ class ExtendedKalman {
 
   void reset() { *this = ExtendedKalman(forgetting_); }
 
-  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
+  /// Adds a sample, whose x_m must be > 0. Returns the force minus the predicted force, N, or NaN if there is
+  /// no fit.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (!begun_) return begin(sample, force_variance_n2);
     const double log_xi = std::log(sample.x_m / fit_.reference_m);

@@ -12,7 +12,7 @@ namespace longreach {
 
 /// The motor angles for which the networks are trained, a cylinder about home: with d = θ - home and m the
 /// mean of d, |m| <= common and |d - m| <= differential. It is connected to home and contains no singular
-/// pose, so that all angles in it have exactly one orientation in home's assembly mode.
+/// pose, so that every triple of angles in it has exactly one orientation in home's assembly mode.
 struct SphericalWorkspace {
   Vector3 home_rad = Vector3::Zero();     // motor angles at home
   Quaternion q_home{1.0, 0.0, 0.0, 0.0};  // orientation at home

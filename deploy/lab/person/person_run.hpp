@@ -68,16 +68,16 @@ struct MoveSeen {
   double hand_m_per_s = 0.0;  // maximum speed of the handle
   /// Time from a motion of the goal by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
   double answer_s = -1.0;
-  bool engaged = true;         // at the end
+  bool engaged = true;         // engaged at the end
   bool cut = false;            // the stiffness was limited to the device's maximum
-  double tool_m_per_s2 = 0.0;  // maximum
+  double tool_m_per_s2 = 0.0;  // maximum acceleration of the tool
 };
 
 struct PersonSeen {
   std::vector<MoveSeen> move;
   double front_n = 0.0;  // maximum contact force while the goal was more than 0.5 mm in front of all surfaces
   double energy_min_j = 0.0;
-  double goal_m_per_s = 0.0;  // maximum
+  double goal_m_per_s = 0.0;  // maximum speed of the goal
 };
 
 PersonSeen run_person(const PersonScenario& scenario);

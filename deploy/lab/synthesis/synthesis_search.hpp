@@ -3,13 +3,14 @@
 // all margins of one design; evaluations for numerical gradients count too. The search is deterministic for a
 // given seed.
 //
-//   genetic     pagmo's `sga`: simulated binary crossover, polynomial mutation, tournament. A genetic
-//               algorithm proper; NLopt's evolutionary methods are evolution strategies. Constraints by Deb's
-//               rule (2000): feasible before infeasible, these by violation.
-//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence. Gradients by central
+//   genetic     pagmo's `sga` with simulated binary crossover, polynomial mutation and tournament selection.
+//               It is a genetic algorithm proper, unlike NLopt's evolutionary methods, which are evolution
+//               strategies. Constraints by Deb's rule (2000): feasible designs rank before infeasible ones,
+//               infeasible ones by their violation.
+//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence, with gradients by central
 //               differences.
-//   restarted   the same from further random starts until the budget is spent.
-//   genetic, then sequential: the first with four fifths of the budget, its best design starts the second.
+//   restarted   sequential, repeated from further random starts until the budget is spent.
+//   genetic, then sequential: genetic with four fifths of the budget, then sequential from its best design.
 //
 // Only `run_genetic` and `run_sequential`, each in its own file, depend on these libraries.
 
