@@ -2,7 +2,7 @@
 // Reference solution of a free impact on a Hunt-Crossley contact: evaluated from its integrals in long
 // double, without time steps.
 //   G(v) = v - ln(1 + v) in units of 1/a;  G(-e vi) = G(vi);  U(x_max) = m G(vi)
-//   duration: ∫dx/v from the surface to where v = vi/2 and back to it from -e vi/2, ∫dv/v̇ between.
+//   duration: ∫dx/v from the surface to v = vi/2, ∫dv/v̇ from there to v = -e vi/2, ∫dx/v back to the surface
 
 #include <cmath>
 

@@ -3,12 +3,12 @@
 // impacts. Each input line is a request, a JSON object; each output line is the result, or {"error": "..."}
 // if the request is invalid. Angles are in radians unless a key ends with _deg.
 //
-//   delta-ik        geometry, p                 -> {"theta": [[two roots] a leg]}
+//   delta-ik        geometry, p                 -> {"theta": [[two roots] per leg]}
 //   delta-fk        geometry, theta             -> {"solutions": [[x, y, z], ...]}
-//   delta-statics   geometry, p or theta, masses, gravity -> {"tau": [3]}    torques that hold the device
-//   spherical-ik    angles or axes, R           -> {"theta": [[two roots] a leg]}
+//   delta-statics   geometry, p or theta, masses, gravity -> {"tau": [3]}    motor torques that hold the device
+//   spherical-ik    angles or axes, R           -> {"theta": [[two roots] per leg]}
 //   spherical-fk    angles or axes, theta       -> {"solutions": [R, ...]}
-//                   and near                    -> {"R": 3x3, "iterations": n, "status": "FOUND"}
+//                   with the key near           -> {"R": 3x3, "iterations": n, "status": "FOUND"}
 //
 //   robot-fk        robot or dh, convention, q  -> {"X": 4x4, "J": 6x6}      angular rows of J first
 //   robot-ik        robot or dh, convention, X, near -> {"status", "solutions": [[6], ...], "nearest": [6],

@@ -1,11 +1,11 @@
 #pragma once
 // Figures of merit for the dimensions of a DELTA device, at a position and over a cube of positions:
 //
-//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (that of J⁻ᵀ, torques to forces, is equal; all
-//                  entries of J are lengths, so the length of the arm does not matter)
+//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (J⁻ᵀ, which maps torques to forces, has the same
+//                  conditioning; all entries of J are lengths, so that the size of the device does not matter)
 //   torque_i     = |J e_i|       torque of motor i for a unit force in its worst direction
-//   bend_i       = (l_i/arm)² = (ρ/rod)² (1 - cos²γ),  cos γ = (d² - arm² - (offset + ρ)²)/(2 arm (offset +
-//   ρ))
+//   bend_i       = (l_i/arm)² = (ρ/rod)² (1 - cos²γ)
+//                  cos γ = (d² - arm² - (offset + ρ)²)/(2 arm (offset + ρ))
 //
 // Here l_i is the lever arm, ρ the length of the rods projected onto the plane of the leg, d the distance
 // between platform joint and motor in that plane, and γ the angle between arm and forearm. bend becomes
