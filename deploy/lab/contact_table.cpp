@@ -104,7 +104,7 @@ std::string advice(char key, const std::string& cell) {
   return "";
 }
 
-/// Detects a preamble before the table. Only applies at the beginning.
+/// Rejects a first line that is the header of another file format.
 void refuse_heads(const std::string& line) {
   if (line.starts_with("LabVIEW Measurement"))
     throw BadRequest(

@@ -17,7 +17,7 @@ constexpr double kSlow_m_per_s = 0.05;  // a target that drifts at most at this 
 // Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
 // gives way.
 constexpr double kForceShare = 0.2;
-/// M/s²; the inertial force of the load is then three quarters of the force guard.
+/// Acceleration limit, m/s²: the inertial force of the load is then three quarters of the force guard.
 constexpr double kLoadAcceleration = 0.5;
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {

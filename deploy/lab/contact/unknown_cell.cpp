@@ -116,7 +116,7 @@ UnknownCell draw_light_cell(Random& random, std::size_t index) {
   cell.noise_n = 0.05;
   cell.tool_n = 0.5;
   cell.probe_share = 0.5;
-  // k in N/m^n such that the slope at 0.5 N is 260 to 1500 N/m.
+  // k is 260 to 1500 N/m^n; slope_n_per_m is the slope at 0.5 N.
   const double k = log_uniform(random, 260.0, 1500.0);
   cell.slope_n_per_m = cell.n * cell.tool_n / std::pow(cell.tool_n / k, 1.0 / cell.n);
   return cell;

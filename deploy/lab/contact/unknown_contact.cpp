@@ -91,7 +91,7 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
 
 class Press {
  public:
-  /// `noise_untold`: of the sensor's noise, times what it is told to be.
+  /// `noise_unreported` is the actual noise of the sensor relative to the configured noise.
   Press(const ExperimentRun& run, const UnknownCell& cell, double noise_unreported)
       : cell_(cell),
         more_noise_n_(std::sqrt(std::max(noise_unreported * noise_unreported - 1.0, 0.0)) * cell.noise_n),
@@ -193,8 +193,8 @@ class Press {
     result_.bound_sd = bound_.sd(depth(lab_.arm().true_pose().p));
   }
 
-  /// Where it is, without a movement of its own: a handle that still moves is in a limit cycle. One that is held
-  /// meanwhile, because the link was silent, is observed again.
+  /// Holds the hand at its present position: a handle that still moves is in a limit cycle. The observation
+  /// is repeated if the system holds meanwhile because of a link timeout.
   void hold_still() {
     HandTarget target{.grip = cell_.grip};
     const double stiffness = hand_model(cell_.grip).stiffness_n_per_m;

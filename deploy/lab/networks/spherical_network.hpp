@@ -22,7 +22,7 @@
 //
 //   network                   326 instructions    44 ns   2.6e-4 rad
 //   rough network, network    491                 95 ns   2.1e-4
-//   one Newton step           733                 92 ns   7.5e-7   from the pose of the previous tick, without a network
+//   one Newton step           733                 92 ns   7.5e-7   from the previous pose, without a network
 //   tracking (b)              870                126 ns   5e-15
 //   network, Newton step     1057                135 ns   3.4e-8
 //   rough network, Newton    1179                174 ns   1e-15    until convergence, without a previous pose
