@@ -12,7 +12,7 @@ namespace longreach {
 
 class Trace {
  public:
-  /// Creates FOLDER/NAME.csv. If the folder is empty, no file is written.
+  /// Creates FOLDER/NAME.csv. If `folder` is an empty path, no file is written.
   Trace(const std::filesystem::path& folder, std::string_view name,
         const std::vector<std::string_view>& columns);
 

@@ -16,12 +16,13 @@ struct DockingOutcome {
   double grasped_s = 0.0, latched_s = 0.0, ended_s = 0.0;
   /// Maximum contact force at the hand against the push, until the operator perceives the latch, N.
   double felt_success_n = 0.0;
-  double felt_mistake_n = 0.0;  // same, while the mistake is being made
+  double felt_mistake_n = 0.0;  // same, during the mistake
   double tool_force_max_n = 0.0;
   double target_speed_max_m_per_s = 0.0;
   double target_speed_end_m_per_s = 0.0;
   double port_energy_min_j = 0.0;
-  double energy_created_j = 0.0;  // by the scene: its energy and losses minus the work done on it
+  /// Energy created by the scene: stored energy plus losses minus the work done on it.
+  double energy_created_j = 0.0;
   std::uint64_t limit_violations = 0, unconverged = 0;
   bool ended = false;  // the operator finished
   /// True if there was no fault, stop or violated limit, every contact converged, the tool force stayed

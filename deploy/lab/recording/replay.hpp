@@ -18,7 +18,7 @@ namespace longreach {
 /// The first value that differs from the recording.
 struct ReplayDifference {
   std::uint64_t tick = 0;
-  double time_s = 0.0;  // since the first tick
+  double time_s = 0.0;  // time since the first tick
   std::string field;    // e.g. output.wrench.force_n.x
   std::string recorded, replayed;
 };

@@ -13,7 +13,7 @@ namespace longreach {
 
 /// One method of a stage, with one setting.
 struct TradePoint {
-  std::string series;   // one of the series of the stage
+  std::string series;   // name of its series, one of TradeStage::series
   std::string setting;  // setting within the series; empty: there is only one
   double cost = 0.0;    // > 0
   double error = 0.0;   // >= 0
@@ -35,7 +35,7 @@ struct TradeStage {
 /// expensive.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 
-// The stages. Each one has its own source file.
+// The stages. Each stage has its own source file.
 TradeStage trade_spherical_forward();
 TradeStage trade_delta_forward();
 TradeStage trade_arm_inverse();

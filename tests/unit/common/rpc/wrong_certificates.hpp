@@ -50,8 +50,8 @@ inline std::string tampered(const std::string& certificate_pem) {
   return out;
 }
 
-/// Returns a key pair with the public key of `public_pem` and the private key of `private_pem`: what an
-/// attacker has who copied a certificate without its key.
+/// Returns a key pair with the public key of `public_pem` and the private key of `private_pem`. An attacker
+/// who copied a certificate without its key could only use such a pair.
 inline std::string mismatched(const std::string& public_pem, const std::string& private_pem) {
   const auto read = [](const std::string& pem) {
     BIO* bio = reader(pem);
