@@ -97,7 +97,7 @@ struct RecordCommand {
 struct AdapterCheckCommand {
   bool robot = false;
   std::string address;
-  double force_n = 0.5;  // for a device
+  double force_n = 0.5;  // maximum commanded force of a device
   double move = 0.0;     // motion of a robot's first joint, rad or m
   bool push = false;     // check the pushes of the user on the tool of a robot instead
   std::string robot_file{};

@@ -47,7 +47,7 @@ class AdapterSocket {
   std::string path_;
   std::optional<uid_t> user_;
   mutable int fd_ = -1;    // -1: no process is listening
-  mutable int error_ = 0;  // of the last attempt to connect
+  mutable int error_ = 0;  // errno of the last attempt to connect
 };
 
 }  // namespace longreach

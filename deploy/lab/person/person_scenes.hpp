@@ -5,7 +5,7 @@
 
 namespace longreach {
 
-/// Maximum lead of the goal over a blocked robot, once the master knows that it is blocked.
+/// Maximum lead of the goal over a blocked robot, once this has been reported to the master.
 inline constexpr double kMostLead_m = 5e-3;
 inline constexpr double kNothing_n = 0.2;  // contact forces below this value count as zero
 
