@@ -1,7 +1,7 @@
-// An adapter of a haptic device, to copy: what stands in Device is to be replaced by calls to your hardware;
-// the rest keeps the rules of common/link/adapter_datagram.hpp. Here the device is simulated: a handle that
-// moves in three directions, held by a hand that rests at home or, with --push, pushes along x and comes
-// back.
+// An example adapter for a haptic device. Copy it and replace the content of the class Device with calls to
+// your hardware; the rest implements the rules of common/link/adapter_datagram.hpp. Here the device is
+// simulated: a handle with three degrees of freedom, held by a hand that rests at home or, with --push,
+// pushes along x and returns.
 //
 //   g++ -std=c++14 -O2 -I . device_adapter.cpp -o device-adapter    (with common/link/adapter_datagram.hpp in
 //   .)
@@ -31,18 +31,18 @@ namespace {
 
 using namespace longreach::adapter;
 
-constexpr double kPeriod_s = 1e-3;  // of this loop
+constexpr double kPeriod_s = 1e-3;  // period of this loop
 constexpr double kPi = 3.141592653589793;
 
-/// Your hardware. The figures are those of deploy/devices/desktop.txtpb with a light hand.
+/// Your hardware. The values are those of deploy/devices/desktop.txtpb with a light hand.
 class Device {
  public:
   explicit Device(double push_m) : push_m_(push_m) {}
 
-  /// Tells the motors what to make on the hand until the next call.
+  /// Commands the force on the hand, which the motors apply until the next call.
   void write(const double (&force_n)[3]) { std::copy_n(force_n, 3, force_n_); }
 
-  /// What the encoders say. Here a step of the simulation.
+  /// Reads the encoders. Here it advances the simulation by one step.
   void read(HandleDatagram& out) {
     time_s_ += kPeriod_s;
     for (int i = 0; i < 3; ++i) {
@@ -60,7 +60,7 @@ class Device {
   }
 
  private:
-  /// Where the hand wants the handle along x: at home for 5 s, out and back for 5 s.
+  /// Target of the hand along x, m: at home for 5 s, out and back for 5 s.
   double hand() const { return push_m_ * std::max(0.0, -std::sin(2.0 * kPi * time_s_ / 10.0)); }
 
   double push_m_;
@@ -68,7 +68,8 @@ class Device {
   double force_n_[3] = {}, x_m_[3] = {}, v_m_per_s_[3] = {};
 };
 
-/// The path that longreach connects to, and longreach: one program of this user, or root's.
+/// The socket at the path that longreach connects to. It accepts one program at a time, of this user or of
+/// root.
 class Socket {
  public:
   explicit Socket(const char* path) : fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
@@ -79,8 +80,8 @@ class Socket {
     const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
     const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
     ::close(other);
-    if (!taken && is_socket(path)) ::unlink(path);  // of a program that has ended
-    ::umask(077);                                   // nobody else may connect
+    if (!taken && is_socket(path)) ::unlink(path);  // left over from a process that has ended
+    ::umask(077);                                   // no other user may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path,
                    taken ? "another process already listens there" : std::strerror(errno));
@@ -92,7 +93,7 @@ class Socket {
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
 
-  /// The next datagram that is one; false: nothing more has come. Never waits.
+  /// Receives the next valid datagram. Returns false if there is none. Never blocks.
   template <class Datagram>
   bool receive(Datagram& out) {
     unsigned char bytes[2048];
@@ -149,7 +150,7 @@ std::uint64_t draw_session() {
   Device device(push_m);
   sched_param priority{};
   priority.sched_priority = 40;
-  sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
+  sched_setscheduler(0, SCHED_FIFO, &priority);  // if the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {
     WrenchDatagram in;
@@ -171,7 +172,7 @@ std::uint64_t draw_session() {
   }
 }
 
-/// NaN: it is none.
+/// Returns NaN if the text is not a finite number.
 double number_of(const char* text) {
   char* end = nullptr;
   const double number = std::strtod(text, &end);

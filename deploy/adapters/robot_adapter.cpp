@@ -1,7 +1,7 @@
-// An adapter of a robot, to copy: what stands in Robot is to be replaced by calls to your controller; the
-// rest keeps the rules of common/link/adapter_datagram.hpp. Here the robot is simulated: that of
-// deploy/robots/cartesian.txtpb, whose first three joints move the tool along z, y and x, and a wall of
-// 1000 N/m that it meets on its way along x.
+// An example adapter for a robot. Copy it and replace the content of the class Robot with calls to your
+// controller; the rest implements the rules of common/link/adapter_datagram.hpp. Here the robot is simulated:
+// it is that of deploy/robots/cartesian.txtpb, whose first three joints move the tool along z, y and x, with
+// a wall of 1000 N/m in the direction of x.
 //
 //   g++ -std=c++14 -O2 -I . robot_adapter.cpp -o robot-adapter    (with common/link/adapter_datagram.hpp in
 //   .)
@@ -31,7 +31,7 @@ namespace {
 
 using namespace longreach::adapter;
 
-constexpr double kPeriod_s = 1e-3;  // of this loop
+constexpr double kPeriod_s = 1e-3;  // period of this loop
 constexpr double kPi = 3.141592653589793;
 
 /// Your robot.
@@ -39,18 +39,19 @@ class Robot {
  public:
   explicit Robot(double wall_m) : wall_m_(wall_m) {}
 
-  /// Where the joints go until the next call.
+  /// Sets the setpoint of the joints until the next call.
   void follow(const double (&joint_rad)[kJoints]) {
     std::copy_n(joint_rad, kJoints, setpoint_m_);
     stopped_ = false;
   }
-  /// The joints stay where they are.
+  /// Stops the joints at their present positions.
   void stop() {
     if (!stopped_) std::copy_n(joint_m_, kJoints, setpoint_m_);
     stopped_ = true;
   }
 
-  /// What encoders and force sensor say. Here a step of the simulation: servos of 10 Hz, 0.5 m/s at most.
+  /// Reads the encoders and the force sensor. Here it advances the simulation by one step, with servos of 10
+  /// Hz and a maximum speed of 0.5 m/s.
   void read(RobotDatagram& out) {
     for (int i = 0; i < 3; ++i) {
       constexpr double kServo_per_s = 2.0 * kPi * 10.0, kFastest_m_per_s = 0.5;
@@ -63,7 +64,7 @@ class Robot {
     out.flags = RobotDatagram::kOk | (stopped_ ? RobotDatagram::kStopped : 0U);
     std::copy_n(joint_m_, kJoints, out.joint_rad);
     std::copy_n(speed_m_per_s_, kJoints, out.joint_rad_per_s);
-    out.force_n[2] = -std::max(0.0, push_n);  // z of the tool is x of the world
+    out.force_n[2] = -std::max(0.0, push_n);  // z of the tool frame is x of the world frame
   }
 
  private:
@@ -72,7 +73,8 @@ class Robot {
   double setpoint_m_[kJoints] = {}, joint_m_[kJoints] = {}, speed_m_per_s_[kJoints] = {};
 };
 
-/// The path that longreach connects to, and longreach: one program of this user, or root's.
+/// The socket at the path that longreach connects to. It accepts one program at a time, of this user or of
+/// root.
 class Socket {
  public:
   explicit Socket(const char* path) : fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
@@ -83,8 +85,8 @@ class Socket {
     const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0);
     const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
     ::close(other);
-    if (!taken && is_socket(path)) ::unlink(path);  // of a program that has ended
-    ::umask(077);                                   // nobody else may connect
+    if (!taken && is_socket(path)) ::unlink(path);  // left over from a process that has ended
+    ::umask(077);                                   // no other user may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path,
                    taken ? "another process already listens there" : std::strerror(errno));
@@ -96,7 +98,7 @@ class Socket {
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
 
-  /// The next datagram that is one; false: nothing more has come. Never waits.
+  /// Receives the next valid datagram. Returns false if there is none. Never blocks.
   template <class Datagram>
   bool receive(Datagram& out) {
     unsigned char bytes[2048];
@@ -153,7 +155,7 @@ std::uint64_t draw_session() {
   Robot robot(wall_m);
   sched_param priority{};
   priority.sched_priority = 40;
-  sched_setscheduler(0, SCHED_FIFO, &priority);  // where the system permits it
+  sched_setscheduler(0, SCHED_FIFO, &priority);  // if the system permits it
   auto due = std::chrono::steady_clock::now();
   for (;;) {
     SetpointDatagram in;
@@ -178,7 +180,7 @@ std::uint64_t draw_session() {
   }
 }
 
-/// NaN: it is none.
+/// Returns NaN if the text is not a finite number.
 double number_of(const char* text) {
   char* end = nullptr;
   const double number = std::strtod(text, &end);

@@ -1,5 +1,6 @@
 #pragma once
-// Checks of command-line arguments that must be numbers or addresses. They throw UsageError.
+// Checks of command-line arguments that must be numbers or addresses. They throw a UsageError if the argument
+// is invalid.
 
 #include <optional>
 #include <string>

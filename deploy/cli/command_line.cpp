@@ -19,7 +19,7 @@
 namespace longreach {
 namespace {
 
-/// Texts as they were typed, before they are judged.
+/// The arguments as typed, before they are validated.
 struct Words {
   std::string master{kMasterRpcAddress}, slave{kSlaveRpcAddress}, timeout{};
   std::string hz = "4", count{};
@@ -36,7 +36,7 @@ struct Words {
   bool push = false;
 };
 
-/// The command line's grammar: declared once, then asked for what was found.
+/// The grammar of the command line. It is declared once and then queried for the parsed options.
 class Grammar {
  public:
   Grammar();
@@ -104,7 +104,7 @@ Grammar::Grammar() {
 CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string& help, const char* more) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->footer(more);
-  command->fallthrough();  // --json and --timeout also behind the command
+  command->fallthrough();  // accepts --json and --timeout after the command, too
   return command;
 }
 

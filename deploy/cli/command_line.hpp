@@ -1,5 +1,5 @@
 #pragma once
-// Parses the command line to an Invocation; help and version texts.
+// Parses the command line into an Invocation, or into the help or version text to print.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace longreach {
 
-/// Text to print instead of carrying out a command: help or version.
+/// Help or version text that is printed instead of running a command.
 struct Printout {
   std::string text;
   ExitStatus exit = ExitStatus::kDone;

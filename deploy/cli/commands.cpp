@@ -70,7 +70,7 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
     if (!status.has_scale())
       throw SideError(SideError::Kind::kRefused,
                       "the master does not report the scale: give a number instead of up or down");
-    // To the grid of 1e-6, so that steps up and down come back to where they began.
+    // Rounds to multiples of 1e-6, so that equal numbers of steps up and down return to the initial value.
     const double stepped = status.scale() + command.steps * kScaleStep;
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
   }
@@ -79,7 +79,7 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   return ExitStatus::kDone;
 }
 
-/// The error of a side that could not be stopped; none when it could.
+/// Returns the error if a side could not be stopped.
 std::optional<SideError> try_stop(Side side, const Options& options) {
   try {
     SideClient(side, options).stop();
@@ -100,8 +100,8 @@ ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   return ExitStatus::kDone;
 }
 
-/// Asks, and waits for what comes of it: at most a round trip and a second, after which the master has a
-/// reason.
+/// Requests an engagement and waits for the result. After a round trip and two seconds at most, the master
+/// has engaged or reports the reason why not.
 ExitStatus run_engage(const Options& options) {
   using std::chrono::steady_clock;
   constexpr double kBesides_s = 2.0;
@@ -127,7 +127,7 @@ ExitStatus run_engage(const Options& options) {
 }  // namespace
 
 std::string stop_sides(const Options& options) {
-  // At the same time: a side that does not answer must not delay the other one's stop.
+  // In parallel, so that a side that does not respond does not delay the stop of the other.
   auto slave = std::async(std::launch::async, try_stop, Side::kSlave, options);
   const auto master_error = try_stop(Side::kMaster, options);
   const auto slave_error = slave.get();

@@ -1,5 +1,5 @@
 #pragma once
-// Carries out the command. Prints the answer; throws SideError, UsageError or ConfigError on failure.
+// Runs the command and prints the result. Throws SideError, UsageError or ConfigError on failure.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace longreach {
 
 ExitStatus run(const Invocation& invocation);
 
-// One file per command.
+// Each of these commands has its own source file.
 ExitStatus run_watch(const Options& options, const WatchCommand& command);
 ExitStatus run_view(const Options& options, const ViewCommand& command);
 ExitStatus run_doctor(const Options& options, const DoctorCommand& command);
@@ -22,15 +22,15 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command);
 ExitStatus run_link_show(const Options& options);
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
 
-/// Changes both directions or none: a changed direction is restored if the other one refuses. Returns a
+/// Changes both directions or neither: if the second side refuses, the first is restored. Returns a
 /// description of the change.
 std::string set_link(const Options& options, const LinkSetCommand& command);
-/// Done when one of them has answered. Returns a description of the change.
+/// Stops both sides; it is enough if one of them responds. Returns a description of what was stopped.
 std::string stop_sides(const Options& options);
 
-/// Prints a description of the change: a sentence, or {"done": ...}.
+/// Prints a description of the change as a sentence, or with JSON as {"done": ...}.
 void print_done(const Options& options, const std::string& sentence);
-/// Prints an error: a sentence on stderr, and with JSON {"error": ...} on stdout.
+/// Prints an error as a sentence on stderr and, with JSON, also as {"error": ...} on stdout.
 void print_error(bool json, const std::string& sentence);
 
 }  // namespace longreach

@@ -13,7 +13,7 @@ namespace longreach {
 namespace {
 
 constexpr std::size_t kBarWidth = 40;
-constexpr std::size_t kTextColumn = 28;  // of what was found
+constexpr std::size_t kTextColumn = 28;  // of the result
 
 std::string_view name_of(FindingVerdict verdict) {
   switch (verdict) {
@@ -32,7 +32,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-/// At spaces, so that a line fits a terminal of 110 columns.
+/// Wraps a text at spaces, so that its lines fit a terminal with 110 columns.
 std::string wrapped(const std::string& text, std::size_t column) {
   constexpr std::size_t kColumns = 110;
   std::string out;
@@ -72,7 +72,7 @@ std::string bars_text(const Histogram& histogram) {
   return out;
 }
 
-/// 1, 2, 5 a decade; steps of one size where everything lies close together.
+/// Bounds of 1, 2 and 5 per decade, or equal steps if all values are close to each other.
 std::vector<double> edges(double least, double most) {
   constexpr double kBarsMax = 8.0, kFinest = 0.01;
   std::vector<double> out, steps;

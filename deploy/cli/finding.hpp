@@ -1,5 +1,6 @@
 #pragma once
-// Findings of the doctor and their output: a line per finding for users, one JSON object for programs. Pure.
+// Findings of the checks (doctor, adapter check), printed as one line per finding for users or as one JSON
+// object for programs. Pure functions.
 
 #include <cstdint>
 #include <string>
@@ -9,21 +10,21 @@ namespace longreach {
 
 enum class FindingVerdict { kOk, kWarning, kFailure };
 
-/// Number of occurrences of a time.
+/// Histogram of a duration.
 struct Histogram {
   struct Bar {
     double up_to_s = 0.0;
     std::uint64_t count = 0;
   };
-  std::vector<Bar> bars{};  // ascending; the last one may be unbounded
+  std::vector<Bar> bars{};  // in ascending order; the last bar may be unbounded
 };
-/// Groups the times into bars up to 1, 2, 5, 10, ..., or, if all are within a factor of 2.5, into bars of
-/// equal width. Without times: no bars.
+/// Groups the times into bars with upper bounds 1, 2, 5, 10, ... or, if all times are within a factor of 2.5,
+/// into bars of equal width. Returns no bars if there are no times.
 Histogram histogram_of(const std::vector<double>& times_s);
 
 struct Finding {
   FindingVerdict verdict = FindingVerdict::kOk;
-  std::string what;      // subject of the check, a word or two
+  std::string what;      // subject of the check, one or two words
   std::string text;      // result
   std::string advice{};  // remedy; empty: none
   Histogram histogram{};
@@ -38,7 +39,7 @@ using Diagnosis = std::vector<Section>;
 
 std::uint64_t count(const Diagnosis& diagnosis, FindingVerdict verdict);
 std::string diagnosis_text(const Section& section);
-/// "14 ok, 1 warning, 0 failures"
+/// Returns for example "14 ok, 1 warning, 0 failures".
 std::string diagnosis_summary(const Diagnosis& diagnosis);
 std::string diagnosis_json(const Diagnosis& diagnosis);
 

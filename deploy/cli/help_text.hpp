@@ -1,5 +1,5 @@
 #pragma once
-// Longer help texts of the command line, and the options of `link set` with their fields.
+// The longer help texts of the command line, and the options of `link set` with the fields that they set.
 
 #include <array>
 
@@ -80,7 +80,7 @@ Every user who knows the address can move the robot, so keep it secret. The page
 untrusted network use ssh -L, not --listen 0.0.0.0:8080.
 Example: longreach view)";
 
-/// Options of `link set` with their fields.
+/// An option of `link set` and the field of proto::Impairment that it sets.
 struct FieldOption {
   const char* name;
   const char* field;

@@ -1,5 +1,5 @@
 #pragma once
-// A parsed command line, validated as far as possible here.
+// A parsed command line. Everything that can be checked without connecting to a side has been validated.
 
 #include <cstdint>
 #include <optional>
@@ -20,25 +20,25 @@ constexpr std::string_view name_of(Side side) { return side == Side::kMaster ? "
 
 enum class ExitStatus : int {
   kDone = 0,
-  kFailed = 1,  // refused, or a side does not answer
+  kFailed = 1,  // refused, or a side did not respond
   kUsage = 2,   // invalid usage or value
 };
 
-/// Invalid usage or value: one sentence for the user.
+/// An invalid usage or value. The message is one sentence for the user.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A direction of the link: up is master to slave and is set at the slave, down is slave to master and is set
-/// at the master.
+/// A direction of the link: "up" is from master to slave and is configured at the slave; "down" is from slave
+/// to master and is configured at the master.
 enum class Direction { kUp, kDown, kBoth };
 
 struct StatusCommand {};
 struct WatchCommand {
   double rate_hz = 4.0;
-  std::optional<std::uint64_t> count{};  // none: until Ctrl-C
-  bool plain = false;                    // a line per update, also on a terminal
+  std::optional<std::uint64_t> count{};  // number of updates; std::nullopt: until Ctrl-C
+  bool plain = false;                    // one line per update, even on a terminal
 };
 /// Serves the page until Ctrl-C.
 struct ViewCommand {
@@ -53,34 +53,34 @@ struct SetCommand {
   std::vector<std::pair<std::string, std::string>> assignments;  // path, value
 };
 struct LinkShowCommand {};
-/// Also used by blackout and clear, which change some fields and all fields.
+/// Also used by `link blackout`, which changes some fields, and by `link clear`, which resets all of them.
 struct LinkSetCommand {
   Direction direction = Direction::kBoth;
-  std::optional<std::string> profile{};  // replaces the direction before `fields` are applied
-  bool clear = false;                    // likewise, with an unimpaired link
-  proto::Impairment fields;              // for each affected direction
+  std::optional<std::string> profile{};  // replaces all fields of the direction before `fields` are applied
+  bool clear = false;                    // resets all fields before `fields` are applied
+  proto::Impairment fields;              // applied to each affected direction
 };
 struct ModeCommand {
   proto::Mapping::Mode mode = proto::Mapping::POSITION;
 };
 struct ScaleCommand {
   std::optional<double> value{};
-  int steps = 0;  // of 0.05, if there is no value
+  int steps = 0;  // number of steps of 0.05, used if there is no value
 };
 struct EngageCommand {};
 struct StopCommand {};
-/// This host joins the site of the slave that issued the token.
+/// Adds this host to the site of the slave that issued the token.
 struct PairCommand {
   std::string token_file;  // -: standard input; empty: prompt on the terminal
-  bool replace = false;    // an existing site is moved away
-  bool list = false;       // only list the paired hosts
+  bool replace = false;    // move an existing site folder out of the way
+  bool list = false;       // only lists the paired hosts
 };
 /// Revokes the certificates of paired hosts.
 struct UnpairCommand {
-  std::vector<std::string> names;  // of hosts, or fingerprints
+  std::vector<std::string> names;  // names of hosts, or fingerprints
 };
 
-/// `seconds`: duration of the measurement.
+/// Checks this host and both sides. `seconds` is the duration of the measurement.
 struct DoctorCommand {
   double seconds = 2.0;
 };
@@ -88,29 +88,29 @@ struct DoctorCommand {
 struct RecordCommand {
   enum class What { kStart, kStop, kList, kExport };
   What what = What::kStart;
-  std::string name;                  // for start; empty: the time
-  double max_mb = 4096.0;            // likewise
-  std::vector<std::string> files{};  // to export
-  std::string folder;                // to list or export to; empty: the default folder
+  std::string name;                  // for kStart; empty: the present time
+  double max_mb = 4096.0;            // for kStart: maximum size of the recording
+  std::vector<std::string> files{};  // for kExport
+  std::string folder;                // folder to list or to export to; empty: the default folder
 };
-/// Tests an adapter of a device or a robot.
+/// Checks the adapter of a device or a robot.
 struct AdapterCheckCommand {
   bool robot = false;
   std::string address;
-  double force_n = 0.5;  // for a device
-  double move = 0.0;     // for a robot's first joint, rad or m
-  bool push = false;     // instead: the user pushes the tool of a robot
+  double force_n = 0.5;  // maximum commanded force of a device
+  double move = 0.0;     // motion of a robot's first joint, rad or m
+  bool push = false;     // check the pushes of the user on the tool of a robot instead
   std::string robot_file{};
-  double push_timeout_s = 30.0;  // for each push
+  double push_timeout_s = 30.0;  // time limit for each push
 };
 
-/// A robot's file is shown, or written in the other form.
+/// Shows a robot file, or converts it between Denavit-Hartenberg rows and URDF.
 struct RobotCommand {
   enum class What { kShow, kDenavitHartenberg, kUrdf };
   What what = What::kShow;
   std::string file;
-  std::string base_link{}, tip_link{};  // of a URDF
-  std::string picture{};                // file for an SVG; empty: none
+  std::string base_link{}, tip_link{};  // first and last link of the arm in a URDF
+  std::string picture{};                // SVG file to write; empty: none
 };
 
 using Command =
@@ -121,10 +121,10 @@ using Command =
 struct Options {
   std::string master_address;  // host:port of its RPC server
   std::string slave_address;
-  double timeout_s = 3.0;  // for each call, including the connection
+  double timeout_s = 3.0;  // for each call, including connecting
   bool json = false;
   std::string site{};     // folder of the certificates; empty: the default folder
-  bool insecure = false;  // unencrypted, on this machine
+  bool insecure = false;  // no encryption; only for sides on this machine
 };
 
 struct Invocation {

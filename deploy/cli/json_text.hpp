@@ -1,6 +1,6 @@
 #pragma once
-// JSON of the client's answers, one object per line. Names are those of the protobuf fields. Fields that are
-// not set are included with their defaults, so that the set of keys is stable; 64-bit counts are strings, as
+// The client's output as JSON, one object per line. The keys are the names of the protobuf fields. Unset
+// fields are included with their defaults, so that the set of keys is stable. 64-bit integers are strings, as
 // in all protobuf JSON.
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace longreach {
 
-/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
+/// Returns `text` as a JSON string with its quotes. Bytes that are not valid UTF-8 become U+FFFD.
 std::string json_string(std::string_view text);
 std::string json_object(const google::protobuf::Message& message);
 
-/// {"master": {...}, "slave": {...}}; null for a side that is down, and then "error" with the reason.
+/// Returns {"master": {...}, "slave": {...}}. A side that is down is null, and "error" gives the reason.
 std::string status_json(const BothReports& reports);
 
 }  // namespace longreach

@@ -1,4 +1,4 @@
-// Showing and changing the impairment of both directions.
+// Shows and changes the impairment of both directions.
 
 #include <future>
 #include <iostream>
@@ -16,7 +16,7 @@
 namespace longreach {
 namespace {
 
-/// The change of one direction at the side that it is set at.
+/// The change of one direction at the side where it is configured.
 struct Change {
   Change(Side the_side, const Options& options, bool replaces, proto::Impairment the_fields)
       : side(the_side), replace(replaces), fields(std::move(the_fields)), client(side, options) {}
@@ -39,7 +39,7 @@ std::vector<Change> changes_of(const Options& options, const LinkSetCommand& com
   validate(up);
   validate(down);
   std::vector<Change> changes;
-  // The slave first: what only the robot's side refuses then needs no putting back.
+  // The slave comes first: a change that only the slave refuses then need not be restored at the master.
   if (command.direction != Direction::kDown)
     changes.emplace_back(Side::kSlave, options, replace, std::move(up));
   if (command.direction != Direction::kUp)
@@ -47,7 +47,7 @@ std::vector<Change> changes_of(const Options& options, const LinkSetCommand& com
   return changes;
 }
 
-/// Fetches what is there now, and by that finds out that every side answers and agrees to be that side.
+/// Fetches the present impairments. This also checks that every side responds and is the expected one.
 void look(std::vector<Change>& changes) {
   for (Change& change : changes) {
     change.client.status();
@@ -55,7 +55,7 @@ void look(std::vector<Change>& changes) {
   }
 }
 
-/// What became of the directions that had been changed before `error`.
+/// Restores the directions that were already changed, and describes the outcome.
 std::string put_back(std::vector<Change>& changes, std::size_t changed) {
   std::string outcome;
   for (std::size_t i = 0; i < changed; ++i) {
@@ -117,7 +117,8 @@ ExitStatus run_link_show(const Options& options) {
   return ExitStatus::kFailed;
 }
 
-/// What the change does to a robot that is engaged; empty: nothing, or the master cannot be asked.
+/// Describes the effect of the change on an engaged robot. Empty if there is none or if the master does not
+/// respond.
 std::string what_follows(const Options& options, std::vector<Change>& changes) try {
   double rise_s = 0.0;
   for (Change& change : changes) rise_s += change.client.link().delay_s() - change.before.delay_s();

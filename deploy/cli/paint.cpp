@@ -25,7 +25,7 @@ std::string in_code(std::string_view code, std::string_view text) {
 
 std::string painted(std::string_view row) {
   std::string out;
-  // A label ends where the columns begin.
+  // The label ends where the columns begin.
   const std::size_t label = row.starts_with(' ') ? std::string_view::npos : row.find("  ");
   if (label != std::string_view::npos) {
     out = in_code("2", row.substr(0, label));

@@ -1,12 +1,12 @@
 #pragma once
-// Colours for rows of the status table: dim labels, states in green, yellow or red. Pure.
+// Colours for the rows of the status table: dim labels, and states in green, yellow or red. Pure function.
 
 #include <string>
 #include <string_view>
 
 namespace longreach {
 
-/// Returns `row` without its newline, with ANSI colours and unchanged width.
+/// Returns `row`, given without its newline, with ANSI colours. Its visible width does not change.
 std::string painted(std::string_view row);
 
 }  // namespace longreach

@@ -1,4 +1,4 @@
-// This host joins another one's site; who has joined this one's, and who is no longer welcome.
+// Adds this host to the site of another host, lists the hosts paired with this one's site, and revokes them.
 
 #include <sys/stat.h>
 #include <termios.h>
@@ -26,7 +26,7 @@ std::filesystem::path site_of(const Options& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Without an echo while it lives, where that can be had.
+/// Switches off the echo of the terminal during its lifetime, if there is a terminal.
 class Silence {
  public:
   Silence() : known_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -72,7 +72,7 @@ std::string read_token(const std::string& file) {
   return token;
 }
 
-/// As a shell reads it.
+/// Quotes a text for a shell.
 std::string shell_word(const std::string& text) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:@%,";
   if (text.find_first_not_of(kPlain) == std::string::npos) return text;
@@ -119,7 +119,7 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command) {
 ExitStatus run_pair(const Options& options, const PairCommand& command) {
   if (command.list) return list_paired(options);
   const std::filesystem::path site = site_of(options);
-  // Before the token is spent.
+  // Checked before the token is used up.
   if (site_exists(site) && !command.replace)
     throw PairingError("this host already has a site at " + site.string() +
                        "; move it aside with --replace, or choose another folder with --site DIR");

@@ -47,7 +47,7 @@ SideError wrong_side(Side side, const Options& options, const std::string& found
                                          ", not the " + name + ": correct --" + name};
 }
 
-/// Throws when what answers is another side than the one that was meant.
+/// Throws if the side that responds is not the expected one.
 void check_side(Side side, const Options& options, const proto::Status& status) {
   if (!status.has_side() || status.side() == name_of(side)) return;
   throw wrong_side(side, options, status.side());
@@ -187,7 +187,7 @@ struct StatusStream::State {
         silence_max(options.timeout_s + 2.0 / rate_hz),
         stub(proto::Control::NewStub(connect(side, options))) {}
 
-  /// Reads one stream until it ends.
+  /// Reads a stream until it ends.
   void read() {
     grpc::ClientContext context;
     {
@@ -237,7 +237,7 @@ struct StatusStream::State {
   const Side side;
   const Options options;
   const double rate_hz;
-  const Seconds silence_max;  // a stream that says nothing for longer counts as down
+  const Seconds silence_max;  // a stream without a message for longer counts as down
   const std::unique_ptr<proto::Control::Stub> stub;
   std::mutex mutex;
   std::condition_variable changed;

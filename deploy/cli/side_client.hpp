@@ -1,5 +1,5 @@
 #pragma once
-// RPC client of one side. Every call ends after the timeout at the latest, including the connection.
+// RPC client of one side. Every call, including connecting, returns within the timeout.
 
 #include <memory>
 #include <optional>
@@ -20,13 +20,13 @@ class Status;
 
 namespace longreach {
 
-/// A call that was not carried out: one sentence that names the side.
+/// A call that failed. The message is one sentence that names the side.
 class SideError : public std::runtime_error {
  public:
   enum class Kind {
-    kDown,      // no answer: the request may or may not have been carried out
-    kRefused,   // not in this state, or not by this side: nothing has changed
-    kBadValue,  // invalid: nothing has changed
+    kDown,      // no reply: the request may or may not have been executed
+    kRefused,   // not possible in this state or on this side; nothing has changed
+    kBadValue,  // invalid value; nothing has changed
   };
   SideError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   [[nodiscard]] Kind kind() const { return kind_; }
@@ -35,7 +35,7 @@ class SideError : public std::runtime_error {
   Kind kind_;
 };
 
-/// For calls that SideClient does not have.
+/// `connect` and `failure` are for calls that SideClient does not provide.
 std::shared_ptr<grpc::Channel> connect(Side side, const Options& options);
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
                   const grpc::Status& status);
@@ -46,8 +46,8 @@ class SideClient {
   SideClient(SideClient&&) noexcept;
   ~SideClient();
 
-  // All throw SideError. Functions that return a text return the answer of the side.
-  proto::Status status();  // also if another side answers at the address
+  // All functions throw SideError. Those that return a string return the reply of the side.
+  proto::Status status();  // throws SideError even if the other side responds at the address
   std::string get(const std::string& path);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
@@ -64,15 +64,15 @@ class SideClient {
   std::unique_ptr<State> state_;
 };
 
-/// Information about a side: its status, or why there is none.
+/// The status of a side, or the reason why there is none.
 struct SideReport {
   Side side = Side::kMaster;
   std::string address;
   std::optional<proto::Status> status{};
-  std::string error;  // one sentence, if there is no status
+  std::string error;  // the reason as one sentence; empty if there is a status
 };
 
-/// The newest status of a side, read by a separate thread, which reconnects when the side is available again.
+/// The newest status of a side. A thread of its own reads it and reconnects when the side is available again.
 class StatusStream {
  public:
   StatusStream(Side side, const Options& options, double rate_hz);
@@ -81,7 +81,7 @@ class StatusStream {
   StatusStream& operator=(const StatusStream&) = delete;
 
   [[nodiscard]] SideReport newest() const;
-  /// Returns when there is a status or a reason why there is none: within the timeout.
+  /// Waits until there is a status or a reason why there is none, at most for the timeout.
   void wait_for_first() const;
 
  private:

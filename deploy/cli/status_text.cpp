@@ -59,7 +59,7 @@ std::string energy(const Status& status) {
   return with_unit(status.energy_j(), "J") + ", minimum " + with_unit(status.energy_min_j(), "J");
 }
 
-/// A row of the table: how a side's status fills its cell; empty where it does not know.
+/// A row of the table. The function returns the cell for a side's status; empty if it is unknown.
 struct Row {
   const char* label;
   std::string (*cell)(const Status&);
@@ -135,7 +135,8 @@ std::uint64_t count_of(const SideReport& report, const std::string& name) {
   return 0;
 }
 
-/// One line for each counter that is not zero on some side, in the order in which the sides name them.
+/// Adds one line for each counter that is not zero on at least one side, in the order in which the sides
+/// report them.
 void add_counters(const BothReports& reports, std::vector<Line>& lines) {
   std::vector<std::string> seen;
   for (const SideReport* report : {&reports.master, &reports.slave}) {
@@ -189,7 +190,7 @@ std::string with_unit(double value, std::string_view unit) {
     const char* letter;
   };
   constexpr std::array<Prefix, 2> kSmall{{{1e3, "m"}, {1e6, "u"}}};
-  // Rounding of a sum is no figure.
+  // Removes digits that are only rounding errors of a sum.
   if (std::abs(value) < 1e-12) value = 0.0;
   double shown = value;
   std::string prefix;

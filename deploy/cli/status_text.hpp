@@ -1,5 +1,5 @@
 #pragma once
-// Status of both sides as text: a table for users, one line for logs, JSON for programs. Pure.
+// The status of both sides as text: a table for users and a single line for logs. Pure functions.
 
 #include <string>
 #include <string_view>
@@ -13,14 +13,15 @@ struct BothReports {
   SideReport slave;
 };
 
-/// Two columns, one row per quantity; unknown rows are omitted. Does not include why a side is down.
+/// A table with one column per side and one row per quantity. Unknown quantities are omitted. It does not say
+/// why a side is down.
 std::string status_table(const BothReports& reports);
-/// One line without its newline.
+/// The status as one line without a newline.
 std::string status_line(const BothReports& reports);
 
-/// Text of an impairment: "delay 650 ms, loss 2 %"; "none" if nothing is impaired.
+/// Describes an impairment, for example "delay 650 ms, loss 2 %", or "none" for an unimpaired link.
 std::string in_words(const proto::Impairment& impairment);
-/// A quantity with its SI prefix (m, u or none) and four digits: "650 ms".
+/// Formats a quantity with four significant digits and an SI prefix (m, u or none), for example "650 ms".
 std::string with_unit(double value, std::string_view unit);
 
 }  // namespace longreach

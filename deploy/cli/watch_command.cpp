@@ -1,4 +1,4 @@
-// The live view: a table that is redrawn in place on a terminal, a line an update elsewhere.
+// longreach watch: a table that is redrawn in place on a terminal, or one line per update elsewhere.
 
 #include <pthread.h>
 #include <sys/ioctl.h>
@@ -22,17 +22,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ctrl-C and the wish to end, turned from an interruption into something to wait for.
+/// Blocks SIGINT and SIGTERM, so that they can be waited for.
 class EndRequest {
  public:
-  /// Before the first thread: threads inherit the blocked signals.
+  /// Create it before the first thread, because threads inherit the blocked signals.
   EndRequest() {
     sigemptyset(&signals_);
     sigaddset(&signals_, SIGINT);
     sigaddset(&signals_, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
-  /// True as soon as the end is asked for, false at `due`.
+  /// Returns true as soon as such a signal arrives, or false at `due`.
   [[nodiscard]] bool wait_until(Clock::time_point due) const {
     const auto left = std::max(due - Clock::now(), Clock::duration::zero());
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
@@ -45,10 +45,11 @@ class EndRequest {
   sigset_t signals_{};
 };
 
-/// Draws a text over the one before, in one write: no clearing, so no flicker.
+/// Draws a text over the previous one in a single write, without clearing the screen, so that it does not
+/// flicker.
 class TerminalArea {
  public:
-  explicit TerminalArea(bool color) : color_(color) { std::cout << "\x1b[?25l"; }  // no cursor
+  explicit TerminalArea(bool color) : color_(color) { std::cout << "\x1b[?25l"; }  // hides the cursor
   ~TerminalArea() { std::cout << "\x1b[?25h" << std::flush; }
   TerminalArea(const TerminalArea&) = delete;
   TerminalArea& operator=(const TerminalArea&) = delete;
@@ -62,7 +63,7 @@ class TerminalArea {
     rows_ = 0;
     while (!text.empty() && rows_ < rows_max) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      // A line that wraps would count twice.
+      // Lines are cut to the width, because a wrapped line would count twice.
       const std::string_view row = text.substr(0, std::min(end, columns_max));
       out += (color_ ? painted(row) : std::string(row)) + "\x1b[K\n";
       text.remove_prefix(std::min(end + 1, text.size()));

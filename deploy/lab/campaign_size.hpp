@@ -1,5 +1,6 @@
 #pragma once
-// Number of samples of a property: all with LONGREACH_FULL set in the environment, otherwise a small number.
+// Number of samples of a statistical test or experiment: `full` if LONGREACH_FULL is set in the environment,
+// otherwise the small number `smoke`.
 
 #include <cstdlib>
 

@@ -7,7 +7,7 @@ namespace longreach {
 
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder, const std::filesystem::path& from) {
-  // What chooses other fields comes before them.
+  // Settings that select other fields are applied before them.
   const auto chooses = [](std::string_view setting) {
     const std::string_view path = setting.substr(0, setting.find('='));
     return path == "profile" || path.ends_with("accuracy") || path.ends_with("device_file") ||
@@ -27,7 +27,7 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
   for (const std::string& setting : settings) {
     if (!chooses(setting)) set_lab_field(config, placed_setting(setting, search, from));
   }
-  resolve_files(*config.mutable_slave(), search, nullptr);  // once more for what the settings changed
+  resolve_files(*config.mutable_slave(), search, nullptr);  // again for the files that the settings changed
   validate(config);
   return config;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRowsMin = 10.0;
 
-/// The value that a share of `values` stays below; they are not empty.
+/// The quantile of `values`, which must not be empty.
 double quantile_of(std::vector<double> values, double share) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -38,7 +38,7 @@ double ContactConvention::Sums::correlation() const {
 }
 
 void ContactConvention::step(const ContactRow& row, bool time_has_unit) {
-  constexpr double kStepMaxS = 0.05;  // no contact is identified at less than 20 Hz
+  constexpr double kStepMaxS = 0.05;  // a contact cannot be identified below 20 Hz
   if (last_ && rows_ <= kSteps) steps_s_[rows_ - 1] = row.t_s - last_->t_s;
   if (rows_ == kSteps && !time_has_unit) {
     std::ranges::sort(steps_s_);
@@ -104,7 +104,7 @@ void ContactConvention::require_length(double free_n, double force_n) const {
   if (static_cast<double>(depths.size()) < kRowsMin) return;
   const double span = quantile_of(depths, 0.98) - quantile_of(depths, 0.02);
   const double speed = quantile_of(speeds, 0.9);
-  // Noise alone makes speeds, too.
+  // Noise alone can also cause high speeds.
   const bool fast = speed > kSpeedMax_m_per_s && span > 0.1 * kSpanMax_m;
   if (span <= kSpanMax_m && !fast) return;
   const std::string unit = span < 1e3 * kSpanMax_m ? "mm" : "um";
@@ -134,7 +134,7 @@ void ContactConvention::require_tare() const {
   const double free_n = quantile_of(outside, 0.5);
   const double spread_n = quantile_of(outside, 0.9) - quantile_of(outside, 0.1);
   const double contact_n = quantile_of(inside, 0.98) - free_n;
-  // Where the force of the contact is no more than the noise, nothing is pressed.
+  // If the contact force does not exceed the noise, there is no press.
   if (contact_n < 5.0 * spread_n || std::abs(free_n) < std::max(kShareMax * contact_n, 2.0 * spread_n))
     return;
   throw BadRequest("f is " + three_digits(free_n) + " N in free space (x <= 0); subtract this offset from f");
@@ -148,13 +148,13 @@ void ContactConvention::require_surface(double free_n, double force_n) const {
     if (row.x_m <= 0.0 && row.f_n - free_n > kEarlyShare * force_n) early.push_back(row.x_m);
     if (row.x_m > 0.0 && row.f_n - free_n > kForceShare * force_n) touching.push_back(row.x_m);
   }
-  // A tool that is accelerated in free space makes forces, too, which do not grow with x.
+  // A tool that accelerates in free space also causes forces, but they do not grow with x.
   if (static_cast<double>(early.size()) >= kRowsMin && outside_.correlation() > kCorrelation)
     throw BadRequest("the force starts at x = " + three_digits(quantile_of(early, 0.01)) +
                      " m or less; subtract this value from x, which must be 0 at the surface");
   if (static_cast<double>(touching.size()) < kRowsMin) return;
   const double first = quantile_of(touching, 0.01), deepest = quantile_of(inside, 1.0);
-  // A press that never lets go has no sample at the surface.
+  // A recording without a release has no samples at the surface.
   const auto before = std::ranges::count_if(inside, [&](double x) { return x < first; });
   if (first < kShareMax * deepest || static_cast<double>(before) < kRowsMin) return;
   throw BadRequest("the force starts at x = " + three_digits(first) +

@@ -55,7 +55,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// What `text` has outside of quotes.
+/// Returns the part of `text` that is not in quotes.
 std::string unquoted(const std::string& text) {
   std::string outside;
   bool quoted = false;
@@ -73,9 +73,9 @@ std::string unit_names(const Quantity& quantity) {
   return text;
 }
 
-/// A number as spreadsheets write it. None for anything else.
+/// Parses a number as spreadsheets write it. Returns std::nullopt for anything else.
 std::optional<double> number(std::string text) {
-  if (take(text, "\xE2\x88\x92")) text.insert(0, 1, '-');  // the minus of typesetting
+  if (take(text, "\xE2\x88\x92")) text.insert(0, 1, '-');  // the typographic minus sign
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.erase(0, 1);
   if (std::ranges::count(text, ',') == 1 && text.find('.') == std::string::npos)
     std::ranges::replace(text, ',', '.');
@@ -86,7 +86,7 @@ std::optional<double> number(std::string text) {
   return value;
 }
 
-/// Why a cell is no number, and what to do.
+/// Says why a cell is not a number, and what to do.
 std::string advice(char key, const std::string& cell) {
   for (const char* missing : {"", "na", "nan", "null", "none"}) {
     if (lower_case(cell) != missing) continue;
@@ -105,7 +105,7 @@ std::string advice(char key, const std::string& cell) {
   return "";
 }
 
-/// A head that is no table; only where one begins.
+/// Rejects a first line that is the header of another file format.
 void refuse_heads(const std::string& line) {
   if (line.starts_with("LabVIEW Measurement"))
     throw BadRequest(
@@ -141,7 +141,7 @@ ContactTable::Column ContactTable::column(const std::string& name) {
   unit.erase(0, unit.find_first_not_of(kBetween));
   take(unit, "in ");
   unit.erase(unit.find_last_not_of(" \t])_.") + 1);
-  // What MATLAB and R write for "m/s".
+  // What MATLAB and R make of "m/s".
   std::string fraction = unit;
   std::ranges::replace_if(
       fraction, [](char c) { return c == '_' || c == '.'; }, '/');
@@ -154,7 +154,7 @@ ContactTable::Column ContactTable::column(const std::string& name) {
       if (quantity.key == 'x') x_has_unit_ = true;
       return {quantity.key, name, known.si};
     }
-    if (lower_case(name) == "x_value") return {' ', name, 1.0};  // LabVIEW's time
+    if (lower_case(name) == "x_value") return {' ', name, 1.0};  // name of LabVIEW's time column
     throw BadRequest("the unit \"" + unit + "\" of \"" + name + "\" is unknown; use " + unit_names(quantity));
   }
   return {' ', name, 1.0};
@@ -216,7 +216,7 @@ void ContactTable::header(std::string line) {
   columns_ = std::move(columns);
 }
 
-/// Names all that are not.
+/// Names all missing columns.
 void ContactTable::require_known(const std::vector<Column>& columns) {
   std::string unknown;
   int count = 0;

@@ -1,13 +1,15 @@
 #pragma once
-// Reads a recording of a contact line by line, in the formats of spreadsheets, loggers and programs: JSON
-// objects, one per line, or CSV with a header:
-//   separator   comma, semicolon, tab, bar or spaces, detected in the header; a line `sep=;` is supported
-//   cells       may be quoted; a decimal comma is accepted if it cannot be a separator; `+0.1`, `1E-3`
-//   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in any case, with a unit as
-//               in `x [mm]`, `t (ms)`, `f_kN`, or in a line below; without one s, m, m/s and N; also as
-//               MATLAB and R convert them: `x_mm_`, `v..m.s.`
-//   other       a byte order mark, CR LF, empty lines, empty trailing cells, comments that begin with #
-// Not supported: UTF-16, thousands separators, cells over several lines, LabVIEW headers.
+// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header as
+// written by spreadsheets, data loggers and programs:
+//   separator   comma, semicolon, tab, vertical bar or spaces, detected in the header; a line `sep=;` is
+//               accepted
+//   cells       may be quoted; a decimal comma is accepted unless it could be a separator; `+0.1`, `1E-3`
+//   names       t (time), x (penetration, depth), v (speed, velocity), f (force), in upper or lower case;
+//               the unit may follow the name, as in `x [mm]`, `t (ms)` or `f_kN`, or be in the line below;
+//               the default units are s, m, m/s and N; names converted by MATLAB or R are accepted:
+//               `x_mm_`, `v..m.s.`
+//   other       a byte order mark, CR LF, empty lines, empty trailing cells, and comments that begin with #
+// Not supported: UTF-16, thousands separators, cells that contain line breaks, LabVIEW headers.
 
 #include <optional>
 #include <string>
@@ -17,27 +19,27 @@ namespace longreach {
 
 struct ContactRow {
   double t_s = 0.0;
-  double x_m = 0.0;                   // penetration; 0 and below: free space
-  std::optional<double> v_m_per_s{};  // of x
-  double f_n = 0.0;                   // derivative of x
+  double x_m = 0.0;                   // penetration; <= 0: free space
+  std::optional<double> v_m_per_s{};  // derivative of x
+  double f_n = 0.0;                   // contact force, positive when pushing
 };
 
 class ContactTable {
  public:
-  /// Returns the row of the next line; none for a header, a comment or an empty line. Throws
+  /// Reads the next line. Returns its row, or std::nullopt for a header, a comment or an empty line. Throws
   /// solve_json::BadRequest.
   std::optional<ContactRow> read(std::string line);
 
-  /// Whether the recording states the unit of t.
+  /// Returns whether the recording states the unit of t.
   [[nodiscard]] bool time_has_unit() const { return time_has_unit_; }
-  /// Whether it states the unit of x.
+  /// Returns whether the recording states the unit of x.
   [[nodiscard]] bool x_has_unit() const { return x_has_unit_; }
 
  private:
   struct Column {
     char key = ' ';  // t, x, v or f; space: an empty trailing column
     std::string name;
-    double unit = 1.0;  // in SI
+    double unit = 1.0;  // value of the unit in SI
   };
 
   [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;
@@ -48,7 +50,7 @@ class ContactTable {
   ContactRow from_csv(const std::vector<std::string>& values) const;
   ContactRow from_json(const std::string& line);
 
-  std::vector<Column> columns_;  // of CSV
+  std::vector<Column> columns_;  // columns of a CSV file
   std::optional<char> separator_{};
   bool json_ = false;
   std::size_t lines_ = 0, rows_ = 0;

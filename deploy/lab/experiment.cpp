@@ -325,7 +325,7 @@ std::string_view outcome_of(const std::vector<Metric>& metrics) {
 
 namespace {
 
-/// Every field is set, also to its default, and no file is named: what they said is in it.
+/// Every field is set, even if it has its default, and no files are named, because their content is included.
 proto::LabConfig spelled_out(const proto::LabConfig& config) {
   proto::LabConfig out;
   *out.mutable_master() = to_message(to_struct(config.master()));
@@ -372,7 +372,7 @@ std::vector<Metric> run_experiment(const Experiment& experiment, const Experimen
   file << metrics_json(experiment.name, run, metrics);
   if (!file.flush()) throw std::runtime_error("cannot write " + (run.out / "metrics.json").string());
   for (const Plot& plot : plots_of(experiment, metrics)) {
-    if (plot.panels.empty()) continue;  // the experiment has drawn it
+    if (plot.panels.empty()) continue;  // already drawn by the experiment
     if (const std::string why = draw(run.out, plot); !why.empty()) trouble(why);
   }
   return metrics;

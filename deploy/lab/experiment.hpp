@@ -1,6 +1,6 @@
 #pragma once
-// An experiment of the laboratory: a name, a question, a function from (config, seed) to metrics that may
-// write traces into its folder, and its plots.
+// An experiment of the laboratory: a name, a summary, a function that computes metrics from (config, seed)
+// and may write traces to the output folder, and plots.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,59 +17,64 @@ namespace longreach {
 struct Metric {
   std::string name;
   double value = 0.0;
-  std::string unit;         // "" for a pure number
-  bool of_machine = false;  // a time, or a ratio of times, which differs between runs
+  std::string unit;         // empty for a dimensionless number
+  bool of_machine = false;  // a measured time or a ratio of times, which differs between runs
 };
 
 struct ExperimentRun {
-  proto::LabConfig config;  // complete: files and profile resolved
+  proto::LabConfig config;  // complete, with files and link profile resolved
   std::uint64_t seed = 1;
-  std::filesystem::path out;                  // existing folder for traces; empty: write none
-  std::function<void(double done)> progress;  // share of the work, 0 to 1; may be empty
+  std::filesystem::path out;  // existing folder for the traces; empty: write no traces
+  /// Called with the completed fraction of the work, 0 to 1; may be empty.
+  std::function<void(double done)> progress;
 };
 
 struct Experiment {
   std::string_view name;
   std::string_view summary;
-  // Parts of the configuration that it uses: paths of groups and fields, on both sides if no side is given;
-  // with a minus, parts that it sets itself or ignores (settings_used.hpp). Empty: none.
+  // The parts of the configuration that the experiment uses: paths of groups and fields, on both sides if no
+  // side is given. A minus marks parts that it sets itself or ignores (settings_used.hpp). Empty: none.
   std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
-  std::string_view figure{};  // figure of the source paper (Liu et al. 2019) that it reproduces; empty: none
-  std::string_view answer{};  // sentence of the report: {NAME} stands for a metric, {NAME*1e3} for a multiple
-  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // adapts each plot to the results; may be empty
+  /// Figure of the source paper (Liu et al. 2019) that the experiment reproduces; empty: none.
+  std::string_view figure{};
+  /// Sentence for the report; {NAME} stands for a metric, {NAME*1e3} for a multiple of it.
+  std::string_view answer{};
+  void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // adapts a plot to the results; may be null
 };
 
-/// Its plots, adapted to the results of a run.
+/// Returns the plots of an experiment, adapted to the results of a run.
 std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metric>& metrics);
 
-/// All experiments, in the order of `longreach-lab list`.
+/// Returns all experiments in the order of `longreach-lab list`.
 const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
-/// Returns a complete configuration from settings "path=value": first those that name files (profile,
-/// robot_file, scene_file) or select presets (accuracy), then the content of the files, then the other
-/// settings in order. Relative file names are searched in `from` first. Throws ConfigError.
+/// Returns a complete configuration from settings of the form "path=value". Settings that name files
+/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the content of the
+/// files, then the other settings in order. Relative file names are looked up in `from` first. Throws
+/// ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
                            const std::filesystem::path& from = std::filesystem::current_path());
 
-/// "no contact" for metrics of a run without the intended contact; otherwise empty.
+/// Returns "no contact" if the run did not make the intended contact, otherwise an empty string.
 std::string_view outcome_of(const std::vector<Metric>& metrics);
 
-/// Identifies a configuration: 64-bit FNV-1a of its deterministic serialisation, 16 hexadecimal digits.
+/// Returns an identifier of a configuration: the 64-bit FNV-1a hash of its deterministic serialisation as 16
+/// hexadecimal digits.
 std::string config_hash(const proto::LabConfig& config);
 
-/// Commit of the build, with "-dirty" if the tree differed.
+/// Returns the commit of the build, with "-dirty" appended if the working tree was modified.
 std::string_view commit();
 
-/// Creates the folder if it does not exist. Throws ConfigError that names --out.
+/// Creates the folder if it does not exist. Throws a ConfigError that names --out if that fails.
 void make_folder(const std::filesystem::path& folder);
 
-/// Runs it. Traces, metrics.json and the plots are written to `run.out`, unless that is empty; `trouble` is
-/// called for plots that could not be drawn. Throws std::runtime_error if a file cannot be written,
-/// ConfigError if the folder cannot be created.
+/// Runs an experiment. Traces, metrics.json and the plots are written to `run.out`, unless it is empty.
+/// `trouble` is called with a message for each plot that could not be drawn. Throws std::runtime_error if a
+/// file cannot be written, and ConfigError if the folder cannot be created.
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,
                                    const std::function<void(const std::string&)>& trouble);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration kFigures = std::chrono::milliseconds(250);
 
-/// Nobody's secret: the run is named by its seed.
+/// Not a real secret: it is derived from the seed of the run.
 Session session_of(Random random) {
   Session session{.number = 1};
   for (auto& b : session.secret) b = static_cast<std::byte>(random.next());
@@ -140,7 +140,7 @@ void Laboratory::step_master() {
   if (script.mode && !driven_) in.requests.mode = script.mode;
   in.last_heard = endpoint.monitor().last_heard();
   in.peer_restarts = endpoint.restarts();
-  // As the programs do, not every tick: it sorts what was heard in the last seconds.
+  // As in the programs, this is not computed in every tick, because it sorts the samples of the last seconds.
   if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
   in.rtt_s = rtt_s_;
   in.may_send = master_port_.may_send(now);

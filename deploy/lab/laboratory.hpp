@@ -1,7 +1,7 @@
 #pragma once
-// Both nodes, the link between them, robot and device, in one process and in virtual time. Nodes, ports,
-// codecs and impairments are those of the programs; only channel, clock and device are simulated. A run is
-// identified by (commit, config, seed); the same three give the same bytes.
+// Both nodes, the link between them, the robot and the device, in one process and in virtual time. Nodes,
+// ports, codecs and impairments are those of the programs; only the channel, the clock, the robot and the
+// device are simulated. A run is determined by (commit, config, seed): the same three give the same bytes.
 
 #include <cstdint>
 #include <filesystem>
@@ -26,18 +26,18 @@ class LabRecording;
 /// Statistics of the stiffness reports of the slave.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
-  std::uint64_t bytes = 0;  // without header and tag
+  std::uint64_t bytes = 0;  // without headers and authentication tags
 };
 
 class Laboratory {
  public:
-  /// The configurations must be complete, with files resolved and the link profile in the impairments. Throws
-  /// std::invalid_argument for a comparison law, which has a separate bench.
+  /// The configurations must be complete, with files resolved and the link profile copied to the impairments.
+  /// Throws std::invalid_argument for a comparison law; those have a separate bench.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
 
   ~Laboratory();
 
-  /// One tick of both sides.
+  /// Runs one tick of both sides.
   void step();
 
   [[nodiscard]] double now_s() const { return to_seconds(elapsed_); }
@@ -50,56 +50,57 @@ class Laboratory {
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
-  /// Sets the impairment of the data that a side receives, from now on.
+  /// Sets the impairment of the datagrams that a side receives from now on.
   void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
   void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
-  /// Datagrams that arrived at both sides.
+  /// Total number of datagrams that arrived at the two sides.
   [[nodiscard]] std::uint64_t arrived() {
     return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
   }
-  /// Starts another session at the given side.
+  /// Switches one side to another session.
   void hand_slave(const Session& session) { slave_port_.follow(session); }
   void hand_master(const Session& session) { master_port_.follow(session); }
   void configure_slave(const SlaveConfig& config) { slave_node_.configure(config); }
   void configure_master(const MasterConfig& config) { master_node_.configure(config); }
   [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
-  /// Link statistics of the direction from the master, as measured by the slave.
+  /// Statistics of the link from master to slave, as measured by the slave.
   [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
-  /// The last setpoint of the slave for the arm; none: it was not commanded.
+  /// The setpoint that the slave sent to the arm in the last tick; std::nullopt if it sent none.
   [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
-  /// Position that the presently rendered stiffness belongs to, in W; zero before the first.
+  /// Position, in W, of the report with the stiffness that is rendered now; zero before the first report.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
-  /// Sets the target of the hand from now on, instead of the script.
+  /// Sets the target of the hand, which replaces the script from now on.
   void drive(const HandTarget& target) { driven_ = target; }
   /// Requests for the next tick, in addition to those of the script.
   OperatorRequests& requests() { return requests_; }
-  /// The operator releases the handles, permanently unless the hand returns.
+  /// Makes the operator release the handles (`away`) or grasp them again.
   void let_go(bool away = true) { let_go_ = away; }
-  /// Ends one side, like a killed program; robot and devices continue.
+  /// Stops one side for good, as if its program were killed. Robot and devices continue.
   void kill_slave() { slave_lives_ = false; }
   void kill_master() { master_lives_ = false; }
-  /// Stalls the loop of one side for this time, like a stopped program: received datagrams queue up in its
-  /// socket, and the next tick is late. Robot, devices, hand and the other side continue.
+  /// Stalls the loop of one side for this time, as if its program were suspended: received datagrams queue up
+  /// in its socket, and the next tick is late. Robot, devices, hand and the other side continue.
   void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
   void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
-  /// Must live as long as the laboratory steps.
+  /// Installs fault hooks. They must outlive the last step.
   void set_fault_hooks(FaultHooks& fault_hooks) { fault_hooks_ = &fault_hooks; }
-  /// Starts a recording of both sides into one file, before the first step. Throws RecordingError.
+  /// Starts a recording of both sides in one file. Call it before the first step. Throws RecordingError.
   void record(const std::filesystem::path& file);
-  /// Ends the file. Throws RecordingError if it could not be written.
+  /// Completes the file. Throws RecordingError if it could not be written.
   void end_recording();
-  /// Sets a hook on the channel: called after the tick of each side, may receive and send at both ends (a:
-  /// master, b: slave).
+  /// Sets a hook on the channel. It is called after the tick of each side and may receive and send at either
+  /// end (a: master, b: slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
-  /// For tests: called before the first step of every laboratory, in its thread, with its configuration.
+  /// Hook for tests that is called before the first step of every laboratory, in its thread, with its
+  /// configuration.
   struct Begun {
     const MasterConfig& master;
     const SlaveConfig& slave;
-    bool driven;  // by drive(): the script is not used
+    bool driven;  // the hand follows drive(), not the script
   };
   inline static std::function<void(const Begun&)> on_first_step{};
-  /// Sets a hook that may change the state reported by the robot in each tick.
+  /// Sets a hook that may modify the state that the robot reports in each tick.
   void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
 
  private:
@@ -139,7 +140,7 @@ class Laboratory {
   std::function<void(Time, RobotState&)> tamperer_{};
   FaultHooks* fault_hooks_ = nullptr;
   std::unique_ptr<LabRecording> recording_{};
-  Ring<Vector3> report_places_{4096};  // of the last reports, by sequence
+  Ring<Vector3> report_places_{4096};  // positions of the last reports, by sequence number
   std::uint64_t last_report_ = 0;
   std::optional<JointVector> setpoint_rad_{};
   HapticReturn haptic_return_{};

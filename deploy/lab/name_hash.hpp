@@ -1,5 +1,5 @@
 #pragma once
-// 64-bit FNV-1a as 16 hexadecimal digits: an identifier for long texts.
+// The 64-bit FNV-1a hash as 16 hexadecimal digits, used as a short identifier of long texts.
 
 #include <cstdint>
 #include <string>

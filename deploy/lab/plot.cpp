@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-// Okabe and Ito (2008): told apart by the colour-blind.
+// Okabe and Ito (2008): colours that can be distinguished with colour blindness.
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
 
@@ -18,7 +18,7 @@ double height_px(const Plot& plot) {
   return kTitle_px + plot.panel_px * static_cast<double>(plot.panels.size()) + kAxis_px;
 }
 
-/// As gnuplot reads it.
+/// Quotes a text for gnuplot.
 std::string in_quotes(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
@@ -81,7 +81,7 @@ std::string draw(const std::filesystem::path& folder, const Plot& plot) {
     out << "unset multiplot\n";
     if (!out) return "cannot write " + script.string();
   }
-  // The folder is handed over by the working directory, so any name is safe.
+  // The folder is passed as the working directory, so that any name is safe.
   std::error_code error;
   const std::filesystem::path before = std::filesystem::current_path(error);
   std::filesystem::current_path(folder, error);

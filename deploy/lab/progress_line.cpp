@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kForecastFrom_s = 1.0;  // before, the share says too little
+constexpr double kForecastFrom_s = 1.0;  // before that, the fraction is too small for an estimate
 
 ProgressLine::Style style_of_standard_error(bool quiet) {
   if (quiet) return ProgressLine::Style::kNone;

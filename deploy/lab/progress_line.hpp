@@ -1,6 +1,6 @@
 #pragma once
-// Progress and remaining time of a long command: on a terminal one line, rewritten in place; elsewhere a
-// plain line every ten seconds, so that a short command prints nothing.
+// Shows the progress and the remaining time of a long command: on a terminal, one line that is rewritten in
+// place; elsewhere, a plain line every ten seconds, so that a short command prints nothing.
 
 #include <chrono>
 #include <ostream>
@@ -15,16 +15,17 @@ class ProgressLine {
 
   static constexpr std::chrono::seconds kPlainEvery{10};
 
-  /// On standard error, according to its type.
+  /// Writes to standard error. The style depends on whether it is a terminal.
   explicit ProgressLine(bool quiet);
   ProgressLine(std::ostream& out, Style style, Clock::time_point began);
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `what`, e.g. "sweep: 3 of 10 cells", and the remaining seconds estimated from the completed share.
+  /// Shows `what`, e.g. "sweep: 3 of 10 cells", and the remaining time, estimated from the completed fraction
+  /// `done`.
   void show(const std::string& what, double done, Clock::time_point now = Clock::now());
-  /// Clears the line of the terminal.
+  /// Clears the line on the terminal.
   void clear();
 
  private:

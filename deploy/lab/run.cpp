@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDone = 0, kNoContact = 3;
 
-// What verifies the project itself is no experiment but a program under tests/.
+// Verification of the project itself is not an experiment but a program under tests/.
 constexpr std::string_view kPrograms[] = {"extremes", "faults"};
 
 std::string number(double value) {

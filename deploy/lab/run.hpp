@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab run` and `list`: runs one experiment and prints its metrics.
+// `longreach-lab run` runs one experiment and prints its metrics; `longreach-lab list` lists the experiments.
 
 #include <cstdint>
 #include <string>
@@ -18,12 +18,12 @@ struct LabRunOptions {
   bool quiet = false;
 };
 
-/// Exit status: 0, or 3 if there was no contact. Throws ConfigError for an unknown experiment or setting, or
-/// a setting that the experiment does not use.
+/// Returns the exit status: 0, or 3 if there was no contact. Throws ConfigError if the experiment or a
+/// setting is unknown, or if the experiment does not use a setting.
 int run(const LabRunOptions& options);
 
-/// Runs it with a progress line; then prints, unless quiet, the outcome, the metrics and the identity of the
-/// run.
+/// Runs the experiment with a progress line. Then, unless `quiet`, prints the outcome, the metrics, and the
+/// commit, configuration hash and seed of the run.
 std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun run, bool quiet);
 
 void list_experiments();

@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-// Of the programs alone: addresses, real adapters, priorities, people at a keyboard or a pad. The laboratory
+// Settings that only the programs use: addresses, real adapters, priorities, real operators. The laboratory
 // engages by itself.
 constexpr std::string_view kOfPrograms =
     " -rpc -device_adapter -robot_adapter -link.slave -link.listen -link.slave_rpc -loop.priority "
@@ -17,7 +17,7 @@ constexpr std::string_view kOfPrograms =
     "-operator.rumble -scene.name "
     "-scene.basis -robot.name -robot.basis";
 
-/// Without the names and numbers of elements, which no experiment tells apart.
+/// Returns the path without the names and indices of elements, which no experiment distinguishes.
 std::string without_elements(const std::string& path) {
   std::string out;
   const google::protobuf::Descriptor* type = proto::LabConfig::descriptor();
@@ -31,7 +31,7 @@ std::string without_elements(const std::string& path) {
   return out;
 }
 
-/// The field by which a setting that chooses many is judged.
+/// The field that represents a setting that selects many fields.
 std::string judged_by(std::string field) {
   if (field == "profile") return "master.link.impairment.delay_s";
   if (field.ends_with(".accuracy")) return field.substr(0, field.find('.')) + ".loop.rate_hz";

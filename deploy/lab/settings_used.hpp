@@ -1,6 +1,6 @@
 #pragma once
-// Settings that an experiment uses. Another setting is refused, because it would not change the run, and the
-// rows of a sweep over it would be equal.
+// Determines which settings an experiment uses. Other settings are rejected, because they would not change
+// the run and all rows of a sweep over them would be equal.
 
 #include <string>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace longreach {
 
-/// Returns whether the experiment depends on the field that `path` of `--set PATH=VALUE` sets, by
-/// Experiment::uses; the longest path that contains the field decides. A file counts as its content,
-/// `profile` as the delay of the link.
+/// Returns whether the experiment depends on the field that `--set PATH=VALUE` sets, according to
+/// Experiment::uses. The longest path there that contains the field decides. A setting that names a file
+/// stands for the fields in that file, and `profile` for the delay of the link.
 bool uses_setting(const Experiment& experiment, const std::string& path);
 
-/// Throws ConfigError that names the first setting "PATH=VALUE" that the experiment does not use.
+/// Throws a ConfigError that names the first of the settings "PATH=VALUE" that the experiment does not use.
 void refuse_unused(const Experiment& experiment, const std::vector<std::string>& settings);
 
-/// The text of that error.
+/// Returns the message of that error.
 std::string unused_sentence(const Experiment& experiment, const std::string& path);
 
 }  // namespace longreach

@@ -1,12 +1,13 @@
-// The main experiment: the simulated operator touches the scene's wall across the link, twice, presses and
+// The main experiment: the simulated operator touches the wall of the scene twice over the link, presses and
 // probes.
 //
-// Displayed stiffness is the least-squares slope of the rendered spring force on the handle's position along
-// the normal, over samples above 0.2 N and not clamped, from the second touch on, when the wall is known
-// before the hand is there (of one that is learnt late, the store pays a part: experiment `person`), and
-// from RTT + 1 s on after each hold. Each other tangent leaves the wall at another place of the handle (own
-// intercept). Its reference is the slope of a spring with ke times the material's true stiffness (tangent) at
-// the place that the slave reported it for, over the same samples.
+// The displayed stiffness is the least-squares slope of the rendered spring force over the position of the
+// handle along the normal, from samples above 0.2 N that are not clamped. It is evaluated from the second
+// touch on, when the wall is known before the hand arrives (the force of a wall that is reported late is
+// limited by the energy store, see the experiment `person`), and from RTT + 1 s on after each hold. Each
+// tangent has its own intercept, because the wall is at another position of the handle. The reference is the
+// slope, over the same samples, of a spring with ke times the true tangent stiffness of the material at the
+// position for which the slave reported it.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace {
 
 constexpr double kSpringLeast_n = 0.2;
 
-/// What is watched during the run.
+/// Values measured during the run.
 struct Watch {
   HapticReturn return_before{}, return_after{};  // while probing
   double return_s = 0.0;
@@ -48,7 +49,7 @@ struct Watch {
   double rtt_s = 0.0;
   double estimate_sd = 1.0;  // of the slave's estimate, relative, when last in contact while probing
   std::uint64_t reports = 0;
-  bool cut = false;  // the wall is stiffer than the device can render
+  bool cut = false;  // true if the wall is stiffer than the device can render
   ScriptPhase phase = ScriptPhase::kWaiting;
 };
 
@@ -59,8 +60,8 @@ std::optional<Vector3> inward_of(const SlaveConfig& slave) {
   return Vector3(-surface.front().plane->normal.normalized());
 }
 
-/// How far the rendered surface is, where it is nearest to the handle, from the nearest true one of any
-/// shape; m of the handle, position mode.
+/// Distance of the rendered surface, at its point nearest to the handle, from the nearest true surface of any
+/// shape; in m of the handle, position mode.
 double registration_error_m(const Laboratory& lab, const SlaveConfig& slave, const Vector3& base_rad) {
   constexpr double kReach_m =
       1.0;  // a tool as large as this touches whatever is near, and its depth says how near
@@ -108,7 +109,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const MasterConfig& master, con
   w.phase = phase;
   if (w.first_touch_s < 0.0) return;
   if (m.state != SafetyState::kEngaged) w.unsettled_s = lab.now_s();
-  // Another tangent of a curved law begins elsewhere.
+  // Another tangent of a nonlinear law has another intercept.
   w.cut = w.cut || m.stiffness_clamped;
   const double true_n_per_m = master.rendering.ke * lab.arm().material_stiffness(lab.rendered_at_m());
   const bool other = m.stiffness_n_per_m != w.rendered_n_per_m || true_n_per_m != w.true_n_per_m;
@@ -127,7 +128,7 @@ void watch_tick(Watch& w, const Laboratory& lab, const MasterConfig& master, con
   }
 }
 
-/// What can be said of a wall that was touched.
+/// Metrics of a wall that was touched.
 void add_contact(std::vector<Metric>& metrics, const Watch& w, const MasterView& m) {
   const double reference = w.reference.slope(), displayed = w.displayed.slope();
   const double error = reference > 0.0 ? std::abs(displayed - reference) / reference : 1.0;
@@ -178,7 +179,7 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
   return metrics;
 }
 
-// Along the wall's normal; what the hand feels along another one is left out.
+// Evaluated along the normal of the wall. Forces along other normals are excluded.
 void trace_row(Trace& trace, const Laboratory& lab, const std::optional<Vector3>& wall) {
   constexpr double kAlong = 0.9;  // cosine
   const MasterView& m = lab.master();

@@ -1,5 +1,6 @@
 #pragma once
-// The main experiment with a recording of both sides, OUT/touch.mcap. The run is identical.
+// The experiment `touch` with a recording of both sides in OUT/touch.mcap. The recording does not change the
+// run.
 
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace longreach {
 
-/// Throws RecordingError.
+/// Runs the experiment. Throws RecordingError if the recording cannot be written.
 std::vector<Metric> run_touch_recorded(const ExperimentRun& run);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// A CSV file of numbers: a header line of names that end with their unit, one row per call. Nine significant
-// digits. Throws std::runtime_error if the file cannot be written.
+// Writes a CSV file of numbers with nine significant digits: a header line with column names that end with
+// their units, and one row per call. All functions throw std::runtime_error if the file cannot be written.
 
 #include <filesystem>
 #include <fstream>
@@ -12,12 +12,12 @@ namespace longreach {
 
 class Trace {
  public:
-  /// With an empty folder nothing is written.
+  /// Creates FOLDER/NAME.csv. If `folder` is an empty path, no file is written.
   Trace(const std::filesystem::path& folder, std::string_view name,
         const std::vector<std::string_view>& columns);
 
   void row(const std::vector<double>& values);
-  /// Flushes; throws if anything could not be written.
+  /// Flushes the file and throws if anything could not be written.
   void close();
 
  private:

@@ -1,11 +1,13 @@
-// longreach-wire: delays and drops whole IP packets between two hosts: handshakes, segments and
-// acknowledgements of TCP as well as datagrams. They come from the rule `-j NFQUEUE` in its own network
-// namespace, or, with --relay, it is the cable between two namespaces. It shares no code with
-// common/link/impairment, which it checks. Ends on SIGTERM, SIGINT or SIGHUP and says what it did.
+// longreach-wire: delays and drops whole IP packets between two hosts, that is, handshakes, segments and
+// acknowledgements of TCP as well as datagrams. The packets come from the rule `-j NFQUEUE` in its own network
+// namespace; with --relay, it is the cable between two namespaces. It shares no code with
+// common/link/impairment, against which it serves as a check. Ends on SIGTERM, SIGINT or SIGHUP and prints its
+// counts.
 //
-// Not here: jitter, reordering, rate. A packet waits at least the delay, and longer by as much as this
-// program is scheduled late: it asks for the priority that the programs at its ends have, since beside a busy
-// machine it would be silent for longer than they forgive. What is on its way when it ends is lost.
+// Not supported: jitter, reordering, rate limits. A packet is delayed by at least the configured delay, plus
+// any scheduling latency of this program. It therefore requests the same priority as the programs at its ends;
+// otherwise, on a busy machine, packets could be late enough to trigger their timeouts. Packets in transit
+// when it ends are lost.
 
 #include <sched.h>
 

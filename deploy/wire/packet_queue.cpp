@@ -44,7 +44,7 @@ PacketQueue::PacketQueue(const WireConfig& config, std::uint16_t number)
   };
   queue_ = nfq_create_queue(handle_.get(), number, callback, this);
   if (queue_ == nullptr) refuse("packet queue " + std::to_string(number) + " cannot be created");
-  // The kernel keeps the packets: their bytes do not come here.
+  // The kernel keeps the packets; only their IDs are passed to this process.
   if (nfq_set_mode(queue_, NFQNL_COPY_META, 0) < 0 || nfq_set_queue_maxlen(queue_, kPacketsMax) < 0)
     refuse("the packet queue cannot be configured");
   nfnl_rcvbufsiz(nfq_nfnlh(handle_.get()), kReceiveBufferBytes);
@@ -80,7 +80,7 @@ void PacketQueue::step() {
 void PacketQueue::read() {
   std::array<char, 65'536> bytes{};
   const ssize_t size = ::recv(nfq_fd(handle_.get()), bytes.data(), bytes.size(), MSG_DONTWAIT);
-  // Without room for more (ENOBUFS) the kernel has dropped some: that is a loss like any other.
+  // ENOBUFS: the kernel has dropped packets for lack of space, which counts as loss.
   if (size > 0) nfq_handle_packet(handle_.get(), bytes.data(), static_cast<int>(size));
 }
 

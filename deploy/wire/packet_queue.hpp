@@ -1,7 +1,7 @@
 #pragma once
-// Delay and loss of a link for real packets, by the kernel's NFQUEUE: the kernel stores the packets, and this
-// class decides whether and when each is forwarded. It works in the network namespace of the thread that
-// creates it.
+// Delays and drops real packets with the kernel's NFQUEUE: the kernel stores the packets, and this class
+// decides whether and when each one is forwarded.
+// It applies to the network namespace of the thread that creates it.
 
 #include <chrono>
 #include <cstdint>
@@ -18,13 +18,15 @@ namespace longreach {
 
 class PacketQueue {
  public:
-  /// Throws std::runtime_error, one sentence, if the kernel or the permissions do not allow it.
+  /// Throws a std::runtime_error with a one-sentence message if the kernel or the permissions do not allow
+  /// it.
   PacketQueue(const WireConfig& config, std::uint16_t number);
   ~PacketQueue();
   PacketQueue(const PacketQueue&) = delete;
   PacketQueue& operator=(const PacketQueue&) = delete;
 
-  /// Waits for packets and for due times, at most 0.1 s, and processes both. Returns early on a signal.
+  /// Waits for new packets or for the time at which a packet is due, at most 0.1 s, and processes them.
+  /// Returns early on a signal.
   void step();
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
@@ -48,8 +50,9 @@ class PacketQueue {
   Clock::duration delay_;
   std::mt19937_64 random_;
   std::unique_ptr<nfq_handle, Close> handle_;
-  nfq_q_handle* queue_ = nullptr;                // of the handle
-  std::deque<QueuedDatagram> queued_datagrams_;  // all packets have the same delay: due in order
+  nfq_q_handle* queue_ = nullptr;  // owned by handle_
+  /// In the order of `due`, because all packets have the same delay.
+  std::deque<QueuedDatagram> queued_datagrams_;
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

@@ -83,7 +83,7 @@ void PacketRelay::release(std::size_t from) {
   auto& queued_datagrams = queued_datagrams_[from];
   while (!queued_datagrams.empty() && queued_datagrams.front().due <= now) {
     const auto& packet = queued_datagrams.front().packet;
-    // An end that takes none is a loss like any other.
+    // A packet that the other end does not accept counts as loss.
     if (::write(cable_[1 - from].number(), packet.data(), packet.size()) < 0) ++dropped_;
     queued_datagrams.pop_front();
   }

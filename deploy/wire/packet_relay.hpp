@@ -1,6 +1,7 @@
 #pragma once
-// Delay and loss of a link where the kernel has no packet queues: a cable between two network namespaces
-// whose ends are TUN interfaces; this class forwards every IP packet between them.
+// Delays and drops packets on systems whose kernel has no NFQUEUE.
+// Two network namespaces are connected by TUN interfaces.
+// This class forwards every IP packet from one interface to the other.
 
 #include <sys/types.h>
 
@@ -16,7 +17,7 @@
 
 namespace longreach {
 
-/// Owns a file descriptor.
+/// A file descriptor that is closed by the destructor.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -31,11 +32,12 @@ class Descriptor {
 
 class PacketRelay {
  public:
-  /// Makes the interface `cable` in the network namespaces of two processes. Throws std::runtime_error, one
-  /// sentence, where the kernel or the rights do not permit it.
+  /// Creates the interface `cable` in the network namespaces of two processes.
+  /// Throws a std::runtime_error with a one-sentence message if the kernel or the permissions do not allow it.
   PacketRelay(const WireConfig& config, std::array<pid_t, 2> hosts);
 
-  /// Waits for packets and for due times, 0.1 s at most, and serves both. Returns early on a signal.
+  /// Waits for new packets or for the time at which a packet is due, at most 0.1 s, and processes them.
+  /// Returns early on a signal.
   void step();
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
@@ -56,7 +58,7 @@ class PacketRelay {
   std::mt19937_64 random_;
   std::array<Descriptor, 2> cable_;
   std::array<std::deque<QueuedDatagram>, 2>
-      queued_datagrams_;  // by the end that they came from, due in order
+      queued_datagrams_;  // packets by the end that they came from, in the order of `due`
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

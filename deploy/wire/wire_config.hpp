@@ -1,13 +1,13 @@
 #pragma once
-// What a wire does to packets, however they come to it.
+// Delay and loss of a link, independent of how the packets are intercepted.
 
 #include <cstdint>
 
 namespace longreach {
 
 struct WireConfig {
-  double delay_s = 0.0;  // of each packet, each way
-  double loss = 0.0;     // fraction, independent from packet to packet
+  double delay_s = 0.0;  // one-way delay of every packet, in both directions
+  double loss = 0.0;     // probability of losing a packet, independent of the others
   std::uint64_t seed = 1;
 };
 

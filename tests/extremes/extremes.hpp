@@ -1,9 +1,10 @@
 #pragma once
-// Tests of extreme values. A row is a quantity, a cell is one value of it, passed to the stage that uses it.
-// Each cell expects one of two outcomes: stable and accurate within a bound, or refused with a message that
-// contains certain words. Everything else is bad: the other outcome, divergence, NaN, generated energy, an
-// error above the bound of the row, an implausible value that is accepted without a message. Each row has a
-// control, the same measurement of a wrong implementation, which must come out bad.
+// Tests with extreme values. A row is a quantity, and a cell is one value of it, which is passed to the stage
+// that uses it. The expected outcome of a cell is either "stable", with an error within the bound of the row,
+// or "refused", with a message that contains certain words. Everything else is bad: the other outcome,
+// divergence, NaN, generated energy, an error above the bound, or an implausible value that is accepted
+// without a message. Each row has a control, the same measurement with a wrong implementation, which must
+// turn out bad.
 
 #include <cstdint>
 #include <functional>
@@ -18,18 +19,19 @@ enum class ExtremeOutcome : std::uint8_t { kStable, kRefused, kBad };
 
 struct ExtremeResult {
   ExtremeOutcome outcome = ExtremeOutcome::kBad;
-  double accuracy = 0.0;  // measured value; kStable only
+  double accuracy = 0.0;  // measured value; only for kStable
   std::string words;      // kRefused: the message; kBad: the reason
 };
 
-/// Stable if 0 <= error <= bound and both are finite; else bad.
+/// Returns "stable" if 0 <= error <= bound and both are finite, otherwise "bad".
 ExtremeResult accurate(double error, double bound);
 ExtremeResult refused(std::string message);
 ExtremeResult bad(std::string what);
 
 struct ExtremeCell {
-  std::string value;    // with its unit
-  std::string refusal;  // text that the message of the refusal must contain; empty: expected to be stable
+  std::string value;  // with its unit
+  /// Text that the refusal must contain; empty if the cell is expected to be stable.
+  std::string refusal;
   std::function<ExtremeResult(std::uint64_t seed)> run;
 };
 
@@ -40,17 +42,17 @@ struct ExtremeRow {
   std::vector<ExtremeCell> cells;
 };
 
-/// Shortest text of a value: 1e5, 0.001, 2e-05.
+/// Formats a value in its shortest form, for example 1e5, 0.001 or 2e-05.
 std::string short_text(double value);
 
-/// Runs a cell and compares the outcome with the expected one. A ConfigError counts as refused, any other
+/// Runs a cell and compares the outcome with the expected one. A ConfigError counts as refused, and any other
 /// exception as bad.
 ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed);
 
-/// All rows, grouped by stage.
+/// Returns all rows, grouped by stage.
 const std::vector<ExtremeRow>& extreme_rows();
 
-/// Runs all of them; returns metrics, and writes the table to `run.out`.
+/// Runs all rows, writes the table to `run.out` and returns the metrics.
 std::vector<Metric> run_extremes(const ExperimentRun& run);
 std::vector<Plot> extremes_plots();
 

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the table of extremes as extremes.csv (with all messages) and extremes.svg (cells coloured by
-// outcome, with their accuracy).
+// Writes the results of the tests with extreme values as extremes.csv (with all messages) and extremes.svg (a
+// table with cells coloured by outcome, with their accuracy).
 
 #include <filesystem>
 
@@ -8,7 +8,8 @@
 
 namespace longreach {
 
-/// Writes `results` as rows with their cells. Throws std::runtime_error if a file cannot be written.
+/// Writes both files. `results` has one element per row and cell. Throws std::runtime_error if a file cannot
+/// be written.
 void write_extremes(const std::filesystem::path& folder, const std::vector<ExtremeRow>& rows,
                     const std::vector<std::vector<ExtremeResult>>& results);
 

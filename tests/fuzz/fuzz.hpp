@@ -1,5 +1,5 @@
 #pragma once
-// Common parts of the fuzz targets. A target accepts any bytes and returns 0; it aborts if a rule is
+// Common parts of the fuzz targets. A target accepts arbitrary bytes and returns 0, or aborts if a rule is
 // violated.
 
 #include <cstddef>
@@ -20,8 +20,8 @@ inline void require(bool holds, const char* rule) {
   std::abort();
 }
 
-/// Requires that an error begins with the name of the text, is one line, and contains no control characters
-/// for a terminal.
+/// Requires that the message of an error begins with the name of the text, is a single line, and contains no
+/// control characters.
 inline void require_readable(const ConfigError& error, std::string_view name) {
   const std::string_view what = error.what();
   require(what.starts_with(name), "an error names its file");
@@ -29,13 +29,13 @@ inline void require_readable(const ConfigError& error, std::string_view name) {
     require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "an error is one line of text");
 }
 
-/// Length of a record, little-endian in its first two bytes.
+/// Returns the length of a record, which its first two bytes contain in little-endian order.
 inline std::size_t length_of(std::span<const std::byte> bytes) {
   return std::to_integer<std::size_t>(bytes[0]) | std::to_integer<std::size_t>(bytes[1]) << 8;
 }
 
-/// Returns the parsed text, or nothing: then it was refused with a readable error, and `message` is
-/// unchanged.
+/// Parses the text into `message`. If the text is rejected, requires that the error is readable, leaves
+/// `message` unchanged and returns false.
 template <class Message>
 bool load(const std::string& text, Message& message) {
   try {

@@ -1,5 +1,6 @@
 #pragma once
-// What a robot that was accepted must do, whatever its file said: its tool can be found, and it moves within its limits.
+// What must hold for every robot that was accepted, whatever its file contains: the pose of its tool is
+// finite, and it moves within its joint limits.
 
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #pragma once
-// The rows of a robot as a chain of KDL (Orocos), which implements both conventions of Denavit and
-// Hartenberg.
+// Converts a robot to a chain of KDL (Orocos), which supports both Denavit-Hartenberg conventions.
 
 #include <kdl/chain.hpp>
 #include <kdl/frames.hpp>
@@ -14,7 +13,7 @@ inline KDL::Chain kdl_chain(const RobotConfig& robot) {
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[i];
     if (robot.convention == DhConvention::kModified) {
-      // Its frame is before the rotation of the joint: the fixed part of a row comes first.
+      // In the modified convention the fixed part of a row comes before the rotation of the joint.
       chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None),
                                     KDL::Frame::DH_Craig1989(j.a_m, j.alpha_rad, j.d_m, j.theta_rad)));
       chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ)));

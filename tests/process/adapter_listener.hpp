@@ -1,5 +1,5 @@
 #pragma once
-// The listening end of an adapter socket, implemented in the test without code of the product.
+// The listening end of an adapter socket, implemented for tests without code of the product.
 
 #include <filesystem>
 #include <optional>
@@ -10,14 +10,15 @@ namespace longreach {
 
 class AdapterListener {
  public:
-  /// Listens in a temporary folder of its own. `anyone`: accepts programs of any user.
+  /// Listens in a temporary folder of its own. With `anyone`, accepts programs of any user.
   explicit AdapterListener(bool anyone = false);
   ~AdapterListener();
   AdapterListener(const AdapterListener&) = delete;
   AdapterListener& operator=(const AdapterListener&) = delete;
 
   [[nodiscard]] std::string address() const { return "unix:" + path_.string(); }
-  /// Receives from any connected program, without waiting.
+  /// Receives a datagram from the connected program and returns its size, or std::nullopt if there is none.
+  /// Does not block.
   std::optional<std::size_t> receive(std::span<std::byte> buffer);
   void send(std::span<const std::byte> datagram) const;
 

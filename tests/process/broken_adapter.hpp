@@ -1,5 +1,6 @@
 #pragma once
-// A device adapter that violates one rule of common/link/adapter_datagram.hpp, in a thread of the test.
+// A device adapter that violates one rule of common/link/adapter_datagram.hpp. It runs in a thread of the
+// test.
 
 #include <atomic>
 #include <string>
@@ -10,19 +11,19 @@
 namespace longreach {
 
 enum class Flaw {
-  kNoWatchdog,  // continues with the last wrench
-  kMute,        // sends nothing unless it receives
-  kNoCount,     // every datagram has the number 1
+  kNoWatchdog,  // keeps applying the last wrench
+  kMute,        // sends nothing until it receives something
+  kNoCount,     // every datagram has the sequence number 1
   kNoEcho,
-  kNotFinite,      // sends NaN sometimes
-  kShort,          // sends one byte too few sometimes
+  kNotFinite,      // sometimes sends NaN
+  kShort,          // sometimes sends one byte too few
   kSlow,           // sends at 100 Hz
   kTakesAnything,  // accepts any datagram of the right size
   kTakesOldNumbers,
   kTakesNoRestart,
   kNoWrench,     // does not report the wrench
-  kTakesAnyone,  // accepts any user
-  kFailed        // never reports that it works
+  kTakesAnyone,  // accepts connections of any user
+  kFailed        // never reports that it is operational
 };
 
 class BrokenAdapter {

@@ -1,6 +1,6 @@
 #pragma once
-// One run of the client, with separate standard output and standard error, against sides that the test
-// simulates.
+// Runs the client against sides that the test simulates, and captures standard output and standard error
+// separately.
 
 #include <sys/types.h>
 
@@ -17,16 +17,17 @@ namespace longreach {
 
 class ClientRun {
  public:
-  /// `terminal`: standard output is a terminal.
+  /// With `terminal`, standard output is a terminal.
   explicit ClientRun(const std::vector<std::string>& arguments, bool terminal = false);
   ~ClientRun();
   ClientRun(const ClientRun&) = delete;
   ClientRun& operator=(const ClientRun&) = delete;
 
   void signal(int number) const;
-  /// Reads until the client ends, or has written `until` (not empty) to standard output; at most 30 s.
+  /// Reads the output until the client ends or, if `until` is not empty, has written `until` to standard
+  /// output, at most for 30 s.
   void read(const std::string& until = "");
-  /// After read(): exit status, 128 + signal, or -1 if it did not end.
+  /// Returns the exit status, 128 + signal, or -1 if the client did not end. Call it after read().
   int status();
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::string& err() const { return err_; }
@@ -40,7 +41,7 @@ class ClientRun {
   std::optional<int> status_{};
 };
 
-/// A simulated master and slave, and the options with which the client connects to them.
+/// A simulated master and slave, and the client options for connecting to them.
 struct FakeStation {
   FakeBackend master{"master"};
   FakeBackend slave{"slave"};

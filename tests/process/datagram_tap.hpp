@@ -1,6 +1,6 @@
 #pragma once
-// A tap between master and slave on loopback: it forwards and records every datagram, and sends given
-// datagrams to either side from the address of the other. Recording is bounded.
+// A tap between master and slave on loopback. It forwards and records every datagram, and can inject
+// datagrams to either side from the address of the other.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -29,12 +29,12 @@ class DatagramTap {
   DatagramTap(const DatagramTap&) = delete;
   DatagramTap& operator=(const DatagramTap&) = delete;
 
-  /// Address to which the master sends.
+  /// Address to which the master must send.
   [[nodiscard]] std::string address() const {
     return "127.0.0.1:" + std::to_string(near_.local_endpoint().port());
   }
 
-  /// The recorded genuine datagrams.
+  /// Returns the recorded datagrams, without the injected ones.
   [[nodiscard]] std::vector<Datagram> recorded(Toward way) const {
     const std::lock_guard lock(mutex_);
     return way == Toward::kSlave ? up_ : down_;
@@ -82,8 +82,9 @@ class DatagramTap {
   }
 
   asio::io_context context_;
-  asio::ip::udp::socket near_{context_, {asio::ip::address_v4::loopback(), 0}};  // to the master
-  asio::ip::udp::socket far_{context_, {asio::ip::address_v4::loopback(), 0}};   // to the slave
+  /// Receives from the master and sends to it.
+  asio::ip::udp::socket near_{context_, {asio::ip::address_v4::loopback(), 0}};
+  asio::ip::udp::socket far_{context_, {asio::ip::address_v4::loopback(), 0}};  // same for the slave
   const asio::ip::udp::endpoint slave_;
   asio::ip::udp::endpoint master_;
   mutable std::mutex mutex_;

@@ -1,7 +1,6 @@
 #pragma once
-// Runs deploy/hosts with the programs of this build: slave and master in two network namespaces, and the
-// output of the master. Without the right to create namespaces the script refuses, and the test fails with
-// its message.
+// Runs deploy/hosts with the programs of this build: slave and master in two network namespaces.
+// Without the permission to create namespaces, the script exits with an error, and the test fails with it.
 
 #include <chrono>
 #include <memory>
@@ -16,18 +15,19 @@ class HostsRun {
  public:
   explicit HostsRun(const std::vector<std::string>& options);
 
-  /// Waits until the hosts are up. False: they failed to start; output() gives the reason.
+  /// Waits until the hosts are up. Returns false if they failed to start; output() then contains the reason.
   bool up();
-  /// Waits until the master's output, one line per second, contains the text `times` times.
+  /// Waits until the output of the master, which prints one line per second, contains the text at least
+  /// `times` times.
   bool shows(const std::string& text, std::chrono::seconds timeout, int times = 1);
-  /// Runs the client on the master's host, with a timeout of two minutes.
+  /// Starts the client on the master's host, with a timeout of two minutes.
   [[nodiscard]] std::unique_ptr<RunningProgram> client(const std::vector<std::string>& command) const;
-  /// Process that holds one of the network namespaces.
+  /// Process ID of the process that keeps one of the network namespaces open.
   [[nodiscard]] int holder() const;
 
   RunningProgram& script() { return script_; }
   [[nodiscard]] std::string output() const { return script_.output(); }
-  /// Log of the slave and of the link.
+  /// Log of the slave and the link.
   [[nodiscard]] std::string log() const;
   [[nodiscard]] std::string all() const { return output() + log(); }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Loads on a program on loopback, each bounded in number and time and ended by its destructor: idle
-// connections, requests, forged datagrams. Empty loops distinguish a stall of the machine from one of a
-// program. Disturbance checks that a load does not affect the sides.
+// Puts load on a program on loopback: idle connections, requests, or forged datagrams. Every load is bounded
+// in number and time. BareLoops distinguishes a stall of the machine from a stall of a program, and
+// Disturbance checks that a load does not affect the two sides.
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace longreach {
 
-/// Idle TCP connections to a port.
+/// Opens idle TCP connections to a port and closes them in the destructor.
 class IdleConnections {
  public:
   IdleConnections(int port, int count);
@@ -36,19 +36,21 @@ struct LoadCounts {
   [[nodiscard]] double rate_hz() const { return done > 0 ? static_cast<double>(done) / seconds : 0.0; }
 };
 
-/// Calls GetStatus over mutual TLS from several channels with many concurrent calls, at most `rate_hz`.
+/// Calls GetStatus over mutual TLS from several channels with many concurrent calls, at a rate of at most
+/// `rate_hz`.
 LoadCounts request_status(RpcRole role, int port, double rate_hz, std::chrono::seconds time);
 
-/// Sends forged datagrams at `rate_hz`: three of four have the header of a command, the number of the
-/// session, and a number that is new, old or far ahead, with random bodies; the fourth is entirely random.
+/// Sends forged datagrams at `rate_hz`. Three out of four have the header of a command with the number of the
+/// session, a sequence number that is new, old or far ahead, and a random body; the fourth is entirely
+/// random.
 LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::seconds time);
 
-/// Empty loops of 1 kHz with real-time priority, one per processor: if one of them is late, the machine was
+/// Empty 1 kHz loops with real-time priority, one per processor. If one of them is late, the machine was
 /// stalled.
 class BareLoops {
  public:
   struct Figures {
-    std::uint64_t stalls = 0;  // ticks that are more than 33 ms late
+    std::uint64_t stalls = 0;  // ticks that were more than 33 ms late
     Duration lateness_max{0};
   };
 
@@ -64,12 +66,13 @@ class BareLoops {
   std::vector<std::thread> threads_;
 };
 
-/// Checks the effect of a load on both sides during its lifetime, without stalls of the machine.
+/// Checks the effect of a load on both sides during the lifetime of this object. Stalls of the machine are
+/// excluded.
 class Disturbance {
  public:
   Disturbance(StationSide& slave, StationSide& master) : slave_(slave), master_(master) {}
-  /// Ends the check. Expects no tick that is more than 100 ms late and no false hold, unless the machine was
-  /// stalled, and no violated limit. Prints the results.
+  /// Ends the check and prints the results. Expects no violated limit and, unless the machine was stalled, no
+  /// tick that was more than 100 ms late and no false hold.
   void expect_none(const std::string& load);
 
  private:

@@ -1,21 +1,22 @@
 #pragma once
-// A page without a browser: a plain socket with the parts of HTTP and WebSocket that the server of the view
-// needs.
+// A page without a browser: a plain socket with the subset of HTTP and WebSocket that the view server
+// requires.
 
 #include <optional>
 #include <string>
 
 namespace longreach {
 
-/// Port of http://127.0.0.1:PORT/...
+/// Returns PORT of http://127.0.0.1:PORT/...
 int port_of(const std::string& address);
-/// "/TOKEN/" of http://127.0.0.1:PORT/TOKEN/.
+/// Returns "/TOKEN/" of http://127.0.0.1:PORT/TOKEN/.
 std::string path_of(const std::string& address);
 
-/// Sends a request unchanged and returns the first line of the answer; empty: none within 10 s.
+/// Sends a request unchanged and returns the first line of the response, or an empty string if there is none
+/// within 10 s.
 std::string http_status(int port, const std::string& request);
 
-/// A connection that sends given text, without a timeout.
+/// A TCP connection that sends arbitrary bytes and stays open without a timeout.
 class OpenConnection {
  public:
   explicit OpenConnection(int port);
@@ -24,7 +25,7 @@ class OpenConnection {
   OpenConnection& operator=(const OpenConnection&) = delete;
 
   [[nodiscard]] bool send(const std::string& bytes) const;
-  /// Returns whether the server has closed it, without waiting.
+  /// Returns, without blocking, whether the server has closed the connection.
   [[nodiscard]] bool ended() const;
 
  private:
@@ -33,19 +34,20 @@ class OpenConnection {
 
 class PageClient {
  public:
-  /// Opens the WebSocket of the page at `address`, http://127.0.0.1:PORT/TOKEN/, as a browser on that page
-  /// would; `ok()` returns whether it was accepted.
+  /// Opens the WebSocket of the page at `address` (http://127.0.0.1:PORT/TOKEN/), as a browser would on that
+  /// page. `ok()` returns whether it was accepted.
   explicit PageClient(const std::string& address);
   ~PageClient();
   PageClient(const PageClient&) = delete;
   PageClient& operator=(const PageClient&) = delete;
 
   [[nodiscard]] bool ok() const { return ok_; }
-  /// Returns false if the server has closed the connection or receives nothing for a second.
+  /// Returns false if the server has closed the connection or does not receive the data within one second.
   bool send(const std::string& text) const;
-  /// Returns the next message; none: closed, or nothing within 10 s.
+  /// Returns the next message, or std::nullopt if the connection was closed or there is no message within 10
+  /// s.
   std::optional<std::string> read();
-  /// Reads until a message contains `part`; false if there is none within 20 s.
+  /// Reads until a message contains `part`. Returns false if there is none within 20 s.
   bool read_until(const std::string& part);
 
  private:

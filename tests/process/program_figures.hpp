@@ -1,6 +1,6 @@
 #pragma once
-// Figures of a running program from /proc. The number of descriptors requires that the program was started
-// with --core-dumps, or that the test runs as root.
+// Resource usage of a running program, read from /proc. Counting its descriptors requires that the program
+// was started with --core-dumps or that the test runs as root.
 
 #include <sys/types.h>
 #include <unistd.h>

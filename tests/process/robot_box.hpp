@@ -1,6 +1,7 @@
 #pragma once
-// A simulated robot behind an adapter socket that records what it receives. Six joints follow live setpoints
-// through servos of 10 Hz, as in deploy/robots/cartesian.txtpb, in free space, in a thread of the test.
+// A simulated robot behind an adapter socket, which records the setpoints that it receives. Its six joints
+// follow live setpoints through servos of 10 Hz in free space, as in deploy/robots/cartesian.txtpb. It runs
+// in a thread of the test.
 
 #include <array>
 #include <atomic>
@@ -21,7 +22,7 @@ struct ReportedSetpoint {
   std::uint64_t sequence = 0;
   bool live = false;
   std::array<double, 3> joint{};
-  double off = 0.0;  // largest distance from the position of the joints
+  double off = 0.0;  // largest difference between the setpoint and the position of a joint
 };
 
 class RobotBox {
@@ -35,14 +36,15 @@ class RobotBox {
   RobotBox& operator=(const RobotBox&) = delete;
 
   [[nodiscard]] std::string address() const { return listener_.address(); }
-  /// Datagrams so far: all, and those that command a motion.
+  /// Number of datagrams received so far: all of them, and those that command a motion.
   [[nodiscard]] std::uint64_t reported() const { return reported_; }
   [[nodiscard]] std::uint64_t live() const { return live_; }
   [[nodiscard]] double joint(int i) {
     const std::lock_guard lock(mutex_);
     return joint_[static_cast<std::size_t>(i)];
   }
-  /// Largest step between consecutive live setpoints, and of the first one from the position of the joints.
+  /// Largest step between consecutive live setpoints, and largest step from the joint positions to the first
+  /// live setpoint.
   [[nodiscard]] double step() {
     const std::lock_guard lock(mutex_);
     return step_;
@@ -51,27 +53,27 @@ class RobotBox {
     const std::lock_guard lock(mutex_);
     return first_step_;
   }
-  /// All setpoints so far.
+  /// All setpoints received so far.
   [[nodiscard]] std::vector<ReportedSetpoint> setpoints() {
     const std::lock_guard lock(mutex_);
     return setpoints_;
   }
   /// Adds a wall of 1 N/mm across the third joint.
   void wall(double at_m) { wall_m_ = at_m; }
-  /// A push at the tool, in W: force N, moment N m.
+  /// Applies a force (N) and a moment (N m) to the tool, in W.
   void push_tool(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {
     const std::lock_guard lock(mutex_);
     force_n_ = force_n;
     moment_nm_ = moment_nm;
   }
-  /// Sets the fault of the sensor.
+  /// Sets the fault of the force sensor.
   void set_flaw(SensorFlaw flaw) {
     const std::lock_guard lock(mutex_);
     flaw_ = flaw;
   }
   /// Moves the third joint at this speed from now on.
   void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
-  /// The reported position of the third joint has this error from now on.
+  /// Adds this error to the reported position of the third joint from now on.
   void sensor_fault(double m) { fault_m_ = m; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A program under test: started with fork and exec; its output is stored. The destructor ends it, and it also
-// ends if the test program is killed.
+// A program under test, started with fork and exec, whose output is captured. The destructor ends it, and it
+// also ends if the test program is killed.
 
 #include <sys/types.h>
 
@@ -12,15 +12,16 @@
 
 namespace longreach {
 
-/// Descriptors for the program; -1: no input, and stored output.
+/// File descriptors for the program. -1 means no input, and captured output.
 struct Streams {
-  static constexpr int kClosed = -2;  // of `in`: as with `<&-`
+  static constexpr int kClosed = -2;  // for `in`: the descriptor is closed, as by `<&-` in a shell
   int in = -1, out = -1, err = -1;
 };
 
 class RunningProgram {
  public:
-  /// `name`: one of the programs in the build's bin folder, or an absolute path. The caller owns `streams`.
+  /// Starts a program. `name` is one of the programs in the build's bin folder, or an absolute path. The
+  /// caller owns the descriptors in `streams`.
   RunningProgram(const std::string& name, const std::vector<std::string>& arguments,
                  const Streams& streams = {});
   ~RunningProgram();
@@ -29,10 +30,11 @@ class RunningProgram {
 
   [[nodiscard]] pid_t pid() const { return pid_; }
   void signal(int number) const;
-  /// Exit status, or 128 + signal; none if it still runs after `timeout`.
+  /// Returns the exit status or 128 + signal, or std::nullopt if the program is still running after
+  /// `timeout`.
   std::optional<int> wait(std::chrono::milliseconds timeout);
   [[nodiscard]] bool running();
-  /// Standard output and standard error so far.
+  /// Returns standard output and standard error so far.
   [[nodiscard]] std::string output() const;
 
  private:
@@ -41,7 +43,7 @@ class RunningProgram {
   std::filesystem::path file_;
 };
 
-/// Ports that are free at present.
+/// Ports that were free when free_ports() was called.
 struct Ports {
   int link = 0;
   int slave_rpc = 0;

@@ -1,4 +1,5 @@
 #pragma once
+// A pseudoterminal for tests of programs that read keys from a terminal, and a key that is held down.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -13,7 +14,7 @@
 
 namespace longreach {
 
-/// A pseudoterminal: the user's end and the program's end.
+/// A pseudoterminal. `outer` is the end of the user, `inner` the end of the program.
 struct Terminal {
   int outer = -1, inner = -1;
   Terminal() {
@@ -30,14 +31,14 @@ struct Terminal {
   void type(const std::string& keys) const {
     EXPECT_EQ(::write(outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
-  /// Returns whether a write of the program would block.
+  /// Returns whether a write by the program would block.
   [[nodiscard]] bool full() const {
     pollfd room{inner, POLLOUT, 0};
     return ::poll(&room, 1, 0) == 0;
   }
 };
 
-/// Holds down a key without a function, so that in rate mode the hand stays in place.
+/// Holds down a key that has no function, so that the hand stays in place in rate mode.
 class HeldKey {
  public:
   explicit HeldKey(int fd) : fd_(fd) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Common parts of the verification programs: options and exit status.
+// Common parts of the verification programs: their options and exit status.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -27,7 +27,7 @@ inline void add_options(CLI::App& app, VerificationOptions& o) {
   app.add_flag("--quiet", o.quiet, "Print nothing");
 }
 
-/// Runs it and prints its metrics.
+/// Runs the experiment and prints its metrics.
 inline std::vector<Metric> verify(const Experiment& experiment, const VerificationOptions& o) {
   ExperimentRun run;
   run.config = configure({}, find_deploy_folder());
@@ -42,7 +42,7 @@ inline double value_of(const std::vector<Metric>& metrics, std::string_view name
   throw std::logic_error("there is no metric " + std::string(name));
 }
 
-/// Exit status: 0 done, 1 failed, 2 invalid option.
+/// Parses the command line and runs `body`. Returns the exit status: 0 success, 1 failure, 2 invalid option.
 inline int run_program(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
   const auto say = [&app](const std::exception& e) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());

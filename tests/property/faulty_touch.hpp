@@ -1,8 +1,8 @@
 #pragma once
-// A robot with a faulty force sensor, with the node of the slave and the simulated arm: the gantry of
-// guard_touch.hpp moves towards a wall at a constant speed and beyond it, or rests in front of it. Then the
-// fault begins, and the master continues, stops sending, or stops. The true position and the true force are
-// checked.
+// A robot with a faulty force sensor, simulated with the slave's node and the simulated arm. The gantry of
+// guard_touch.hpp moves towards a wall with a goal that continues behind it at a constant speed, or rests in
+// front of the wall. Then the fault begins. The master may stop sending. The results are the true position
+// and the true force.
 
 #include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/robot/faulty_sensor.hpp"
@@ -12,16 +12,16 @@ namespace longreach::test {
 struct SensorFaultCase {
   SensorFault sensor_fault{};
   GuardCase guard{.guard_n = 20.0, .delay_s = 1e-3, .mass_kg = 0.0};
-  double behind_m = 0.05;  // depth of the final goal behind the wall; negative: in front of it
+  double behind_m = 0.05;  // position of the final goal behind the wall; negative: in front of it
   double fault_s = 0.0;    // start of the fault
-  double silent_s = 1e9;   // time at which the master stops sending
+  double silent_s = 1e9;   // time from which the master sends nothing
   double end_s = 6.0;
-  double coming_m_per_s = 0.0;  // speed of the wall towards the robot
+  double coming_m_per_s = 0.0;  // speed of the wall towards the robot; 0: fixed
 };
 
 struct SensorFaultRow {
   double t_s;
-  Vector3 tool_m;  // its start position
+  Vector3 tool_m;  // position of the tool relative to its start
   double force_n;  // true force
   SafetyState state;
   HoldCause cause;
@@ -30,12 +30,12 @@ struct SensorFaultRow {
 struct SensorFaultRun {
   std::vector<SensorFaultRow> rows{};
   double peak_n = 0.0;
-  double reported_s = -1.0;  // when the state first had a cause that names the sensor
+  double reported_s = -1.0;  // time at which a hold cause first named the sensor; -1: never
   HoldCause reported = HoldCause::kNone;
   std::uint64_t limit_violations = 0;
   std::uint32_t touches = 0;
 
-  /// Largest distance from the position of the tool at `from_s`, afterwards.
+  /// Returns the largest distance of the tool, after `from_s`, from its position at `from_s`, m.
   [[nodiscard]] double way_m(double from_s) const {
     double way = 0.0;
     const SensorFaultRow* at = nullptr;
@@ -52,7 +52,8 @@ inline bool of_the_sensor(HoldCause cause) {
          cause == HoldCause::kForcePersists;
 }
 
-/// `stalls(tick)`: the adapter and the robot are stalled in this tick; the last report is repeated.
+/// Runs a case. `stalls(tick)` returns whether the adapter and the robot are stalled in this tick; if so, the
+/// last report is repeated.
 template <class Stalls>
 SensorFaultRun sensor_fault_run(const SensorFaultCase& c, const SlaveConfig& config, Stalls&& stalls) {
   SlaveNode node(config);

@@ -1,7 +1,8 @@
 #pragma once
-// Random paths of a goal: from joints before a pose of the arm to that pose and on to joints behind it, along
-// straight lines. The pose in the middle is singular, close to a singular one, out of reach or random, or the
-// joints on both sides are far from it.
+// Random paths of a goal: along straight lines from a start pose through a middle pose to an end pose. The
+// joint positions at the start and at the end are at equal and opposite offsets from those of the middle
+// pose. The middle pose is singular, close to a singular pose, out of reach or random; for the tests of joint
+// limits the offsets are large.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -38,7 +39,7 @@ inline JointVector spread(Random& random, double size) {
   return q;
 }
 
-// From pose to pose along a straight line and about one axis, at a constant speed.
+// Motion from one pose to another along a straight line and about a fixed axis, at a constant speed.
 struct Leg {
   Pose from, to;
   double seconds;
@@ -66,7 +67,8 @@ struct Tour {
   bool jumps = false;
 };
 
-// Returns where the determinant of J has a zero between two positions of joint `i`.
+// Moves joint `i` in `q` to a zero of the determinant of J. Returns false if there is none within the joint
+// limits.
 inline bool make_singular(const Kinematics& kinematics, const RobotConfig& robot, int i, JointVector& q) {
   const JointConfig& j = robot.joint[static_cast<std::size_t>(i)];
   const auto determinant = [&](double x) {

@@ -1,6 +1,6 @@
 #pragma once
-// An attacker on the network who has received everything and knows everything but the secret. Generates
-// datagrams that neither side has ever sent to the other, or that were sent before.
+// An attacker on the network who has received all datagrams and knows everything except the secret. It
+// generates datagrams that neither side has ever sent to the other, or replays earlier ones.
 
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@ class Intruder {
 
   explicit Intruder(Random random) : random_(random) {}
 
-  /// Records what went to the attacked side, and what came from it.
+  /// Records a datagram sent to the attacked side, or sent by it.
   void receive_towards(std::span<const std::byte> datagram) {
     towards_.emplace_back(datagram.begin(), datagram.end());
   }
@@ -35,7 +35,8 @@ class Intruder {
     from_.emplace_back(datagram.begin(), datagram.end());
   }
 
-  /// Generates a datagram for the attacked side. Both directions must have been received before.
+  /// Generates a datagram for the attacked side. At least one datagram must have been recorded in each
+  /// direction.
   Datagram make(Attack attack) {
     switch (attack) {
       case Attack::kForged:
@@ -62,7 +63,7 @@ class Intruder {
     for (auto& b : bytes) b = static_cast<std::byte>(random_.next());
   }
 
-  /// The present session, a future number, and random bytes.
+  /// A datagram with the present session, a future sequence number, and otherwise random bytes.
   Datagram forged() {
     const Datagram& like = any(towards_);
     Header header = std::get<Header>(read_header(like));
@@ -74,7 +75,8 @@ class Intruder {
     return out;
   }
 
-  /// At least one bit differs; usually the number is a future one, so that only the tag reveals the change.
+  /// A genuine datagram in which at least one bit is changed. Usually the sequence number is a future one, so
+  /// that only the authentication tag reveals the change.
   Datagram mutated(Datagram bytes) {
     if (random_.chance(0.8)) {
       Header header = std::get<Header>(read_header(bytes));
@@ -88,7 +90,7 @@ class Intruder {
     return bytes;
   }
 
-  /// A datagram that the side has sent itself, unchanged or with another type and number.
+  /// A datagram that the attacked side has sent itself, unchanged or with another type and sequence number.
   Datagram reflected() {
     Datagram bytes = any(from_);
     const Header wanted = std::get<Header>(read_header(any(towards_)));

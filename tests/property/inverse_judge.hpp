@@ -1,5 +1,5 @@
 #pragma once
-// Checks the inverse of an arm: every solution is exact, and none is missing.
+// Checks the inverse kinematics of an arm: every solution must be exact, and none may be missing.
 
 #include <string>
 
@@ -7,27 +7,28 @@
 
 namespace longreach::test {
 
-/// Tolerance of exact kinematics for a pose that is itself rounded: slightly above Refinement::kExact.
+/// Tolerance for exact solutions of a pose that is itself rounded, slightly above Refinement::kExact.
 constexpr double kError = 1.2e-14;
 
 struct Score {
   long poses = 0, solutions = 0, failed = 0;
-  double worst = 0.0;  // rad, or share of the reach
+  double worst = 0.0;  // largest error, rad or fraction of the reach
 };
 
-/// For the pose of `q`: each solution is exact, one of them is `q` (regular) unless the pose leaves an angle
-/// free, and the solution requested from `near` is the nearest of them (regular). Prints the first failures.
+/// Checks the solutions for the pose of `q`. Each solution must be exact. If `regular`, one of them must be
+/// `q`, unless the pose leaves an angle free, and the solution requested for `near` must be the one nearest
+/// to it. Prints the first failures.
 void judge(const NamedArm& arm, const Inverse& inverse, const JointVector& q, const JointVector& near,
            bool regular, Score& score);
 
-/// Prints the score, and expects no failure.
+/// Prints the score and expects no failures.
 void print(const std::string& name, const Score& score);
 
-/// Moves joint `i` to the nearest position at which the determinant of the Jacobian changes its sign. False:
-/// there is none.
+/// Increases joint `i` in `q` to the next position at which the determinant of the Jacobian changes its sign.
+/// Returns false if there is none.
 bool make_singular(const Kinematics& kinematics, int i, JointVector& q);
 
-/// 0 once in five, else 1e-3 to 1e-15 rad to either side.
+/// Returns a random offset: 0 in one of five cases, otherwise 1e-15 to 1e-3 rad with either sign.
 double beside(Random& random);
 
 }  // namespace longreach::test

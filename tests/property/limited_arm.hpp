@@ -1,5 +1,5 @@
 #pragma once
-// The arms of deploy/robots with the joint limits of their files.
+// The arms of deploy/robots with the joint limits and start positions of their files.
 
 #include "deploy/lab/robot/random_arm.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// A handle that moves randomly in its workspace, and configurations of the mapping, for properties over
-// seeds.
+// A handle that moves randomly in its workspace, and random configurations of the mapping, for property tests
+// over seeds.
 
 #include "common/core/random.hpp"
 #include "master/mapping/mapping.hpp"
@@ -15,8 +15,8 @@ inline Vector3 normal_vector(Random& random, double sd) {
 
 inline double twentieths(Random& random) { return 0.05 * std::floor(random.uniform(1.0, 21.0)); }
 
-/// Runs one tick at the present velocity of the handle, then chooses another velocity, towards home if it is
-/// far out.
+/// Moves the handle for one tick at its present velocity, then changes the velocity randomly, with a drift
+/// towards home that grows with the distance.
 inline void wander(HandleState& h, Random& random, double speed_m_per_s, double speed_rad_per_s) {
   h.p_MH += kTick_s * h.velocity_m_per_s;
   h.q_MH = (exp_rotation(kTick_s * h.angular_rad_per_s) * h.q_MH).normalized();

@@ -1,6 +1,6 @@
 #pragma once
-// A robot whose goal follows a tour (goal_tours.hpp), checked from outside in every tick: differences of its
-// setpoints, distance of the tool from its goal, and what the robot reports about it.
+// A robot whose goal follows a tour (goal_tours.hpp). In every tick the differences of its setpoints, the
+// distance of the tool from the goal, and the reported limits are checked from outside.
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -13,14 +13,16 @@
 namespace longreach::test {
 
 constexpr double kDt = 1e-3;
-constexpr double kSettleS = 120.0;  // at most, after the goal has come to rest
-constexpr double kStuckS = 5.0;     // an arm that blocks itself for so long stays there
+constexpr double kSettleS = 120.0;  // maximum time to settle after the goal has come to rest
+constexpr double kStuckS = 5.0;     // an arm that has been blocked for this time is considered stuck
 
 struct Worst {
-  double position = 0.0;                               // rad beyond a limit
-  double speed = 0.0, acceleration = 0.0, jerk = 0.0;  // share of the limit
+  double position = 0.0;                               // maximum distance beyond a limit, rad
+  double speed = 0.0, acceleration = 0.0, jerk = 0.0;  // maximum as a fraction of the limit
   double tool_m_per_s = 0.0, tool_rad_per_s = 0.0;
-  double singular = 0.0;  // smallest singular value of J over the reach where det J changed its sign
+  /// Largest value of the smallest singular value of J, with lengths relative to the reach, at a change of
+  /// the sign of det J.
+  double singular = 0.0;
 };
 
 inline double least_singular_value(const Kinematics& arm, const JointVector& q) {
@@ -29,7 +31,7 @@ inline double least_singular_value(const Kinematics& arm, const JointVector& q) 
   return Eigen::JacobiSVD<Jacobian>(J).singularValues()[5];
 }
 
-// Compares differences of the setpoints with the limits of the joints; tracks the branch of the arm.
+// Compares the differences of the setpoints with the joint limits, and tracks the sign of det J.
 class Judge {
  public:
   Judge(const RobotConfig& robot, const Kinematics& arm, const JointVector& q)
@@ -60,7 +62,7 @@ class Judge {
   bool left_;
 };
 
-// Time for a straight motion from joints to joints that only the speed limits restrict.
+// Returns the duration of a straight motion in joint space that is restricted only by the speed limits.
 inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const CommandConfig& command,
                          const JointVector& from, const JointVector& to) {
   constexpr int kParts = 100;
@@ -79,19 +81,20 @@ inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const 
   return std::max({joints_s, tool_m / command.speed_max_m_per_s, tool_rad / command.speed_max_rad_per_s});
 }
 
-// Time that an arm took for a path, and the minimum.
+// The time that an arm took for a path, and the minimum possible time.
 struct Arrival {
   double s = 0.0, swiftest_s = 0.0;
 };
 
 struct Outcome {
-  double off_m = 0.0;  // of the tool from the path of the goal
+  double off_m = 0.0;  // maximum distance of the tool from the path of the goal
   bool arrived = false;
-  bool hindered =
-      false;  // at the end the arm blocked itself, or its goal was out of reach, and it was reported
-  Arrival from_rest{};                      // since the goal came to rest
-  Arrival from_free{};                      // since the arm last reported that it blocked itself
-  double silent_m = 0.0, silent_rad = 0.0;  // of the tool from its goal while nothing was reported
+  /// At the end the arm was blocked or its goal was out of reach, and this was reported.
+  bool hindered = false;
+  Arrival from_rest{};  // from the time when the goal came to rest
+  Arrival from_free{};  // from the last time that the arm reported being blocked
+  /// Maximum distance of the tool from its goal while nothing was reported.
+  double silent_m = 0.0, silent_rad = 0.0;
 };
 
 inline double off_the_way(const Tour& tour, const Vector3& p) {
@@ -104,7 +107,7 @@ inline double off_the_way(const Tour& tour, const Vector3& p) {
   return least;
 }
 
-// A robot on one tour, checked in every tick.
+// Drives a robot along one tour and checks it in every tick.
 struct Drive {
   Drive(const RobotConfig& of, const Kinematics& arm_of, const CommandConfig& with, const Tour& on)
       : robot(of), arm(arm_of), command(with), motion(with, of), tour(on), judge(of, arm_of, on.start) {
@@ -140,7 +143,7 @@ struct Drive {
     }
   }
 
-  // Runs until the tool is at its goal, or stops elsewhere and reports the reason.
+  // Runs until the tool reaches its goal, or stops elsewhere and reports the reason.
   void settle(const Pose& goal) {
     constexpr double kThere = 1e-9, kStillRad = 1e-3;
     const JointVector from = motion.joint_setpoint_rad();
@@ -172,7 +175,7 @@ struct Drive {
   Pose before{};
   Worst worst{};
   Outcome outcome{};
-  bool hindered = false;  // in the last tick
+  bool hindered = false;  // blocked in the last tick
 };
 
 }  // namespace longreach::test

@@ -1,5 +1,5 @@
 #pragma once
-// The adapter's end of a channel in memory, by the rules of common/link/adapter_datagram.hpp.
+// The adapter's end of an in-memory channel, which follows the rules of common/link/adapter_datagram.hpp.
 
 #include <array>
 #include <optional>
@@ -26,7 +26,7 @@ struct AdapterEnd {
   void send_raw(const Any& out) {
     channel.send(std::as_bytes(std::span(&out, 1)));
   }
-  /// Returns the newest valid datagram.
+  /// Returns the newest valid datagram, if any.
   std::optional<In> receive(Time now) {
     std::optional<In> newest;
     std::array<std::byte, 512> bytes;

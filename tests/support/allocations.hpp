@@ -1,9 +1,9 @@
 #pragma once
-// Counts the calls of operator new.
+// Counts the calls of operator new while counting is switched on.
 
 namespace longreach::test {
 
-void count_allocations(bool on);  // resets the count when switched on
+void count_allocations(bool on);  // switching it on resets the count
 long allocations();
 
 }  // namespace longreach::test

@@ -1,6 +1,6 @@
 #pragma once
-// Random URDF files: six moving joints of every kind in rotated and offset frames, fixed joints between them,
-// a side branch, inertias, and an element for another program.
+// Random URDF files with six moving joints of all types in rotated and offset frames, fixed joints between
+// them, a side branch, inertias, and an element for another program (MuJoCo).
 
 #include <cmath>
 #include <string>
@@ -16,7 +16,8 @@ class RandomUrdf {
  public:
   explicit RandomUrdf(std::uint64_t seed) : random_(seed) {}
 
-  /// Returns the text; the arm is between "base" and "tip". `right_angles`: of the frames, as is common.
+  /// Returns the text of a file. The arm is between the links "base" and "tip". With `right_angles`, all
+  /// frames are rotated by multiples of 90 degrees, as in most real files.
   std::string text(bool right_angles) {
     text_ =
         "<?xml version=\"1.0\"?>\n<robot name=\"drawn\">\n"
@@ -34,7 +35,7 @@ class RandomUrdf {
     }
     link("tip");
     joint("mount", "fixed", parent, "tip", right_angles);
-    // A side branch at the last moving link.
+    // A side branch on the last moving link.
     link("finger");
     joint("finger_joint", "fixed", parent, "finger", right_angles);
     return text_ + "</robot>\n";

@@ -1,5 +1,6 @@
 #pragma once
-// Master and slave on loopback with free ports, as a client sees them through their RPC services.
+// Starts a master and a slave on loopback with free ports, and accesses them through their RPC services as a
+// client does.
 
 #include <gtest/gtest.h>
 
@@ -15,25 +16,25 @@
 
 namespace longreach {
 
-/// The RPC service of one side, through a client.
+/// A client of the RPC service of one side.
 class StationSide {
  public:
-  /// Connects as a client of the site of the tests.
+  /// Connects with the client certificate of the test site.
   StationSide(RpcRole role, int port);
 
   std::optional<proto::Status> status();
-  /// Returns an empty text on success, else the server's message.
+  /// These functions return an empty string on success, otherwise the server's message.
   std::string engage();
   std::string stop();
   std::string set(const std::string& path, const std::string& value);
-  /// Sets all of them or none.
+  /// Sets all of the fields or none.
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
-  /// Returns the effective configuration or a part of it.
+  /// Returns the effective configuration, or the part of it at `path`.
   std::string get(const std::string& path);
   std::string set_delay(double delay_s);
 
   std::string state();
-  /// By name; 0 if there is none.
+  /// Returns the value of a counter, or 0 if there is none with this name.
   std::uint64_t counter(const std::string& name);
 
  private:
@@ -46,15 +47,17 @@ class Station : public ::testing::Test {
   void start_master(const std::vector<std::string>& more = {}, const Streams& streams = {});
   [[nodiscard]] std::string link_address() const { return "127.0.0.1:" + std::to_string(ports_.link); }
 
-  /// Polls until `holds` returns true; returns false after the timeout. The elapsed time is not checked.
+  /// Polls until `holds` returns true. Returns false after the timeout.
   static bool eventually(const std::function<bool()>& holds,
                          std::chrono::seconds timeout = std::chrono::seconds(60));
   bool both_engaged(std::chrono::seconds timeout = std::chrono::seconds(60));
-  /// Requests an engagement as soon as it is not refused, and repeats the request if it fails.
+  /// Requests an engagement, repeats the request as long as it is refused or fails, and returns whether both
+  /// sides engaged.
   bool engaged();
-  /// Waits for a text in the output of a program; its log may be later than its RPC service.
+  /// Waits for a text in the output of a program. Log lines may appear later than the corresponding RPC
+  /// status.
   static bool says(const RunningProgram& program, const std::string& words);
-  /// Output of both programs, for messages of failing tests.
+  /// Returns the output of both programs, for failure messages.
   std::string outputs() const;
 
   Ports ports_ = free_ports();

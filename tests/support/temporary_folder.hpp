@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder for a test; the destructor removes it.
+// A temporary folder for a test. The destructor removes it.
 
 #include <stdlib.h>
 
@@ -24,7 +24,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// Writes a file and creates its folders; returns its path.
+  /// Writes a file, creating its parent folders, and returns its path.
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;

@@ -12,9 +12,9 @@ namespace longreach {
 namespace {
 
 constexpr double kLeast_hz = 500.0, kMost_hz = 4400.0;
-constexpr double kLongGap_s = 0.005;  // that one of a hundred gaps may reach
+constexpr double kLongGap_s = 0.005;  // one gap out of a hundred may be longer
 constexpr double kWatchdog_s = 0.02;
-constexpr double kMargin_s = 0.01;  // for the way and the clock
+constexpr double kMargin_s = 0.01;  // tolerance for transport and clock
 
 template <class Subject>
 class AdapterCheck {
@@ -30,7 +30,8 @@ class AdapterCheck {
         talk_(std::in_place, address, static_cast<std::uint64_t>(AdapterSocket::now_ns())) {}
 
   Section run() {
-    // So that what is late is the adapter. Without the right to it the check is as good as the machine.
+    // Real-time priority, so that measured delays are those of the adapter. Without the permission, the
+    // result depends on the load of the machine.
     const sched_param priority{.sched_priority = 30};
     sched_setscheduler(0, SCHED_FIFO, &priority);
     section_.title = std::string(Subject::kWhat) + " adapter at " + address_;
@@ -95,7 +96,8 @@ class AdapterCheck {
         "create the socket with umask 077 or set its mode to 0600, and close connections of other users");
   }
 
-  /// One program at a time: when this one has gone. What is said commands nothing.
+  /// Runs after this end has disconnected, because an adapter accepts one program at a time. The datagrams
+  /// command nothing.
   void knows_its_peer() {
     constexpr uid_t kNobody = 65534;
     if (::geteuid() != 0) return;
@@ -108,7 +110,7 @@ class AdapterCheck {
         "adapter's own user or root");
   }
 
-  /// Two seconds of what every tick has.
+  /// Checks for two seconds what must hold for every datagram.
   void watch() {
     const Seen seen = talk_->talk(2.0, [this](double) { return subject_.nothing(); });
     add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is valid" : wrong(),
@@ -170,7 +172,7 @@ class AdapterCheck {
         subject_.advice());
   }
 
-  /// What nobody may take, each kind beside what is meant.
+  /// Checks that invalid datagrams are ignored. Each kind is sent in addition to the valid datagrams.
   void ignores() {
     using Corruption = std::function<void(Out&)>;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -211,7 +213,8 @@ class AdapterCheck {
       for (auto& b : bytes) b = static_cast<std::byte>(talk_->random().next());
       const Out poison = subject_.poison(meant);
       if (talk_->random().chance(0.5)) std::memcpy(bytes.data(), &poison, sizeof poison);
-      std::size_t size = 1 + talk_->random().next() % (bytes.size() - 1);  // none would end the talk
+      // A datagram of 0 bytes would end the connection.
+      std::size_t size = 1 + talk_->random().next() % (bytes.size() - 1);
       if (size == sizeof poison) ++size;
       socket.send(std::span(bytes).first(size));
     });
@@ -269,7 +272,7 @@ class AdapterCheck {
     return talk_->talk(
         seconds, [this](double t_s) { return subject_.ask(t_s); }, beside);
   }
-  /// What was told instead of what was asked for.
+  /// What the adapter reported instead of the commanded behaviour.
   [[nodiscard]] std::string said(const Seen& seen) const {
     if (seen.empty()) return "no more datagrams arrive";
     const auto other =

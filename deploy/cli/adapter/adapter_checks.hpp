@@ -1,6 +1,6 @@
 #pragma once
-// Checks an adapter against the rules of common/link/adapter_datagram.hpp, with one finding and remedy per
-// rule.
+// Checks an adapter against the rules of common/link/adapter_datagram.hpp. Each rule yields one finding; a
+// violated rule also yields a remedy.
 
 #include <string>
 
@@ -8,9 +8,10 @@
 
 namespace longreach {
 
-/// `force_n` > 0: maximum commanded force.
+/// Checks a device adapter. `force_n` is the maximum commanded force, > 0.
 Section check_device_adapter(const std::string& address, double force_n);
-/// `move_rad`: maximum motion of the first joint, m for a prismatic one; 0: none.
+/// Checks a robot adapter. `move_rad` is the maximum motion of the first joint, in rad (m for a prismatic
+/// joint); 0 leaves the robot in place.
 Section check_robot_adapter(const std::string& address, double move_rad);
 
 }  // namespace longreach

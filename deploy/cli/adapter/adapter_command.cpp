@@ -1,4 +1,4 @@
-// longreach adapter check: tries an adapter of somebody's device or robot.
+// longreach adapter check: checks a user's adapter for a device or a robot.
 
 #include <iostream>
 

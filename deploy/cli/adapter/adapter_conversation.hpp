@@ -1,5 +1,5 @@
 #pragma once
-// longreach's end of the exchange with an adapter for the duration of a check, including invalid datagrams.
+// longreach's end of the exchange with an adapter during a check. It can also send invalid datagrams.
 
 #include <algorithm>
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace longreach {
 
-/// Returns why the bytes are not a valid datagram; empty: they are.
+/// Returns why the bytes are not a valid datagram, or an empty string if they are.
 template <class In>
 std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
   In in;
@@ -39,7 +39,7 @@ class Conversation {
   struct Seen {
     std::int64_t at_ns = 0;
     In in{};
-    bool excused = false;  // this end was late itself: the watchdog of the adapter may have acted
+    bool excused = false;  // this end was late, so the adapter's watchdog may have triggered
   };
   using Say = std::function<Out(double t_s)>;
   using Beside = std::function<void(const AdapterSocket&, const Out&)>;
@@ -49,21 +49,21 @@ class Conversation {
     begin();
   }
 
-  /// Acts as a restarted program.
+  /// Starts a new session, as a restarted program would.
   void begin() {
     exchange_ = adapter::Exchange(random_.next() | 1U);
     sent_ = 0;
   }
 
-  /// Sends the output of `say` every millisecond, followed by `beside`; without `say` it only listens.
-  /// Returns the received datagrams.
+  /// Sends the output of `say` every millisecond and then calls `beside`, which may send additional
+  /// datagrams. Without `say`, only listens. Returns the received valid datagrams.
   std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
     constexpr std::int64_t kPeriod_ns = 1'000'000;
     std::vector<Seen> seen;
     const std::int64_t begin_ns = AdapterSocket::now_ns();
     const auto end_ns = begin_ns + static_cast<std::int64_t>(1e9 * seconds);
     for (std::int64_t due_ns = begin_ns; due_ns < end_ns; due_ns += kPeriod_ns) {
-      // Missed datagrams are not sent later.
+      // Datagrams that are overdue are skipped, not sent in a burst.
       due_ns = std::max(due_ns, AdapterSocket::now_ns() - kPeriod_ns);
       if (say) {
         Out out = say(1e-9 * static_cast<double>(due_ns - begin_ns));
@@ -74,15 +74,15 @@ class Conversation {
       }
       while (const auto arrival = socket_.receive(due_ns + kPeriod_ns)) {
         take(*arrival, say != nullptr, seen);
-        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // a flood
+        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // the adapter floods this end
       }
     }
     return seen;
   }
 
-  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // in this session
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // datagrams sent in this session
   [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
-  /// Received invalid datagrams: reasons and counts.
+  /// Number of invalid datagrams received, by reason.
   [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }
   [[nodiscard]] const AdapterSocket& socket() const { return socket_; }
   Random& random() { return random_; }
@@ -95,7 +95,7 @@ class Conversation {
     while (sends_ns_.front() < at_ns - kMemory_ns) sends_ns_.pop_front();
   }
 
-  /// Whether this end paused shortly before.
+  /// True if this end paused for more than kLate_ns within the last kMemory_ns.
   [[nodiscard]] bool paused(std::int64_t at_ns) const {
     std::int64_t before_ns = 0;
     for (const std::int64_t send_ns : sends_ns_) {

@@ -11,14 +11,14 @@
 namespace longreach {
 namespace {
 
-constexpr double kFelt_n = 4.0, kFelt_nm = 0.4;  // a push, beyond what was told at rest
-constexpr double kMoved = 0.02;                  // rad or m: the robot gave way
+constexpr double kFelt_n = 4.0, kFelt_nm = 0.4;  // minimum of a push, relative to the report at rest
+constexpr double kMoved = 0.02;                  // rad or m; a larger motion means that the robot yielded
 constexpr double kStep_s = 0.05;
 
 using adapter::RobotDatagram;
 using adapter::SetpointDatagram;
 
-/// Means of what came.
+/// Means of the received reports.
 struct Told {
   Vector6 joint_rad = Vector6::Zero();
   Vector3 force_n = Vector3::Zero(), moment_nm = Vector3::Zero();
@@ -88,7 +88,7 @@ class Pushing {
     Push push;
     for (double t_s = 0.0; t_s < timeout_s_; t_s += kStep_s) {
       if (felt(listen(kStep_s), turn).norm() < least) continue;
-      listen(0.3);  // until it is steady
+      listen(0.3);  // until the push is steady
       const Told reported = listen(0.4);
       push.R_WE = robot_.orientation(reported.joint_rad);
       push.reported = felt(reported, turn);

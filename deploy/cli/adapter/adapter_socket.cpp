@@ -19,7 +19,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 std::int64_t nanoseconds(const timespec& t) { return t.tv_sec * kSecond_ns + t.tv_nsec; }
 
-/// When the system took it; the present, if it does not say.
+/// Time at which the kernel received the datagram, or the present time if there is no time stamp.
 std::int64_t taken_ns(msghdr& message) {
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
     if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
@@ -73,7 +73,7 @@ std::int64_t AdapterSocket::now_ns() {
 }
 
 std::int64_t AdapterSocket::send(std::span<const std::byte> datagram) const {
-  // Nobody there: that nothing comes back says so.
+  // Errors are ignored: a missing adapter is detected because nothing is received.
   reach();
   [[maybe_unused]] const ssize_t sent = ::send(fd_, datagram.data(), datagram.size(), MSG_NOSIGNAL);
   return now_ns();
@@ -99,7 +99,7 @@ std::optional<AdapterSocket::Arrival> AdapterSocket::receive(std::int64_t end_ns
     const std::int64_t left_ns = end_ns - now_ns();
     if (left_ns <= 0) return std::nullopt;
     const timespec wait{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
-    pollfd readable{fd_, POLLIN, 0};  // without anybody there: only waits
+    pollfd readable{fd_, POLLIN, 0};  // without a connection this only waits
     ::ppoll(&readable, 1, &wait, nullptr);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Socket of `longreach adapter check`: sends to an adapter and receives from it, with the system's time
-// stamps, so that a late reader does not affect the result. The adapter may start later, end and restart.
+// Socket of `longreach adapter check`: sends datagrams to an adapter and receives from it. Arrivals carry the
+// kernel's time stamps, so that a late reader does not affect the result. The adapter may start later, exit
+// or restart.
 
 #include <sys/types.h>
 
@@ -17,25 +18,25 @@ class AdapterSocket {
  public:
   struct Arrival {
     std::int64_t at_ns = 0;  // CLOCK_REALTIME
-    std::size_t size = 0;    // true size, also of a truncated datagram
+    std::size_t size = 0;    // size as sent, even if `bytes` is truncated
     std::array<std::byte, 1024> bytes{};
   };
 
-  /// `user`: connects as a program of that user, which requires root. Throws AddressError or
+  /// With `user`, connects as a process of that user, which requires root. Throws AddressError or
   /// std::runtime_error.
   explicit AdapterSocket(const std::string& address, std::optional<uid_t> user = {});
   ~AdapterSocket();
   AdapterSocket(const AdapterSocket&) = delete;
   AdapterSocket& operator=(const AdapterSocket&) = delete;
 
-  /// Returns why there is no connection, or empty.
+  /// Returns why there is no connection, or an empty string if there is one.
   [[nodiscard]] std::string trouble() const;
-  /// Whether users other than the owner of the path may connect.
+  /// Returns whether users other than the owner of the path may connect.
   [[nodiscard]] bool open_to_others() const;
 
-  /// Returns the time of sending.
+  /// Returns the time of sending, ns of CLOCK_REALTIME.
   std::int64_t send(std::span<const std::byte> datagram) const;
-  /// Returns the next datagram; none until `end_ns`.
+  /// Returns the next datagram, or std::nullopt if none arrives before `end_ns`.
   [[nodiscard]] std::optional<Arrival> receive(std::int64_t end_ns) const;
   [[nodiscard]] static std::int64_t now_ns();
 
@@ -45,8 +46,8 @@ class AdapterSocket {
 
   std::string path_;
   std::optional<uid_t> user_;
-  mutable int fd_ = -1;    // none: no program listens
-  mutable int error_ = 0;  // of the last attempt to connect
+  mutable int fd_ = -1;    // -1: no process is listening
+  mutable int error_ = 0;  // errno of the last attempt to connect
 };
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// Commands that a check of an adapter sends to a device or a robot, and the evaluation of their effect.
+// The commands that an adapter check sends to a device or a robot, and the evaluation of their effect.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ inline std::string in_text(const char* format, double value) {
   return text;
 }
 
-/// A haptic device: a small force along z, which it must report.
+/// A haptic device. It is commanded a small force along z, which it must report.
 class DeviceSubject {
  public:
   using Out = adapter::WrenchDatagram;
@@ -36,7 +36,7 @@ class DeviceSubject {
     out.force_n[2] = force_n_;
     return out;
   }
-  /// The same with an additional force along x, which must be ignored.
+  /// The same command with an additional force along x. The adapter must ignore it.
   [[nodiscard]] Out poison(Out out) const {
     out.force_n[0] = 2.0 * force_n_;
     return out;
@@ -63,7 +63,7 @@ class DeviceSubject {
   double force_n_;
 };
 
-/// A robot: to stay in place or, if it may move, to move its first joint by a small amount.
+/// A robot. It is commanded to stay in place or, if it may move, to move its first joint by a small amount.
 class RobotSubject {
  public:
   using Out = adapter::SetpointDatagram;
@@ -77,7 +77,7 @@ class RobotSubject {
   explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
 
   void know(const In& in) { std::copy_n(in.joint_rad, adapter::kJoints, start_rad_); }
-  /// It moves within the first half second.
+  /// The setpoint at the time t_s of the check. The motion takes the first half second.
   [[nodiscard]] Out ask(double t_s) {
     share_ = std::max(share_, std::min(1.0, 2.0 * t_s));
     Out out;

@@ -1,5 +1,5 @@
 #pragma once
-// Content of a robot file: orientation of the tool, and ranges of the joints.
+// What an adapter check needs from a robot file: the orientation of the tool and the joint limits.
 
 #include <memory>
 #include <string>
@@ -10,13 +10,14 @@ namespace longreach {
 
 class DescribedRobot {
  public:
-  /// Reads a file like robot_file of longreach-slave. Throws UsageError.
+  /// Reads a file in the same way as the setting robot_file of longreach-slave. Throws UsageError.
   explicit DescribedRobot(const std::string& file);
   ~DescribedRobot();
 
-  /// R_WE at these joints: rad, m for a prismatic one.
+  /// R_WE at these joint positions, in rad (m for a prismatic joint).
   [[nodiscard]] Matrix3 orientation(const Vector6& joint_rad) const;
-  /// What is wrong with the joints, and a remedy, for the author of an adapter. Empty: nothing.
+  /// Why joint positions are implausible, and a remedy, addressed to the author of an adapter. Both are empty
+  /// if the positions are plausible.
   struct Wrong {
     std::string text, advice;
   };

@@ -16,7 +16,7 @@ std::string in_text(const Vector3& v) {
   return text;
 }
 
-/// True if what was told is `expected` of each push.
+/// Returns whether each push was reported in the direction that `expected` returns for it.
 template <class Expected>
 bool fits(const PushedSensor& sensor, const Expected& expected) {
   for (int i = 0; i < 3; ++i) {
@@ -28,7 +28,8 @@ bool fits(const PushedSensor& sensor, const Expected& expected) {
 
 Vector3 in_tool(const Push& push, const Vector3& axis) { return push.R_WE.transpose() * axis; }
 
-/// Axes taken for each other: told = P f_E, with P a permutation with signs. Empty: it is none.
+/// Describes interchanged axes: reported = P f_E with a signed permutation P. Returns an empty string if
+/// there is no such P.
 std::string exchanged(const PushedSensor& sensor) {
   std::array<int, 3> order{0, 1, 2};
   do {

@@ -1,7 +1,7 @@
 #pragma once
-// Evaluates the reports of a force sensor while the user pushed the tool along the axes of the robot's base
-// and turned it about them. Pure. The report must be the force by the environment on the tool, along the axes
-// of the tool E:  f_E = R_WEᵀ f_W.
+// Evaluates what a force sensor reported while the user pushed the tool along the axes of the robot's base
+// and turned it about them. The sensor must report the force of the environment on the tool, in the axes of
+// the tool E: f_E = R_WEᵀ f_W. Pure functions.
 
 #include <array>
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace longreach {
 
-/// A push along, or a rotation about, the axis i of the base W.
+/// A push along axis i of the base W, or a rotation about it.
 struct Push {
   Matrix3 R_WE = Matrix3::Identity();
-  /// difference from the report at rest, N or N m; zero: no force was measured
+  /// Difference from the report at rest, N or N m; zero if no force was measured.
   Vector3 reported = Vector3::Zero();
 };
 
-/// `what`: "force" or "moment"; `unit`: N or N m.
+/// The three pushes of one sensor: `what` is "force" or "moment", `unit` is N or N m.
 struct PushedSensor {
   const char* what = "force";
   const char* unit = "N";
-  Vector3 rest = Vector3::Zero();  // report without contact
-  double rest_max = 2.0;           // maximum offset
+  Vector3 rest = Vector3::Zero();  // reported value without contact
+  double rest_max = 2.0;           // maximum magnitude of `rest`
   std::array<Push, 3> push{};
 };
 

@@ -1,18 +1,19 @@
 #pragma once
-// Checks of the doctor, one section each. It changes and creates nothing: the site folder is only read, and
-// the sides are queried as by `longreach status`. Their UDP ports get five datagrams of 508 bytes each that
-// they reject and count, which shows that such datagrams arrive.
+// The checks of `longreach doctor`, one section each. They change nothing: the site folder is only read, and
+// the sides are queried in the same way as by `longreach status`. Each side also receives five invalid
+// datagrams of 508 bytes on its UDP port, which it rejects and counts; the count shows that datagrams of this
+// size arrive.
 
 #include "deploy/cli/finding.hpp"
 #include "deploy/cli/invocation.hpp"
 
 namespace longreach {
 
-/// Clock, permissions, processor, and a bare loop of `seconds` at 1 kHz.
+/// Checks the clock, the permissions and the processor, and runs an empty 1 kHz loop for `seconds`.
 Section examine_machine(double seconds);
-/// The site folder: its access rights, its roles, and the validity of its certificates.
+/// Checks the access rights of the site folder, its roles, and the validity of its certificates.
 Section examine_site(const Options& options);
-/// Availability, version, loop and link of a side; `seconds`: duration of the measurement.
+/// Checks the availability, version, loop and link of a side. The measurement takes `seconds`.
 Section examine_side(Side side, const Options& options, double seconds);
 
 }  // namespace longreach

@@ -1,4 +1,4 @@
-// longreach doctor: looks at this host, its site and both sides, and says what to do.
+// longreach doctor: checks this host, its site and both sides, and prints remedies.
 
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 namespace longreach {
 namespace {
 
-/// What takes its time, on a terminal alone, until the next section is there.
+/// Shows on a terminal what is being checked until the next section is complete.
 class Progress {
  public:
   explicit Progress(const std::string& what) : shown_(isatty(STDERR_FILENO) == 1) {

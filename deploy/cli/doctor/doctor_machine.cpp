@@ -51,7 +51,7 @@ Finding examine_clock() {
   return out;
 }
 
-/// In a thread of its own, which takes what it got with it.
+/// Runs in a thread of its own, so that its priority ends with the thread.
 Finding examine_priority() {
   int error = 0;
   std::thread([&error] {
@@ -101,7 +101,7 @@ Finding examine_processor() {
   return out;
 }
 
-/// A loop that does nothing: what this machine can keep at best.
+/// An empty loop, which shows the best timing that this machine can achieve.
 Finding examine_loop(double seconds) {
   std::atomic<bool> end{false};
   std::vector<double> late_s;
@@ -136,7 +136,7 @@ Finding examine_loop(double seconds) {
         "close other programs, give the loop real-time priority, isolate a core, or lower "
         "loop.rate_hz";
   }
-  // The programs hold when a tick comes later than their gap timer after the one before.
+  // The programs hold if the time between two ticks exceeds their gap timer.
   constexpr double kGap_s = 0.1, kNear = 0.5;
   if (to_seconds(figures.lateness_max) > kNear * kGap_s) {
     out.verdict = FindingVerdict::kWarning;

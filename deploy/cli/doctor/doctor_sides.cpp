@@ -36,10 +36,10 @@ double median(std::vector<double> values) {
   return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
-/// What was seen of a side while it was watched.
+/// What was measured of a side during the measurement.
 struct Watched {
   proto::Status first, last;
-  double between_s = 0.0;  // first to last
+  double between_s = 0.0;  // from the first to the last
   std::vector<double> rpc_s{}, udp_s{};
 };
 
@@ -70,7 +70,7 @@ Finding not_running(Side side, const std::string& address) {
               port_of(address) + " through the firewalls"};
 }
 
-/// A side that could not be asked: why.
+/// Reports why a side could not be queried.
 Finding unanswered(Side side, const std::string& address, const std::string& error, double timeout_s) {
   if (!takes_connections(address, timeout_s)) return not_running(side, address);
   return {FindingVerdict::kFailure, "RPC", error,
@@ -110,7 +110,7 @@ Finding state_finding(const proto::Status& status) {
   return {FindingVerdict::kOk, "state", text};
 }
 
-/// Of a slave whose touch threshold is derived.
+/// For a slave that derives its touch threshold.
 Finding sensor_finding(const proto::Status& status) {
   const std::string& warning = status.sensor_warning();
   if (warning.empty()) return {FindingVerdict::kOk, "force sensor", status.sensor()};
@@ -190,7 +190,8 @@ std::string unquoted(std::string text) {
   return text;
 }
 
-/// Where the side takes datagrams, as this host sees it. Empty: it is not told, or any free port.
+/// Returns the address at which the side receives datagrams, as seen from this host. Empty if it is unknown
+/// or any free port.
 std::string link_address(SideClient& client, const std::string& rpc) {
   const std::string listen = unquoted(client.get("link.listen"));
   const std::string host = host_of(listen);
@@ -203,7 +204,8 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
     return {FindingVerdict::kFailure, "datagrams",
             "it accepts datagrams only from its own machine, at " + address,
             "start it with --set link.listen=0.0.0.0:" + port_of(address)};
-  // Rejected by the version, or, at the master, since they are not the slave's: which counter tells.
+  // The slave rejects the probe datagrams because of their version, the master because they do not come from
+  // the slave. Each case has its own counter.
   const std::string name = side == Side::kSlave ? "rejected_version" : "strangers";
   const proto::Status before = client.status();
   const double wait_s = 2.0 + before.impairment().delay_s();
@@ -243,7 +245,7 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
   out.findings.push_back(refusals_finding(seen.last));
 }
 
-/// The default port of the slave's datagrams, where it does not run.
+/// Checks the default port of the slave's datagrams if the slave is not running.
 void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
@@ -259,7 +261,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
   const std::string& address = side == Side::kMaster ? options.master_address : options.slave_address;
   Section out{(side == Side::kMaster ? "Master at " : "Slave at ") + address};
   const auto site = options.site.empty() ? default_site() : std::filesystem::path(options.site);
-  // A client would make one.
+  // A client would create the site folder, so this is checked first.
   if (!options.insecure && !site_exists(site)) {
     out.findings.push_back(takes_connections(address, options.timeout_s)
                                ? Finding{FindingVerdict::kFailure, "RPC",

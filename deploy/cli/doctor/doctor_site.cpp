@@ -16,7 +16,7 @@ constexpr std::string_view kAnew =
     "restore it, or move the folder away: the next start then creates a new site, and paired hosts must "
     "be paired again";
 
-/// The folder and every file in it that has a key or a certificate.
+/// The folder and every file in it that contains a key or a certificate.
 Finding examine_modes(const fs::path& site) {
   std::vector<fs::path> paths{site};
   std::error_code error;
@@ -37,7 +37,7 @@ Finding examine_modes(const fs::path& site) {
   return {FindingVerdict::kOk, "folder", "accessible only to its owner"};
 }
 
-/// Empty: it cannot be read.
+/// Returns an empty result if the file cannot be read.
 std::string text_of(const fs::path& file) {
   try {
     return read_site_file(file);
@@ -96,7 +96,7 @@ Section examine_site(const Options& options) {
     return out;
   }
   out.findings.push_back(examine_modes(site));
-  if (out.findings.back().verdict != FindingVerdict::kOk) return out;  // it is not read by any program either
+  if (out.findings.back().verdict != FindingVerdict::kOk) return out;  // no program reads it either
   const std::string authority = text_of(site / "authority.crt");
   out.findings.push_back(examine_authority(site, authority));
   if (authority.empty()) return out;

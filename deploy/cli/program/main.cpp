@@ -17,13 +17,13 @@ namespace {
 using namespace std::string_view_literals;
 using longreach::ExitStatus;
 
-/// Help, version and the like.
+/// Help or version text as JSON.
 std::string printout_json(const std::string& text) {
   return "{\"text\":" + longreach::json_string(text) + "}\n";
 }
 
 ExitStatus run(int argc, const char* const* argv) {
-  // Also when the command line cannot be understood.
+  // --json applies even if the command line cannot be parsed.
   const bool json = std::any_of(argv, argv + argc, [](const char* word) { return word == "--json"sv; });
   try {
     const auto asked = longreach::parse_command_line(argc, argv);

@@ -1,4 +1,5 @@
-// `longreach record`: start and stop by RPC at both sides, list and export on this machine.
+// `longreach record`: starts and stops recordings at both sides by RPC, and lists and exports recordings on
+// this machine.
 
 #include <algorithm>
 #include <cstdio>
@@ -18,7 +19,7 @@
 namespace longreach {
 namespace {
 
-/// What a side answered, or its error.
+/// The reply of a side, or its error.
 struct Answer {
   std::string text;
   std::optional<SideError> error{};
@@ -34,7 +35,7 @@ Answer ask(Side side, const Options& options, const Call& call) {
   }
 }
 
-/// Both sides at the same time; done when both have done it.
+/// Calls both sides in parallel. Successful if both calls are.
 template <class Call>
 ExitStatus at_both(const Options& options, const std::string& doing, const Call& call) {
   auto slave = std::async(std::launch::async, [&] { return ask(Side::kSlave, options, call); });
@@ -92,7 +93,8 @@ std::string formatted_cut(double last_s) {
   return text;
 }
 
-/// All files that are exported together: t_s of every table counts from the first message of them.
+/// Files that are exported together share their time origin: t_s of every table starts at their first
+/// message.
 ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   std::vector<std::filesystem::path> files;
   for (const std::string& name : command.files) {
@@ -102,7 +104,7 @@ ExitStatus export_tables(const Options& options, const RecordCommand& command) {
   }
   std::uint64_t zero_ns = std::numeric_limits<std::uint64_t>::max();
   for (const auto& file : files) {
-    const McapFigures figures = mcap_figures(file);  // what is no recording is called so
+    const McapFigures figures = mcap_figures(file);  // a file that is not a recording is reported as such
     if (figures.messages > 0) zero_ns = std::min(zero_ns, figures.first_ns);
   }
   std::uint64_t tables = 0, rows = 0;

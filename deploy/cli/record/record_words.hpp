@@ -1,5 +1,5 @@
 #pragma once
-// The part of the command line for recordings.
+// The part of the command line that deals with recordings.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -11,9 +11,9 @@ namespace longreach {
 
 class RecordWords {
  public:
-  /// Adds `record` with its commands.
+  /// Adds the command `record` with its subcommands.
   void declare(CLI::App& app);
-  /// Returns the command, if `record` was given. Throws UsageError.
+  /// Returns the parsed command. Call it only if `record` was given. Throws UsageError.
   [[nodiscard]] RecordCommand command() const;
 
  private:

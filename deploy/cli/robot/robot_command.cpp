@@ -1,4 +1,4 @@
-// longreach robot: what a robot's file describes, and the same in the other form.
+// longreach robot: shows what a robot file describes, or converts it to the other form.
 
 #include <fstream>
 #include <iostream>
@@ -32,7 +32,7 @@ RobotConfig as_struct(const proto::Robot& robot) {
   return to_struct(config).robot;
 }
 
-// As a robot's file has it.
+// Text of a robot file.
 std::string rows_text(proto::Robot robot) {
   robot.clear_base_link();
   robot.clear_tip_link();

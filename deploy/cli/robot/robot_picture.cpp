@@ -11,12 +11,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kSide = 360.0, kMargin = 46.0;  // of a view, px
+constexpr double kSide = 360.0, kMargin = 46.0;  // size and margin of a view, px
 
 struct Drawn {
-  std::vector<Vector3> joint_m{}, axis{};  // where each joint is, and its axis
+  std::vector<Vector3> joint_m{}, axis{};  // position and axis of each joint
   std::vector<bool> slides{};
-  std::vector<Vector3> corner_m{};  // base, joints with what is between them, tool
+  std::vector<Vector3> corner_m{};  // polyline through the base, the links and the tool
   Pose tool{};
 };
 
@@ -45,7 +45,7 @@ Drawn drawn(const RobotConfig& robot) {
   return d;
 }
 
-/// Two axes of W as right and up.
+/// The axes of W that point right and up.
 struct View {
   const char* title;
   int right, up;
@@ -83,7 +83,7 @@ class Sheet {
   double size_m_;
 };
 
-/// Numbers of the joints; those of one place beside each other.
+/// Draws the numbers of the joints. Joints at the same place share one label.
 std::string labels(const Drawn& d, const Sheet& sheet) {
   constexpr double kOnePlace = 12.0;  // px
   std::string text;
@@ -129,7 +129,7 @@ std::string view_of(const Drawn& d, const View& view, double left) {
         std::string("stroke=\"") + kColours[static_cast<std::size_t>(axis)] + "\" stroke-width=\"3\"");
   }
   const Vector3& base = d.corner_m.front();
-  if (view.up != 2) return text;  // the floor is seen from the side
+  if (view.up != 2) return text;  // the base plate is drawn in side views only
   return text + "<rect x=\"" + number(sheet.x(base) - 14.0) + "\" y=\"" + number(sheet.y(base)) +
          "\" width=\"28\" height=\"6\" fill=\"#37474f\"/>\n";
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of an arm where it starts, as SVG: from ahead and from the side, as in a drawing.
+// A picture of an arm in its start pose as SVG, seen from the side and from above.
 
 #include <string>
 

@@ -13,13 +13,13 @@
 namespace longreach {
 namespace {
 
-constexpr double kLost = 1e-3;  // conditioning below which a person calls it singular
+constexpr double kLost = 1e-3;  // conditioning below which a pose counts as singular
 
 double conditioning_at(const Kinematics& kinematics, const JointVector& q) {
   return conditioning(kinematics.rigid_with_jacobian(q).J, kinematics.motion_length_m());
 }
 
-/// Half a turn to either side is one place.
+/// Returns whether the pose was already found. Half a turn to either side is the same pose.
 bool known(const std::vector<SingularPose>& found, int joint, double value) {
   constexpr double kSame = 1e-3, kTurn = 6.283185307179586;
   return std::ranges::any_of(found, [&](const SingularPose& s) {
@@ -27,7 +27,7 @@ bool known(const std::vector<SingularPose>& found, int joint, double value) {
   });
 }
 
-/// Minima of the conditioning along one joint, from the others' start.
+/// Searches for singular minima of the conditioning along one joint, with the other joints at their start.
 void look_along(const Kinematics& kinematics, const RobotReport& report, int joint,
                 std::vector<SingularPose>& found) {
   constexpr int kSteps = 720;
@@ -75,7 +75,7 @@ std::string kind_text(JointKind kind) {
   return kind == JointKind::kFixed ? "fixed" : kind == JointKind::kPrismatic ? "prismatic" : "revolute";
 }
 
-// To four places, without zeros that say nothing.
+// Formats a number with up to four decimals, without trailing zeros.
 std::string short_number(double x) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::fixed, 4).ptr;

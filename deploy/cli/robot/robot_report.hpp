@@ -1,5 +1,6 @@
 #pragma once
-// What an arm can do, from its description: how far the tool gets, where it loses a direction.
+// What an arm can do according to its description: how far the tool reaches, and where it loses a direction
+// of motion.
 
 #include <optional>
 #include <string>
@@ -9,32 +10,33 @@
 
 namespace longreach {
 
-/// A pose in which the tool cannot move in one direction, found from the start by moving one joint.
+/// A pose in which the tool cannot move in one direction, found by moving one joint from the start pose.
 struct SingularPose {
-  int joint = 0;                   // that was moved, from 0
-  double value = 0.0;              // rad or m
-  Vector6 lost = Vector6::Zero();  // unit [angular times length; linear], in W
+  int joint = 0;                   // index of the moved joint, from 0
+  double value = 0.0;              // position of that joint, rad or m
+  Vector6 lost = Vector6::Zero();  // lost direction, unit vector [angular times length; linear], in W
 };
 
 struct RobotReport {
   RobotConfig robot{};
   std::string inverse{};
   JointVector start = JointVector::Zero();
-  Pose X_WE{};                // at the start
-  double conditioning = 0.0;  // there: 0 at a singular pose, about 0.3 at a good one
-  double near_m = 0.0,
-         far_m = 0.0;  // of the tool from the first axis' foot, over 20,000 places within the limits
+  Pose X_WE{};                // start pose of the tool
+  double conditioning = 0.0;  // of the start pose: 0 if it is singular, about 0.3 if it is good
+  /// Minimum and maximum distance of the tool from the origin of the first joint's frame, over 20,000 poses
+  /// within the joint limits.
+  double near_m = 0.0, far_m = 0.0;
   std::vector<SingularPose> singular{};
-  std::vector<std::string> cannot{};  // sentences
+  std::vector<std::string> cannot{};  // what the arm cannot do, one sentence each
 };
 
 RobotReport report_of(const RobotConfig& robot);
 
-/// For people; ends with a new line.
+/// The report as text for users; ends with a newline.
 std::string report_text(const RobotReport& report);
 std::string report_json(const RobotReport& report);
 
-/// "turn about x", "move along -z"; the larger part of a lost direction.
+/// Names the larger part of a lost direction, for example "turn about x" or "move along z".
 std::string direction_text(const Vector6& lost);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the command line that is about robot files.
+// The part of the command line that deals with robot files.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -10,9 +10,9 @@ namespace longreach {
 
 class RobotWords {
  public:
-  /// Adds `robot` with its commands.
+  /// Adds the command `robot` with its subcommands.
   void declare(CLI::App& app);
-  /// What was asked for, where `robot` was.
+  /// Returns the parsed command. Call it only if `robot` was given.
   [[nodiscard]] RobotCommand command() const;
 
  private:

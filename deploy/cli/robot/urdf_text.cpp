@@ -30,7 +30,7 @@ std::string three(double x, double y, double z) {
   return format_number(x) + " " + format_number(y) + " " + format_number(z);
 }
 
-// Roll, pitch and yaw about fixed axes. With pitch at a right angle the roll takes all of the turn.
+// Roll, pitch and yaw about fixed axes. If the pitch is ±90 degrees, the yaw is set to 0.
 std::string origin(const Rigid& X) {
   const Matrix3& R = X.R;
   const double flat = std::hypot(R(0, 0), R(1, 0));
@@ -61,7 +61,7 @@ std::string urdf_text(const RobotConfig& robot) {
   const Kinematics kinematics(robot);
   std::string text =
       "<?xml version=\"1.0\"?>\n<robot name=\"" + xml_text(robot.name) + "\">\n  <link name=\"base\"/>\n";
-  Rigid X = kinematics.base();  // from the frame of the parent link to that of the row
+  Rigid X = kinematics.base();  // from the frame of the parent link to the frame of the row
   std::string parent = "base";
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
     const JointConfig& joint = robot.joint[i];

@@ -1,5 +1,6 @@
 #pragma once
-// A robot as URDF: one link and one joint a row, and a fixed joint to the link "tool".
+// Writes a robot as URDF: one link and one joint per Denavit-Hartenberg row, and a fixed joint to the link
+// "tool".
 
 #include <string>
 
@@ -7,7 +8,7 @@
 
 namespace longreach {
 
-/// Read again, the file places the tool as `robot` does, to rounding.
+/// Returns the text of the file. Reading it back gives the same forward kinematics, except for rounding.
 std::string urdf_text(const RobotConfig& robot);
 
 }  // namespace longreach

@@ -18,7 +18,7 @@ bool equal_names(std::string_view a, std::string_view b) {
                     [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Takes as long wherever they differ.
+/// Compares in constant time.
 bool equal_secrets(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -27,7 +27,7 @@ bool equal_secrets(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-/// The path behind the token, with its slash; none when the token is wrong.
+/// Returns the path after the token, with its slash, or std::nullopt if the token is wrong.
 std::optional<std::string_view> behind_token(const std::string& token, std::string_view path) {
   if (token.empty() || !path.starts_with('/')) return std::nullopt;
   path.remove_prefix(1);
@@ -37,7 +37,7 @@ std::optional<std::string_view> behind_token(const std::string& token, std::stri
 }
 
 bool own_origin(const ViewRequest& request) {
-  // Browsers always say where a script comes from; other programs need not.
+  // Browsers always send the origin of a script; other programs need not.
   if (request.origin.empty()) return true;
   constexpr std::string_view kScheme = "http://";
   return request.origin.starts_with(kScheme) &&
@@ -71,7 +71,7 @@ std::string draw_token() {
   std::array<std::uint8_t, 26> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     throw std::runtime_error("the system provides no random numbers, which the token of the page needs");
-  // 5 bits a letter.
+  // 5 bits per letter.
   std::string token;
   for (const std::uint8_t byte : bytes) token += "abcdefghijkmnpqrstuvwxyz23456789"[byte % 32];
   return token;

@@ -1,7 +1,7 @@
 #pragma once
-// A command of a page: one JSON object per message.
+// A command from a page: one JSON object per message.
 //
-//   {"take": true}                     takes the hand; false: returns it
+//   {"take": true}                     takes control; false: returns it
 //   {"aim": [x, y, z], "turn": [x, y, z], "clutch": false, "grip": false}    m and rad from the handle's home
 //   {"do": "engage"}                   or "stop"
 //   {"mode": "rate"}                   or "position"
@@ -22,10 +22,10 @@ struct PageCommand {
   proto::HandAim aim{};
   proto::Mapping::Mode mode = proto::Mapping::POSITION;
   double scale = 0.0;
-  std::string link{};  // a profile's name: letters, digits, - and _
+  std::string link{};  // name of a link profile: letters, digits, - and _
 };
 
-/// Returns none if the text is not a valid command.
+/// Returns std::nullopt if the text is not a valid command.
 std::optional<PageCommand> read_page_command(std::string_view text);
 
 }  // namespace longreach

@@ -9,7 +9,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 constexpr auto kRequestTimeout = std::chrono::seconds(5);
-constexpr auto kAnswerTimeout = std::chrono::seconds(30);  // of files, over a slow network
+constexpr auto kAnswerTimeout = std::chrono::seconds(30);  // for sending the files over a slow network
 constexpr std::uint32_t kHeadMaxBytes = 8192;
 
 http::response<http::string_body> plain(http::status status, std::string_view text) {

@@ -1,6 +1,6 @@
 #pragma once
-// One connection to the view server until it is answered or becomes a viewer. Each request has a timeout of 5
-// s. It runs in the thread of the server.
+// One connection to the view server, until its request has been served or it becomes a viewer. Each request
+// has a timeout of 5 s. It runs in the server's thread.
 
 #include <boost/asio/ip/tcp.hpp>
 #include <memory>
@@ -13,12 +13,12 @@ namespace longreach {
 
 class PageSession : public std::enable_shared_from_this<PageSession> {
  public:
-  /// `access` outlives it. `slot` is kept as long as the connection lasts.
+  /// `access` must outlive the session. `slot` is held until the connection ends.
   PageSession(boost::asio::ip::tcp::socket socket, const PageAccess& access, Viewer::Backend backend,
               std::shared_ptr<void> slot);
 
   void read();
-  /// It has shown the token.
+  /// True once a request contained the correct token.
   [[nodiscard]] bool let_in() const { return let_in_; }
   /// Closes the connection to make room for another one.
   void drop() { stream_.close(); }

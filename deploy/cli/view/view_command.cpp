@@ -1,5 +1,5 @@
-// The page for the browser: what both sides tell goes to the viewers, what the one with the hand asks goes to
-// the sides.
+// longreach view: forwards the data of both sides to the viewers, and the commands of the viewer in control
+// to the sides.
 
 #include <algorithm>
 #include <condition_variable>
@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kPageCommandsMax = 16;
 constexpr auto kEndCheck = std::chrono::milliseconds(100);
 
-/// Carries out wishes one after the other; what comes while too many wait is refused.
+/// Executes commands one after the other. Commands that arrive while too many are pending are refused.
 class CommandQueue {
  public:
   using Say = std::function<void(std::string)>;
@@ -97,7 +97,7 @@ class CommandQueue {
   std::thread thread_;
 };
 
-/// Names of the link profiles that can be chosen; none where there is no folder of them.
+/// Names of the link profiles that can be chosen; empty if there is no folder with profiles.
 std::string profiles_json() {
   std::vector<std::string> names;
   try {
@@ -118,7 +118,7 @@ ExitStatus run_view(const Options& options, const ViewCommand& command) {
   const auto& stop = stop_requested();
   ViewServer server(command.listen);
   const auto say = [&server](std::string text) { server.say(std::move(text)); };
-  // A stop waits for nothing that was asked before.
+  // A stop does not wait for earlier commands.
   CommandQueue command_queue(options, say);
   CommandQueue stops(options, say);
   ViewHand hand(options, [&server](const std::string& why) { server.revoke(why); });

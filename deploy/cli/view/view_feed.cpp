@@ -14,14 +14,15 @@ namespace {
 
 constexpr auto kFeedRetryAfter = std::chrono::milliseconds(500);
 constexpr auto kSlavePeriod = std::chrono::milliseconds(1000);
-constexpr auto kAnchorPeriod = std::chrono::milliseconds(100);  // while an engagement's anchor is missing
+/// While the anchor of the engagement is missing.
+constexpr auto kAnchorPeriod = std::chrono::milliseconds(100);
 constexpr double kFrameHz = 60.0;
 
 std::string reported(const char* name, const std::string& sentence) {
   return std::string("{\"") + name + "\":" + (sentence.empty() ? "null" : json_string(sentence)) + "}";
 }
 
-/// A part of the slave's configuration as JSON.
+/// Returns a part of the slave's configuration as JSON.
 template <class Part>
 std::string part_json(SideClient& slave, const char* path) {
   Part part;
@@ -68,7 +69,7 @@ void ViewFeed::follow() {
   } while (rest(kFeedRetryAfter));
 }
 
-/// Until the stream ends; returns why.
+/// Reads until the stream ends. Returns the reason.
 std::string ViewFeed::read_frames() {
   try {
     const auto stub = proto::Desk::NewStub(connect(Side::kMaster, options_));
@@ -111,10 +112,10 @@ void ViewFeed::ask_slave() {
   } while (rest(anchored_ == engagement_ ? kSlavePeriod : kAnchorPeriod));
 }
 
-/// Returns how long it has been up.
+/// Returns the uptime of the slave.
 double ViewFeed::check_slave(SideClient& slave, double uptime_s) {
   const proto::Status status = slave.status();
-  // It has restarted, perhaps with another robot.
+  // The slave has restarted, perhaps with another robot.
   if (uptime_s < 0.0 || status.uptime_s() < uptime_s) {
     anchored_ = 0;
     backend_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +

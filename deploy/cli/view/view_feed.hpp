@@ -1,11 +1,11 @@
 #pragma once
-// Data of the page, fetched from both sides by separate threads, as JSON. It reconnects when a side is
-// available again.
+// Fetches the data of the page from both sides, each in its own thread, and passes it on as JSON. Reconnects
+// when a side is available again.
 //
-// From the master: {"frame": proto/control's Frame} 60 times a second, or {"down": reason} if there is none.
-// From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config at the first contact and
-// after a restart, {"anchor": {"engagement": N, "position_m": [...], "rotation_rad": [...]}} at each
-// engagement, and {"slave_down": reason}.
+// From the master: {"frame": Frame of proto/control} 60 times per second, or {"down": reason} if the master
+// is not available. From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config after
+// connecting and after a restart of the slave, {"anchor": {"engagement": N, "position_m": [...],
+// "rotation_rad": [...]}} at each engagement, and {"slave_down": reason}.
 
 #include <atomic>
 #include <chrono>
@@ -39,7 +39,7 @@ class ViewFeed {
   std::string read_frames();
   void ask_slave();
   double check_slave(SideClient& slave, double uptime_s);
-  /// Returns false at the end.
+  /// Waits for `time`. Returns false if the feed is being destroyed.
   bool rest(std::chrono::milliseconds time);
 
   const Options options_;
@@ -48,7 +48,7 @@ class ViewFeed {
   std::condition_variable changed_;
   bool ended_ = false;
   grpc::ClientContext* open_ = nullptr;
-  std::atomic<std::uint32_t> engagement_{0};  // of the master
+  std::atomic<std::uint32_t> engagement_{0};  // engagement number of the master
   std::uint32_t anchored_ = 0;  // engagement of the known anchor; used by the thread of the slave only
   std::thread master_, slave_;
 };

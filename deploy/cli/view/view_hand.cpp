@@ -36,7 +36,7 @@ void ViewHand::let_go(bool lost) {
   changed_.notify_all();
 }
 
-/// Waits for something to pass on; none: the hand goes.
+/// Waits for the next aim to forward. Returns std::nullopt if the hand leaves.
 std::optional<proto::HandAim> ViewHand::next(Going& going) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || newest_ || going_ != Going::kNone; });
@@ -50,7 +50,7 @@ std::optional<proto::HandAim> ViewHand::next(Going& going) {
 void ViewHand::run() {
   while (true) {
     {
-      // Letting go of nothing is nothing.
+      // A release without a preceding aim is ignored.
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return ended_ || newest_; });
       if (ended_) return;
@@ -63,7 +63,7 @@ void ViewHand::run() {
   }
 }
 
-/// One stream, from the first aim until the hand goes.
+/// Runs one stream, from the first aim until the hand leaves.
 void ViewHand::hold() {
   const auto stub = proto::Desk::NewStub(connect(Side::kMaster, options_));
   grpc::ClientContext context;

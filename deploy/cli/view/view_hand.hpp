@@ -1,6 +1,7 @@
 #pragma once
-// Forwards the hand of a page to the master: a thread sends the newest aim, each once, over the RPC Hold. If
-// the page sends nothing, nothing is forwarded: the master detects a silent hand.
+// Forwards the hand of a page to the master. A thread sends each new aim once, over the RPC Hold; if aims
+// arrive faster than they can be sent, only the newest is sent. If the page stops sending, nothing is sent,
+// and the master detects the timeout.
 
 #include <condition_variable>
 #include <functional>
@@ -20,15 +21,15 @@ namespace longreach {
 
 class ViewHand {
  public:
-  /// `refused`: called with the reason if the master refuses the hand.
+  /// `refused` is called with the reason if the master refuses the hand.
   ViewHand(const Options& options, std::function<void(const std::string&)> refused);
   ~ViewHand();
   ViewHand(const ViewHand&) = delete;
   ViewHand& operator=(const ViewHand&) = delete;
 
-  // Callable from any thread; they do not wait.
+  // These functions may be called from any thread and do not block.
   void aim(const proto::HandAim& aim);
-  /// `lost`: the stream is cancelled, so that the robot holds.
+  /// Ends the stream. If `lost`, the stream is cancelled instead of closed, so that the robot holds.
   void let_go(bool lost);
 
  private:

@@ -1,6 +1,6 @@
 #include "deploy/cli/view/view_page.hpp"
 
-// In view_page.S.
+// Defined in view_page.S.
 extern "C" {
 extern const char longreach_page_html_begin[], longreach_page_html_end[];
 extern const char longreach_page_script_begin[], longreach_page_script_end[];

@@ -1,5 +1,5 @@
 #pragma once
-// The page, bundled by the build from master/console/page.
+// The page in master/console/page, which the build embeds in the program.
 
 #include <string_view>
 

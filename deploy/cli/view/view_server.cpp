@@ -25,10 +25,10 @@ namespace beast = boost::beast;
 using Tcp = net::ip::tcp;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kHandSilence = std::chrono::seconds(1);  // then others may have the hand
+constexpr auto kHandSilence = std::chrono::seconds(1);  // then another viewer may take control
 constexpr auto kHandCheck = std::chrono::milliseconds(200);
 constexpr auto kAcceptRetry = std::chrono::milliseconds(100);
-constexpr int kSendBufferBytes = 65536;  // half a second of frames; more would be old news
+constexpr int kSendBufferBytes = 65536;  // half a second of frames; older ones are obsolete
 
 std::runtime_error cannot_listen(const std::string& listen, const std::string& why) {
   return std::runtime_error("the view cannot listen on " + listen + " (" + why +
@@ -77,7 +77,7 @@ struct ViewServer::State {
     });
   }
 
-  /// Out of descriptors, mostly: trying at once would try for ever.
+  /// Usually this process has no free descriptors. Retrying at once would loop forever.
   void accept_later() {
     retry.expires_after(kAcceptRetry);
     retry.async_wait([this](beast::error_code error) {
@@ -97,7 +97,7 @@ struct ViewServer::State {
     page_session->read();
   }
 
-  /// False: everybody here has shown the token.
+  /// Drops the oldest connection that has not presented the token. Returns false if all have.
   bool make_room() {
     page_sessions.remove_if([](const auto& page_session) { return page_session.expired(); });
     const auto unknown_peer = std::ranges::find_if(
@@ -135,11 +135,11 @@ struct ViewServer::State {
 
   void on_page_command(const std::shared_ptr<Viewer>& viewer, const PageCommand& page_command) {
     using Kind = PageCommand::Kind;
-    // Whoever sees the danger may stop.
+    // Every viewer may stop the robot.
     if (page_command.kind == Kind::kStop) return backend.act(page_command);
     if (page_command.kind == Kind::kTake) return take(viewer);
     if (viewer != holder) {
-      // What was under way when the hand was lost is no mistake.
+      // Aims that were in transit when the viewer lost control are not an error.
       if (page_command.kind != Kind::kAim && page_command.kind != Kind::kGive)
         viewer->tell(std::make_shared<const std::string>(
             R"({"said":"take the hand first: only the page that has the hand may do this","refused":true})"));
@@ -171,7 +171,8 @@ struct ViewServer::State {
     backend.let_go(lost);
   }
 
-  /// A page that says nothing has lost the hand at the master long since; here others wait for it.
+  /// The master has already timed out the hand of a silent page. Here the page also loses control, so that
+  /// other viewers can take it.
   void check_hand() {
     timer.expires_after(kHandCheck);
     timer.async_wait([this](beast::error_code error) {
@@ -197,7 +198,7 @@ struct ViewServer::State {
 
   template <class Do>
   void for_all(Do what) {
-    // A copy: a viewer that is cut off leaves the set.
+    // Iterates over a copy, because a viewer that is disconnected leaves the set.
     for (const auto& viewer : std::set<std::shared_ptr<Viewer>>(viewers)) what(*viewer);
   }
 
@@ -212,7 +213,7 @@ struct ViewServer::State {
     for_all([&](Viewer& viewer) { viewer.show(text); });
   }
 
-  int connections = 0;  // until the last of them is gone with the context
+  int connections = 0;  // all viewers are destroyed with the context
   net::io_context context{1};
   PageBackend backend;
   Tcp::acceptor acceptor;
@@ -220,10 +221,10 @@ struct ViewServer::State {
   PageAccess access;
   std::string address;
   std::mutex mutex;
-  std::optional<std::string> pending;  // frame, not yet fetched by the thread
-  // The thread's.
+  std::optional<std::string> pending;  // frame that the thread has not fetched yet
+  // Used by the thread only.
   std::set<std::shared_ptr<Viewer>> viewers;
-  std::list<std::weak_ptr<PageSession>> page_sessions;  // oldest first; some are gone
+  std::list<std::weak_ptr<PageSession>> page_sessions;  // oldest first; some have ended
   std::map<std::string, Viewer::Text> topics;
   std::shared_ptr<Viewer> holder;
   Clock::time_point aimed{};

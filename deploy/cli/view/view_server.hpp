@@ -1,8 +1,8 @@
 #pragma once
-// Serves the page and, by WebSocket, its data, in one thread of its own. A slow viewer misses frames, oldest
-// first; a viewer that sends too much is disconnected. One viewer at a time has the hand and may move and
-// change things; every viewer may stop. When all connections are in use, a new one replaces the oldest that
-// has not shown the token.
+// Serves the page and, over WebSockets, its data, in a thread of its own. For a slow viewer the oldest frames
+// are dropped; a viewer that sends too much is disconnected. Only one viewer at a time has control, that is,
+// may move the hand and change settings; every viewer may stop the robot. When all connections are in use, a
+// new connection replaces the oldest one that has not presented the token.
 
 #include <functional>
 #include <memory>
@@ -15,38 +15,39 @@ namespace longreach {
 inline constexpr int kViewersMax = 16;
 inline constexpr int kConnectionsMax = 64;
 
-/// Requests of viewers; called in the thread of the server, must not block.
+/// Callbacks for the requests of viewers. They are called in the server's thread and must not block.
 struct PageBackend {
   std::function<void(const PageCommand&)> act;     // engage, stop, mode, scale, link
-  std::function<void(const proto::HandAim&)> aim;  // of the viewer that has the hand
-  std::function<void(bool lost)> let_go;           // it no longer has the hand; lost: without a release
+  std::function<void(const proto::HandAim&)> aim;  // from the viewer in control
+  std::function<void(bool lost)> let_go;           // the viewer gave up control; lost: without releasing it
 };
 
 class ViewServer {
  public:
-  /// `listen`: address:port; port 0: any free one. Throws std::runtime_error, one sentence, if it cannot
-  /// listen.
+  /// Listens at `listen` (ADDRESS:PORT); port 0 selects any free port. Throws a std::runtime_error with a
+  /// one-sentence message if that fails.
   explicit ViewServer(const std::string& listen);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
-  /// Starts serving; call it once.
+  /// Starts serving. Call it once.
   void serve(PageBackend backend);
-  /// No function of the backend is called after it.
+  /// Stops serving. The backend is not called afterwards.
   void stop();
 
-  /// Address for a browser, including the token.
+  /// URL of the page, including the token.
   [[nodiscard]] const std::string& address() const;
 
-  // Callable from any thread. All texts are JSON.
-  /// Sends a frame; a frame that was not sent when the next one arrives is skipped.
+  // These functions may be called from any thread. All texts are JSON.
+  /// Sends a frame to all viewers. A frame that is still unsent when the next one arrives is skipped.
   void show(std::string frame);
-  /// Sends persistent data: every viewer receives the newest text of each topic, also later ones.
+  /// Publishes persistent data: every viewer receives the newest text of each topic, even if it connects
+  /// later.
   void tell(const std::string& topic, std::string text);
-  /// Sends a message to the present viewers.
+  /// Sends a message to the viewers that are connected now.
   void say(std::string text);
-  /// Takes the hand away from its viewer.
+  /// Withdraws control from the viewer that has it.
   void revoke(const std::string& why);
 
  private:

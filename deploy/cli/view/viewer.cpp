@@ -10,7 +10,7 @@ namespace websocket = beast::websocket;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMessageMaxBytes = 4096;
-constexpr int kMessagesMax = 300;  // a second; a page sends 60 aims and what is clicked
+constexpr int kMessagesMax = 300;  // per second; a page sends 60 aims per second and the clicks
 constexpr std::size_t kFramesMax = 4;
 constexpr std::size_t kTextsMax = 64;
 
@@ -28,7 +28,7 @@ Viewer::Viewer(beast::tcp_stream stream, Backend backend)
 }
 
 void Viewer::accept(const ViewHttpRequest& request) {
-  beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has timeouts of its own
+  beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own timeouts
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
     self->opened_ = true;
@@ -65,7 +65,7 @@ bool Viewer::too_many() {
 void Viewer::show(const Text& frame) {
   const auto frames = std::count_if(queue_.begin(), queue_.end(), [](const Waiting& w) { return w.frame; });
   if (frames >= static_cast<std::ptrdiff_t>(kFramesMax)) {
-    // Never the one that is being written.
+    // The element that is being written is never dropped.
     const auto oldest =
         std::find_if(queue_.begin() + 1, queue_.end(), [](const Waiting& w) { return w.frame; });
     if (oldest != queue_.end()) queue_.erase(oldest);

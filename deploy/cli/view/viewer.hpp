@@ -1,5 +1,5 @@
 #pragma once
-// One open page: a WebSocket with a short queue. It runs in the thread of the server.
+// One open page: a WebSocket with a short send queue. It runs in the server's thread.
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -21,16 +21,16 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   struct Backend {
     std::function<void(const std::shared_ptr<Viewer>&)> opened;
     std::function<void(const std::shared_ptr<Viewer>&, const PageCommand&)> page_command;
-    std::function<void(const std::shared_ptr<Viewer>&)> closed;  // once, if it was opened
+    std::function<void(const std::shared_ptr<Viewer>&)> closed;  // called once, if `opened` was called
   };
   using Text = std::shared_ptr<const std::string>;
 
   Viewer(boost::beast::tcp_stream stream, Backend backend);
 
   void accept(const ViewHttpRequest& request);
-  /// Sends a frame; the oldest queued frame is dropped if there are too many.
+  /// Sends a frame. The oldest queued frame is dropped if there are too many.
   void show(const Text& frame);
-  /// Sends a text that must not be dropped; a viewer with too many queued texts is disconnected.
+  /// Sends a text that must not be dropped. A viewer with too many queued texts is disconnected.
   void tell(const Text& text);
   void close();
 
@@ -49,10 +49,10 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   Backend backend_;
   boost::beast::flat_buffer buffer_;
-  std::deque<Waiting> queue_;  // the first one is being written
+  std::deque<Waiting> queue_;  // the first element is being written
   bool opened_ = false;
   bool closed_ = false;
-  int said_ = 0;  // messages since `counted_since_`
+  int said_ = 0;  // number of messages received since `counted_since_`
   std::chrono::steady_clock::time_point counted_since_{};
 };
 

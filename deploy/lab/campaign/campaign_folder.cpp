@@ -88,7 +88,7 @@ std::optional<proto::CellRecord> CampaignFolder::result(std::size_t cell) const 
   TextFormat::Parser parser;
   parser.RecordErrorsTo(&silent);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
-  // Without fsync a file may be cut after the power has failed: its cell is run again.
+  // Files are written without fsync and may be truncated after a power failure. Such a cell is run again.
   if (!parser.ParseFromString(text, &record) || !record.complete()) return std::nullopt;
   if (record.campaign() != name_ || record.cell() != cell)
     throw ConfigError(file_of(cell).string() +

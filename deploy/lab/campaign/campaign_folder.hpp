@@ -1,7 +1,7 @@
 #pragma once
-// Files of a campaign: DIR/campaign.txtpb identifies it, DIR/cells/NUMBER.txtpb has the result of a cell.
-// Each file is written under a temporary name and renamed, so that it is always complete, also if several
-// programs, on one host or on many, write into one folder.
+// Files of a campaign: DIR/campaign.txtpb identifies it, DIR/cells/NUMBER.txtpb contains the result of a
+// cell. Each file is written under a temporary name and then renamed, so that it is always complete, even if
+// several processes on one or more hosts write to the same folder.
 
 #include <filesystem>
 #include <optional>
@@ -16,17 +16,18 @@ void write_whole(const std::filesystem::path& file, const std::string& text);
 
 class CampaignFolder {
  public:
-  /// A folder of `record`: created if it does not exist. Throws ConfigError if it belongs to another
-  /// campaign.
+  /// Opens the folder of the campaign `record` and creates it if it does not exist. Throws ConfigError if it
+  /// belongs to another campaign.
   CampaignFolder(std::filesystem::path folder, const proto::CampaignRecord& record);
   /// Opens an existing folder. Throws ConfigError if it does not belong to a campaign.
   explicit CampaignFolder(std::filesystem::path folder);
 
   [[nodiscard]] const proto::CampaignRecord& record() const { return record_; }
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-  /// Result of a cell, if it is done. Throws ConfigError for a result of another campaign.
+  /// Returns the result of a cell, if it is complete. Throws ConfigError if the file belongs to another
+  /// campaign.
   [[nodiscard]] std::optional<proto::CellRecord> result(std::size_t cell) const;
-  /// Completes `result` (campaign, cell, complete) and writes it. Throws std::runtime_error.
+  /// Sets the fields campaign, cell and complete of `result` and writes it. Throws std::runtime_error.
   void write(std::size_t cell, proto::CellRecord result) const;
 
  private:
@@ -37,7 +38,8 @@ class CampaignFolder {
   std::string name_;  // hash of the record
 };
 
-/// Returns why results of one do not belong to the other, for example "of commit A, not B"; empty if they do.
+/// Returns how two campaigns differ, for example "of commit A, not B", or an empty string if they are the
+/// same.
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other);
 
 }  // namespace longreach

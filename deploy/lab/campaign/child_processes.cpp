@@ -16,7 +16,7 @@
 namespace longreach {
 namespace {
 
-/// The signals that this is about, blocked while it exists and taken one by one.
+/// Blocks the relevant signals during its lifetime and returns them one by one.
 class Signals {
  public:
   Signals() {
@@ -33,7 +33,7 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// Its number; 0 or less if there was none.
+  /// Returns the number of the next signal, or 0 or less if there was none.
   int next(time_t seconds) const {
     const timespec timeout{.tv_sec = seconds, .tv_nsec = 0};
     return sigtimedwait(&set_, nullptr, &timeout);
@@ -47,14 +47,14 @@ class Signals {
 struct Child {
   pid_t pid = -1;
   std::size_t job = 0;
-  int said = -1;  // file of what it prints
+  int said = -1;  // file with the output of the child
 };
 
 [[noreturn]] void become_child(const Child& child, const Signals& signals, pid_t parent,
                                const ChildWork& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
-  setpgid(0, 0);  // a Ctrl-C is the parent's to answer
+  setpgid(0, 0);  // Ctrl-C must reach only the parent
   signals.restore();
   dup2(child.said, STDOUT_FILENO);
   dup2(child.said, STDERR_FILENO);
@@ -95,7 +95,7 @@ class Children {
   ~Children() {
     for (const Child& child : running_) {
       kill(-child.pid, SIGKILL);
-      kill(child.pid, SIGKILL);  // should it have no group of its own yet
+      kill(child.pid, SIGKILL);  // in case the child has no process group of its own yet
       waitpid(child.pid, nullptr, 0);
       close(child.said);
     }
@@ -105,11 +105,11 @@ class Children {
 
   [[nodiscard]] std::size_t running() const { return running_.size(); }
 
-  /// False if the system has no room for another process now.
+  /// Returns false if the system cannot start another process now.
   bool start(std::size_t job, const Signals& signals) {
     Child child{.job = job, .said = memfd_create("cell", MFD_CLOEXEC)};
     if (child.said < 0) return false;
-    std::fflush(nullptr);  // or the child prints it once more
+    std::fflush(nullptr);  // otherwise the child would print the buffer again
     const pid_t parent = getpid();
     child.pid = fork();
     if (child.pid == 0) become_child(child, signals, parent, work_);

@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-/// Both factors at most 2^32.
+/// Both factors must be at most 2^32.
 std::size_t bounded_product(std::size_t a, std::size_t b) { return std::min(a * b, Grid::kCellsMax + 1); }
 
 }  // namespace

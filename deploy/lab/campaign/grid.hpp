@@ -1,6 +1,6 @@
 #pragma once
-// The cells of a campaign in order: experiments, then the values of each setting, then the seeds; the last
-// varies fastest. The number of a cell is its index, from 0.
+// The cells of a campaign: every combination of experiment, values of the settings, and seed. The seed varies
+// fastest, the experiment slowest. Cells are numbered from 0.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ namespace longreach {
 
 struct Cell {
   std::size_t number = 0;
-  std::size_t combination = 0;     // index of the combination of settings
+  std::size_t combination = 0;     // index of the combination of setting values
   std::string experiment;          // name
   std::vector<std::size_t> value;  // index of the value of each setting
   std::uint64_t seed = 1;
@@ -20,19 +20,21 @@ struct Cell {
 
 class Grid {
  public:
-  /// A larger campaign is assumed to be a mistake: this one takes a day at a second per cell.
+  /// A larger campaign is assumed to be a mistake: at one second per cell, this many cells take more than a
+  /// day.
   static constexpr std::size_t kCellsMax = 100'000;
 
-  /// A campaign with at least one experiment, a value for each setting, and seeds in order.
+  /// The campaign must have at least one experiment, at least one value per setting, and seeds.from <=
+  /// seeds.to.
   explicit Grid(proto::Campaign campaign);
 
-  /// Number of cells; kCellsMax + 1 for any number beyond kCellsMax.
+  /// Number of cells, capped at kCellsMax + 1.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] std::size_t combinations() const;
   [[nodiscard]] Cell cell(std::size_t number) const;
-  /// "PATH=VALUE" of each setting.
+  /// Returns "PATH=VALUE" for each setting of the cell.
   [[nodiscard]] std::vector<std::string> settings(const Cell& cell) const;
-  /// Name for the user: "touch profile=moon mapping.scale=0.2 seed=3".
+  /// Name shown to the user, for example "touch profile=moon mapping.scale=0.2 seed=3".
   [[nodiscard]] std::string name(const Cell& cell) const;
   [[nodiscard]] const proto::Campaign& campaign() const { return campaign_; }
 

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using google::protobuf::Message;
 
-/// What is wrong at one place of the file.
+/// Checks a campaign file and reports errors with their position.
 class Checker {
  public:
   Checker(const fs::path& file, const proto::Campaign& campaign) : file_(file), campaign_(campaign) {}
@@ -67,7 +67,7 @@ class Checker {
                                                  "; the grid is empty");
   }
 
-  /// Settings that make equal rows of an experiment; after every path is known to be one.
+  /// Rejects settings that an experiment does not use. Call it after all paths have been checked.
   void unused() const {
     for (int i = 0; i < campaign_.setting_size(); ++i) {
       const auto& setting = campaign_.setting(i);
@@ -83,10 +83,10 @@ class Checker {
     }
   }
 
-  /// The error of a whole cell, at the first setting with which it is there.
+  /// Reports the error of a cell at the first setting with which it occurs.
   [[noreturn]] void refuse_cell(const Grid& grid, const Cell& cell, const fs::path& deploy) const {
     const std::vector<std::string> all = grid.settings(cell);
-    std::vector<int> of;  // each: the setting that it belongs to
+    std::vector<int> of;  // index of the setting that each element belongs to
     for (int i = 0; i < campaign_.setting_size(); ++i)
       of.insert(of.end(), static_cast<std::size_t>(1 + campaign_.setting(i).also_size()), i);
     for (std::size_t n = 0; n <= all.size(); ++n) {
@@ -108,7 +108,7 @@ class Checker {
   static PathStep step(const Message& message, const char* field, int index) {
     return {message.GetDescriptor()->FindFieldByName(field), index};
   }
-  /// Notes which fields a path sets; `mapping.scale` and `master.mapping.scale` are one.
+  /// Records the fields that a path sets. `mapping.scale` and `master.mapping.scale` are the same field.
   void take(const std::string& path, const FieldPath& at, std::set<std::string>& known) const {
     for (const std::string& field : lab_fields(path)) {
       if (!known.insert(field).second)

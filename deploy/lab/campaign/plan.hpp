@@ -1,5 +1,5 @@
 #pragma once
-// A completely validated campaign: every cell has an experiment and a valid configuration.
+// A validated campaign: the experiment of every cell exists, and its configuration is valid.
 
 #include <filesystem>
 #include <string>
@@ -11,19 +11,20 @@ namespace longreach {
 
 struct Plan {
   Grid grid;
-  std::filesystem::path folder;      // of the grid: base of relative names in it
+  std::filesystem::path folder;      // folder of the grid file; relative file names in it start here
   proto::CampaignRecord record;      // identifies the campaign
-  std::vector<std::string> configs;  // hash of the configuration of each combination
+  std::vector<std::string> configs;  // hash of the configuration for each combination
 };
 
-/// Reads a grid, protobuf text format of proto/campaign.proto, and configures every combination of settings.
-/// Throws ConfigError that names file, line and problem.
+/// Reads a grid in the text format of proto/campaign.proto and builds the configuration for every combination
+/// of settings. Throws a ConfigError that names the file, the line and the problem.
 Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& deploy_folder);
 
-/// Commit of the program. If the tree differed from it, the hash of the program is added.
+/// Returns the commit from which the program was built. If the working tree was modified, a hash of the
+/// program is appended.
 std::string program_name();
 
-/// Whether experiments run at full size, LONGREACH_FULL.
+/// Returns whether experiments run at full size, i.e. LONGREACH_FULL is set in the environment.
 bool full_size();
 
 }  // namespace longreach

@@ -58,8 +58,8 @@ class Table {
 
   const Grid& grid_;
   std::vector<std::string> columns_;
-  std::map<std::string, std::size_t> place_;                          // of a column
-  std::map<std::size_t, std::map<std::size_t, std::string>> rows_{};  // by cell, by column
+  std::map<std::string, std::size_t> place_;                          // name of a column
+  std::map<std::size_t, std::map<std::size_t, std::string>> rows_{};  // indexed by cell and column
 };
 
 }  // namespace

@@ -32,10 +32,10 @@ std::size_t jobs_of(const SweepOptions& options) {
     throw ConfigError("--jobs " + std::to_string(options.jobs) +
                       " must be between 0 (one per processor) and " + std::to_string(kJobsMax));
   if (options.jobs > 0) return static_cast<std::size_t>(options.jobs);
-  return std::max(1U, std::thread::hardware_concurrency());  // those that this process may use
+  return std::max(1U, std::thread::hardware_concurrency());  // number of processors that this process may use
 }
 
-/// One cell, in a child.
+/// Runs one cell in a child process.
 void run_cell(const Plan& plan, const CampaignFolder& folder, const fs::path& deploy, std::size_t number) {
   const Cell cell = plan.grid.cell(number);
   ExperimentRun run;
@@ -57,7 +57,7 @@ void run_cell(const Plan& plan, const CampaignFolder& folder, const fs::path& de
   folder.write(number, std::move(result));
 }
 
-/// What is told while cells run: failures always, and how far it is.
+/// Reports failures and progress while cells run.
 class Progress {
  public:
   Progress(const Grid& grid, std::size_t cells, bool quiet) : grid_(grid), cells_(cells), line_(quiet) {}
@@ -93,7 +93,7 @@ CellResults results_in(const CampaignFolder& folder, std::size_t cells) {
   return results;
 }
 
-/// The results of a whole campaign, or what a shard leaves to be done.
+/// Writes the results of a complete campaign, or prints how to merge the shards.
 void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder& folder, const Shard& shard) {
   if (shard.count > 1) {
     if (!options.quiet)
@@ -108,7 +108,7 @@ void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder&
   if (!options.quiet) std::printf("written to %s, times to %s\n", file.c_str(), times_file(file).c_str());
 }
 
-/// Cells that are done and were without contact.
+/// Number of completed cells without contact.
 std::size_t without_contact(const CellResults& results) {
   return static_cast<std::size_t>(std::ranges::count_if(results, [](const auto& cell) {
     return cell && std::ranges::any_of(cell->metric(), [](const proto::CellRecord::Metric& m) {
@@ -117,7 +117,7 @@ std::size_t without_contact(const CellResults& results) {
   }));
 }
 
-/// The same metrics, times aside.
+/// Compares the metrics of two results, except for times.
 bool alike(proto::CellRecord a, proto::CellRecord b) {
   const auto without_times = [](proto::CellRecord& record) {
     record.clear_spent_s();
@@ -162,7 +162,7 @@ int sweep(const SweepOptions& options) {
   progress.clear();
   const std::size_t before = of_shard - cells.size();
   if (signal != 0) {
-    // Some may have ended just then.
+    // Some children may have ended in the meantime.
     const auto now =
         std::ranges::count_if(cells, [&](std::size_t i) { return folder.result(i).has_value(); });
     std::fprintf(stderr, "longreach-lab: stopped (%s) with %zu of %zu cells done; the same command resumes\n",

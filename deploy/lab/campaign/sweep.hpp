@@ -1,6 +1,6 @@
 #pragma once
-// `longreach-lab sweep`: runs a campaign, each cell in a separate process; completed cells are not repeated.
-// `longreach-lab merge`: joins the results of several shards.
+// `longreach-lab sweep` runs a campaign, each cell in a separate process; completed cells are not repeated.
+// `longreach-lab merge` combines the results of several shards.
 
 #include <filesystem>
 #include <string>
@@ -10,14 +10,14 @@ namespace longreach {
 
 struct SweepOptions {
   std::filesystem::path file;
-  std::filesystem::path out;  // empty: out/NAME of the file
-  int jobs = 0;               // in parallel; 0: one per processor
-  std::string shard = "1/1";  // I/N: the cells I, I + N, I + 2 N, ..., I from 1
+  std::filesystem::path out;  // empty: out/NAME, with the name of the file
+  int jobs = 0;               // number of parallel jobs; 0: one per processor
+  std::string shard = "1/1";  // I/N with I from 1: every Nth cell, starting with the Ith
   bool quiet = false;
 };
 
-/// Exit status: 0 if every cell of the shard is done, 1 if some failed, 3 if some had no contact, 128 +
-/// signal if stopped. Throws ConfigError before the first cell runs.
+/// Returns the exit status: 0 if every cell of the shard is complete, 1 if some failed, 3 if some had no
+/// contact, or 128 + signal if it was stopped. A ConfigError is thrown only before the first cell runs.
 int sweep(const SweepOptions& options);
 
 struct MergeOptions {
@@ -25,11 +25,12 @@ struct MergeOptions {
   std::filesystem::path out;  // CSV file; empty: results.csv in the first folder
 };
 
-/// Exit status: 0 if every cell has a result, 1 if some are missing. Throws ConfigError for folders of
-/// different campaigns.
+/// Returns the exit status: 0 if every cell has a result, 1 if some are missing. Throws ConfigError if the
+/// folders belong to different campaigns.
 int merge(const MergeOptions& options);
 
-/// "I/N" with I from 1 to N. Throws ConfigError.
+/// A shard of a campaign, written "I/N" with I from 1 to N. parse_shard throws ConfigError if the text is
+/// invalid.
 struct Shard {
   std::size_t index = 1, count = 1;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Maximum likelihood fit of (k, λ, n) to a whole record by Ceres Solver: the best accuracy that an online
-// estimate can reach.
+// Maximum likelihood fit of (k, λ, n) to a whole record with Ceres Solver. Its accuracy is the best that an
+// online estimator can reach.
 
 #include <ceres/ceres.h>
 
@@ -8,7 +8,8 @@
 
 namespace longreach::test {
 
-/// Residuals of all samples in contact with respect to (ln of the maximum force, n, a times the speed scale).
+/// Residuals of all samples in contact. The parameters are the ln of the maximum elastic force, n, and a
+/// times the maximum depth.
 class ContactResiduals : public ceres::CostFunction {
  public:
   ContactResiduals(const Samples& samples, double deepest) : deepest_(deepest) {
@@ -42,7 +43,7 @@ struct ContactBatch {
   double k = 0.0, lambda = 0.0, n = 0.0;
 };
 
-/// Starts at the true values, so that it ends at the global maximum.
+/// Fits the record. The optimisation starts at the true values, so that it converges to the global maximum.
 inline ContactBatch batch_fit(const ContactCell& cell, const Samples& record) {
   double p[3] = {std::log(10.0), cell.n, cell.a * cell.deepest_m()};
   ceres::Problem problem;

@@ -65,7 +65,7 @@ NormalMotion moved(const NormalMotion& from, const Trial& trial) {
   return {from.depth_m + trial.dx, from.speed_m_per_s + trial.dv};
 }
 
-// Newton, bracketed by low < Δq <= high.
+// Newton's method, bracketed by low < Δq <= high.
 NormalStep discrete_gradient(const ContactMass& contact, const NormalMotion& from, double dt) {
   constexpr double kExact = 2.0 * std::numeric_limits<double>::epsilon();
   NormalStep step;
@@ -75,11 +75,11 @@ NormalStep discrete_gradient(const ContactMass& contact, const NormalMotion& fro
   if (!(1.0 + contact.law.a * from.speed_m_per_s > 0.0)) return step;
   Trial trial = attempt(contact, from, 0.0, dt);
   if (!(trial.error > 0.0)) return step;
-  Trial lossy = trial;  // at an end of the bracket where H falls
+  Trial lossy = trial;  // the trial at an end of the bracket where H falls
   double low = -trial.kick, high = 0.0, dq = 0.0;
   for (; step.evaluations < kEvaluationsMax; ++step.evaluations) {
     const double newton = dq - trial.error / trial.slope;
-    // No nearer than the rounding of Δq, and of dx, allows.
+    // The result is exact to the rounding of Δq and dx.
     const double exact = kExact * (std::abs(dq) + std::abs(from.speed_m_per_s) / trial.rate);
     if (step.evaluations > 1 && (std::abs(newton - dq) <= exact || high - low <= exact)) {
       step.motion = moved(from, trial);

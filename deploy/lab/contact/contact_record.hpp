@@ -1,6 +1,7 @@
 #pragma once
-// Recordings of a Hunt-Crossley contact with white noise on the force, and the Cramér-Rao bound of the
-// estimates from one: 2 s at 1 kHz, 10 N at the maximum depth. The law is implemented here independently.
+// Synthetic recordings of a Hunt-Crossley contact with white noise on the force (2 s at 1 kHz, 10 N at the
+// maximum depth), and the Cramér-Rao bound for estimates from one recording. The contact law is implemented
+// here independently of the product.
 
 #include <Eigen/LU>
 #include <cmath>
@@ -20,7 +21,7 @@ struct ContactCell {
   double k = 1e4;  // N/mⁿ
   double n = 1.5;
   double a = 0.15;        // λ/k, s/m
-  double noise_n = 0.05;  // sd
+  double noise_n = 0.05;  // standard deviation
   Excitation excitation = Excitation::kProbe;
 
   [[nodiscard]] double lambda() const { return a * k; }
@@ -30,7 +31,7 @@ struct ContactCell {
   }
 };
 
-/// Depth relative to the maximum, and its derivative in 1/s.
+/// Returns the depth relative to the maximum depth, and its derivative in 1/s. The force of the sample is 0.
 inline PenetrationSample motion(Excitation excitation, double t) {
   constexpr double w = 2.0 * std::numbers::pi;
   switch (excitation) {
@@ -62,14 +63,15 @@ inline Samples with_noise(Samples record, double sd_n, Random& random) {
   return record;
 }
 
-/// Minimum sd of any unbiased estimate with a known surface: of n absolute, of the others as fractions.
-/// stiffness: the tangent at the maximum depth.
+/// Minimum standard deviation of any unbiased estimator with a known surface: absolute for n, relative for
+/// the other parameters. `stiffness` is the tangent stiffness at the maximum depth.
 struct ContactBound {
   double k = 0.0, lambda = 0.0, n = 0.0, stiffness = 0.0;
 };
 
 inline ContactBound cramer_rao(const ContactCell& cell, const Samples& exact) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  // of (ln of the maximum force, n, a at the speed scale)
+  /// Information matrix of (ln of the maximum force, n, a times the maximum depth).
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   const double deepest = cell.deepest_m();
   for (const PenetrationSample& s : exact) {
     if (!(s.x_m > 0.0)) continue;

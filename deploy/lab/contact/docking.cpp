@@ -1,6 +1,7 @@
 // The docking task of the source paper (Fig. 20, 21) across a link: approach in rate mode, grasp in position
-// mode, drag, dock; success is felt as a force that rises and vanishes. Then three planted mistakes: each
-// shall be felt as a force against it and leave robot and target safe.
+// mode, drag, dock. The operator feels success as a force that rises and vanishes. It is followed by runs
+// with three deliberate mistakes. Each must be felt as a force against the motion and must leave robot and
+// target in a safe state.
 
 #include <algorithm>
 

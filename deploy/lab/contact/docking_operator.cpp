@@ -6,8 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr double kHand_n_per_m = 400.0;  // a firm grip
-constexpr double kPullMax_m = 0.04;      // the hand's target ahead of the handle: 16 N
-constexpr double kRoom_m = 0.055;        // of the handle about home, before it is relocated
+constexpr double kPullMax_m = 0.04;      // maximum lead of the hand's target over the handle: 16 N
+constexpr double kRoom_m = 0.055;        // range of the handle about home, beyond which it is relocated
 constexpr double kRelocation_s = 1.2;
 constexpr double kSlow_m_per_s = 0.01, kFast_m_per_s = 0.03;  // of hands, of the tool
 constexpr double kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
@@ -15,8 +15,8 @@ constexpr double kBetweenRests_s = 15.0, kLongestRest_s = 3.0;
 constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
 constexpr double kCareful_m = 0.03;   // in front of the catch
 constexpr double kFelt_n = 0.8, kGone_n = 0.25;
-constexpr double kBeside_m = 0.155;  // the funnel's rim, seen from its middle
-constexpr double kTilt_rad = 0.15;   // more than the channel lets in
+constexpr double kBeside_m = 0.155;  // distance of the rim of the funnel from its centre
+constexpr double kTilt_rad = 0.15;   // more than the channel permits
 
 }  // namespace
 
@@ -38,7 +38,7 @@ DockingOperator::DockingOperator(const MappingConfig& mapping, double rate_stiff
   random_ = random.child("rests");
 }
 
-// Hands pause; in rate mode they go home to do so.
+// The hand pauses at times. In rate mode it returns to the centre first.
 bool DockingOperator::rests(const DockingOperatorInput& in) {
   if (relocating_s_ || phase_ == DockingPhase::kWait) return false;
   if (in.t_s > rest_ends_s_) {
@@ -71,7 +71,7 @@ bool DockingOperator::looked(const DockingOperatorInput& in) {
   return in.t_s - *look_s_ > in.rtt_s + reaction_s_ + 0.8;
 }
 
-// Rate mode: a deflection towards the target, none when the ghost is there.
+// Rate mode: deflects the handle towards the target, and returns it to the centre once the ghost is there.
 bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
   choose(in, MotionMode::kRate);
   const Vector3 error = target_m - in.ghost_m;
@@ -85,7 +85,8 @@ bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& targe
   return false;
 }
 
-// Position mode: the hand goes on until the ghost is there, and relocates at the end of its room.
+// Position mode: moves the hand until the ghost is at the target, and relocates the handle at the end of its
+// range.
 bool DockingOperator::carry(const DockingOperatorInput& in, const Vector3& target_m, double speed) {
   choose(in, MotionMode::kPosition);
   const Vector3 error = target_m - in.ghost_m;
@@ -127,7 +128,7 @@ Vector3 DockingOperator::striker_from_tool(const DockingOperatorInput& in) const
   return in.picture.striker_m - in.picture.tool.p;
 }
 
-// A hold is looked at, then he engages again where the robot is.
+// After a hold, the operator checks the picture and engages again at the present position of the robot.
 bool DockingOperator::held(const DockingOperatorInput& in) {
   if (phase_ == DockingPhase::kWait) return false;
   if (in.master->state == SafetyState::kEngaged) {
@@ -216,8 +217,8 @@ void DockingOperator::drag(const DockingOperatorInput& in) {
   if (drive(in, aim_m_, speed_m_per_s_) && looked(in)) enter(DockingPhase::kAlign, in);
 }
 
-// Turns the target straight and puts its tip before the funnel, twice: the second time with what the first
-// one has shown.
+// Aligns the target and moves its tip in front of the funnel, twice: the second time corrects the error of
+// the first.
 void DockingOperator::align(const DockingOperatorInput& in) {
   if (rounds_ % 2 == 0) {
     const Vector3 tilt_rad = (mistake_ == DockingMistake::kTilted ? kTilt_rad : 0.0) * Vector3::UnitZ();
@@ -242,7 +243,7 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
     ++rounds_;
   }
   turn(in, aim_rad_);
-  // What is felt here is a wrong contact: he gives up.
+  // A contact in this phase is wrong, so the operator gives up.
   if (mistake_ == DockingMistake::kMissesGuide || mistake_ == DockingMistake::kTilted) {
     if (in.master->spring_force_n.x() < -kFelt_n && !felt_s_) felt_s_ = in.t_s;
     if (felt_s_ && in.t_s - *felt_s_ > 1.0) return enter(DockingPhase::kRetreat, in);
@@ -250,7 +251,7 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
   if (carry(in, aim_m_, kInsert_m_per_s) && looked(in)) enter(DockingPhase::kPress, in);
 }
 
-// Pushes until the force that has risen is gone.
+// Pushes until the force rises and then vanishes.
 void DockingOperator::press(const DockingOperatorInput& in) {
   if (rounds_ == 0) {
     if (!relocate(in, {-0.03, 0.0, 0.0})) return;
@@ -271,7 +272,7 @@ void DockingOperator::press(const DockingOperatorInput& in) {
     felt_peak_n_ = 0.0;
     if (mistake_ != DockingMistake::kPushesOn) return enter(DockingPhase::kRelease, in);
   }
-  // Whoever pushes on meets the seat.
+  // An operator who keeps pushing touches the seat.
   const bool pushed_on = felt_success_ && felt > kFelt_n;
   if (pushed_on && !felt_s_) felt_s_ = in.t_s;
   if ((felt_s_ && in.t_s - *felt_s_ > 1.0) || in.t_s - entered_s_ > 150.0)

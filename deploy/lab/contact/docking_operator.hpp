@@ -1,10 +1,11 @@
 #pragma once
-// A simulated operator who docks: approaches in rate mode, grasps in position mode, drags the load in rate
-// mode, turns and inserts it in position mode, and stops when the force that has risen vanishes; then opens
-// the gripper and retreats. The operator uses only the information of a person: the own hand, the displayed
-// contact force, the ghost of the own commands, and a delayed picture that is judged with an error. The hand
-// moves at 10 to 30 mm/s and pauses at times; after each segment the operator waits a round trip and looks
-// again (move and wait, Ferrell 1965). It is not evidence about people.
+// A simulated operator who performs a docking. The operator approaches in rate mode, grasps in position mode,
+// drags the load in rate mode, and turns and inserts it in position mode. Pushing ends when the contact force
+// rises and then vanishes; the operator then opens the gripper and retreats. The operator uses only
+// information that a person would have: the position of the hand, the displayed contact force, the ghost (the
+// display of the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to
+// 30 mm/s with occasional pauses. After each segment the operator waits for a round trip and checks the
+// result (move and wait, Ferrell 1965). The model is not validated with human operators.
 
 #include <cstdint>
 #include <optional>
@@ -18,9 +19,9 @@ namespace longreach {
 
 enum class DockingMistake : std::uint8_t {
   kNone,
-  kTilted,       // does not align the target
-  kMissesGuide,  // enters beside the funnel
-  kPushesOn      // does not stop after the latch has yielded
+  kTilted,       // does not align the target before inserting
+  kMissesGuide,  // pushes next to the funnel instead of into it
+  kPushesOn      // keeps pushing after the latch has given way
 };
 constexpr int kDockingMistakes = 4;
 std::string_view to_string(DockingMistake mistake);
@@ -39,16 +40,17 @@ enum class DockingPhase : std::uint8_t {
   kDone
 };
 
-/// Visible data: positions from the start of the tool, rotations relative to the initial state.
+/// What the picture shows. Positions are relative to the start position of the tool, rotations to the initial
+/// state.
 struct DockingPicture {
   Pose tool{};
-  Vector3 fixture_m = Vector3::Zero();   // target of the gripper
+  Vector3 fixture_m = Vector3::Zero();   // where the gripper must grasp the target
   Vector3 striker_m = Vector3::Zero();   // tip of the probe
-  Vector3 turned_rad = Vector3::Zero();  // of the target
+  Vector3 turned_rad = Vector3::Zero();  // rotation of the target
   bool load = false;
 };
 
-/// The insertion path, from the start of the tool.
+/// The insertion path, relative to the start position of the tool.
 struct DockingGuide {
   Vector3 mouth_m = Vector3::Zero();  // position of the striker in front of the funnel
   double end_m = 0.0;                 // x of the centre of the striker when it touches the latch
@@ -59,7 +61,7 @@ struct DockingOperatorInput {
   double dt_s = 0.001;
   const MasterView* master = nullptr;
   DockingPicture picture{};
-  Vector3 ghost_m = Vector3::Zero();  // the goal, from the start of the tool
+  Vector3 ghost_m = Vector3::Zero();  // goal relative to the start pose of the tool
   Vector3 ghost_rad = Vector3::Zero();
   double rtt_s = 0.0;
 };
@@ -77,9 +79,9 @@ class DockingOperator {
   DockingOperatorOutput step(const DockingOperatorInput& input);
 
   [[nodiscard]] DockingPhase phase() const { return phase_; }
-  /// The displayed force has risen and vanished.
+  /// True once the displayed force has risen and vanished.
   [[nodiscard]] bool felt_success() const { return felt_success_; }
-  [[nodiscard]] int grasps() const { return grasps_; }  // attempts
+  [[nodiscard]] int grasps() const { return grasps_; }  // number of attempts
 
  private:
   void enter(DockingPhase phase, const DockingOperatorInput& in);
@@ -95,13 +97,14 @@ class DockingOperator {
   void press(const DockingOperatorInput& in);
   void release(const DockingOperatorInput& in);
   void retreat(const DockingOperatorInput& in);
-  /// Moves the ghost to the target; returns true once it has been there for a moment.
+  /// Moves the ghost towards the target in rate mode. Returns true once it has stayed there for a moment.
   bool drive(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   bool carry(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   void turn(const DockingOperatorInput& in, const Vector3& target_rad);
   bool relocate(const DockingOperatorInput& in, const Vector3& to_m);
   void choose(const DockingOperatorInput& in, MotionMode mode);
-  /// Returns true a round trip and a moment after the first call of the phase or the last look.
+  /// Returns true once a round trip plus a reaction time has passed since its first call in the phase, or
+  /// since the last check of the picture.
   bool looked(const DockingOperatorInput& in);
   [[nodiscard]] Vector3 striker_from_tool(const DockingOperatorInput& in) const;
 
@@ -109,7 +112,7 @@ class DockingOperator {
   double rate_stiffness_;
   DockingGuide guide_;
   DockingMistake mistake_;
-  Vector3 misjudged_m_;  // visual error
+  Vector3 misjudged_m_;  // error of reading the picture
   Vector3 misjudged_rad_;
   double reaction_s_, speed_m_per_s_;
   Random random_{0};
@@ -121,7 +124,7 @@ class DockingOperator {
   MotionMode mode_ = MotionMode::kPosition;
   bool closed_ = false, asked_ = false;  // desired and requested state of the gripper
   Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // target of the handle
-  Vector3 centre_m_ = Vector3::Zero();                             // of rate mode
+  Vector3 centre_m_ = Vector3::Zero();                             // centre of rate mode
   Vector3 aim_m_ = Vector3::Zero(), aim_rad_ = Vector3::Zero();
   int rounds_ = 0, grasps_ = 0;
   double felt_peak_n_ = 0.0;

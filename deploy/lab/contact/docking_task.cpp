@@ -12,11 +12,13 @@ namespace {
 
 constexpr double kEnd_s = 420.0;
 constexpr double kFrame_s = 1.0 / 30.0;
-constexpr double kGuardShare = 1.35;    // of the guard: the greatest force that it promises
-constexpr double kSlow_m_per_s = 0.05;  // a target that drifts no faster can be taken again
-// Of the slave's force: what a hand holds against, it lets run when the catch gives way.
+constexpr double kGuardShare = 1.35;    // maximum force that the guard promises, relative to force_guard_n
+constexpr double kSlow_m_per_s = 0.05;  // a target that drifts at most at this speed can be grasped again
+// Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
+// gives way.
 constexpr double kForceShare = 0.2;
-constexpr double kLoadAcceleration = 0.5;  // at which the load's inertia is three quarters of the force guard
+/// Acceleration limit, m/s²: the inertial force of the load is then three quarters of the force guard.
+constexpr double kLoadAcceleration = 0.5;
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
@@ -40,7 +42,7 @@ MasterConfig master_config(const proto::LabConfig& lab) {
   return config;
 }
 
-// Not quite where and how it was expected, and drifting.
+// Displaces and turns the target by a random amount, and lets it drift.
 void disturb(Bodies& bodies, Random random) {
   const auto some = [&random](double sd) {
     return Vector3(sd * random.normal(), sd * random.normal(), sd * random.normal());
@@ -85,20 +87,20 @@ class Task {
   }
 
  private:
-  // As dock.xml has it.
+  // Dimensions of dock.xml.
   static constexpr double kMouth_m = 1.48, kBase_m = 1.6, kTouch_m = 0.29;
   inline static const DockingGuide kGuide{{kMouth_m, -0.35, 0.1}, kBase_m + kTouch_m};
   inline static const Vector3 kFixture{-0.3, 0.0, 0.0}, kStriker{0.55, 0.0, 0.0}, kMiddle{0.9, 0.1, 0.05};
 
   [[nodiscard]] const Bodies& bodies() const { return *lab_.arm().bodies(); }
-  /// A point of the spacecraft, as dock.xml names it.
+  /// Present position of a point of the spacecraft, given in the coordinates of dock.xml.
   [[nodiscard]] Vector3 seen(const Vector3& p) const {
     const Pose moved = bodies().displaced(0);
     const Vector3 centre = bodies().body(0).X_start.p;
     return centre + moved.p + moved.q * (kMiddle + p - centre);
   }
 
-  /// The goal, from where the tool started.
+  /// The goal relative to the start pose of the tool.
   [[nodiscard]] Pose ghost() const {
     const MasterView& m = lab_.master();
     if (lab_.slave().engagement == 0) return {m.goal_m, exp_rotation(m.goal_rad)};
@@ -115,7 +117,8 @@ class Task {
     now.turned_rad = log_rotation(bodies().displaced(0).q);
     pictures_.emplace_back(lab_.now_s(), now);
     while (pictures_.size() > 1 && pictures_[1].first <= lab_.now_s() - late_s_) pictures_.pop_front();
-    pictures_.front().second.load = lab_.master().far.gripper.holds;  // telemetry, late as it comes
+    // From the telemetry, which is already delayed.
+    pictures_.front().second.load = lab_.master().far.gripper.holds;
   }
 
   void watch() {

@@ -11,15 +11,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kWay_m = 0.03;   // of a drag
-constexpr double kPause_s = 1.5;  // beside the round trip, after each drag
+constexpr double kWay_m = 0.03;   // distance of a drag
+constexpr double kPause_s = 1.5;  // pause after each drag, in addition to the round trip
 constexpr int kDrags = 4;
-constexpr double kWall_m = 0.03;      // from the load, along x
-constexpr double kWallDrag_m = 0.05;  // of the hand, into it
+constexpr double kWall_m = 0.03;      // distance from the load, along x
+constexpr double kWallDrag_m = 0.05;  // motion of the hand into the wall
 constexpr double kHand_n_per_m = 400.0;
-constexpr double kRamp_s = 0.15;  // in which a person's hand comes to speed
-constexpr double kMoved = 0.5;    // of the way, that the tool has gone at least
-constexpr double kShare = 0.75;   // of the guard, that the load's inertia may reach
+constexpr double kRamp_s = 0.15;  // time in which a person's hand accelerates
+constexpr double kMoved = 0.5;    // fraction of the distance that the tool must have moved
+constexpr double kShare = 0.75;   // maximum inertial force of the load relative to the force guard
 
 double log_uniform(Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
@@ -48,17 +48,17 @@ MasterConfig master_config(const ExperimentRun& run, const DragCell& cell) {
   config.mapping.mode = cell.mode;
   config.mapping.scale = 1.0;
   config.hand.grip = Grip::kFirm;
-  config.rendering.load_factor = 1.0;  // the same hand shall ask for the same with an empty gripper
+  config.rendering.load_factor = 1.0;  // so that the same hand commands the same motion with an empty gripper
   return config;
 }
 
-/// One load, or the same hand with an empty gripper.
+/// A run with one load, or with the same hand and an empty gripper.
 class Drag {
  public:
   Drag(const ExperimentRun& run, const DragCell& cell)
       : cell_(cell), master_(master_config(run, cell)), lab_(master_, slave_config(run, cell), run.seed) {}
 
-  /// The tool along x at the end of each rest, from its start.
+  /// Runs it and returns the position of the tool along x at the end of each rest, relative to its start.
   DragResult go(std::array<double, kDrags>& rests_m) {
     wait(1.0, true);
     rtt_s_ = lab_.master().rtt_s.value_or(0.0);
@@ -87,7 +87,8 @@ class Drag {
       tick();
   }
 
-  /// The hand goes to speed, keeps it, and comes to rest; in rate mode it deflects and goes home.
+  /// The hand accelerates, moves at a constant speed, and stops. In rate mode it deflects the handle and
+  /// returns to the centre.
   void move(double sense) {
     const double v = cell_.speed_m_per_s, way_m = cell_.wall ? kWallDrag_m : kWay_m;
     const double steady_s = std::max(way_m / v - kRamp_s, 0.0), all_s = steady_s + 2.0 * kRamp_s;
@@ -142,7 +143,7 @@ class Drag {
 
 }  // namespace
 
-/// A cube at the tool, which holds it by its middle of the near side, and a wall behind it.
+/// A cube, which the tool grasps at the centre of its near side, and a wall behind it.
 BodiesConfig bodies_of(const DragCell& cell) {
   const double half_m = 0.05, far_m = 2.0 * half_m + (cell.wall ? kWall_m : 10.0);
   BodiesConfig all;

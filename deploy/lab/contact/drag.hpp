@@ -1,6 +1,7 @@
 #pragma once
-// A load in the gripper, dragged like by a person: back and forth by some centimetres, with rests, in rate or
-// position mode. The effect of its inertia on the force sensor must not be taken for a contact.
+// A load in the gripper is dragged as a person would drag it: back and forth by a few centimetres, with
+// rests, in rate or position mode. The inertial force of the load on the force sensor must not be mistaken
+// for a contact.
 
 #include <string>
 
@@ -18,22 +19,24 @@ struct DragCell {
   double acceleration_m_per_s2 = 0.5;  // limit of the robot
   double noise_n = 0.05;
   MotionMode mode = MotionMode::kPosition;
-  bool wall = false;  // in the path of the load, 30 mm away
+  bool wall = false;  // a wall in the path of the load, 30 mm away
 };
 
 struct DragResult {
-  bool held = false, moved = false;  // by the gripper; over the whole distance
-  int phantoms = 0;                  // contacts reported without contact
-  int holds = 0;                     // ended engagements, and faults
-  /// position of the tool at the end of each rest, relative to the one with an empty gripper
+  bool held = false, moved = false;  // held by the gripper; moved over at least half the distance
+  int phantoms = 0;                  // contacts reported although there was none
+  int holds = 0;                     // number of times that the engagement ended
+  /// Maximum difference of the tool position at the end of a rest from that with an empty gripper, m.
   double overrun_m = 0.0;
-  double push_n = 0.0;  // maximum m |a|
+  double push_n = 0.0;  // maximum inertial force of the load, m |a|
   double reported_kg = 0.0, reported_sd_kg = 0.0;
-  double reported_s = 0.0;  // from the first motion until the mass was identified; 0: never
-  double found_s = 0.0;     // from the load's first contact with the wall; 0: none
+  double reported_s = 0.0;  // time from the first motion until the mass was identified; 0: never
+  /// Time from the first contact of the load with the wall until it was reported; 0: not reported.
+  double found_s = 0.0;
 };
 
-/// Load at the tool, held by a closing gripper, and the wall; of a material "hard".
+/// Returns the bodies of the scene: a load at the tool, which the gripper grasps when it closes, and the
+/// wall. All have the material "hard".
 BodiesConfig bodies_of(const DragCell& cell);
 DragCell draw_drag(Random& random);
 DragResult run_drag(const ExperimentRun& run, const DragCell& cell);

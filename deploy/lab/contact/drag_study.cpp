@@ -1,5 +1,5 @@
-// Loads that nobody described are dragged (200 at full size); loads of 5 kg meet a wall; a gripper closes on
-// nothing.
+// Drags loads of unknown mass (200 at full size), lets loads of 5 kg touch a wall, and closes an empty
+// gripper.
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kStop_m = 1e-3;  // beside where an empty gripper rests
-constexpr double kMass = 0.05;    // of the mass, where its inertia is well above the noise
-constexpr double kWell = 20.0;    // times the noise
+constexpr double kStop_m = 1e-3;  // maximum distance from the position with an empty gripper
+/// Maximum error of the mass where the inertial force is well above the noise.
+constexpr double kMass = 0.05;
+constexpr double kWell = 20.0;  // inertial force that counts as well above the noise, relative to it
 constexpr double kFound_s = 0.05;
 
 struct Loads {

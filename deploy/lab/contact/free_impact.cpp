@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-// H, or the energy where the law has no H: the mass leaves faster than it may.
+// Returns H, or the energy if H is not defined because the mass leaves faster than 1/a.
 double invariant(const ContactMass& contact, const NormalMotion& at) {
   const double v = at.speed_m_per_s, elastic = contact.law.energy_j(at.depth_m) / contact.mass_kg;
   return (1.0 + contact.law.a * v > 0.0 ? contact.law.impact_energy(v) : 0.5 * v * v) + elastic;
@@ -33,7 +33,7 @@ FreeImpactOutcome run_free_impact(const FreeImpact& impact) {
     out.energy_rise =
         std::max(out.energy_rise, (energy(contact, next) - energy(contact, now)) / (0.5 * touched * touched));
     out.penetration_max_m = std::max(out.penetration_max_m, next.depth_m);
-    // Between two steps it was as deep as the energy that the step keeps says.
+    // The maximum depth between two steps follows from the energy, which the step conserves.
     if (impact.integrator == Integrator::kDiscreteGradient && now.speed_m_per_s > 0.0 &&
         next.speed_m_per_s <= 0.0) {
       const double n1 = contact.law.n + 1.0;

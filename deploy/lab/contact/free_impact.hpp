@@ -1,5 +1,5 @@
 #pragma once
-// A mass that hits a Hunt-Crossley contact and leaves it, computed by one of the integrators with steps of
+// A mass that hits a Hunt-Crossley contact and rebounds, simulated by one of the integrators with the step
 // dt.
 
 #include <string_view>
@@ -10,21 +10,21 @@ namespace longreach {
 
 struct FreeImpact {
   ContactMass contact{};
-  double speed_m_per_s = 0.1;  // > 0, at touch
+  double speed_m_per_s = 0.1;  // impact speed, > 0
   double dt = 1e-3;            // > 0, s
-  double phase = 0.0;          // part of the first step before the touch, 0 to 1
+  double phase = 0.0;          // fraction of the first step before the touch, 0 to 1
   Integrator integrator = Integrator::kDiscreteGradient;
 };
 
 struct FreeImpactOutcome {
-  bool left = false;         // false: too many steps, or an overflow
-  double restitution = 0.0;  // speed after / speed before the impact
+  bool left = false;         // the mass left the contact; false: too many steps, or an overflow
+  double restitution = 0.0;  // speed after the impact / speed before it
   double penetration_max_m = 0.0;
   double contact_time_s = 0.0;
-  double energy_error = 0.0;  // maximum |H - H0|/H0 of a step (hunt_crossley.hpp)
-  /// maximum increase of kinetic and elastic energy in a step / kinetic energy at touch
+  double energy_error = 0.0;  // maximum of |H - H0|/H0 over the steps (hunt_crossley.hpp)
+  /// Maximum increase of the kinetic plus elastic energy in a step / kinetic energy at the touch.
   double energy_rise = 0.0;
-  long evaluations = 0;  // evaluations of the contact force
+  long evaluations = 0;  // number of evaluations of the contact force
 };
 
 constexpr long kFreeImpactSteps = 10'000'000;  // maximum number of steps

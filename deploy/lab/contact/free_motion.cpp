@@ -11,16 +11,16 @@
 namespace longreach {
 namespace {
 
-constexpr double kBox_m = 0.12;   // half of the edge, in which the tool moves
-constexpr double kNear_m = 0.05;  // of a point, at which it turns to another one
+constexpr double kBox_m = 0.12;   // half of the edge of the box in which the tool moves
+constexpr double kNear_m = 0.05;  // distance from a point at which the tool turns to the next one
 constexpr double kFast_m_per_s = 0.25;
 constexpr double kHand_n_per_m = 400.0;
 constexpr double kRest_s = 1.0;
-constexpr double kSteady_s = 1.0;  // at the wall's speed, before the wall
-constexpr double kAtWall_s = 1.0;  // at the wall; a slow one
+constexpr double kSteady_s = 1.0;  // duration of the motion at the approach speed before the wall
+constexpr double kAtWall_s = 1.0;  // maximum time at the wall; for a slow approach
 constexpr double kSlow_s = 120.0;
-constexpr double kMost_n = 8.0;   // a contact that is not found until then is not found
-constexpr double kBias_n = 10.0;  // with the weight that is not configured
+constexpr double kMost_n = 8.0;   // a contact must be reported before the force reaches this value
+constexpr double kBias_n = 10.0;  // maximum offset, including the weight that is not compensated
 constexpr double kSlow_m_per_s = 1e-4, kSlow_n_per_m = 200.0;
 constexpr double kEarth_m_per_s2 = 9.81;
 
@@ -28,7 +28,7 @@ double log_uniform(Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
 }
 
-/// What is true: of the robot and its sensor.
+/// The true properties of the robot and its sensor.
 SlaveConfig true_config(const ExperimentRun& run, const FreeMotionCell& cell) {
   proto::SlaveConfig message = run.config.slave();
   take_profile(*message.mutable_link(), load_link_profile(find_deploy_folder(), "lab"));
@@ -44,7 +44,7 @@ SlaveConfig true_config(const ExperimentRun& run, const FreeMotionCell& cell) {
   return config;
 }
 
-/// What the slave is configured with: the noise and drift of the defaults, and a mass.
+/// The configuration of the slave: default noise and drift, and a wrong mass.
 SlaveConfig slave_config(const ExperimentRun& run, const FreeMotionCell& cell) {
   SlaveConfig config = true_config(run, cell);
   const SensingConfig usual = to_struct(run.config.slave()).sensing;
@@ -90,7 +90,7 @@ class FreeMotion {
  private:
   [[nodiscard]] Vector3 tool_m() const { return lab_.arm().true_pose().p - lab_.arm().start_pose().p; }
 
-  /// From point to point in a box, in rate mode.
+  /// Moves from point to point in a box in rate mode.
   void wander() {
     Vector3 to_m = Vector3::Zero();
     const double end_s = lab_.now_s() + cell_.moving_s;
@@ -118,7 +118,7 @@ class FreeMotion {
     }
   }
 
-  /// `v`: of the tool, as the hand asks for.
+  /// `v` is the velocity of the tool that the hand commands.
   void tick(const Vector3& v) {
     const double spring = 1.0 + master_.rendering.rate_stiffness_n_per_m / kHand_n_per_m;
     HandTarget hand;
@@ -144,7 +144,7 @@ class FreeMotion {
   Random random_;
   FreeMotionResult out_{};
   Vector3 before_m_ = Vector3::Zero();
-  std::optional<double> wall_m_{};  // along x; none yet
+  std::optional<double> wall_m_{};  // position along x; std::nullopt: no wall yet
   double wall_n_ = 0.0;
   bool contact_ = false;
 };

@@ -1,5 +1,5 @@
-// Free motion with unknown sensors, an hour at full size, each with a wall at its end; then the
-// same with a threshold from a file.
+// Free motion with unknown sensors, one hour in total at full size, each followed by the touch of a wall.
+// Then the same with a configured threshold.
 
 #include <algorithm>
 

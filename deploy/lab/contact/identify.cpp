@@ -1,7 +1,7 @@
-// How well each estimator identifies a Hunt-Crossley contact: materials from sponge to steel, three
-// exponents, three noises, three ways to move, 2 s at 1 kHz, 10 N at the deepest, against the Cramér-Rao
-// bound and a batch fit by Ceres Solver of the same records. The contact's law is fixed, so the configuration
-// of the nodes plays no part.
+// Measures how well each estimator identifies a Hunt-Crossley contact, for materials from sponge to steel,
+// three exponents, three noise levels and three motions (2 s at 1 kHz, 10 N at the maximum depth). The
+// results are compared with the Cramér-Rao bound and with a batch fit of the same records by Ceres Solver.
+// The contact law is fixed, so that the configuration of the nodes has no effect.
 
 #include <array>
 #include <cmath>
@@ -20,14 +20,14 @@ using test::ContactCell;
 using test::Excitation;
 
 constexpr int kRecords = 20;
-constexpr std::size_t kMethods = std::size(kAllMethods) + 1;  // and the batch fit
+constexpr std::size_t kMethods = std::size(kAllMethods) + 1;  // one more for the batch fit
 constexpr double kExponents[] = {1.0, 1.5, 2.0};
 constexpr double kNoises[] = {0.01, 0.05, 0.25};
 constexpr int kFirstDecade = 2, kLastDecade = 7;
 constexpr double kShownN = 1.5, kShownNoise = 0.05;
 constexpr const char* kExcitationNames[] = {"probe", "touch", "sine"};
 
-/// k, tangent stiffness at the deepest, λ; each as a fraction of the truth.
+/// Errors of k, of the tangent stiffness at the maximum depth, and of λ, relative to the true values.
 using Errors = std::array<double, 3>;
 
 double stiffness_at(double depth, double k, double n) { return k * n * std::pow(depth, n - 1.0); }
@@ -76,8 +76,8 @@ std::string metric_name(std::size_t method) {
   return name;
 }
 
-/// Over the cells of one way to move: worst error of the stiffness with noise 0.05 N; worst ratios to the
-/// batch fit where the bound says that it is identifiable.
+/// Adds the metrics of one motion: the worst error of the stiffness with 0.05 N of noise, and the worst
+/// ratios to the batch fit for cells that are identifiable according to the bound.
 struct Summary {
   std::array<double, kMethods> stiffness_worst{};
   std::array<Errors, kMethods> ratio_worst{};
@@ -94,7 +94,7 @@ struct Summary {
   }
 };
 
-/// Of the columns, in the order of kAllMethods; the batch fit is the last.
+/// Names of the columns in the order of kAllMethods, followed by the batch fit.
 constexpr const char* kColumns[kMethods] = {"fixed",      "two_stage",    "log",    "voigt",
                                             "likelihood", "weighted_log", "kalman", "batch"};
 constexpr Method kJudgedBesideBatch[] = {Method::kMaximumLikelihood, Method::kExtendedKalman,
@@ -141,7 +141,7 @@ std::vector<Metric> run_identify(const ExperimentRun& run) {
     for (std::size_t m = 0; m < kMethods; ++m)
       metrics.push_back(
           {"stiffness_error_worst_" + metric_name(m) + way, 100.0 * summary.stiffness_worst[m], "%"});
-    // Of the slave's own without a name.
+    // The default estimator of the slave has no name of its own here.
     for (const Method method : kJudgedBesideBatch) {
       const std::size_t m = static_cast<std::size_t>(method);
       const std::string of = method == Method::kMaximumLikelihood ? "" : "_" + metric_name(m);

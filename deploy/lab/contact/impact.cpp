@@ -1,7 +1,7 @@
-// A mass hits a Hunt-Crossley contact and leaves it: what each integrator makes of the restitution, the
-// energy and the time of contact, against how stiff the contact is for the step, kappa = k (v dt)^(n-1)
-// dt²/m; and what it costs. First along kappa (n = 1.5, a v = 0.5, the worst of several phases of the touch
-// within a step), then 3000 impacts of any kappa in 1e-6 to 1e6, n in 1 to 3 and a v in 0 to 10.
+// A mass hits a Hunt-Crossley contact and leaves it. Measures the errors of restitution, energy and contact
+// time of each integrator, and its cost, as a function of the stiffness of the contact relative to the step,
+// kappa = k (v dt)^(n-1) dt²/m. First kappa is varied (n = 1.5, a v = 0.5, the worst of several phases of the
+// touch within a step). Then 3000 random impacts have kappa in 1e-6 to 1e6, n in 1 to 3 and a v in 0 to 10.
 
 #include <algorithm>
 #include <array>
@@ -20,13 +20,13 @@ constexpr int kPerDecade = 8;
 constexpr int kPhases = 8;
 constexpr int kCases = 3000;
 constexpr double kRight = 1e-10;    // error of restitution
-constexpr double kPlotted = 1e-17;  // what is less is drawn here
+constexpr double kPlotted = 1e-17;  // smaller values are drawn at this value
 
-// Of one impact, or the worst of several.
+// Errors of one impact, or the worst of several.
 struct Judged {
   double restitution = 0.0;  // error
-  double time = 0.0;         // error of the time of contact / time of contact
-  double rise = 0.0;         // of energy in a step / energy at touch
+  double time = 0.0;         // error of the contact time / contact time
+  double rise = 0.0;         // energy error in a step / energy at the touch
   double evaluations = 0.0;
 };
 

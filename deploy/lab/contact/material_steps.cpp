@@ -1,11 +1,11 @@
-// The material changes while the tool is in contact: it slides from a soft tile of the scene `materials` onto
-// a hard one and back, and is pressed through the scene `layers`; with each estimator. How soon, and after
-// what way of the tool, is the reported stiffness that of the new material, and does the force at the hand
-// step?
+// The material changes while the tool is in contact: the tool slides from a soft tile of the scene
+// `materials` onto a hard one and back, and presses through the layers of the scene `layers`. For each
+// estimator, measures the time and the motion of the tool until the reported stiffness is that of the new
+// material, and the steps of the force at the hand.
 //
-// A change is where the scene's true stiffness at the tool (tangent) comes to be more than 20 % from that of
-// the change before, and stays so for 2 s or until it is followed: when the reported stiffness is within 20 %
-// of the true one at the tool: differences of less are hardly felt.
+// A change occurs when the true tangent stiffness at the tool differs by more than 20 % from that at the
+// previous change. It counts if it lasts for 2 s or until it is followed, that is, until the reported
+// stiffness is within 20 % of the true one. People hardly feel smaller differences.
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,13 @@ namespace longreach {
 namespace {
 
 constexpr double kFollowed = 0.2;
-constexpr double kNearM = 0.01;    // from the start to the surface
-constexpr double kRowS = 0.01;     // between rows of the trace
-constexpr double kSteadyS = 0.1;   // of the true stiffness: else it passes through
-constexpr double kLastingS = 2.0;  // else nobody has to follow
+constexpr double kNearM = 0.01;    // distance from the start to the surface
+constexpr double kRowS = 0.01;     // interval between the rows of the trace
+constexpr double kSteadyS = 0.1;   // minimum duration of a true stiffness; shorter ones are transitions
+constexpr double kLastingS = 2.0;  // shorter changes need not be followed
 constexpr std::size_t kKinds = std::size(kEstimatorKinds);
 
-/// To a place at constant speed, then rest.
+/// A motion to a position at a constant speed, then a rest.
 struct Leg {
   Vector3 to_m;
   double speed_m_per_s;
@@ -39,7 +39,7 @@ struct Change {
   Vector3 at_m = Vector3::Zero();
   double true_n_per_m = 0.0;
   std::optional<double> followed_s{};
-  double followed_m = 0.0;  // way of the tool until then
+  double followed_m = 0.0;  // distance that the tool has moved by then
 };
 
 struct Row {
@@ -49,7 +49,7 @@ struct Row {
 struct Outcome {
   std::vector<Change> changes;
   std::vector<Row> rows;
-  double force_step_excess_n = 0.0, force_rise_excess_n = 0.0;  // over max(0.1 N, 5 %)
+  double force_step_excess_n = 0.0, force_rise_excess_n = 0.0;  // beyond max(0.1 N, 5 %)
   double port_energy_min_j = 0.0;
   double error_end = 1.0;
 };
@@ -81,7 +81,7 @@ class Run {
     for (double t = 0.0; t < seconds; t += lab_.period_s()) tick();
   }
 
-  /// The person keeps to the way: leans against what is felt.
+  /// The person keeps to the path by leaning against the felt force.
   void tick() {
     constexpr double kLeans_s = 0.2;
     const Vector3 against_m = -lab_.master().spring_force_n / hand_model(hand_.grip).stiffness_n_per_m;
@@ -152,7 +152,7 @@ MasterConfig in_position(MasterConfig master) {
   return master;
 }
 
-/// The scene of a file, moved by `by_m`.
+/// The scene of a file, translated by `by_m`.
 SceneConfig scene_of(const ExperimentRun& run, const std::string& name, const Vector3& by_m) {
   proto::SlaveConfig slave = run.config.slave();
   slave.clear_scene();
@@ -206,7 +206,8 @@ void write(const ExperimentRun& run, const std::string& name, const std::vector<
   trace.close();
 }
 
-// Force, way and true stiffness are those of the first estimator: what the hand feels decides where it goes.
+// Force, path and true stiffness are those of the run with the first estimator, because the motion of the
+// hand depends on the felt force.
 Plot plot_of(const std::string& name, const std::string& title, const Panel& place) {
   return {.name = name,
           .csv = name,
@@ -238,7 +239,8 @@ std::vector<Metric> run_material_steps(const ExperimentRun& run) {
     Vector3 by_m;
     std::vector<Leg> legs;
   };
-  // Layers: into each, and on. Tiles of 1 and 10 N/mm: 10 mm beside the other one, onto it.
+  // Layers: presses into each one in turn. Tiles of 1 and 10 N/mm: starts 10 mm from the other tile and
+  // slides onto it.
   const std::vector<Case> cases = {
       {"layers",
        "layers",

@@ -1,8 +1,8 @@
-// What a scene costs: microseconds of a step of the simulated robot and the slave's node with each scene that
-// ships, what it builds (1) and omits (0), and of the contact alone where the tool touches something;
-// then with 1 to 10,000 surfaces, at rest (found through a tree of bounds) and moving (asked one after the
-// other), and with 1 to 4 free bodies in a row, apart and touching. The one experiment whose figures are of
-// this machine and its load.
+// The computing time of scenes: microseconds per step of the simulated robot and the slave's node with each
+// scene in deploy/scenes, whether the surfaces are built (1) or omitted (0), and of the contact alone where
+// the tool touches something. Then with 1 to 10,000 surfaces, at rest (found through a bounding volume tree)
+// and moving (tested one after the other), and with 1 to 4 free bodies in a row, separate and touching.
+// Unlike those of other experiments, the results depend on the machine and its load.
 
 #include <algorithm>
 #include <array>
@@ -40,8 +40,8 @@ double slave_step_us(const SlaveConfig& config) {
 
 struct ContactCost {
   double us = 0.0;
-  double asked = 0.0;     // mean, surfaces whose distance was computed
-  double touching = 0.0;  // share of places with contact
+  double asked = 0.0;     // mean number of surfaces whose distance was computed
+  double touching = 0.0;  // fraction of positions with contact
 };
 
 ContactCost contact_cost(const Scene& scene, const Vector3& centre_m, double reach_m) {
@@ -56,13 +56,13 @@ ContactCost contact_cost(const Scene& scene, const Vector3& centre_m, double rea
     cost.asked += static_cast<double>(c.asked) / kSteps;
     cost.touching += c.contacts > 0 ? 1.0 / kSteps : 0.0;
   }
-  double sum = 0.0;  // so that nothing is left out
+  double sum = 0.0;  // prevents the compiler from removing the computation
   cost.us = cost_us(kSteps, [&](int i) { sum += scene.contact(tools[static_cast<std::size_t>(i)]).depth_m; });
   if (!std::isfinite(sum)) cost.us = 0.0;
   return cost;
 }
 
-// Of a step of the bodies, where the first of them is displaced by this, held or not.
+// Time of a step of the bodies, with the first body displaced by this, held or not.
 double bodies_us(const SceneConfig& config, const Vector3& displaced_m, bool held) {
   Bodies bodies(config, Pose{});
   bodies.place(0, {bodies.body(0).X_start.p + displaced_m, bodies.body(0).X_start.q});
@@ -71,7 +71,7 @@ double bodies_us(const SceneConfig& config, const Vector3& displaced_m, bool hel
   return cost_us(kSteps, [&](int) { bodies.step(tool, 1e-3); });
 }
 
-/// Balls of 1 kg and 40 mm in a row, this far apart; negative: they press on each other.
+/// A row of balls of 1 kg and 40 mm with these gaps; negative: they press on each other.
 SceneConfig row_of_balls(int count, double gap_m) {
   SceneConfig scene;
   scene.material = {{"hard", 1e4, 0.001, 1.5, 0.1}};
@@ -91,7 +91,7 @@ SceneConfig row_of_balls(int count, double gap_m) {
   return scene;
 }
 
-/// Of a step that begins with the row as it was made.
+/// Time of a step that starts with the row in its initial state.
 double row_us(int count, double gap_m) {
   Bodies bodies(row_of_balls(count, gap_m), Pose{});
   const Pose away{{0.0, 1.0, 0.0}, Quaternion::Identity()};
@@ -175,7 +175,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     try {
       resolve_files(message, find_deploy_folder());
     } catch (const ConfigError& e) {
-      std::fprintf(stderr, "scene skipped: %s\n", e.what());  // one that somebody edits at the moment
+      std::fprintf(stderr, "scene skipped: %s\n", e.what());  // a file that is being edited
       continue;
     }
     const SlaveConfig config = to_struct(message);
@@ -185,7 +185,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     metrics.push_back({name + "_builds_rotation", built.rotation ? 1.0 : 0.0, "contact by rotation"});
     metrics.push_back({name + "_builds_bodies", config.scene.bodies ? 1.0 : 0.0, "free bodies, MuJoCo"});
     if (config.scene.bodies) {
-      const Vector3 docking_m{0.441, -0.45, 0.05};  // of scene dock: the striker presses the keeper
+      const Vector3 docking_m{0.441, -0.45, 0.05};  // scene dock: the striker presses on the keeper
       metrics.push_back(
           {name + "_floating_us", bodies_us(config.scene, Vector3::Zero(), false), "only the bodies", true});
       metrics.push_back(

@@ -6,10 +6,10 @@ namespace longreach {
 namespace {
 
 constexpr double kLeastSlope = 200.0;      // N/m
-constexpr double kCap = 5500.0;            // N/m, that the default device renders
+constexpr double kCap = 5500.0;            // maximum stiffness that the default device renders, N/m
 constexpr double kHandMost_n = 6.0;        // a person probes with
 constexpr double kHandDeepest_m = 0.02;    // of the handle
-constexpr double kSoftShare = 0.6;         // of the depth that the soft layer takes
+constexpr double kSoftShare = 0.6;         // fraction of the depth that is in the soft layer
 constexpr double kHysteresisSpeed = 1e-3;  // m/s
 
 double log_uniform(Random& random, double low, double high) {
@@ -18,8 +18,8 @@ double log_uniform(Random& random, double low, double high) {
 
 }  // namespace
 
-// Of `n`: exponent; progressive: depth over that in which the force grows e-fold; layered: stiffness of the
-// soft layer over that of the hard one.
+// Meaning of `n`: the exponent; progressive: depth / depth in which the force grows e-fold; layered:
+// stiffness of the soft layer / stiffness of the hard one.
 double UnknownCell::depth_m() const {
   const double linear_m = tool_n / slope_n_per_m;
   switch (kind) {
@@ -78,7 +78,7 @@ UnknownCell draw_cell(Random& random, MaterialKind kind) {
   cell.kind = kind;
   cell.link = kLinks[static_cast<std::size_t>(random.uniform(0.0, std::size(kLinks)))];
   cell.grip = random.chance(0.5) ? Grip::kLight : Grip::kFirm;
-  // Until a person could press like this: the hand's force and its way are bounded.
+  // Draws until a person could press like this, because the force and the motion of the hand are bounded.
   do {
     cell.slope_n_per_m = log_uniform(random, kLeastSlope, kCap);
     cell.scale = log_uniform(random, 0.2, 1.0);
@@ -116,7 +116,7 @@ UnknownCell draw_light_cell(Random& random, std::size_t index) {
   cell.noise_n = 0.05;
   cell.tool_n = 0.5;
   cell.probe_share = 0.5;
-  // k in N/m^n, 260 to 1500: its slope at 0.5 N.
+  // k is 260 to 1500 N/m^n; slope_n_per_m is the slope at 0.5 N.
   const double k = log_uniform(random, 260.0, 1500.0);
   cell.slope_n_per_m = cell.n * cell.tool_n / std::pow(cell.tool_n / k, 1.0 / cell.n);
   return cell;

@@ -1,11 +1,11 @@
-// Is what the hand feels right where nobody described the material? The simulated operator touches, presses
-// and probes materials drawn from a seed, with the default settings, over every link.
+// Is the displayed contact correct if the material is unknown to the slave? The simulated operator touches,
+// presses and probes random materials with the default settings over every link.
 //
-// Judged over the last two cycles of the probing: the slope of the contact force at the hand over the
-// handle's way, and its mean, against those of the material at the handle's own depth. Uncertainty: of the
-// reported stiffness, at the place that it was reported for, against the Cramér-Rao bound of all samples
-// behind the surface with k, λ, n and surface unknown. Materials outside the Hunt-Crossley family are judged
-// by the tangent alone.
+// Evaluated over the last two cycles of the probing: the slope of the contact force at the hand over the
+// position of the handle, and the mean force, are compared with those of the material at the depth of the
+// handle. The uncertainty of the reported stiffness, at the position for which it was reported, is compared
+// with the Cramér-Rao bound of all samples behind the surface with unknown k, λ, n and surface. For materials
+// outside the Hunt-Crossley family only the tangent is compared.
 
 #include "deploy/lab/contact/unknown_contact.hpp"
 
@@ -22,13 +22,13 @@
 namespace longreach {
 namespace {
 
-constexpr double kWall_m = 0.105;  // from the tool's start, along x
+constexpr double kWall_m = 0.105;  // distance from the start of the tool, along x
 constexpr double kCycles = 4.0;
 constexpr double kEngagesAnew_s = 30.0;
-constexpr double kLeft_m = 5e-4;  // in front of the surface: the press is over
+constexpr double kLeft_m = 5e-4;  // distance in front of the surface at which the press is over
 constexpr double kStillWatched_s = 1.0, kStillTries = 5.0;
 
-/// Least variance of a tangent from everything that was measured so far in a touch.
+/// Minimum variance of a tangent stiffness from all samples of a touch so far.
 class Bound {
  public:
   explicit Bound(const UnknownCell& cell) : cell_(cell) {}
@@ -42,7 +42,7 @@ class Bound {
                             -cell_.n * force / depth_m * reference);
     information_ += h * h.transpose() / (cell_.noise_n * cell_.noise_n);
   }
-  /// Relative sd at this depth; infinite while nothing is known.
+  /// Relative standard deviation at this depth; infinite if nothing is known.
   [[nodiscard]] double sd(double depth_m) const {
     if (depth_m <= 0.0) return INFINITY;
     const double reference = cell_.depth_m();
@@ -73,7 +73,7 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
   const double hand_n = cell.tool_n / cell.scale;
   master.mutable_operator_()->set_press_n(hand_n);
   master.mutable_operator_()->set_probe_n(cell.probe_share * hand_n);
-  // Until what the probing changes has come back, twice.
+  // Until the effect of the probing has returned, twice.
   const double rtt_s =
       link.up().delay_s() + link.up().step_delay_s() + link.down().delay_s() + link.down().step_delay_s();
   const double cycles = kCycles + std::ceil(2.0 * rtt_s * master.operator_().probe_hz());
@@ -84,14 +84,14 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
     slave.mutable_estimator()->set_exponent(settings.assumed_exponent);
   }
   if (settings.never_follows) slave.mutable_estimator()->set_depth_memory_s(60.0);
-  // The material is pushed in behind the sensor, where any law can be written.
+  // The force of the material is added to the reports of the sensor, so that any law can be simulated.
   slave.mutable_scene()->mutable_surface(0)->mutable_plane()->set_point_m(0, 10.0);
   return there;
 }
 
 class Press {
  public:
-  /// `noise_untold`: of the sensor's noise, times what it is told to be.
+  /// `noise_unreported` is the actual noise of the sensor relative to the configured noise.
   Press(const ExperimentRun& run, const UnknownCell& cell, double noise_unreported)
       : cell_(cell),
         more_noise_n_(std::sqrt(std::max(noise_unreported * noise_unreported - 1.0, 0.0)) * cell.noise_n),
@@ -109,7 +109,7 @@ class Press {
     const double probing_s = master_.operator_.probe_cycles / master_.operator_.probe_hz;
     double entered_s = -1.0;
     for (std::int64_t i = 0; lab_.now_s() < end_s_ && lab_.script().cycles() == 0; ++i) {
-      // The person engages anew after a stop.
+      // The person engages again after a stop.
       if (lab_.now_s() > kEngagesAnew_s && lab_.master().state != SafetyState::kEngaged && i % 1000 == 0)
         lab_.requests().engage = true;
       lab_.step();
@@ -132,7 +132,7 @@ class Press {
     hold_still();
     return result_;
   }
-  /// Until the first value alone.
+  /// Runs only until the first value.
   double first_s() {
     while (lab_.now_s() < end_s_ && result_.first_s < 0.0) {
       lab_.step();
@@ -167,7 +167,7 @@ class Press {
     if (result_.bound_first_s < 0.0 && bound_.sd(depth_m) < 0.03) result_.bound_first_s = since_s;
   }
 
-  /// At the handle.
+  /// Evaluation at the handle.
   void feel() {
     const MasterView& m = lab_.master();
     if (m.state != SafetyState::kEngaged) return;
@@ -193,8 +193,8 @@ class Press {
     result_.bound_sd = bound_.sd(depth(lab_.arm().true_pose().p));
   }
 
-  /// Where it is, without a movement of its own: a handle that still moves is in a limit cycle. One that is held
-  /// meanwhile, because the link was silent, is observed again.
+  /// Holds the hand at its present position: a handle that still moves is in a limit cycle. The observation
+  /// is repeated if the system holds meanwhile because of a link timeout.
   void hold_still() {
     HandTarget target{.grip = cell_.grip};
     const double stiffness = hand_model(cell_.grip).stiffness_n_per_m;
@@ -221,7 +221,7 @@ class Press {
   const UnknownCell& cell_;
   double more_noise_n_;
   Random random_;
-  bool behind_ = false;  // the tool, the surface
+  bool behind_ = false;  // positions of the tool and of the surface
   MasterConfig master_;
   Laboratory lab_;
   Bound bound_;

@@ -1,6 +1,6 @@
 #pragma once
-// A contact without a model for the slave, drawn from a seed: link, hand, scale, sensor and material; and its
-// display when the simulated operator presses and probes.
+// A random contact of which the slave has no model (link, hand, scale, sensor and material are drawn from a
+// seed), and how it is displayed when the simulated operator presses and probes.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,54 +13,56 @@
 
 namespace longreach {
 
-/// Force of the material over depth and speed: the Hunt-Crossley family, and three materials outside it.
+/// Force law of the material: the Hunt-Crossley family, and three laws outside it.
 enum class MaterialKind { kHuntCrossley, kProgressive, kLayered, kHysteretic };
 
 struct UnknownCell {
   std::string link;
   Grip grip = Grip::kLight;
   MaterialKind kind = MaterialKind::kHuntCrossley;
-  double slope_n_per_m = 0.0;  // of the material at the mean force of the press
+  double slope_n_per_m = 0.0;  // tangent stiffness of the material at the mean force of the press
   double n = 1.0;
   double damping_s_per_m = 0.0;  // λ/k
   double scale = 1.0;            // k_scale
-  double noise_n = 0.0;          // sd of the sensor
+  double noise_n = 0.0;          // standard deviation of the sensor
   double tool_n = 0.0;           // mean force of the press, at the tool
-  double probe_share = 0.0;      // amplitude of the probing relative to that
+  double probe_share = 0.0;      // amplitude of the probing relative to tool_n
 
-  /// Elastic force and stiffness at the tool, N and N/m; depth in m. For a hysteretic material the mean of
-  /// loading and unloading.
+  /// Elastic force (N) and tangent stiffness (N/m) at the tool for a depth in m. For a hysteretic material,
+  /// the mean of loading and unloading.
   [[nodiscard]] double elastic_n(double depth_m) const;
   [[nodiscard]] double tangent_n_per_m(double depth_m) const;
   /// Measured force without noise, N.
   [[nodiscard]] double force_n(double depth_m, double speed_m_per_s) const;
-  [[nodiscard]] double depth_m() const;  // at `tool_n`
+  [[nodiscard]] double depth_m() const;  // depth at the force tool_n
 };
 
 UnknownCell draw_cell(Random& random, MaterialKind kind);
-/// Pressed with 0.5 N ± 0.25 N, over `lab` and `moon` alternately.
+/// Draws a contact that is pressed lightly, with 0.5 N ± 0.25 N, alternately over the links `lab` and `moon`.
 UnknownCell draw_light_cell(Random& random, std::size_t index);
 
-/// Results of a cell, over the last two cycles of the probing and at their end.
+/// Results of a cell, evaluated over the last two cycles of the probing and at their end.
 struct UnknownResult {
   bool probed = false;
-  double slope_error = 1.0, force_error = 1.0;     // at the hand, relative, signed
-  double reported_error = 1.0, reported_sd = 1.0;  // of the reported stiffness at its depth, relative; signed
+  double slope_error = 1.0, force_error = 1.0;     // at the hand; relative, signed
+  double reported_error = 1.0, reported_sd = 1.0;  // reported stiffness at its depth; relative, signed
   double estimate_error = 1.0, estimate_sd = 1.0, bound_sd = 0.0;
-  bool power_law = true;  // verdict at the end
-  // From the first touch to the first value; for FIXED_EXPONENT with the true exponent; for the bound.
+  bool power_law = true;  // final verdict of the estimator
+  // Time from the first touch to the first value: of the estimator, of FIXED_EXPONENT with the true exponent,
+  // and of the Cramér-Rao bound.
   double first_s = -1.0, fixed_first_s = -1.0, bound_first_s = -1.0;
   double rtt_s = 0.0;
   double returned_j = 0.0;                  // maximum net energy from the device into the hand
-  double ripple_m = 0.0;                    // of a hand at rest after the probing
-  std::uint32_t contacts = 0, presses = 0;  // found by the slave; actual number
+  double ripple_m = 0.0;                    // motion of a hand at rest after the probing
+  std::uint32_t contacts = 0, presses = 0;  // reported by the slave; actual number
 };
 
-/// Differences from the defaults: for comparison, and for controls that must fail.
+/// Deviations from the defaults, for comparisons and for controls that must fail.
 struct CellSettings {
-  bool fixed_too = false;         // also determine `fixed_first_s`
-  double assumed_exponent = 0.0;  // FIXED_EXPONENT with this value; 0: unknown
-  bool never_follows = false;     // the stiffness stays at that of a usual force
+  bool fixed_too = false;         // also measure fixed_first_s
+  double assumed_exponent = 0.0;  // use FIXED_EXPONENT with this value; 0: estimate the exponent
+  /// The rendered stiffness does not follow the force: it stays at that of a usual force.
+  bool never_follows = false;
   double noise_unreported = 1.0;  // actual noise of the sensor relative to the configured noise
 };
 

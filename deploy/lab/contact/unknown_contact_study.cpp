@@ -1,5 +1,5 @@
-// Many unknown contacts: in the family of Hunt and Crossley, outside it, pressed lightly; and with settings
-// that must come out bad.
+// Many unknown contacts: of the Hunt-Crossley family, outside it, pressed lightly, and with control settings
+// that must give bad results.
 
 #include <algorithm>
 #include <cmath>
@@ -43,10 +43,10 @@ bool covered(const UnknownResult& r) { return r.probed && std::abs(r.estimate_er
 
 double median(const std::vector<double>& sorted) { return sorted.empty() ? 0.0 : sorted[sorted.size() / 2]; }
 
-/// By a third of what was claimed: of a normal distribution two thirds.
+/// Within one standard deviation, a third of the claimed range; two thirds of a normal distribution are.
 bool within_one_sd(const UnknownResult& r) { return r.probed && std::abs(r.estimate_error) <= r.estimate_sd; }
 
-/// Every cell with these settings on top; seeds count on from that of the run.
+/// Runs every cell with these settings. The seeds count up from that of the run.
 Study study(const ExperimentRun& run, std::vector<UnknownCell> cells, const CellSettings& settings,
             const std::function<void(double)>& progress) {
   Study s{std::move(cells), {}};

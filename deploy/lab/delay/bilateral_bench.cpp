@@ -42,7 +42,7 @@ double BilateralBench::wall_energy_j() const {
   return 0.5 * case_.wall_n_per_m * p * p;
 }
 
-/// Both sides and the link, with the handle where it is now.
+/// Runs both sides and the link for one sample with the present position of the handle.
 void BilateralBench::communicate() {
   const Vector3 wall_n(0.0, 0.0, case_.wall_n_per_m * std::max(0.0, tool_depth_m()));
   const CouplingOutput far =

@@ -1,10 +1,11 @@
 #pragma once
 // A comparison law between the simulated DELTA device and a wall, in one dimension: along the vertical
-// through home, downwards into the wall. Device and hand are those of the laboratory, without Coulomb
-// friction, encoder steps, motor lag and weight; the link is a pure delay at 1 kHz; the tool is an ideal
-// position servo, moved by the coupling of the law, in front of the wall F = K p.
+// through home, downwards into the wall. Device and hand are those of the laboratory, but without Coulomb
+// friction, encoder quantization, motor lag and weight. The link is a pure delay at 1 kHz. The tool is an
+// ideal position servo that is moved by the coupling of the law in front of the wall F = K p.
 //
-// The loop has a delay of two samples besides the link: the servo and the order of the two sides.
+// In addition to the link, the loop has a delay of two samples: one from the servo and one from the order in
+// which the two sides are stepped.
 
 #include <cmath>
 #include <cstdint>
@@ -24,14 +25,14 @@ struct BilateralCase {
   Grip grip = Grip::kLight;
   double rtt_s = 0.3;
   double wall_n_per_m = 1000.0;
-  double jitter_s = 0.0;  // of either direction
+  double jitter_s = 0.0;  // standard deviation, per direction
   double loss = 0.0;
   std::uint64_t seed = 1;
 };
 
 inline constexpr double kBenchPeriod_s = 1e-3;
 inline constexpr int kBenchLoopSamples = 2;
-/// Total delay of the loop, including half a sample for the held force.
+/// Total delay of the loop, s, including half a sample for the zero-order hold of the force.
 inline double bench_loop_s(double rtt_s) { return rtt_s + (kBenchLoopSamples + 0.5) * kBenchPeriod_s; }
 inline int bench_samples(double time_s) { return static_cast<int>(std::lround(time_s / kBenchPeriod_s)); }
 
@@ -39,16 +40,19 @@ class BilateralBench {
  public:
   explicit BilateralBench(const BilateralCase& c);
 
-  /// One sample: the hand is attracted to `hand_depth_m` and pushes with `press_n` downwards.
+  /// Runs one sample: the hand's spring pulls towards `hand_depth_m`, and the hand pushes downwards with
+  /// `press_n`.
   void step(double hand_depth_m, double press_n);
 
-  /// Holds the handle there until all delayed data is consistent, then releases it at `from_m`.
+  /// Holds the handle at `depth_m` until all data in the link corresponds to that depth, then releases it at
+  /// `from_m`.
   void settle(double depth_m, double from_m);
 
   [[nodiscard]] double depth_m() const { return -device_.position_m().z(); }
   [[nodiscard]] double tool_depth_m() const { return -tool_m_.z(); }
-  [[nodiscard]] double force_n() const { return force_n_.z(); }  // rendered, against the hand's pushing
-  /// From the hand into the device, -F[k-1] (x[k] - x[k-1]).
+  /// Rendered force against the push of the hand.
+  [[nodiscard]] double force_n() const { return force_n_.z(); }
+  /// Energy from the hand into the device, the sum of -F[k-1] (x[k] - x[k-1]).
   [[nodiscard]] double port_energy_j() const { return port_j_; }
   [[nodiscard]] double wall_energy_j() const;
 
@@ -69,7 +73,7 @@ class BilateralBench {
   double port_j_ = 0.0;
 };
 
-/// The part of a law at the slave.
+/// Creates the slave's part of a law.
 Coupling make_coupling(RenderingLaw law, const ComparisonConfig& config);
 
 }  // namespace longreach

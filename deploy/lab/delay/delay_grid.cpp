@@ -14,7 +14,7 @@ namespace longreach {
 namespace {
 
 constexpr double kLargestCoupling_n_per_m = 2000.0;  // of a device at 1 kHz
-constexpr double kCouplingMargin = 0.8;              // of what the stability condition allows
+constexpr double kCouplingMargin = 0.8;              // fraction of the limit from the stability condition
 
 double given_mj(const Pressed& p) { return std::max(1e-4, -1e3 * p.port_energy_min_j); }
 
@@ -65,7 +65,8 @@ void DelayResults::write(const std::filesystem::path& folder) const {
   Trace all(folder, "sweep",
             {"law", "rtt_s", "wall_n_per_m", "grip", "displayed_n_per_m", "error", "limit_cycle", "motion_m",
              "port_energy_min_j", "drawdown_j", "force_peak_n"});
-  std::map<double, std::map<double, std::array<double, 12>>> walls;  // by wall, by delay: shown, given
+  /// By wall and delay: displayed and true stiffness.
+  std::map<double, std::map<double, std::array<double, 12>>> walls;
   for (const DelayResult& r : results_) {
     const Pressed& p = r.found;
     all.row({static_cast<double>(r.law), r.rtt_s, r.wall_n_per_m, static_cast<double>(r.grip),

@@ -1,5 +1,5 @@
 #pragma once
-// The grid of the delay sweep: every law x round trip x wall x hand, and the results.
+// The grid of the delay sweep (every law x round trip x wall x hand) and its results.
 
 #include <array>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace longreach {
 
 struct LawName {
   RenderingLaw law;
-  std::string_view column;  // column of the traces
+  std::string_view column;  // column name in the traces
   std::string_view title;   // title in the plots
 };
 inline constexpr std::array<LawName, 6> kLawNames = {
@@ -41,14 +41,14 @@ struct DelayResult {
   double wall_n_per_m = 0.0;
   Grip grip = Grip::kLight;
   Pressed found{};
-  double error = 0.0;        // of the displayed stiffness, relative; 0 for a released handle
-  double estimate_sd = 0.0;  // relative; only for the law of this system
+  double error = 0.0;        // relative error of the displayed stiffness; 0 for a released handle
+  double estimate_sd = 0.0;  // relative; only for the stiffness law
 };
 
 struct LawSummary {
   int cases = 0;
   int limit_cycles = 0;
-  int right = 0;  // stable, and displayed within 5 %
+  int right = 0;  // stable, and displayed stiffness within 5 %
   double error_max = 0.0;
   double port_energy_min_j = 0.0;
   double drawdown_max_j = 0.0;
@@ -61,37 +61,39 @@ class DelayResults {
   void add(const DelayResult& r) { results_.push_back(r); }
   [[nodiscard]] std::size_t size() const { return results_.size(); }
 
-  /// Throws std::out_of_range for a case that was not run.
+  /// Throws std::out_of_range if the case was not run.
   [[nodiscard]] const Pressed& at(RenderingLaw law, double rtt_s, double wall_n_per_m, Grip grip) const;
-  /// Maximum displayed stiffness of any wall without a limit cycle, at most the stiffness of the wall; 0:
-  /// none.
+  /// Maximum displayed stiffness over the walls without a limit cycle, limited to the stiffness of the wall;
+  /// 0 if there is none.
   [[nodiscard]] double displayable_n_per_m(RenderingLaw law, double rtt_s, Grip grip) const;
   [[nodiscard]] LawSummary summary(RenderingLaw law) const;
 
-  /// Writes everything as sweep.csv, and for each wall WALL_n_per_m.csv: the curves of the light hand over
-  /// the delay.
+  /// Writes all results to sweep.csv, and for each wall the curves of the light hand over the delay to
+  /// WALL_n_per_m.csv.
   void write(const std::filesystem::path& folder) const;
 
  private:
   std::vector<DelayResult> results_;
 };
 
-/// Coupling of position-position for this delay: 80 % of its stability limit, at most 2 N/mm.
+/// Coupling stiffness of the position-position law for this delay: 80 % of its stability limit, at most 2
+/// N/mm.
 double tuned_coupling_n_per_m(const DeviceConfig& device, const ComparisonConfig& config, double rtt_s);
 
 DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const DeviceConfig& device);
 
-/// The configured link with half of this round trip in each direction.
+/// Returns the configured link with half of this round trip in each direction.
 proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
 
-/// The law of this system in the laboratory: displayed stiffness as measured by touch; a `released` hand
-/// releases the handle in the wall.
+/// Runs the stiffness law in the laboratory and measures the displayed stiffness as the experiment `touch`
+/// does. A released hand (Grip::kReleased) releases the handle in the wall.
 DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
                          Grip grip);
 
-/// The study of the experiment `delay-seeds`, or a slice of it: one link and one wall, every hand and seed.
+/// Results of the experiment `delay-seeds`, or of a slice of it: one link and one wall with every hand and
+/// seed.
 struct DelaySeeds {
-  std::string link;  // of a slice, as "moon" or "3 s"
+  std::string link;  // link of the slice, for example "moon" or "3 s"
   double wall_n_per_m = 0.0;
   LawSummary held, released;
   double estimate_sd_max = 0.0;
@@ -99,7 +101,7 @@ struct DelaySeeds {
 std::size_t delay_seeds_slices(const ExperimentRun& run);
 DelaySeeds delay_seeds_slice(const ExperimentRun& run, std::size_t slice);
 
-/// "0.3", for names.
+/// Formats a number for names, for example "0.3".
 std::string short_number(double x);
 
 }  // namespace longreach

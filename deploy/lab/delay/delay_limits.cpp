@@ -12,8 +12,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kPress_n = 0.2;      // of the disturbed handle in its wall
-constexpr double kDeepest_m = 0.005;  // that it rests there: the linear model holds near home
+constexpr double kPress_n = 0.2;      // initial disturbance of the handle in the wall
+constexpr double kDeepest_m = 0.005;  // depth at rest, small because the linear model is valid near home
 
 bool dies_away(BilateralCase c, double stiffness_n_per_m) {
   c.wall_n_per_m = stiffness_n_per_m;
@@ -52,7 +52,7 @@ double direct_limit_n_per_m(const HeldHandle& h, double loop_delay_s) {
   const auto turns = [&](double w) {
     return (w * loop_delay_s + std::arg(plant(w)) - std::numbers::pi) / (2.0 * std::numbers::pi);
   };
-  // The crossings lie about 2π/τ apart; beyond the resonance |plant| only grows.
+  // The crossings are about 2π/τ apart. Above the resonance |plant| increases monotonically.
   const double resonance = std::sqrt(h.n_per_m / h.mass_kg);
   const double end = 2.0 * resonance + 4.0 * std::numbers::pi / loop_delay_s;
   constexpr int kSteps = 20000;
@@ -78,7 +78,7 @@ double position_position_limit_n_per_m(double master_n_s_per_m, double slave_n_s
 double measured_direct_limit_n_per_m(const BilateralCase& c, double most_n_per_m, double tolerance) {
   if (dies_away(c, most_n_per_m)) return most_n_per_m;
   double low = 0.1, high = most_n_per_m;
-  // From above in factors of two: unstable runs end early.
+  // Searches from above in factors of two, because unstable runs end early.
   while (high > 2.0 * low && !dies_away(c, 0.5 * high)) high *= 0.5;
   low = std::max(low, 0.5 * high);
   while (high > (1.0 + tolerance) * low) {

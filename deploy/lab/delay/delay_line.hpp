@@ -1,6 +1,7 @@
 #pragma once
-// An ideal link that is stepped once per sample: pushed data comes out some samples later, is lost, or has
-// jitter; then the newest due data comes out, and overtaken data is dropped.
+// A simulated link that is stepped once per sample. Data is delayed by a fixed number of samples, optionally
+// with jitter and losses. The newest data that is due is delivered; older data that arrives after it is
+// dropped.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@ namespace longreach {
 
 struct DelayLineConfig {
   int samples = 0;
-  double jitter_samples = 0.0;  // standard deviation; limited to six of them late and to zero delay early
+  /// Standard deviation of the delay, which is clamped between 0 and six standard deviations above its mean.
+  double jitter_samples = 0.0;
   double loss = 0.0;
 };
 
@@ -26,7 +28,7 @@ class DelayLine {
         random_(random),
         slots_(static_cast<std::size_t>(config.samples + std::ceil(6.0 * config.jitter_samples)) + 1) {}
 
-  /// Call it once per sample, before pop.
+  /// Sends a value. Call it once per sample, before pop.
   void push(const T& value) {
     ++sequence_;
     if (config_.loss > 0.0 && random_.chance(config_.loss)) return;
@@ -37,7 +39,7 @@ class DelayLine {
     slot(sequence_ + ahead) = {sequence_, value};
   }
 
-  /// Returns the data that arrived in this sample.
+  /// Returns the data that arrives in this sample, if any.
   std::optional<T> pop() {
     QueuedDatagram& queued_datagram = slot(sequence_);
     if (queued_datagram.sequence <= newest_) return std::nullopt;

@@ -1,6 +1,6 @@
-// Is the stiffness in the hand right every time? The law of this system with many seeds: every round trip and
-// every named link without an outage, every wall and hand. The runs are independent: all processors share
-// them.
+// Is the displayed stiffness correct in every run? Runs the stiffness law with many seeds for every round
+// trip and every named link without an outage, and for every wall and hand. The runs are independent and are
+// distributed over all processors.
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,8 @@ Study study_of(const ExperimentRun& run) {
   return study;
 }
 
-/// Each run with its own seed, in a fixed place: the result does not depend on who ran it.
+/// Each run has its own seed and its own place in the results, so that the result does not depend on the
+/// scheduling.
 std::vector<DelayResult> run_all(const ExperimentRun& run, const Study& study) {
   std::vector<DelayResult> results(study.runs());
   const auto one = [&](std::size_t i) {
@@ -82,7 +83,7 @@ DelaySeeds summary_of(const std::vector<DelayResult>& results) {
   return all;
 }
 
-/// Everything, in the order of the runs.
+/// Writes all results in the order of the runs.
 void write_runs(const ExperimentRun& run, const Study& study, const std::vector<DelayResult>& results) {
   Trace trace(run.out, "runs",
               {"rtt_s", "grip", "wall_n_per_m", "seed", "displayed_n_per_m", "error", "estimate_sd",
@@ -97,7 +98,8 @@ void write_runs(const ExperimentRun& run, const Study& study, const std::vector<
   trace.close();
 }
 
-/// One row a link: the worst of light and firm hand and of all seeds, in percent, a column a wall.
+/// One row per link and one column per wall: the worst error over light and firm hands and all seeds, in
+/// percent.
 void write_worst(const ExperimentRun& run, const std::vector<DelayResult>& results) {
   std::map<double, std::map<double, DelayResult>> worst;  // by round trip, by wall
   for (const DelayResult& r : results) {

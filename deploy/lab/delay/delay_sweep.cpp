@@ -1,8 +1,8 @@
-// Which stiffness reaches the hand across which delay? Every law x round trip x wall x hand. The comparison
-// laws run on the lean bench, the law of this system in the whole laboratory, as the experiment touch does.
+// Which stiffness can be displayed at which delay? Runs every law x round trip x wall x hand. The comparison
+// laws run on the simplified bench, the stiffness law in the whole laboratory, as in the experiment `touch`.
 //
-// Displayable stiffness (light hand): of DIRECT the stiffest wall that is calm, by bisection; of the others
-// the most that they display of any wall without a limit cycle.
+// Displayable stiffness (light hand): for DIRECT the stiffest wall that is stable, found by bisection; for
+// the other laws the maximum that they display of any wall without a limit cycle.
 
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHardest_n_per_m = 5000.0;
-// Lines of the literature's figures: light hand with a handle of 0.2 kg and 1 N s/m, b = 10 N s/m.
+// Lines for the values in the literature: light hand with a handle of 0.2 kg and 1 N s/m, b = 10 N s/m.
 constexpr std::array kTableRtt_s = {0.03, 0.3, 0.85, 2.6, 3.0};
 constexpr std::array kTableDirect_n_per_m = {262.0, 104.0, 96.0, 94.0, 93.0};
 constexpr std::array kTableWave_n_per_m = {667.0, 67.0, 24.0, 7.7, 6.7};
@@ -37,8 +37,8 @@ BilateralCase direct_case(const DeviceConfig& device, Grip grip, double rtt_s) {
   return {.law = RenderingLaw::kDirect, .device = device, .grip = grip, .rtt_s = rtt_s};
 }
 
-/// Measured limits of DIRECT against the delay margin, every hand; and, with the handle that the table
-/// assumed, against the table.
+/// Compares the measured limits of DIRECT with the delay margin for every hand and, with the handle assumed
+/// in the table, with the table.
 void check_direct(const ExperimentRun& run, const DelayGrid& grid, const DeviceConfig& device,
                   std::vector<Metric>& metrics) {
   Trace trace(run.out, "direct_limits", {"rtt_s", "grip", "measured_n_per_m", "delay_margin_n_per_m"});
@@ -65,7 +65,7 @@ void check_direct(const ExperimentRun& run, const DelayGrid& grid, const DeviceC
   metrics.push_back({"direct_table_error_max", worst_of_table, ""});
 }
 
-/// Stiffness of the wave line alone, from what the hand finds of the hardest wall.
+/// Stiffness of the wave line alone, from the displayed stiffness of the hardest wall.
 void check_wave(const DelayGrid& grid, const DelayResults& results, std::vector<Metric>& metrics) {
   double worst = 0.0;
   for (std::size_t i = 0; i < kTableRtt_s.size(); ++i) {
@@ -79,7 +79,7 @@ void check_wave(const DelayGrid& grid, const DelayResults& results, std::vector<
   metrics.push_back({"wave_table_error_max", worst, ""});
 }
 
-/// What theory says that each law can display of a wall.
+/// The stiffness of a wall that each law can display according to theory.
 struct LimitLines {
   HeldHandle light;
   const DeviceConfig& device;
@@ -104,7 +104,7 @@ std::vector<double> delays_of_lines_s() {
   return rtt_s;
 }
 
-/// Share of each wall that a law can display; none where direct force is not calm.
+/// Fraction of each wall that a law can display; none where direct force is unstable.
 void write_limits(const ExperimentRun& run, const DelayGrid& grid, const LimitLines& limits) {
   for (const double wall : grid.wall_n_per_m) {
     Trace trace(run.out, "limits_" + short_number(wall), {"rtt_s", "direct", "position_position", "wave"});
@@ -117,7 +117,7 @@ void write_limits(const ExperimentRun& run, const DelayGrid& grid, const LimitLi
   }
 }
 
-/// Lines over the whole range of delays, points where something was measured.
+/// Lines over the whole range of delays, and points at the measured delays.
 void write_displayable(const ExperimentRun& run, const DelayGrid& grid, const DelayResults& results,
                        const LimitLines& limits) {
   Trace trace(run.out, "displayable",

@@ -1,5 +1,5 @@
-// One wall, one link, one hand: what each textbook law does there, over time. `rendering.law` chooses one of
-// them; the law of this system has the experiment touch.
+// One wall, one link and one hand: the behaviour of each comparison law over time. `rendering.law` selects
+// one of them; the stiffness law has the experiment `touch`.
 
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@
 namespace longreach {
 namespace {
 
-constexpr std::size_t kLaws = 5;  // of kLawNames, the comparison laws
+constexpr std::size_t kLaws = 5;  // the comparison laws in kLawNames
 constexpr int kSamplesPerRow = 10;
 
 struct Seen {
@@ -60,7 +60,8 @@ std::vector<Plot> press_wall_plots() {
            .panels = panels}};
 }
 
-// The limit cycle of direct force, a hundred times what the others do, would leave them one line.
+// The limit cycle of direct force is a hundred times larger than the other curves, which would shrink to a
+// line.
 void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics) {
   std::map<std::string, double> found;
   for (const Metric& m : metrics) found[m.name] = m.value;

@@ -1,4 +1,4 @@
-// The law of this system in the delay studies: both nodes in the laboratory, over one link.
+// The stiffness law in the delay studies: both nodes in the laboratory over one link.
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ namespace longreach {
 namespace {
 
 constexpr double kQuiet_m = 1e-4;
-constexpr double kPressed_s = 2.0;  // in the wall before the hand lets go
+constexpr double kPressed_s = 2.0;  // time in the wall before the hand releases the handle
 
 double rtt_of(const proto::LinkProfile& link) { return link.up().delay_s() + link.down().delay_s(); }
 
@@ -26,7 +26,7 @@ ExperimentRun across(const ExperimentRun& run, const proto::LinkProfile& link, d
   take_profile(*master.mutable_link(), link);
   take_profile(*slave.mutable_link(), link);
   master.mutable_rendering()->set_law(proto::Rendering::STIFFNESS);
-  // A hand that lets go was a light one.
+  // A hand that releases the handle is a light one before.
   master.mutable_hand()->set_grip(grip == Grip::kFirm ? proto::Hand::FIRM : proto::Hand::LIGHT);
   for (proto::Material& material : *slave.mutable_scene()->mutable_material())
     material.set_stiffness_n_per_m(wall_n_per_m);
@@ -34,7 +34,7 @@ ExperimentRun across(const ExperimentRun& run, const proto::LinkProfile& link, d
   return out;
 }
 
-/// Presses, lets go, and watches the handle for some round trips: is it calm where it comes to rest?
+/// Presses, releases the handle, and checks for several round trips whether it comes to rest.
 Pressed let_go_in_contact(const ExperimentRun& run, double rtt_s) {
   Laboratory lab(to_struct(run.config.master()), to_struct(run.config.slave()), run.seed);
   const double end_s = run.config.duration_s();
@@ -89,7 +89,7 @@ DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& lin
     if (m.name == "energy_drawdown_j") result.found.drawdown_j = m.value;
     if (m.name == "probing_cycles_done") probed = m.value > 0.0;
   }
-  // A hand that trembles neither settles nor gets through its script, and the fit of the slope shows it.
+  // A hand that oscillates neither settles nor completes its script, which shows in the fit of the slope.
   result.found.limit_cycle = !probed;
   return result;
 }

@@ -6,10 +6,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kQuiet_m = 1e-4;         // motion that a hand does not mind
-constexpr double kDraw_s = 0.1;           // time constant with which the hand's wish follows
-constexpr double kBackOff_m = 0.02;       // before it comes in
-constexpr double kHandPress_n = 3.0;      // as the laboratory's simulated operator
+constexpr double kQuiet_m = 1e-4;         // motion that a hand hardly notices
+constexpr double kDraw_s = 0.1;           // time constant of the hand's target
+constexpr double kBackOff_m = 0.02;       // distance before the approach
+constexpr double kHandPress_n = 3.0;      // same as the simulated operator of the laboratory
 constexpr double kReleasedPress_n = 0.1;  // a free handle has no spring to push against
 
 struct Span {
@@ -22,16 +22,16 @@ struct Span {
   [[nodiscard]] double width() const { return high - low; }
 };
 
-/// What the hand does: where its spring is drawn to, and with which force it pushes besides.
+/// What the hand does: the target of its spring, and an additional force.
 struct Pressing {
   double hand_m = 0.0;
   double push_n = 0.0;
 };
 
-/// One hold, and what is seen of it.
+/// What was measured while the hand held one target.
 struct Held {
   Span middle{}, late{};  // depth in the second and the last quarter
-  double depth_m = 0.0;   // means over the end
+  double depth_m = 0.0;   // means over the last part
   double force_n = 0.0;
   bool bounced = false;
 };
@@ -43,7 +43,7 @@ class WallPress {
         watch_(watch),
         hand_n_per_m_(hand_model(c.grip).stiffness_n_per_m),
         bench_(c),
-        // Whole periods of what rings in a line that both ends shut.
+        // Whole periods of the resonance of a line that is closed at both ends.
         tail_(bench_samples(c.rtt_s > 0.0 ? c.rtt_s * std::ceil(1.0 / c.rtt_s) : 1.0)) {}
 
   Pressed run() {

@@ -1,6 +1,6 @@
-// Figures 15 and 16 of Liu et al. 2019: the torques that carry the translational device, at home and
-// elsewhere, and what it does when the hand lets go: with compensation, without, with real encoders and
-// friction.
+// Figures 15 and 16 of Liu et al. 2019: the torques that support the translational device, at home and
+// elsewhere, and its motion after the hand releases it: with compensation, without, and with real encoders
+// and friction.
 
 #include <algorithm>
 #include <array>
@@ -50,11 +50,11 @@ void compare_with_paper(std::vector<Metric>& metrics) {
 }
 
 struct Drift {
-  double most_m = 0.0;   // from where it was let go
+  double most_m = 0.0;   // from the point of release
   double creep_m = 0.0;  // in the last nine seconds of ten
 };
 
-/// How far the handle gets when it is let go somewhere, at 1 kHz.
+/// How far the handle moves after it is released at a position, at 1 kHz.
 Drift drift(const DeviceConfig& device, const Vector3& at_m, std::vector<double>* curve = nullptr) {
   SimulatedDelta mechanism(device);
   DeltaHandle handle(device);

@@ -1,4 +1,4 @@
-// Figures 9, 10 and 17 of Liu et al. 2019: a handle that is let go returns home on a spring.
+// Figures 9, 10 and 17 of Liu et al. 2019: a released handle returns home on a spring.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ constexpr std::array kStiffnesses = {2.0, 4.0, 8.0, 16.0};                   // 
 constexpr double kRelease_rad = 10.0 * std::numbers::pi / 180.0;
 constexpr double kRelease_m = 0.005;
 constexpr double kShown_s = 0.5;
-constexpr double kBand = 0.02;  // settled within this share of the release
+constexpr double kBand = 0.02;  // settled within this fraction of the initial displacement
 
 /// x'' + 2 ζ ω x' + ω² x = 0 from rest at 1.
 struct SecondOrder {
@@ -40,7 +40,7 @@ struct SecondOrder {
   }
 };
 
-/// Last time outside the band, and how far it went beyond home, of samples that begin at 1.
+/// Last time outside the band, and the overshoot beyond home, of samples that start at 1.
 struct Settling {
   double time_s = 0.0;
   double overshoot = 0.0;
@@ -62,7 +62,7 @@ struct Springs {
   double damping = 0.0;
 };
 
-/// No friction, ideal encoders and motors, fast loop, unfiltered velocity: what the closed form describes.
+/// No friction, ideal encoders and motors, fast loop and unfiltered velocity, as assumed by the closed form.
 DeviceConfig closed_form_device(DeviceConfig device) {
   for (DriveConfig* drive : {&device.delta.drive, &device.spherical.drive}) {
     drive->viscous_nm_s_per_rad = drive->coulomb_nm = drive->resolution_rad = drive->bandwidth_hz = 0.0;
@@ -71,7 +71,7 @@ DeviceConfig closed_form_device(DeviceConfig device) {
   return device;
 }
 
-/// The home function at its plainest: the anchor is home from the first moment.
+/// The simplest form of the home function: the anchor is at home from the start.
 DeviceConfig with_home(DeviceConfig device, const Springs& linear, const Springs& angular) {
   BehaviourConfig& b = device.behaviour;
   b.idle = IdleRule::kHome;
@@ -89,7 +89,7 @@ struct Release {
   Pose from{};
 };
 
-/// Lets go and calls `sample(t, devices)` each sample.
+/// Releases the handle and calls `sample(t, devices)` in each sample.
 template <class Sample>
 void let_go(const Release& release, double until_s, const Sample& sample) {
   SimulatedDevices devices(release.device);
@@ -105,7 +105,7 @@ void let_go(const Release& release, double until_s, const Sample& sample) {
   }
 }
 
-/// Rotation about x, as a share of the release.
+/// Rotation about x as a fraction of the initial rotation.
 double rotation_left(const SimulatedDevices& devices) {
   return log_rotation(devices.spherical().orientation()).x() / kRelease_rad;
 }
@@ -114,7 +114,7 @@ Release rotation(const DeviceConfig& device, const Springs& springs, double rate
   return {with_home(device, {}, springs), rate_hz, {Vector3::Zero(), exp_rotation({kRelease_rad, 0.0, 0.0})}};
 }
 
-/// One curve a column, sampled at 1 kHz.
+/// One curve per column, sampled at 1 kHz.
 using Table = std::vector<std::vector<double>>;
 
 Settling run_rotation(const Release& release, std::vector<double>& curve) {
@@ -234,7 +234,7 @@ std::vector<Metric> run_home_translation(const ExperimentRun& run) {
   const DeviceConfig device = to_struct(run.config.master()).device;
   std::vector<Metric> metrics;
 
-  // Against the closed form: small, along x, no friction.
+  // Comparison with the closed form: small motion along x without friction.
   const DeviceConfig ideal = closed_form_device(device);
   const DeltaDynamics dynamics(ideal.delta);
   const double mass = dynamics.mass_kg(dynamics.pose(dynamics.home_m()))(0, 0), k = 200.0;
@@ -256,7 +256,7 @@ std::vector<Metric> run_home_translation(const ExperimentRun& run) {
   metrics.push_back({"settling_difference_max", worst, ""});
   if (run.progress) run.progress(0.5);
 
-  // The device as it is: on a spring, and as it ships, gliding.
+  // The real device: on a spring, and gliding as by default.
   const Pose from{{0.020, -0.015, 0.010}, Quaternion::Identity()};
   std::vector<Vector3> sprung, gliding;
   let_go({with_home(device, {k, 4.0}, {}), 1000.0, from}, 2.0,

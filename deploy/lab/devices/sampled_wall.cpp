@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-/// exp(A t) of [x, v, u] with u held, by scaling and squaring of the series.
+/// exp(A t) for [x, v, u] with constant u, by scaling and squaring of the series.
 Eigen::Matrix3d held_transition(const SampledWall& w) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   A(0, 1) = 1.0;

@@ -1,10 +1,10 @@
 #pragma once
-// The theoretical maximum stiffness of a virtual wall on a sampled device.
+// The theoretical maximum stiffness of a virtual wall rendered by a sampled device:
 //
 //   m x'' + b x' + k x = u,  u held for a sample,  u[j] = -K x[j-d] - B (x[j-d] - x[j-d-1])/T
 //
-// m, b, k are of device and hand together. exact_limit is the K at which the spectral radius of the discrete
-// model is 1. The others are textbook limits.
+// m, b and k are those of device and hand together. exact_limit_n_per_m returns the K at which the spectral
+// radius of the discrete model is 1. The other two functions return textbook limits.
 
 namespace longreach {
 
@@ -18,16 +18,17 @@ struct SampledWall {
   int delay_samples = 0;  // d
 };
 
-/// Spectral radius of the model with stiffness `K`, N/m.
+/// Spectral radius of the discrete model with this wall stiffness.
 double spectral_radius(const SampledWall& wall, double stiffness_n_per_m);
 
-/// Maximum K with a spectral radius of at most 1, N/m; 0 if even a small one is unstable.
+/// Maximum K with a spectral radius of at most 1, N/m; 0 if even a small K is unstable.
 double exact_limit_n_per_m(const SampledWall& wall);
 
-/// K (T/2 + t_d) = b + B: for small delays, without the spring of the hand.
+/// Limit from K (T/2 + t_d) = b + B, which holds for small delays and neglects the spring of the hand.
 double formula_limit_n_per_m(const SampledWall& wall);
 
-/// b_device = K T/2 + |B| (Colgate and Schenkel 1997): passive with any hand. Delays are ignored.
+/// Limit from b_device = K T/2 + |B| (Colgate and Schenkel 1997): passive with any hand. Delays are
+/// neglected.
 double passive_limit_n_per_m(const SampledWall& wall);
 
 }  // namespace longreach

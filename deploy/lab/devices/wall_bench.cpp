@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kPress_n = 0.2;
 
-/// One sample after the other: read, wall, write.
+/// Runs the loop sample by sample: read, wall, write.
 class Wall {
  public:
   Wall(const WallCase& c, double stiffness_n_per_m)
       : case_(c), stiffness_(stiffness_n_per_m), device_(c.device), handle_(c.device) {}
 
-  /// Depth at which the wall carries the pressing force, m.
+  /// Depth at which the wall balances the pressing force, m.
   [[nodiscard]] double rest_m() const { return kPress_n / stiffness_; }
   /// True depth of the handle, m.
   [[nodiscard]] double depth_m() const { return -device_.position_m().z(); }
@@ -27,7 +27,7 @@ class Wall {
 
   void place(double depth_m) {
     device_.place({0.0, 0.0, -depth_m});
-    measured_m_ = rest_m();  // as if it had rested there
+    measured_m_ = rest_m();  // as if the handle had been at rest there
   }
 
   /// Reads, renders, writes.
@@ -149,7 +149,7 @@ double cycle_energy_j(const WallCase& c, double stiffness_n_per_m) {
       wall.move(dt_s, kDriving, target_m, rate);
       t += dt_s;
       const double after_m = rest_m + swing_m * std::sin(w * t), after_rate = swing_m * w * std::cos(w * t);
-      // The hand holds up the pressing force that the wall carries; only what it adds counts.
+      // The wall balances the pressing force, so only the additional work of the hand counts.
       const double force_n = kDriving.stiffness_n_per_m * (after_m - wall.depth_m()) +
                              kDriving.damping_n_s_per_m * (after_rate - wall.depth_rate());
       const double now_w = force_n * wall.depth_rate();

@@ -1,4 +1,4 @@
-// Figure 12 of Liu et al. 2019: the hand turns the rotational handle into a virtual wall and out again.
+// Figure 12 of Liu et al. 2019: the hand rotates the rotational handle into a virtual wall and out again.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWall_rad = 5.0 * kDegree;
-constexpr double kTurn_rad = 20.0 * kDegree;  // that the hand wants
+constexpr double kTurn_rad = 20.0 * kDegree;  // target of the hand
 constexpr double kDamping_nm_s_per_rad = 4.775e-3;
 constexpr std::array kStiffness_nm_mm_per_deg = {8.0, 20.0, 50.0};
 constexpr double kDuration_s = 3.0;
@@ -28,7 +28,7 @@ struct Sample {
   double moment_nm = 0.0;
 };
 
-/// In within a second, a second of rest, out again.
+/// Into the wall within one second, one second at rest, and out again.
 double wanted_rad(double t) {
   const auto smooth = [](double s) {
     s = std::clamp(s, 0.0, 1.0);
@@ -81,7 +81,7 @@ std::vector<Metric> run_wall_rotation(const ExperimentRun& run) {
     const double stiffness = k * 1e-3 / kDegree;
     all.push_back(turn_into_wall(device, stiffness));
     const std::vector<Sample>& samples = all.back();
-    // At rest in the wall, the hand's spring and the wall's share the way: friction apart.
+    // At rest in the wall, the springs of hand and wall share the rotation, apart from friction.
     const double hand = wrist_model(Grip::kLight).stiffness_nm_per_rad;
     const double expected = hand * (kTurn_rad - kWall_rad) / (hand + stiffness);
     const double depth = samples[1900].angle_rad - kWall_rad;

@@ -1,5 +1,5 @@
-// Figure 18 of Liu et al. 2019: the largest stiffness of the translational device's virtual wall, against
-// sample time, hand, delay, encoders and friction.
+// Figure 18 of Liu et al. 2019: the maximum stiffness of a virtual wall of the translational device as a
+// function of sample time, hand, delay, encoders and friction.
 
 #include <array>
 #include <string>
@@ -20,10 +20,10 @@ constexpr std::array<const char*, 3> kGripNames = {"light", "firm", "released"};
 constexpr double kWallDamping_n_s_per_m = 1.0;
 constexpr double kLittleDamping_n_s_per_m = 0.5;
 constexpr double kTap_m = 2e-4;
-constexpr double kTrembling_m = 1e-5;  // that a hand notices, about
+constexpr double kTrembling_m = 1e-5;  // motion that a hand can just notice
 constexpr double kPaper_n_per_m = 5000.0;
 
-/// Simulated and exact limits over sample time; returns the largest relative difference.
+/// Simulated and exact limits over the sample time. Returns the largest relative difference.
 double sweep_period(const ExperimentRun& run, const DeviceConfig& device) {
   Trace trace(run.out, "limits",
               {"period_s", "light_n_per_m", "light_exact_n_per_m", "light_formula_n_per_m", "firm_n_per_m",
@@ -36,7 +36,7 @@ double sweep_period(const ExperimentRun& run, const DeviceConfig& device) {
     row[0] = kPeriods_s[p];
     WallCase c{ideal_device(device), Grip::kLight, kPeriods_s[p], kWallDamping_n_s_per_m};
     for (std::size_t g = 0; g <= kGrips.size(); ++g) {
-      // The last: released, and torques that wait a sample.
+      // The last case: released, with torques that are delayed by one sample.
       c.grip = kGrips[std::min(g, kGrips.size() - 1)];
       c.device.delay_samples = g == kGrips.size() ? 1 : 0;
       const SampledWall model = model_of(c);
@@ -55,7 +55,7 @@ double sweep_period(const ExperimentRun& run, const DeviceConfig& device) {
   return worst;
 }
 
-/// Largest stiffness whose residual motion is not felt, by bisection to 3 %.
+/// Maximum stiffness whose residual motion cannot be felt, by bisection to 3 %.
 double stable_limit_n_per_m(const WallCase& c) {
   double low = 100.0, high = 200.0;
   const auto stable = [&](double K) { return residual_m(c, K, kTap_m) < kTrembling_m; };
@@ -133,7 +133,7 @@ std::vector<Metric> run_wall_translation(const ExperimentRun& run) {
   sweep_encoder(run, device);
   if (run.progress) run.progress(0.9);
 
-  // The paper's 5 N/mm at 1 kHz, with the damping at which the line calls it passive.
+  // The paper's 5 N/mm at 1 kHz, with the damping that makes it passive according to the limit.
   for (std::size_t g = 0; g < kGrips.size(); ++g) {
     WallCase c{with_damping(ideal_device(device), 0.5 * kPaper_n_per_m * 1e-3), kGrips[g], 1e-3, 0.0};
     metrics.push_back(

@@ -1,12 +1,12 @@
 #pragma once
-// Extended Kalman filter over (ln f, n, a) of F = f ξⁿ (1 + a v), which starts from weighted_log_linear.hpp:
+// Extended Kalman filter for (ln f, n, a) of F = f ξⁿ (1 + a v), initialised by weighted_log_linear.hpp:
 //   H = (F̂, F̂ ln ξ, f ξⁿ v),  s = H P Hᵀ,  K = P Hᵀ/(s + s²/F̂² + σ²),  θ ← θ + K (F - F̂),  P ← P - K H P
-// Published: the extended Kalman filter over the parameters of this law (Zhu, Gao, Zhong, Gu and Choi, J.
-// Mech. Behav. Biomed. Mater. 2021), directly over k, λ and n. Added: the logarithm and the unit of depth,
-// since with N/mⁿ and metres the error of the filter is 98 % above 1e5; the start, about which the law is
-// linear; and s²/F̂², the linearisation error as noise (the second-order filter has half of it: Bar-Shalom,
-// Li and Kirubarajan, Estimation with Applications to Tracking and Navigation), without which it diverges
-// where a v is about 1.
+// Published: the extended Kalman filter for the parameters k, λ and n of this law (Zhu, Gao, Zhong, Gu and
+// Choi, J. Mech. Behav. Biomed. Mater. 2021). Added: (1) the logarithm and a unit of depth, because with N/mⁿ
+// and metres the error of the filter is 98 % above 1e5; (2) the initialisation, so that the law is
+// approximately linear about the start; (3) the term s²/F̂², which models the linearisation error as noise
+// (the second-order filter has half of it: Bar-Shalom, Li and Kirubarajan, Estimation with Applications to
+// Tracking and Navigation). Without (3) the filter diverges where a v is about 1.
 
 #include "deploy/lab/estimators/weighted_log_linear.hpp"
 
@@ -18,7 +18,8 @@ class ExtendedKalman {
 
   void reset() { *this = ExtendedKalman(forgetting_); }
 
-  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
+  /// Adds a sample, whose x_m must be > 0. Returns the force minus the predicted force, N, or NaN if there is
+  /// no fit.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (!begun_) return begin(sample, force_variance_n2);
     const double log_xi = std::log(sample.x_m / fit_.reference_m);
@@ -30,7 +31,7 @@ class ExtendedKalman {
     const double spread = h.dot(Ph);
     const double variance = spread + spread * spread / (foreseen * foreseen) + force_variance_n2;
     const Eigen::Vector3d change = Ph * (innovation / variance);
-    // Beyond that, or without a force, the linearisation is not valid.
+    // The linearisation is not valid for larger steps, nor without a force.
     if (!(variance > 0.0 && std::abs(change[0]) < kReach && std::abs(change[1]) < kReach)) return innovation;
     P_ -= Ph * Ph.transpose() / variance;
     const bool bounded = P_(1, 1) < weak_prior::kExponentSd * weak_prior::kExponentSd &&
@@ -46,9 +47,9 @@ class ExtendedKalman {
   [[nodiscard]] const ContactFit& fit() const { return fit_; }
 
  private:
-  // At the start: sd of ln f, of n, and of a v at the maximum speed.
+  // Initial standard deviations that are required to start: of ln f, of n, and of a v at the maximum speed.
   static constexpr double kForceSd = 0.05, kExponentSd = 0.2, kDampingSd = 0.2;
-  static constexpr double kReach = 1.0;  // of ln f and n, in one step
+  static constexpr double kReach = 1.0;  // maximum change of ln f and of n in one step
 
   double begin(const PenetrationSample& sample, double force_variance_n2) {
     const double innovation = start_.step(sample, force_variance_n2);

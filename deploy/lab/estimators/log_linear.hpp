@@ -1,10 +1,10 @@
 #pragma once
 // Hunt-Crossley linearised by its logarithm (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012):
 //   ln F = ln f + a v + n ln ξ,   for |a v| << 1
-// by least squares with equal weights: the published form. Bias of k: -4 % where a v reaches 0.42, -20 % at
-// 0.84. The noise of ln F grows as F decreases, so samples below 5 sd of the force are skipped, which affects
-// much of a touch. weighted_log_linear.hpp corrects both. The fit is updated when the number of samples has
-// grown by 1/32, at least every 32.
+// by least squares with equal weights, as published. The bias of k is -4 % where a v reaches 0.42, and -20 %
+// where it reaches 0.84. The noise of ln F grows as F decreases; samples below 5 standard deviations of the
+// force are therefore skipped, which can be a large part of a touch. weighted_log_linear.hpp corrects both.
+// The fit is updated whenever the number of samples has grown by 1/32, and at least every 32 samples.
 
 #include <algorithm>
 
@@ -19,7 +19,8 @@ class LogLinear {
 
   void reset() { *this = LogLinear(forgetting_); }
 
-  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
+  /// Adds a sample, whose x_m must be > 0. Returns the force minus the predicted force, N, or NaN if there is
+  /// no fit.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     const double innovation = fit_.valid ? sample.force_n - fit_.force_at(sample) : std::nan("");
     if (!(sample.force_n > 0.0) || sample.force_n * sample.force_n < 25.0 * force_variance_n2)
@@ -54,7 +55,7 @@ class LogLinear {
   NormalEquations<3> equations_;
   double squares_ = 0.0;  // Σ w y²
   double samples_ = 0.0;  // Σ w
-  double unused_ = 0.0;   // samples that are not yet in the fit
+  double unused_ = 0.0;   // number of samples that are not yet in the fit
   ContactFit fit_{};
 };
 

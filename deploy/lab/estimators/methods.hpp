@@ -1,6 +1,6 @@
 #pragma once
-// The estimators that the laboratory compares: the two of the slave, and published ones in their best form.
-// Their headers state which parts are published and which are added.
+// The estimators that the laboratory compares: the two of the slave, and published estimators in their best
+// form. Their headers state which parts are published and which were added.
 
 #include <optional>
 #include <string_view>
@@ -19,17 +19,17 @@ enum class Method : std::uint8_t {
   kExtendedKalman
 };
 
-/// Ordered by number.
+/// All methods in the order of their values.
 inline constexpr Method kAllMethods[] = {
     Method::kFixedExponent,     Method::kTwoStage,          Method::kLogLinear,     Method::kKelvinVoigt,
     Method::kMaximumLikelihood, Method::kWeightedLogLinear, Method::kExtendedKalman};
 
-/// "maximum-likelihood" and so on.
+/// Returns the name of a method, for example "maximum-likelihood".
 std::string_view name_of(Method method);
-/// Returns none for any other name.
+/// Returns the method with this name, or std::nullopt if there is none.
 std::optional<Method> method_of(std::string_view name);
 
-/// Returns `config` for this method.
+/// Returns `config`, changed so that it selects this method.
 IdentifierConfig by(Method method, IdentifierConfig config = {});
 
 }  // namespace longreach

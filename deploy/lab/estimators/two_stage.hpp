@@ -1,13 +1,16 @@
 #pragma once
-// Two coupled least squares problems (Diolaiti, Melchiorri, Stramigioli, IEEE T-RO 2005):
+// Estimates the Hunt-Crossley parameters by two coupled least squares problems (Diolaiti, Melchiorri,
+// Stramigioli, IEEE T-RO 2005):
 //   F = (c0 + c1 v) ξⁿ  for (c0, c1) with the present n;   ln(F/(c0 + c1 v)) = n ln ξ  for n with these
-// Published: both problems, solved recursively. Added, because each is necessary for good accuracy: ξ =
-// x/x_ref (with x in metres it does not converge), x_ref the weighted geometric mean of the depths, so that
-// an error of n hardly changes c0 and both converge quickly; the weight and the mean of a logarithm in the
-// second (weighted_log_linear.hpp); the prior; and, besides `forgetting`, additional forgetting at the start,
-// of the first errors of both stages: 1 - 0.05·0.995^samples (Ljung and Söderström, Theory and Practice of
-// Recursive Identification). Its sd includes only the noise, not the error of convergence. Samples below 5 sd
-// of the force are not used for n. Not handled: a v of the order of 1, where it does not converge in 2 s.
+// Published: both problems, solved recursively. Added, because each is necessary for good accuracy: (1) ξ =
+// x/x_ref, because with x in metres the estimates do not converge. x_ref is the weighted geometric mean of
+// the depths, so that an error of n hardly changes c0 and both stages converge quickly. (2) The weight and
+// the correction of the mean of a logarithm in the second problem (weighted_log_linear.hpp). (3) The prior.
+// (4) Additional forgetting at the start by the factor 1 - 0.05·0.995^samples, so that both stages forget
+// their first errors (Ljung and Söderström, Theory and Practice of Recursive Identification). The reported
+// standard deviations include only the noise, not errors due to incomplete convergence. Samples below 5
+// standard deviations of the force are not used for n. Not handled: a v of the order of 1, where the
+// estimates do not converge within 2 s.
 
 #include <algorithm>
 
@@ -23,7 +26,8 @@ class TwoStage {
 
   void reset() { *this = TwoStage(forgetting_); }
 
-  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
+  /// Adds a sample, whose x_m must be > 0. Returns the force minus the predicted force, N, or NaN if there is
+  /// no fit.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (startup_ == kStartup) fit_.reference_m = sample.x_m;
     startup_ *= kStartupKept;
@@ -53,9 +57,10 @@ class TwoStage {
   static constexpr double kStartup = 0.05, kStartupKept = 0.995;
   static constexpr double kSd = 5.0, kWeightMax = 1e30;  // N²
   static constexpr double kExponentMin = 0.5, kExponentMax = 3.5;
-  static constexpr double kOffMean = 0.05;  // of ln ξ
+  /// Maximum offset of the weighted mean of ln ξ before x_ref is changed.
+  static constexpr double kOffMean = 0.05;
 
-  /// Sums of the second stage, of weight w, l = ln ξ and y = ln(F/(c0 + c1 v)).
+  /// Weighted sums of the second stage, with the weight w, l = ln ξ and y = ln(F/(c0 + c1 v)).
   struct ExponentSums {
     double w = 0.0, l = 0.0, ll = 0.0, y = 0.0, ly = 0.0;
 
@@ -83,7 +88,7 @@ class TwoStage {
     const Eigen::Vector2d c = inverse * all.b();
     fit_.force_n = c[0];
     fit_.a_s_per_m = c[1] / c[0];
-    Eigen::Matrix2d J;  // of (ln f, a) by c
+    Eigen::Matrix2d J;  // Jacobian of (ln f, a) with respect to c
     J << 1.0 / c[0], 0.0, -fit_.a_s_per_m / c[0], 1.0 / c[0];
     const Eigen::Matrix2d of = variance * J * inverse * J.transpose();
     fit_.covariance(0, 0) = of(0, 0);

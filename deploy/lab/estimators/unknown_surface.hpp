@@ -1,8 +1,8 @@
 #pragma once
-// Adapts an estimator that requires a known surface to an unknown one: ContactCurve finds the surface
-// independently of the assumptions of the estimator. The estimator starts when the surface is known within a
-// fifth of the depth, and restarts when the surface has moved by a twentieth of it. Its sd does not include
-// the error of the surface.
+// Adapts an estimator that requires a known surface to an unknown one. ContactCurve estimates the position of
+// the surface independently of the assumptions of the estimator. The estimator starts when the surface is
+// known to within a fifth of the depth, and restarts when the estimated surface has moved by a twentieth of
+// the depth. Its standard deviations do not include the error of the surface.
 
 #include <limits>
 
@@ -50,7 +50,7 @@ class UnknownSurface {
 
   ContactCurve curve_;
   Estimator estimator_;
-  double surface_m_ = std::numeric_limits<double>::quiet_NaN();  // not yet
+  double surface_m_ = std::numeric_limits<double>::quiet_NaN();  // NaN: not known yet
   ContactFit fit_{};
 };
 

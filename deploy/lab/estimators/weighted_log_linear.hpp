@@ -1,15 +1,15 @@
 #pragma once
-// log_linear.hpp with corrections for noise and damping. With û = v/(1 + â v) and the linearisation error p
-// û², p the variance of a:
+// The estimator of log_linear.hpp with corrections for noise and damping. With û = v/(1 + â v), and the
+// linearisation error p û², where p is the variance of a:
 //   y = ln F - ln(1 + â v) + â û + σ²/(2 F̂²) = ln f + n ln ξ + a û,   weight F̂²/(σ² + (F̂ p û²)²)
-// Published: the regression (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012); that noise σ of F is noise σ/F of
-// ln F, which the weight F² corrects (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential
-// functions"). Added: F̂ is the predicted force, since the measured one favours positive noise; σ²/(2 F̂²),
-// the bias of the mean of a logarithm by noise; linearisation of ln(1 + a v) about the present â instead of
-// 0; its remainder is treated as noise, so that samples from before a was known do not bias it. F̂ is the
-// measured force while ln F̂ is not known within 10 %. Samples below 5 sd of the force are skipped. The fit
-// is updated when the number of samples has grown by 1/32, at least every 32. Not handled: a v near -1, where
-// the logarithm diverges.
+// Published: the regression (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012), and the weight F², because noise σ
+// of F is noise σ/F of ln F (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential functions").
+// Added: (1) F̂ is the predicted force, because weights from the measured force favour positive noise; while
+// ln F̂ is not known to within 10 %, F̂ is the measured force. (2) The term σ²/(2 F̂²) corrects the bias of
+// the mean of a logarithm under noise. (3) ln(1 + a v) is linearised about the present â instead of 0, and
+// the remainder is treated as noise, so that samples from before a was known do not bias it. Samples below 5
+// standard deviations of the force are skipped. The fit is updated whenever the number of samples has grown
+// by 1/32, and at least every 32 samples. Not handled: a v near -1, where the logarithm diverges.
 
 #include <algorithm>
 
@@ -25,7 +25,8 @@ class WeightedLogLinear {
 
   void reset() { *this = WeightedLogLinear(forgetting_); }
 
-  /// Returns the force minus the predicted force, N; NaN without a fit. `sample.x_m` > 0.
+  /// Adds a sample, whose x_m must be > 0. Returns the force minus the predicted force, N, or NaN if there is
+  /// no fit.
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (samples_ == 0) fit_.reference_m = sample.x_m;
     const double log_xi = std::log(sample.x_m / fit_.reference_m), speed = sample.v_m_per_s;
@@ -39,12 +40,12 @@ class WeightedLogLinear {
     return sample.force_n - foreseen;
   }
   [[nodiscard]] const ContactFit& fit() const { return fit_; }
-  [[nodiscard]] bool fresh() const { return unused_ == 0; }  // all samples are in the fit
+  [[nodiscard]] bool fresh() const { return unused_ == 0; }  // true if all samples are in the fit
 
  private:
   static constexpr double kSd = 5.0;
-  static constexpr double kKnownSd = 0.1;    // of ln F̂
-  static constexpr double kGrowthMin = 0.1;  // of 1 + a v
+  static constexpr double kKnownSd = 0.1;    // maximum standard deviation of ln F̂
+  static constexpr double kGrowthMin = 0.1;  // minimum of 1 + a v
   static constexpr int kShareUnused = 32, kUnusedMax = 31, kSamplesMin = 3, kSamplesMax = 1 << 20;
 
   struct Row {
@@ -89,7 +90,7 @@ class WeightedLogLinear {
   double forgetting_;
   NormalEquations<3> equations_;
   int samples_ = 0;
-  int unused_ = 0;  // of them, not yet in the fit
+  int unused_ = 0;  // number of samples that are not yet in the fit
   ContactFit fit_{};
 };
 

@@ -1,7 +1,8 @@
-// The trade that the operator makes: speed of rate mode, scale of position mode, dead zone, and where hybrid
-// goes from rate to position, each swept over the path task, its time against its error. The same simulated
-// operators and ways as in path-task. Farther out, at k_v = 8/s or a dead zone of 20 mm, the least motion of
-// rate mode is more than a target's size, and most of them never come to an end.
+// The trade-off of the operator between time and error in the path task. Sweeps the speed of rate mode, the
+// scale of position mode, the dead zone, and the point at which hybrid mode switches from rate to position,
+// with the same simulated operators and paths as in path-task. Beyond these ranges, at k_v = 8/s or a dead
+// zone of 20 mm, the smallest motion of rate mode exceeds the size of a target, and most operators never
+// finish.
 
 #include <array>
 #include <cmath>
@@ -20,9 +21,9 @@ namespace {
 constexpr double kRtt_s = 0.225;
 
 struct Sweep {
-  std::string_view name;   // of the metrics and traces
-  std::string_view title;  // in the plots
-  PathStrategy strategy;   // that it matters to
+  std::string_view name;   // name in metrics and traces
+  std::string_view title;  // title in the plots
+  PathStrategy strategy;   // strategies that depend on it
   void (*set)(proto::Mapping& mapping, PathCase& c, double value);
   double (*present)(const proto::Mapping& mapping);
   std::array<double, 5> values;

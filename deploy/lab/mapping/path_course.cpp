@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStretch_m = 0.03;
 constexpr int kChords = 3;  // of a quarter turn
-constexpr int kDrawn = 6;   // points of each
+constexpr int kDrawn = 6;   // points per turn
 constexpr double kTurn = -1.0;
 
 /// Lengths of the lines, and kTurn for each turn, in the order of the scene.

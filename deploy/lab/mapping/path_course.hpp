@@ -1,7 +1,7 @@
 #pragma once
-// The path of one trial: the straight lines and quarter turns of the scene's path, in a random order, so that
-// it cannot be memorised. Each turn leads from one axis of the scene to the next (x, y, z, x), as in the
-// scene: the path never returns to itself.
+// The path of one trial: the straight lines and quarter turns of the scene's path in random order, so that it
+// cannot be memorised. As in the scene, each turn leads from one axis to the next (x, y, z, x), so that the
+// path never crosses itself.
 
 #include <vector>
 
@@ -10,20 +10,20 @@
 
 namespace longreach {
 
-/// Next aim of the operator. Distances from the start of the tool, in W.
+/// A point that the operator aims for.
 struct PathAim {
   Vector3 at_m = Vector3::Zero();
-  bool target = false;  // end of a line or turn
+  bool target = false;  // true at the end of a line or turn
 };
 
 struct PathCourse {
-  PathConfig path{};             // from the start of the tool
-  std::vector<PathAim> aims;     // ends of lines and turns, and between them steps of at most 30 mm or 30°
-  std::vector<Vector3> drawn_m;  // points for drawing the path with straight lines
+  PathConfig path{};          // relative to the start position of the tool
+  std::vector<PathAim> aims;  // ends of lines and turns, with intermediate aims at most 30 mm or 30° apart
+  std::vector<Vector3> drawn_m;  // vertices of a polyline for drawing the path
   double length_m = 0.0;
 };
 
-/// From the lines and turns of `scene`, which must have right angles only.
+/// Creates a course from the lines and turns of `scene`. All turns of the scene must be right angles.
 PathCourse shuffled_course(const PathConfig& scene, Random random);
 
 }  // namespace longreach

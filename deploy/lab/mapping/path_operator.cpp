@@ -6,15 +6,18 @@
 namespace longreach {
 namespace {
 
-constexpr double kUndershoot = 0.05;  // of an aimed move
-constexpr double kTremor_m = 0.0004;  // of its end, sd
-// Left open by the model:
-constexpr double kReached_m = 0.002;  // of a target: the radius of the scene's tool; W is twice that
-constexpr double kRun_s = 1.0;        // rate mode: a run lasts so long
-constexpr double kRoom_m = 0.06;      // of the handle about home
-constexpr double kStart = 0.8;  // of the room, where a relocation ends; of its time, the hand's way there
-constexpr double kAtHome_m = 0.003;  // of a handle let go
-constexpr double kLive_s = 0.05;     // what is shown is live if it is not later
+constexpr double kUndershoot = 0.05;  // relative undershoot of an aimed move
+constexpr double kTremor_m = 0.0004;  // sd of the end point of an aimed move
+// Free parameters of the model:
+/// Tolerance of a target: the radius of the tool in the scene; W is twice that.
+constexpr double kReached_m = 0.002;
+constexpr double kRun_s = 1.0;    // duration of a run in rate mode
+constexpr double kRoom_m = 0.06;  // workspace of the handle about home
+/// Fraction of the workspace at which a relocation ends, and fraction of its duration in which the hand
+/// moves.
+constexpr double kStart = 0.8;
+constexpr double kAtHome_m = 0.003;  // distance from home at which a released handle counts as home
+constexpr double kLive_s = 0.05;     // maximum delay of a live display
 
 }  // namespace
 
@@ -62,7 +65,7 @@ double PathOperator::unseen_m(double t_s) const {
   return speed_m_per_s_ * std::clamp(t_s - began_s_, 0.0, work_.late_s);
 }
 
-// At least what surely leaves the dead zone, by twice the hand's error at its edge.
+// The minimum leaves the dead zone reliably, by twice the error of the hand at its edge.
 double PathOperator::speed_for(double left_m) const {
   const MappingConfig& m = work_.mapping;
   const double least = 2.0 * m.kv_per_s * sd_of(m.dead_zone_m);
@@ -126,7 +129,7 @@ void PathOperator::leave_behind() {
   ++next_;
 }
 
-// Goes on from a target when it is reached, from another aim when he has moved for it.
+// Continues from a target once it is reached, and from another aim once the operator has moved for it.
 void PathOperator::look(const PathOperatorInput& in) {
   const double off_m = (aims_[next_].at_m - in.shown_m).norm();
   if (tried_ && (!aims_[next_].target || off_m <= kReached_m)) leave_behind();
@@ -142,7 +145,8 @@ void PathOperator::look(const PathOperatorInput& in) {
   let_go();
 }
 
-// Position mode: the hand goes by as much as is wrong, after a relocation if it has no room.
+// Position mode: moves the hand by the displayed error, after a relocation if the workspace does not permit
+// it.
 void PathOperator::aim_hand(const PathOperatorInput& in) {
   const Vector3 wanted = (aims_[next_].at_m - in.shown_m) / work_.mapping.scale;
   const Vector3 way = clamp_norm(wanted, 2.0 * kStart * kRoom_m);
@@ -154,7 +158,8 @@ void PathOperator::aim_hand(const PathOperatorInput& in) {
             time_of(length, 2.0 * kReached_m / work_.mapping.scale)};
 }
 
-// To where the way to come has the most room; the clutch opens before the hand goes, and closes after it.
+// Relocates the handle to the position with the most room for the next move. The clutch opens before the hand
+// moves and closes afterwards.
 void PathOperator::relocate(const PathOperatorInput& in, const Vector3& way_m) {
   ++relocations_;
   phase_ = Phase::kRelocate;
@@ -164,7 +169,7 @@ void PathOperator::relocate(const PathOperatorInput& in, const Vector3& way_m) {
   reach_ = {hand_m_, -kStart * kRoom_m * way_m.normalized(), in.t_s, kStart * lasts_s};
 }
 
-// The robot stays, and the handle glides home.
+// The robot stops, and the handle glides home.
 void PathOperator::let_go() {
   away_ = true;
   reach_ = {};
@@ -172,13 +177,13 @@ void PathOperator::let_go() {
   hand_m_per_s_.setZero();
 }
 
-// Position mode goes on from wherever the handle is by now; rate mode begins at home.
+// Position mode continues at the present position of the handle; rate mode starts at home.
 void PathOperator::take_again(const PathOperatorInput& in) {
   away_ = false;
   hand_m_ = in.handle_m;
 }
 
-// Rate mode: a deflection towards the next aim; the speed is that of the whole run.
+// Rate mode: deflects the handle towards the next aim. The speed is that of the whole run.
 void PathOperator::steer_from(const PathOperatorInput& in, const Vector3& tool_m) {
   const MappingConfig& m = work_.mapping;
   const Vector3 way = aims_[next_].at_m - tool_m;

@@ -1,5 +1,5 @@
 #pragma once
-// Results of simulated operators in one mode: a value for each operator, the mean of the trials.
+// Results of the simulated operators in one mode. The value of an operator is the mean over the trials.
 
 #include <cstdint>
 #include <functional>
@@ -13,25 +13,27 @@
 namespace longreach {
 
 struct PathSample {
-  std::vector<double> time_s, error_m, target_error_m;  // of each operator
-  double moves = 0.0, relocations = 0.0;                // per trial, mean
-  int unfinished = 0;                                   // trials
+  std::vector<double> time_s, error_m, target_error_m;  // one value per operator
+  double moves = 0.0, relocations = 0.0;                // mean number per trial
+  int unfinished = 0;                                   // number of unfinished trials
 };
 
 struct PathSize {
   int persons = 100, trials = 2;
-  /// by LONGREACH_FULL; 20 persons are too few to distinguish the modes with certainty
+  /// Returns the full size if LONGREACH_FULL is set, otherwise a small one with 20 operators, which is too
+  /// few to distinguish the modes reliably.
   static PathSize chosen();
 };
 
-/// Runs `c` with each operator, on all cores; `progress`, if given, is called with the completed share.
+/// Runs case `c` with each operator, on all cores. `progress`, if given, is called with the completed
+/// fraction.
 PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
                         const std::function<void(double)>& progress = {});
 
-/// a - b for each operator.
+/// Returns a - b for each operator.
 std::vector<double> paired(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Mean and standard deviation over the operators, as NAME_SUFFIX and NAME_sd_SUFFIX.
+/// Adds the mean and standard deviation over the operators as the metrics NAME_SUFFIX and NAME_sd_SUFFIX.
 void add_spread(std::vector<Metric>& metrics, const std::string& name, const std::string& suffix,
                 const std::vector<double>& sample, const std::string& unit);
 

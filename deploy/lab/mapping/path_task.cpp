@@ -1,7 +1,6 @@
-// The path and target task of the source paper (Fig. 19, Table 2): simulated operators, three ways of
-// working, across four round trips, with and without the ghost. Both nodes run in each trial. What is
-// compared is paired: everyone does everything, on the same ways. Simulated operators are a model and no
-// evidence about people.
+// The path-and-target task of the source paper (Fig. 19, Table 2): simulated operators in three modes, over
+// four round trips, with and without the ghost. Both nodes run in each trial. The comparison is paired: every
+// operator does every case on the same paths. The operators are a model that is not validated with people.
 
 #include <array>
 #include <string>
@@ -16,14 +15,14 @@ namespace {
 
 struct Delay {
   double rtt_s;
-  double slow_down_least, slow_down_most;  // of the model, time over that without delay
+  double slow_down_least, slow_down_most;  // predicted by the model: time relative to that without delay
 };
 constexpr std::array<Delay, 4> kDelays = {
     {{0.0, 1.0, 1.0}, {0.225, 1.3, 1.8}, {1.5, 2.0, 3.0}, {2.6, 2.3, 4.5}}};
 constexpr std::array kStrategies = {PathStrategy::kRate, PathStrategy::kPosition, PathStrategy::kHybrid};
 constexpr double kShown_s = 2.6;  // round trip of the traces
 
-/// Of one picture: [strategy][delay].
+/// Results of one display: [strategy][delay].
 using Samples = std::array<std::array<PathSample, kDelays.size()>, kPathStrategies>;
 
 const PathSample& at(const Samples& s, PathStrategy strategy, std::size_t delay) {
@@ -55,7 +54,8 @@ void add_samples(std::vector<Metric>& metrics, const Samples& s, bool ghost) {
   }
 }
 
-/// Is hybrid better than the other in this, paired? Adds by how much, how sure, and at how many delays.
+/// Tests, with paired samples, whether hybrid mode is better than the other mode. Adds the difference, its
+/// significance, and the number of delays at which it is significant.
 void compare(std::vector<Metric>& metrics, const Samples& s, const std::string& name, PathStrategy other,
              std::vector<double> PathSample::*figure, const char* unit) {
   int better = 0, surely = 0;
@@ -82,7 +82,8 @@ void add_bands(std::vector<Metric>& metrics, const Samples& s) {
   }
 }
 
-/// STRATEGY.csv and ghost_STRATEGY.csv: over the delay, a little beside it, so that no bar hides another.
+/// Writes STRATEGY.csv and ghost_STRATEGY.csv over the delay, with small offsets so that error bars do not
+/// overlap.
 void write_samples(const ExperimentRun& run, const Samples& s, bool ghost) {
   for (const PathStrategy strategy : kStrategies) {
     Trace trace(run.out, picture_of(ghost) + std::string(to_string(strategy)),
@@ -96,7 +97,7 @@ void write_samples(const ExperimentRun& run, const Samples& s, bool ghost) {
   }
 }
 
-/// One trial in each way of working, and its way.
+/// Traces one trial in each mode, and its path.
 void write_traces(const ExperimentRun& run, const proto::LabConfig& config) {
   PathCase c{.rtt_s = kShown_s, .seed = run.seed};
   for (const PathStrategy strategy : kStrategies) {

@@ -12,8 +12,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kWait_s = 30.0, kEnd_s = 900.0;  // at most, until the robot is engaged, and for the task
-constexpr double kThere_m = 1e-4;                 // of the tool from where it is told to be
+constexpr double kWait_s = 30.0, kEnd_s = 900.0;  // time limits for the engagement and for the task
+constexpr double kThere_m = 1e-4;                 // distance of the tool from its commanded position
 
 Random person_of(const PathCase& c) { return Random(c.seed).child("person " + std::to_string(c.person)); }
 
@@ -130,7 +130,8 @@ proto::LabConfig path_task_config(const proto::LabConfig& config) {
   slave.clear_scene();
   slave.clear_robot();
   slave.clear_robot_file();
-  task.mutable_master()->mutable_mapping()->clear_base_rotation_rad();  // the hand's axes are the scene's
+  /// The axes of the hand are those of the scene.
+  task.mutable_master()->mutable_mapping()->clear_base_rotation_rad();
   resolve_files(slave, find_deploy_folder());
   return task;
 }

@@ -1,7 +1,7 @@
 #pragma once
-// One trial of the path and target task in the laboratory: both nodes, simulated devices and hand, the
-// Cartesian robot, a link that only delays. The path of the scene, reordered; other surfaces are not built,
-// because only the path matters.
+// One trial of the path-and-target task in the laboratory, with both nodes, simulated devices and hand, the
+// Cartesian robot, and a link with delay only. The path is that of the scene in another order. The surfaces
+// of the scene are omitted, because only the path matters.
 
 #include <cstdint>
 
@@ -14,34 +14,36 @@ namespace longreach {
 struct PathCase {
   PathStrategy strategy = PathStrategy::kHybrid;
   double rtt_s = 0.0;
-  /// the display shows the commanded position of the robot instead of the delayed measured one
+  /// The display shows the commanded position of the robot instead of the delayed measured position.
   bool ghost = false;
   double near_sd = kNearSd;
   int person = 0, trial = 0;
-  std::uint64_t seed = 1;  // person and path are the same in every case of a seed
+  std::uint64_t seed = 1;  // all cases with the same seed have the same operators and paths
 };
 
 struct PathResult {
   bool finished = false;
-  double time_s = 0.0;   // from the first look until the tool is at rest at the last target
-  double error_m = 0.0;  // distance from the path, mean over the distance of the tool: waits do not count
-  double target_error_m = 0.0;  // distance of the goal from a target when the operator continues, mean
+  double time_s = 0.0;  // from the start until the tool is at rest at the last target
+  /// Distance from the path, averaged over the distance travelled, so that waits do not count.
+  double error_m = 0.0;
+  double target_error_m = 0.0;  // mean distance of the goal from a target when the operator moves on
   int moves = 0, relocations = 0;
 };
 
-/// Returns a configuration for these trials: scene `path`. Throws ConfigError.
+/// Returns `config` adapted to these trials, with the scene `path`. Throws ConfigError.
 proto::LabConfig path_task_config(const proto::LabConfig& config);
 
 PathResult run_path_trial(const proto::LabConfig& config, const PathCase& c, Trace* trace = nullptr);
 
-/// Coordinates of a point in the plots: the diagonal x = y = z to the right, in the direction of the path, z
-/// - x up.
+/// Returns the plot coordinates of a point. The diagonal x = y = z, along which the path runs, points to the
+/// right, and z - x upwards.
 Eigen::Vector2d drawn(const Vector3& p_m);
 
-/// The columns of the trace: position of the tool from its start, also in plot coordinates.
+/// Creates the trace of a trial. Its columns include the position of the tool relative to its start, in W and
+/// in plot coordinates.
 Trace path_trace(const std::filesystem::path& folder, std::string_view name);
 
-/// The path of a person's trial.
+/// Returns the path of a trial.
 PathCourse course_of(const proto::LabConfig& config, const PathCase& c);
 
 }  // namespace longreach

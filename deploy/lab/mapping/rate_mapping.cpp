@@ -1,5 +1,6 @@
-// Figures 13 and 14 of Liu et al. 2019: deflection of the handle and speed of the robot against time in rate
-// mode, translation and then rotation, by the continuous and by the literal law. The same hand, two loops.
+// Figures 13 and 14 of Liu et al. 2019: deflection of the handle and speed of the robot over time in rate
+// mode, first translation and then rotation, with the continuous and with the literal law. The same motion of
+// the hand drives two loops.
 
 #include <algorithm>
 #include <array>
@@ -16,12 +17,12 @@ namespace longreach {
 namespace {
 
 constexpr double kHand_s = 10.0;   // the hand deflects one device to either side
-constexpr double kShown_s = 15.0;  // and the robot answers; then the other device
-constexpr double kWait_s = 30.0;   // at most, until the robot is engaged
+constexpr double kShown_s = 15.0;  // and the robot responds; then the other device
+constexpr double kWait_s = 30.0;   // time limit for the engagement
 constexpr double kReach_m = 0.04, kReach_rad = 0.5;
-constexpr double kMean_s = 0.02;  // over which the speed of the tool is taken
+constexpr double kMean_s = 0.02;  // interval for measuring the speed of the tool
 
-/// A coordinate, how fast it goes, and the largest change of that in a sample.
+/// A coordinate, its speed, and the largest change of the speed in one sample.
 struct Motion {
   double place = 0.0, speed = 0.0, step = 0.0;
 
@@ -33,7 +34,7 @@ struct Motion {
   }
 };
 
-/// One kind of motion along one axis: y, beside the wall that the scene may have.
+/// One kind of motion along one axis: y, parallel to the wall that the scene may have.
 struct Axis {
   double deflection = 0.0;  // of the handle
   Motion goal{}, tool{};
@@ -44,7 +45,7 @@ struct Axis {
     goal.sample(now, dt_s);
     const double beyond = std::abs(deflection) - dead_zone;
     error = std::max(error, std::abs(std::abs(goal.speed) - gain * std::max(0.0, beyond)));
-    // By the literal law motion ends a tenth inside the edge.
+    // With the literal law, motion ends 10 % inside the edge.
     if (beyond < -0.11 * dead_zone) creep = std::max(creep, std::abs(goal.speed));
   }
 };

@@ -14,7 +14,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-/// Twice the rank of each size, in ascending order: whole numbers also where equal sizes share it.
+/// Twice the rank of each magnitude, in ascending order, so that shared ranks are integers, too.
 std::vector<std::size_t> doubled_ranks(const std::vector<double>& ascending) {
   std::vector<std::size_t> ranks;
   for (std::size_t first = 0; first < ascending.size();) {
@@ -26,7 +26,7 @@ std::vector<std::size_t> doubled_ranks(const std::vector<double>& ascending) {
   return ranks;
 }
 
-/// Share of the choices of signs that give each sum of the positive ranks.
+/// Probability of each sum of the positive ranks if all signs are equally likely.
 std::vector<double> rank_sum_shares(const std::vector<std::size_t>& ranks) {
   std::vector<double> shares{1.0};
   for (const std::size_t rank : ranks) {

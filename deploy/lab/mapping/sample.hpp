@@ -1,5 +1,6 @@
 #pragma once
-// Statistics of a sample of simulated operators: spread, and significance of the difference of two modes.
+// Statistics of a sample of simulated operators: its spread, and the significance of the difference between
+// two modes.
 
 #include <span>
 
@@ -7,15 +8,15 @@ namespace longreach {
 
 struct Spread {
   double mean = 0.0;
-  double sd = 0.0;                             // of the sample, n - 1; 0 for one
-  double low = 0.0, median = 0.0, high = 0.0;  // quartiles, interpolated linearly between order statistics
+  double sd = 0.0;                             // sample standard deviation (n - 1); 0 for a single value
+  double low = 0.0, median = 0.0, high = 0.0;  // quartiles, linearly interpolated
 };
-/// Zeros for an empty sample.
+/// Returns zeros for an empty sample.
 Spread spread_of(std::span<const double> sample);
 
-/// Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) of paired differences: the probability, for
-/// equally likely signs, of a rank sum at least as far from its mean. Two-sided, exact by counting; ties
-/// share their ranks, zeros are dropped. 1 if none remain.
+/// Wilcoxon signed-rank test (Biometrics Bulletin 1, 1945) for paired differences. Returns the exact
+/// two-sided p-value: the probability, if both signs are equally likely, of a rank sum at least as far from
+/// its mean. Ties share their ranks, and zeros are dropped. Returns 1 if no differences remain.
 double signed_rank_p(std::span<const double> differences);
 
 }  // namespace longreach

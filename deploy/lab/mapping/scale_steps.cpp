@@ -1,5 +1,5 @@
-// The buttons step the scale while the hand goes round in a circle in position mode: from 0.8 down to 0.05
-// and up again. Does the goal step, does the force, and is the displayed friction f / k_scale?
+// The buttons step the scale from 0.8 down to 0.05 and up again while the hand moves in a circle in position
+// mode. Measures the steps of goal and force, and checks that the displayed friction is f / k_scale.
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,14 @@
 namespace longreach {
 namespace {
 
-constexpr double kWait_s = 30.0;  // at most, until the robot is engaged
-constexpr double kBegin_s = 3.0;  // of the steps, from the engagement
-constexpr double kStep_s = 1.5;   // between two
-constexpr int kSteps = 15;        // down, and as many up
+constexpr double kWait_s = 30.0;  // time limit for the engagement
+constexpr double kBegin_s = 3.0;  // start of the steps after the engagement
+constexpr double kStep_s = 1.5;   // time between two steps
+constexpr int kSteps = 15;        // steps down, and as many up
 constexpr double kPressed_s = 0.1;
 constexpr double kRadius_m = 0.015, kTurn_s = 4.0, kGentle_s = 0.5;
 
-/// The hand on its circle in the y-z plane, beside the wall that the scene may have; it begins gently.
+/// The hand on a circle in the y-z plane, parallel to the wall that the scene may have. It starts gently.
 HandTarget hand_at(double t, Grip grip) {
   const double late_s = kGentle_s * (1.0 - std::exp(-t / kGentle_s));
   const double angle = 2.0 * std::numbers::pi * (t - late_s) / kTurn_s;
@@ -40,7 +40,7 @@ HandTarget hand_at(double t, Grip grip) {
 struct Watch {
   double scale = 0.0;
   Vector3 goal_m = Vector3::Zero(), force_n = Vector3::Zero();
-  double since_s = 0.0;  // the last step
+  double since_s = 0.0;  // time of the last step
   int steps = 0;
   double goal_step_m = 0.0, goal_tick_m = 0.0;    // largest, in ticks with and without a step of the scale
   double force_step_n = 0.0, force_tick_n = 0.0;  // likewise

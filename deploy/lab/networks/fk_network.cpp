@@ -1,8 +1,9 @@
-// Forward kinematics of the 3-RRR device: error against cost of every way to solve it. The device is moved
-// through the trained workspace at 1 kHz for 20 virtual seconds: tilt up to 30 degrees in all directions,
-// turn up to 30 degrees, up to 2 rad/s. The motor angles are the inverse kinematics of known orientations,
-// which are the truth: no solver is judged by another one. Times are readings of this processor in this run,
-// the least of many passes; the ratios are of those.
+// Forward kinematics of the 3-RRR device: error against cost of all methods. The device moves through the
+// trained workspace at 1 kHz for 20 virtual seconds, with tilts of up to 30 degrees in all directions,
+// rotations of up to 30 degrees, and up to 2 rad/s. The motor angles are computed by inverse kinematics from
+// known orientations, which serve as the truth, so that no solver is compared with another one. Times are
+// measured on this processor in this run, as the minimum of many passes, and the ratios are computed from
+// them.
 
 #include <algorithm>
 #include <chrono>
@@ -49,7 +50,7 @@ Motion motion(const SphericalKinematics& k, std::uint64_t seed) {
 
 struct Cost {
   double error_max_rad = 0.0, error_rms_rad = 0.0;
-  double iterations = 0.0;  // mean of a call, of those that iterate
+  double iterations = 0.0;  // mean number per call, for iterative methods
   double failed = 0.0;      // ticks without an orientation
   double ns = INFINITY;
 };
@@ -59,7 +60,7 @@ double angle(const Quaternion& a, const Quaternion& b) { return 2.0 * (a.conjuga
 struct Variant {
   std::string name;
   Cost cost;
-  std::function<double()> pass;  // one more over the motion; time a call, ns
+  std::function<double()> pass;  // runs one more pass over the motion; returns the time per call, ns
 };
 
 /// `solver.start(q)` before a pass; `solver.step(theta, truth)` a tick, which says the orientation and how it
@@ -81,7 +82,7 @@ Variant variant(const std::string& name, const Motion& m, Solver solver, std::si
   cost.iterations /= kTicks;
   const auto pass = [&m, solver, stride]() mutable {
     using Clock = std::chrono::steady_clock;
-    double checksum = 0.0;  // uses what is computed, so that it is
+    double checksum = 0.0;  // prevents the compiler from removing the computation
     solver.start(m.q.front());
     const auto began = Clock::now();
     for (std::size_t n = 0; n < kTicks; n += stride) checksum += solver.step(m.theta_rad[n], m.q[n]).q.x();
@@ -98,7 +99,7 @@ struct Tracking {
   SphericalPose step(const Vector3& theta, const Quaternion&) { return pose = k.forward(theta, pose); }
 };
 
-/// One Newton step from the previous tick's orientation: what is left when the network is taken away.
+/// One Newton step from the orientation of the previous tick: the method without the network.
 struct NewtonStep {
   const SphericalNetwork& net;
   SphericalEstimate estimate{};
@@ -134,7 +135,7 @@ struct NewtonFromHome {
   }
 };
 
-/// kFromNothing: with the rough network at every tick. kRefined: then one Newton step.
+/// kFromNothing: with the coarse network in every tick. kRefined: followed by one Newton step.
 template <bool kFromNothing, bool kRefined>
 struct Network {
   const SphericalNetwork& net;
@@ -146,7 +147,8 @@ struct Network {
   }
 };
 
-/// The one that is nearest to the truth is taken, which flatters it: it knows no assembly mode.
+/// Takes the solution nearest to the truth, which is favourable, because this method does not know the
+/// assembly mode.
 struct AllSolutions {
   const SphericalKinematics& k;
   void start(const Quaternion&) {}
@@ -162,7 +164,8 @@ struct AllSolutions {
   }
 };
 
-/// Passes go round all variants, so that a busy moment of the machine is not one variant's.
+/// The passes alternate between all variants, so that other load on the machine does not affect only one of
+/// them.
 std::vector<Variant> measure_all(const Motion& m, const SphericalKinematics& k, const SphericalNetwork& net,
                                  const std::function<void(double)>& progress) {
   std::vector<Variant> variants = {variant("tracking", m, Tracking{k}),
@@ -182,7 +185,7 @@ std::vector<Variant> measure_all(const Motion& m, const SphericalKinematics& k, 
   return variants;
 }
 
-/// One row a variant; its error in a column of its own, so that each is drawn with its own mark.
+/// One row per variant. Each error has a column of its own, so that it is drawn with its own mark.
 void write(const ExperimentRun& run, const std::vector<Variant>& variants) {
   Trace trace(
       run.out, "fk-network",

@@ -11,12 +11,12 @@
 namespace longreach {
 namespace {
 
-constexpr double kTrainedAxis = 1e-9;  // between axes that are the same but for their last digits
+constexpr double kTrainedAxis = 1e-9;  // tolerance for axes that differ only in their last digits
 constexpr double kSingularStep =
     1e-3;  // 1 / |J^-1| below which no step is taken; the workspace keeps far above
 
-// Four units at once, summed over the lanes at the end: the order of additions is part of the source, so
-// every processor gives the same bits, with two or with four numbers an instruction.
+// Processes four units at once and sums over the lanes at the end. The order of additions is fixed in the
+// source, so that every processor gives the same bits, whether it has two or four numbers per instruction.
 using Lanes [[gnu::vector_size(32), gnu::may_alias]] = double;
 constexpr int kLanes = sizeof(Lanes) / sizeof(double);
 static_assert(SphericalPerceptron::kUnits % kLanes == 0);

@@ -1,47 +1,47 @@
 #pragma once
-// Orientation of a 3-RRR mechanism from its motor angles by small trained networks, without iteration:
-// forward kinematics (c) and (d), after Liu, Geng, Liu, Wang (2019).
+// Forward kinematics of a 3-RRR mechanism by small trained networks, without iteration: methods (c) and (d),
+// after Liu, Geng, Liu, Wang (2019).
 //
 //   g(θ) = c + B s(A θ + a),   s(z) = z (27 + z²) / (27 + 9 z²),   q = (1, g) q_home, normalised
 //
-// s is the Padé approximant of tanh: smooth, one division. g = axis tan(angle/2) of the rotation from home:
-// three unconstrained numbers, no trigonometry, and singular only half a turn away. There is one network per
-// subspace (a box of g that overlaps its neighbours); a coarse network over the whole workspace finds the
-// subspace without a previous pose. In continuous motion the subspace is that of the previous tick and
-// changes only half way into the overlap: no network is used outside its training range, and a border is not
-// crossed back and forth.
+// s is a Padé approximant of tanh, which is smooth and needs one division. g = axis tan(angle/2) describes
+// the rotation from home by three unconstrained numbers without trigonometry; it is singular only at half a
+// turn. The workspace is divided into subspaces, boxes of g that overlap their neighbours, with one network
+// each. Without a previous pose, a coarse network over the whole workspace finds the subspace. In continuous
+// motion the subspace of the previous tick is kept until the result is half way into the overlap, so that no
+// network is used outside its training range and the subspace does not alternate at a border.
 //
-// Assembly mode: the workspace is a set of motor angles (spherical_network_config.hpp) that is tested
-// exactly, and in which home's assembly mode is single-valued. Angles outside, and those a whole turn away,
-// have no orientation. Constant cost: at most one coarse and two fine networks. Nothing allocates or throws
-// after construction; the results are bit-identical on every processor.
+// The workspace is a set of motor angles (spherical_network_config.hpp) in which the orientation in home's
+// assembly mode is unique. Membership is tested exactly; angles outside, including those a full turn away,
+// have no solution. The cost is bounded: at most one coarse and two fine networks are evaluated. Nothing
+// allocates or throws after construction, and the results are bit-identical on every processor.
 //
-// Comparison: the source states that networks are 4 times faster than Newton-Raphson at the same accuracy, 10
-// times without the coarse network. Here (`longreach-lab run fk-network`; instructions by callgrind, with
-// AVX; ns on a Xeon at 2.3 GHz; maximum error), steps of 1 ms:
+// The source paper states that networks are 4 times faster than Newton-Raphson at the same accuracy, and 10
+// times without the coarse network. Our measurements (`longreach-lab run fk-network`) with steps of 1 ms, as
+// instructions (callgrind, with AVX), time (Xeon at 2.3 GHz) and maximum error:
 //
 //   network                   326 instructions    44 ns   2.6e-4 rad
 //   rough network, network    491                 95 ns   2.1e-4
-//   one Newton step           733                 92 ns   7.5e-7   from the previous tick, without a network
+//   one Newton step           733                 92 ns   7.5e-7   from the previous pose, without a network
 //   tracking (b)              870                126 ns   5e-15
 //   network, Newton step     1057                135 ns   3.4e-8
-//   rough network, Newton    1179                174 ns   1e-15    to the end, from nothing
+//   rough network, Newton    1179                174 ns   1e-15    until convergence, without a previous pose
 //   all solutions (a)      208500              22600 ns   1e-15
 //
-// Only the bare network is faster, 2.7 times in instructions, 2.9 in time, and it loses eleven digits to save
-// 80 ns of a tick of a million: tracking is the default, and the network with a Newton step is worse than
-// tracking in both respects. The coarse network is useful at start-up: with tracking it finds home's assembly
-// mode without a previous pose.
+// Only the bare network is faster than tracking (2.7 times in instructions, 2.9 times in time), but it loses
+// eleven digits of accuracy to save 80 ns of a tick of 1,000,000 ns. The network with a Newton step is slower
+// and less accurate than tracking. Tracking is therefore the default. The coarse network is useful at
+// start-up, where it gives tracking a pose in home's assembly mode without a previous pose.
 
 #include "common/core/solution_status.hpp"
 #include "deploy/lab/networks/spherical_network_config.hpp"
 
 namespace longreach {
 
-/// kFound: `q` is within the error of the networks; `cell` is the subspace for the next tick. Otherwise `q`
-/// is home's orientation and `cell` is -1. kNoSolution: the angles are not finite or outside the workspace.
-/// kNotConverged: no subspace contains the result. kSingular (`refined` only): the step has no finite value
-/// or would leave the assembly mode.
+/// Result of the networks. kFound: `q` is accurate to within the error of the networks, and `cell` is the
+/// subspace to pass to the next tick. In all other cases `q` is the orientation at home and `cell` is -1.
+/// kNoSolution: the angles are not finite or are outside the workspace. kNotConverged: no subspace contains
+/// the result. kSingular (`refined` only): the step is not finite or would leave the assembly mode.
 struct SphericalEstimate {
   SolutionStatus status = SolutionStatus::kNoSolution;
   Quaternion q = Quaternion::Identity();
@@ -50,34 +50,34 @@ struct SphericalEstimate {
 
 class SphericalNetwork {
  public:
-  /// Throws GeometryError if the networks were trained for another geometry, with the axis that differs, or
-  /// contain values that are not finite.
+  /// Throws a GeometryError if the networks were trained for another geometry (it names the axis that
+  /// differs) or contain non-finite values.
   SphericalNetwork(const SphericalGeometry& geometry, SphericalNetworkConfig config);
 
   [[nodiscard]] const SphericalNetworkConfig& config() const { return config_; }
 
-  /// Without a previous pose: coarse network, then that of its subspace.
+  /// Without a previous pose: evaluates the coarse network, then the network of the subspace that it found.
   [[nodiscard]] SphericalEstimate forward(const Vector3& theta_rad) const;
-  /// Continuous motion: the network of the previous subspace. A result too far from it is computed without a
-  /// previous pose.
+  /// For continuous motion: evaluates the network of the previous subspace. If the result is too far outside
+  /// that subspace, it is computed again as without a previous pose.
   [[nodiscard]] SphericalEstimate forward(const Vector3& theta_rad, const SphericalEstimate& previous) const;
-  /// Orientation by the coarse network only.
+  /// Returns the orientation by the coarse network only.
   [[nodiscard]] SphericalEstimate rough(const Vector3& theta_rad) const;
-  /// One Newton step on the closures, g <- -J^-1 (k - c)/2 about the estimate (spherical_closure.hpp), which
-  /// squares the error. An estimate that is not kFound is returned unchanged.
+  /// Performs one Newton step on the closure equations about the estimate, g <- -J^-1 (k - c)/2
+  /// (spherical_closure.hpp), which squares the error. An estimate that is not kFound is returned unchanged.
   [[nodiscard]] SphericalEstimate refined(const Vector3& theta_rad, const SphericalEstimate& estimate) const;
 
  private:
   [[nodiscard]] int cell_of(const Vector3& g) const;
   [[nodiscard]] SphericalEstimate nothing(SolutionStatus status) const;
-  /// The estimate g of the network of a cell, if it is in the cell.
+  /// Returns the estimate for g, the output of the network of a cell, if g is in that cell.
   [[nodiscard]] SphericalEstimate accept(const Vector3& g, int cell) const;
 
   SphericalGeometry geometry_;
   SphericalNetworkConfig config_;
-  std::vector<Vector3> centre_;  // of the cells
+  std::vector<Vector3> centre_;  // centres of the cells
   Vector3 per_width_;
-  int side_ = 0;  // of home's assembly mode, as in SphericalPose
+  int side_ = 0;  // assembly mode at home, as in SphericalPose
 };
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The trained networks of one 3-RRR mechanism as numbers: evaluated by spherical_network.hpp, created by
-// `longreach-lab train spherical`, stored in deploy/devices/.
+// The trained networks of a 3-RRR mechanism as numbers. They are created by `longreach-lab train spherical`,
+// stored in deploy/devices/ and evaluated by spherical_network.hpp.
 
 #include <array>
 #include <cmath>
@@ -10,14 +10,14 @@
 
 namespace longreach {
 
-/// Motor angles of the training: with d = θ - home and m the mean of d, |m| <= common and |d - m| <=
-/// differential: a cylinder about home. It is connected with home and has no singular pose, so every triple
-/// of angles in it has exactly one orientation of home's assembly mode.
+/// The motor angles for which the networks are trained, a cylinder about home: with d = θ - home and m the
+/// mean of d, |m| <= common and |d - m| <= differential. It is connected to home and contains no singular
+/// pose, so that every triple of angles in it has exactly one orientation in home's assembly mode.
 struct SphericalWorkspace {
   Vector3 home_rad = Vector3::Zero();     // motor angles at home
   Quaternion q_home{1.0, 0.0, 0.0, 0.0};  // orientation at home
-  double common_rad = 0.0;                // about the axis of symmetry, > 0
-  double differential_rad = 0.0;          // tilt, > 0
+  double common_rad = 0.0;                // range of rotation about the axis of symmetry, > 0
+  double differential_rad = 0.0;          // range of tilt, > 0
 
   [[nodiscard]] bool contains(const Vector3& theta_rad) const {
     const Vector3 d = theta_rad - home_rad;
@@ -27,13 +27,13 @@ struct SphericalWorkspace {
   }
 };
 
-/// Three angles as inputs, one hidden layer, three numbers as outputs:  y = c + B s(A θ + a).
+/// A network with three angles as inputs, one hidden layer, and three outputs:  y = c + B s(A θ + a).
 struct SphericalPerceptron {
   static constexpr int kUnits = 24;
 
-  alignas(32) std::array<std::array<double, kUnits>, 3> in{};  // A, a column an angle, 1/rad
+  alignas(32) std::array<std::array<double, kUnits>, 3> in{};  // A, one array per angle, 1/rad
   std::array<double, kUnits> bias{};                           // a
-  std::array<std::array<double, kUnits>, 3> out{};             // B, a row an output
+  std::array<std::array<double, kUnits>, 3> out{};             // B, one array per output
   std::array<double, 3> offset{};                              // c
 };
 
@@ -42,15 +42,16 @@ struct SphericalPerceptron {
 struct SphericalCells {
   int per_axis = 1;                 // odd, 1 to 9
   Vector3 width = Vector3::Zero();  // of g, without the overlap, > 0
-  double overlap = 0.0;             // share of the width on each side, (0, 0.5]
+  double overlap = 0.0;             // fraction of the width on each side, (0, 0.5]
 };
 
 struct SphericalNetworkConfig {
-  SphericalAxes axes;  // of the trained mechanism
+  SphericalAxes axes;  // axes of the trained mechanism
   SphericalWorkspace workspace;
   SphericalCells cells;
-  SphericalPerceptron rough;              // g anywhere in the workspace
-  std::vector<SphericalPerceptron> fine;  // g in cell (i, j, k), at (i per_axis + j) per_axis + k
+  SphericalPerceptron rough;  // estimates g anywhere in the workspace
+  /// Estimates g in cell (i, j, k); index (i per_axis + j) per_axis + k.
+  std::vector<SphericalPerceptron> fine;
 };
 
 }  // namespace longreach

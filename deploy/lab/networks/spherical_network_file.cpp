@@ -15,7 +15,7 @@ namespace {
 using google::protobuf::Message;
 constexpr int kUnits = SphericalPerceptron::kUnits;
 
-/// The first field that is not there: a network has no defaults.
+/// Returns the first missing field. All fields are required, because a network has no defaults.
 std::optional<FieldPath> absent(const Message& message) {
   for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
     const auto* field = message.GetDescriptor()->field(i);

@@ -12,8 +12,8 @@ std::vector<std::string> train_kinds() { return {"spherical"}; }
 
 void train(const std::string& kind, std::uint64_t seed, const std::filesystem::path& out) {
   if (kind != "spherical") throw std::runtime_error("unknown network " + kind);
-  // Opened first: nobody wants to learn after minutes that it cannot be written. What ends the training
-  // leaves what was there.
+  // Checks before the training, which takes minutes, that the file can be written. If the training is
+  // interrupted, the old file remains.
   std::error_code none;
   const bool existed = std::filesystem::exists(out, none);
   std::ofstream file(out, std::ios::binary | std::ios::app);

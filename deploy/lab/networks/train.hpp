@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab train KIND`: creates the weights of trained networks, reproducibly.
+// `longreach-lab train KIND`: trains networks and writes their weights, reproducibly.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace longreach {
 
-/// Names of the kinds.
+/// Returns the names of the kinds.
 std::vector<std::string> train_kinds();
 
-/// Trains and writes the file; one line of progress per network on standard error. Throws std::runtime_error.
-/// The same seed gives the same bytes.
+/// Trains and writes the file, with one line of progress per network on standard error. The same seed gives
+/// the same bytes. Throws std::runtime_error.
 void train(const std::string& kind, std::uint64_t seed, const std::filesystem::path& out);
 
 }  // namespace longreach

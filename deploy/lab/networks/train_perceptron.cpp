@@ -11,10 +11,10 @@ namespace longreach {
 namespace {
 
 constexpr int kUnits = SphericalPerceptron::kUnits;
-constexpr int kWeights = 7 * kUnits + 3;  // a unit: in (3), bias, out (3); then the offsets
-constexpr int kBias = 3, kOut = 4;        // in the seven of a unit
+constexpr int kWeights = 7 * kUnits + 3;  // parameters per unit: in (3), bias, out (3); then the offsets
+constexpr int kBias = 3, kOut = 4;        // index within the seven parameters of a unit
 
-/// As spherical_network.hpp has it, and its slope s' = (z² - 9)² / (z² + 3)² / 9.
+/// s(z) as in spherical_network.hpp, and its slope s' = (z² - 9)² / (z² + 3)² / 9.
 struct Sigmoid {
   double value, slope;
   explicit Sigmoid(double z) {
@@ -63,7 +63,7 @@ class Misfit : public ceres::CostFunction {
   const std::vector<PerceptronSample>& samples_;
 };
 
-/// Centre and half of the longest side of a box around the samples.
+/// Centre and half of the longest side of the bounding box of the samples.
 struct Scale {
   Vector3 centre;
   double half = 0.0;
@@ -83,7 +83,7 @@ double nine_digits(double x) {
   return std::strtod(text, nullptr);
 }
 
-/// The scales folded into the weights.
+/// Includes the scales in the weights.
 SphericalPerceptron unscaled(const std::vector<double>& weights, const Scale& in, const Scale& out) {
   SphericalPerceptron net;
   for (int u = 0; u < kUnits; ++u) {
@@ -124,7 +124,7 @@ SphericalPerceptron train_perceptron(const std::vector<PerceptronSample>& sample
   options.dense_linear_algebra_library_type = ceres::EIGEN;
   options.num_threads = 1;
   options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 0.0;
-  options.max_solver_time_in_seconds = 1e9;  // no clock decides
+  options.max_solver_time_in_seconds = 1e9;  // no time limit, so that the result is deterministic
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

@@ -1,9 +1,9 @@
 #pragma once
-// Least squares training of one perceptron: the sum of the squared errors of its three outputs over the
-// samples, by Levenberg-Marquardt on all weights together (Ceres Solver, analytic Jacobian, dense normal
-// equations, one thread). Deterministic: the same samples and stream give the same bits. Inputs and outputs
-// are scaled to [-1, 1]; the returned weights are for radians and are rounded to nine digits, which changes
-// the outputs by less than 1e-7.
+// Trains one perceptron by least squares: minimises the sum of the squared errors of its three outputs over
+// the samples with Levenberg-Marquardt for all weights together (Ceres Solver, analytic Jacobian, dense
+// normal equations, one thread). The training is deterministic: the same samples and random stream give the
+// same bits. Inputs and outputs are scaled to [-1, 1] internally; the returned weights are for radians and
+// are rounded to nine digits, which changes the outputs by less than 1e-7.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ struct PerceptronSample {
   Vector3 in, out;
 };
 
-/// Throws std::runtime_error if the optimiser fails. It always runs `iterations` iterations.
+/// Always runs `iterations` iterations. Throws std::runtime_error if the optimiser fails.
 SphericalPerceptron train_perceptron(const std::vector<PerceptronSample>& samples, int iterations,
                                      Random random);
 

@@ -12,10 +12,12 @@
 namespace longreach {
 namespace {
 
-// What a tilt of 30 degrees with a turn of 30 degrees needs (0.468 and 0.503 rad), and a little more.
+// The range needed for a tilt of 30 degrees with a rotation of 30 degrees (0.468 and 0.503 rad), plus a
+// margin.
 constexpr double kCommon_rad = 0.48, kDifferential_rad = 0.52;
 constexpr double kOverlap = 0.25;
-constexpr double kBeyond = 1.04;       // samples reach so far beyond the workspace that its border is inside
+/// Margin by which the samples extend beyond the workspace, so that its border is inside.
+constexpr double kBeyond = 1.04;
 constexpr int kSteps = 16;             // from home: under 5 degrees each
 constexpr int kDrawsPerSample = 2000;  // before a subspace counts as out of reach
 
@@ -46,7 +48,7 @@ SphericalAxes axes_of(const SphericalGeometry& g) {
   return axes;
 }
 
-/// Samples of the workspace and a little beyond whose g lies in the box centre ± half.
+/// Draws samples of the slightly enlarged workspace with g in the box centre ± half.
 struct Sampler {
   const SphericalKinematics& kinematics;
   const SphericalWorkspace& workspace;

@@ -1,9 +1,10 @@
 #pragma once
-// Trains the networks of the reconstructed 3-RRR device: samples of its forward kinematics, uniform over the
-// motor angles of the workspace, each the end of a path from home that tracking (b) has followed in small
-// steps, so that all are of home's assembly mode; one coarse network over all of them, one network per
-// subspace over the samples in it, including the overlap. The workspace contains every orientation with a
-// tilt of the handle of up to 30 degrees and a rotation of up to 30 degrees about itself.
+// Trains the networks of the reconstructed 3-RRR device. The samples of its forward kinematics are uniform
+// over the motor angles of the workspace. Each one is the end of a path from home that tracking (b) follows
+// in small steps, so that all samples are in home's assembly mode. The coarse network is trained with all
+// samples, the network of a subspace with the samples in it, including the overlap. The workspace contains
+// all orientations with a tilt of the handle of up to 30 degrees and a rotation about its axis of up to 30
+// degrees.
 
 #include <cstdint>
 #include <functional>
@@ -20,30 +21,33 @@ struct SphericalTraining {
   std::uint64_t seed = 1;
   int cells_per_axis = 3;
   int samples = 800;         // per network
-  int rough_samples = 1600;  // of the rough network
-  int iterations = 500;      // of the optimiser, per network
-  int checks = 20000;        // samples for measuring the error
+  int rough_samples = 1600;  // for the coarse network
+  int iterations = 500;      // iterations of the optimiser, per network
+  int checks = 20000;        // number of samples for measuring the error
 };
 
-/// Orientation of home's assembly mode at motor angles of the workspace. Throws std::runtime_error if there
-/// is a singularity in between: such a set is not a valid workspace.
+/// Returns the orientation in home's assembly mode for motor angles in the workspace. Throws
+/// std::runtime_error if there is a singularity on the path from home, because then the set is not a valid
+/// workspace.
 Quaternion followed_from_home(const SphericalKinematics& kinematics, const SphericalWorkspace& workspace,
                               const Vector3& theta_rad);
 
 struct AngleError {
   double max_rad = 0.0;
   double rms_rad = 0.0;
-  int refused = 0;  // without an orientation; not included in the statistics
+  int refused = 0;  // samples without a solution; they are not included in the statistics
 };
 
-/// Error over `count` uniform motor angles of the workspace, the same in every call; with the coarse network.
+/// Measures the error, including that of the coarse network, over `count` uniformly distributed motor angles
+/// of the workspace. The angles are the same in every call.
 AngleError network_error(const SphericalKinematics& kinematics, const SphericalNetwork& network, int count);
 
-/// `progress` is called at the beginning and after every network with a line of text; may be empty.
+/// Trains all networks. `progress` is called with a line of text at the beginning and after every network; it
+/// may be empty.
 SphericalNetworkFile train_spherical(const SphericalTraining& training,
                                      const std::function<void(const std::string&)>& progress);
 
-/// Text of the file, with a comment on its creation.
+/// Returns the text of the file with a comment on how it was created.
 std::string trained_text(const SphericalTraining& training, const SphericalNetworkFile& network);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
-// What people do whom our other experiments do not imitate: hands that yield and rest, over five links,
-// judged by scene truth.
+// Behaviour of people that the other experiments do not simulate: compliant hands that rest, retreat, clutch
+// and release, over five links. The results are compared with the true scene.
 
 #include <algorithm>
 #include <fstream>
@@ -19,7 +19,7 @@ struct Trial {
   const PersonRow* row;
   std::string link;
   Grip grip;
-  bool blind;  // the control
+  bool blind;  // the control without positions in the reports
   std::vector<PersonCheck> checks{};
   [[nodiscard]] bool holds() const {
     return std::ranges::all_of(checks, [](const PersonCheck& c) { return c.value <= c.most; });

@@ -1,6 +1,6 @@
-// Surfaces with a sense: what a hand feels of the second side of a slot, of a wall behind it, of one that was
-// met before its engagement, of laws that are no straight lines, and of stops. What is due is the true force
-// at the tool, divided by the scale where the hand moves further than the tool.
+// Oriented surfaces: the displayed force at the second side of a slot, at a wall behind the tool, at a wall
+// that was touched before the engagement, for nonlinear contact laws, and at stops. The required force is the
+// true force at the tool, divided by the scale if the hand moves further than the tool.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double most_n(const PersonScenario& s, double k, double more = 0.0, double given
   return std::min(s.master.rendering.force_max_n, std::sqrt(2.0 * left_j / (1.0 / k + 1.0 / hand)));
 }
 
-/// At the end of this move the hand feels what the tool presses with.
+/// At the end of this move the displayed force must equal the force of the tool.
 PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double k, double least_n = 0.5) {
   const double due_n = m.tool_n / s.master.mapping.scale;
   const double most = most_n(s, k, 0.0, m.given_j);
@@ -37,7 +37,7 @@ PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double 
 
 void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }
 
-// A slot: one side, then the other, then the first again.
+// A slot: touches one side, then the other, then the first again.
 void slot(PersonScenario& s) {
   clear(s);
   in_mode(s, MotionMode::kPosition);
@@ -87,7 +87,7 @@ PersonChecks judge_pressed(const PersonScenario& s, const PersonSeen& seen) {
   return all;
 }
 
-// A master that engages where another one left off: it begins with nothing, its handle at home.
+// A master that takes over from another one: it starts without any surface, with its handle at home.
 void new_master(PersonScenario& s) {
   only_wall(s, 0.02, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -113,7 +113,7 @@ void started_in_contact(PersonScenario& s) {
   s.moves = {{.to_m = {0.002, 0, 0}, .speed_m_per_s = 0.005, .wait_s = 5.0, .wait_rtt = 2.0}};
 }
 
-// Laws that are no straight lines: the slave is told their exponent. Slowly, then at rest.
+// Nonlinear contact laws, whose exponent is configured at the slave. Pressed slowly, then at rest.
 void curved(PersonScenario& s, double exponent, double stiffness_n_per_m, MotionMode mode) {
   only_wall(s, 0.02, stiffness_n_per_m);
   s.slave.scene.material[0].exponent = exponent;

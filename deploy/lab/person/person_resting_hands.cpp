@@ -1,5 +1,5 @@
-// A hand that rests feels a wall that is learnt late, as far as the store pays: F = sqrt(2 E / (1/k +
-// 1/k_hand)), for what the hand gives way by is paid, too.
+// A hand at rest when a wall is reported late: the force is limited by the energy store E to F = sqrt(2 E /
+// (1/k + 1/k_hand)), because the energy for the motion of the hand must also come from the store.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace longreach {
 namespace {
 
 constexpr double kWall_m = 0.03, kFarWall_m = 0.05;
-constexpr double kQuiet_n = 0.2;  // swing of a force that has settled
+constexpr double kQuiet_n = 0.2;  // range of a settled force
 constexpr double kShare = 0.2;    // of what is due, by which less may be felt
 
 /// What is rendered of the wall's stiffness.
@@ -37,7 +37,7 @@ double behind_wall_m(const PersonScenario& s, const MoveSeen& m) {
   return m.hand_m.x() - kWall_m / s.master.mapping.scale;
 }
 
-// Moves and waits, as people do over the Moon.
+// Moves and waits, as people do over a link to the Moon.
 void move_and_wait(PersonScenario& s) {
   only_wall(s, kWall_m, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -66,7 +66,7 @@ PersonChecks judge_stop_inside(const PersonScenario& s, const PersonSeen& seen) 
           in_front(seen)};
 }
 
-// Hold and engage again in contact: the wall is where it is.
+// Hold and engage again in contact: the wall stays where it is.
 void hold_and_engage(PersonScenario& s) {
   only_wall(s, kWall_m, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -87,7 +87,7 @@ PersonChecks judge_hold_and_engage(const PersonScenario&, const PersonSeen& seen
 void held_out(PersonScenario& s, double by_m, double wall_n_per_m, double wait_s = 10.0) {
   only_wall(s, kFarWall_m, wall_n_per_m);
   in_mode(s, MotionMode::kRate);
-  // A slight deflection takes long to the wall: it is nearer.
+  // With a small deflection the tool moves slowly, so the wall is nearer.
   if (by_m < 0.02) only_wall(s, 0.01, wall_n_per_m);
   s.moves = {{.to_m = {by_m, 0, 0}, .wait_s = wait_s, .wait_rtt = 3.0}};
 }
@@ -118,7 +118,7 @@ PersonChecks judge_felt(const PersonScenario& s, const PersonSeen& seen) {
   return all;
 }
 
-// A handle that is let go while the tool presses: the force comes down to that of a hold.
+// The handle is released while the tool presses: the force decreases to that of a hold.
 void let_go_pressing(PersonScenario& s) {
   held_out(s, 0.02, 1000.0, 12.0);
   s.slave.command.hold_force_n = 1.0;
@@ -130,7 +130,7 @@ PersonChecks judge_let_go_pressing(const PersonScenario& s, const PersonSeen& se
            seen.move[0].tool_max_n > hold_limit_n(s.slave.command) ? 0.0 : 1.0, 0.0},
           {"force at the tool, N", seen.move[2].tool_max_n, 1.05 * hold_limit_n(s.slave.command) + 0.1}};
 }
-// A handle held at home: the goal stays.
+// The handle is held at home: the goal does not move.
 void held_at_home(PersonScenario& s) {
   held_out(s, 0.02, 1000.0, 12.0);
   s.moves.push_back({.to_m = {0.0, 0, 0}, .speed_m_per_s = 0.05, .wait_s = 1.0});

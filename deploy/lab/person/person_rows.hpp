@@ -1,5 +1,6 @@
 #pragma once
-// The rows of the experiment `person`: the behaviour of a person, and the required results.
+// The rows of the experiment `person`. Each row specifies the behaviour of a simulated person and the
+// required results.
 
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@ namespace longreach {
 
 struct PersonCheck {
   std::string what;
-  double value = 0.0, most = 0.0;  // a check holds where value <= most
+  double value = 0.0, most = 0.0;  // the check passes if value <= most
 };
 
 struct PersonRow {
@@ -18,19 +19,22 @@ struct PersonRow {
   const char* what;
   void (*prepare)(PersonScenario& scenario);
   std::vector<PersonCheck> (*judge)(const PersonScenario& scenario, const PersonSeen& seen);
-  bool by_place = false;  // depends on the position of the tool in the reports: without it a check must fail
+  /// The result depends on the position of the tool in the reports: without it, at least one check must fail
+  /// (the control).
+  bool by_place = false;
 };
 
-/// All rows.
+/// Returns all rows.
 const std::vector<PersonRow>& person_rows();
 
-/// Resting hands: displayed force and stability.
+/// Adds rows with a hand at rest, which check the displayed force and the stability.
 void add_resting_hands(std::vector<PersonRow>& rows);
 
-/// Surfaces on either side, touched from behind, known before the engagement, curved laws, stops.
+/// Adds rows with surfaces on either side of the tool, touches from behind, surfaces known before the
+/// engagement, nonlinear contact laws, and stops.
 void add_oriented_surfaces(std::vector<PersonRow>& rows);
 
-/// Cases that were correct before the experiment existed and must remain so.
+/// Adds cases that were already correct before this experiment was written, as regression tests.
 void add_rows_that_stay(std::vector<PersonRow>& rows);
 
 }  // namespace longreach

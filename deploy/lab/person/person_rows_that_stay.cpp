@@ -1,5 +1,5 @@
-// What people do that was right before the experiment was. Two pages and a closing tab need the real programs
-// (tests/process, View).
+// Behaviour that was already handled correctly before this experiment was written. Two pages and a closing
+// tab require the real programs (tests/process, View).
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ PersonChecks judge_light_press(const PersonScenario&, const PersonSeen& seen) {
           {"shortfall of the force at the second touch from 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
 }
 
-// Letting go in contact: the tool stays where the last goal was.
+// Releasing the handle in contact: the tool stays at the last goal.
 void let_go_in_contact(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -73,7 +73,7 @@ PersonChecks judge_mode_switched(const PersonScenario&, const PersonSeen& seen) 
   return {in_front(seen), {"maximum jump of the goal in a tick, m", step_m, 2.5e-4}};
 }
 
-// The scale is changed in contact: the goal does not step, and the force rises by no step.
+// The scale is changed in contact: neither the goal nor the force steps.
 void scale_in_contact(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -105,7 +105,7 @@ PersonChecks judge_behind(const PersonScenario& s, const PersonSeen& seen) {
           {"force at the hand after the retreat, N", seen.move[1].felt_n, 0.0}};
 }
 
-// Stop and engage again in contact: the tool does not leap.
+// Stop and engage again in contact: the tool does not jump.
 void stop_and_engage(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -227,7 +227,7 @@ PersonChecks judge_thin_sheet(const PersonScenario&, const PersonSeen& seen) {
           {"force that pulls the hand into the far side, N", -seen.move[2].felt.x(), 0.05}};
 }
 
-// The link is silent in contact, and while a wall is met.
+// The link times out in contact, and while the tool is approaching a wall.
 void blackout_in_contact(PersonScenario& s) {
   only_wall(s, 0.03, 1000.0);
   in_mode(s, MotionMode::kPosition);
@@ -252,7 +252,7 @@ PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& 
           {"the second engagement failed", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }
 
-// A spacecraft that floats freely is pushed, flies off, and is felt no more.
+// A free-floating spacecraft is pushed and drifts away, after which no force is displayed.
 void spacecraft(PersonScenario& s) {
   clear(s);
   s.slave.scene.material.resize(1);
@@ -281,7 +281,7 @@ PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
           {"contact force of a body that moved away, N", seen.move[1].felt_max_n, kNothing_n}};
 }
 
-// A load in the gripper raises the resistance, once the slave tells of it and the hand moves.
+// A load in the gripper increases the resistance once the slave has reported it and the hand moves.
 void load(PersonScenario& s) {
   clear(s);
   s.slave.scene.material.push_back({"hard", 2e4, 0.001, 1.0, 0.5});
@@ -295,7 +295,7 @@ PersonChecks judge_load(const PersonScenario&, const PersonSeen& seen) {
   return {{"resistance without the load, N", seen.move[0].hand_n, 0.9 * seen.move[2].hand_n}};
 }
 
-// A wall that comes: it presses the tool, and a retreat leaves it.
+// A wall approaches and presses on the tool; a retreat ends the contact.
 void coming_wall(PersonScenario& s) {
   clear(s);
   add_wall(s, 0.01, 1000.0);

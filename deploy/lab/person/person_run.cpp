@@ -8,17 +8,17 @@ namespace {
 
 constexpr double kFront_m =
     5e-4;  // the goal is in front of a surface by more than what a surface's place may be off
-constexpr double kMoved_m = 5e-4;  // the tool answers
+constexpr double kMoved_m = 5e-4;  // motion that counts as a response of the tool
 constexpr double kSettle_s = 1.0;
 constexpr double kTurn_rad_per_s = 0.1;
 constexpr double kFelt_n = 0.2;
 
-/// Goes where the moves say.
+/// Moves the hand according to the moves of the scenario.
 class Walker {
  public:
   explicit Walker(const PersonScenario& s) : s_(s) {}
 
-  /// Which move, or none any more.
+  /// Index of the present move, or std::nullopt after the last.
   [[nodiscard]] std::optional<std::size_t> move() const {
     return at_ < s_.moves.size() ? std::optional(at_) : std::nullopt;
   }
@@ -40,7 +40,7 @@ class Walker {
     return target;
   }
   [[nodiscard]] bool rests() const { return there_ && waited_s_ > 0.5 * wait_s(); }
-  /// True: the next move begins.
+  /// Returns true if the next move begins.
   bool next() {
     if (!there_ || waited_s_ < wait_s()) return false;
     ++at_;
@@ -58,7 +58,7 @@ class Walker {
   double waited_s_ = 0.0;
 };
 
-/// Watches one move.
+/// Records the observations during one move.
 class Observer {
  public:
   Observer(const Vector3& goal_m, const Vector3& tool_m, double given_j)
@@ -66,7 +66,7 @@ class Observer {
     seen_.given_j = given_j;
     seen_.tool_least_m = seen_.tool_most_m = tool_m;
   }
-  /// `rests`: the hand has, for half of its wait.
+  /// `rests` is true in the second half of the wait.
   void look(const Laboratory& lab, const Vector3& tool_m, bool rests, double given_j) {
     const MasterView& m = lab.master();
     const double felt = m.spring_force_n.norm();
@@ -117,7 +117,7 @@ class Observer {
   double least_n_ = 1e9, most_n_ = 0.0;
 };
 
-/// Nothing arrives at either side for a while.
+/// A total loss of datagrams in both directions for some time.
 class Blackout {
  public:
   explicit Blackout(const PersonScenario& s)
@@ -142,8 +142,8 @@ class Blackout {
   std::optional<double> until_s_{};
 };
 
-/// Takes the tool's place and the direction in which it is held back out of the reports, and forgets no
-/// surface.
+/// Removes the position of the tool and the direction in which it is held back from the reports, and keeps
+/// surfaces that are no longer reported.
 class Blind : public FaultHooks {
  public:
   void after_slave_step(SlaveOutput& out) override {

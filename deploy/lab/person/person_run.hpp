@@ -1,7 +1,7 @@
 #pragma once
-// A person with a compliant hand who moves, presses, rests and retreats, over one link, and the true state of
-// the scene: when the goal is in front of every surface, how far it leads the tool, and the force on the
-// hand.
+// Simulates a person with a compliant hand who moves, presses, rests and retreats over one link. The results
+// are evaluated with the true surfaces of the scene: whether the goal is in front of all of them, how far the
+// goal leads the tool, and the force on the hand.
 
 #include <functional>
 #include <optional>
@@ -13,19 +13,20 @@
 
 namespace longreach {
 
-/// One action of the person: moves to a position in a straight line, then waits.
+/// One action of the person: a straight motion to a position, followed by a wait.
 struct PersonMove {
-  Vector3 to_m = Vector3::Zero();  // of the hand, from home, M
+  Vector3 to_m = Vector3::Zero();  // target of the hand relative to home, M
   double speed_m_per_s = 0.02;
   double wait_s = 1.0;
-  double wait_rtt = 1.0;               // additional round trips
-  Vector3 turn_rad = Vector3::Zero();  // rotation vector to reach meanwhile, M, at 0.1 rad/s
+  double wait_rtt = 1.0;               // additional wait in round trips
+  Vector3 turn_rad = Vector3::Zero();  // rotation vector to reach during the motion, M, at 0.1 rad/s
   bool clutch = false;
   std::optional<MotionMode> mode{};
   bool stop = false, hold = false, engage = false, let_go = false;
   std::optional<double> scale{};
   std::optional<bool> load{};
-  double blackout_s = 0.0;  // from its beginning no datagram arrives at either side
+  /// Duration of a total loss of datagrams in both directions, from the start of the move.
+  double blackout_s = 0.0;
   std::function<void(MasterConfig&)> change{};
 };
 
@@ -35,47 +36,48 @@ struct PersonScenario {
   Grip grip = Grip::kLight;
   double rtt_s = 0.0;
   std::uint64_t seed = 1;
-  bool blind =
-      /// the control: reports without the position of the tool and its limits, as in an earlier version
-      false;
+  /// Control: the reports contain neither the position of the tool nor the direction in which it is held back,
+  /// as in an earlier version.
+  bool blind = false;
   std::vector<PersonMove> moves;
-  /// Maximum depth of a position behind the true surfaces, m; goals and tools from the anchor.
+  /// Returns the depth of a position behind the true surfaces, m (the maximum over the surfaces; negative: in
+  /// front of all of them). The position is relative to the anchor.
   std::function<double(const Vector3&)> depth_m = [](const Vector3&) { return -1.0; };
 };
 
-/// Observations of one move, including its wait.
+/// What was observed during one move, including its wait.
 struct MoveSeen {
-  Vector3 goal_m = Vector3::Zero(), tool_m = Vector3::Zero();  // at its end, from the anchor
+  Vector3 goal_m = Vector3::Zero(), tool_m = Vector3::Zero();  // at the end, relative to the anchor
   Vector3 tool_least_m = Vector3::Zero(), tool_most_m = Vector3::Zero();
   [[nodiscard]] double tool_span_m() const { return (tool_most_m - tool_least_m).norm(); }
-  Vector3 hand_m = Vector3::Zero();  // true, at its end
-  double hand_n = 0.0;               // total rendered force, at its end
-  Vector3 felt = Vector3::Zero();    // contact force at the hand, at its end, M, N
-  double felt_n = 0.0;               // likewise
+  Vector3 hand_m = Vector3::Zero();  // true position at the end
+  double hand_n = 0.0;               // total rendered force at the end
+  Vector3 felt = Vector3::Zero();    // contact force on the hand at the end, M, N
+  double felt_n = 0.0;               // its magnitude
   double felt_max_n = 0.0;
-  double felt_swing_n = 0.0;  // range in the second half of the wait
-  double tool_n = 0.0;        // true force at the tool, at its end
+  double felt_swing_n = 0.0;  // range of the contact force in the second half of the wait
+  double tool_n = 0.0;        // true force at the tool at the end
   double tool_max_n = 0.0;
-  double felt_nm = 0.0, tool_nm = 0.0;  // moments likewise, at its end
-  double given_j = 0.0;  // work of the contact force on the hand, until the contact force last vanished
-  double felt_s = -1.0;  // from its beginning until 0.2 N are displayed; -1: never
-  double lead_m = 0.0;   // |goal - tool| at its end
+  double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand, true at the tool
+  double given_j = 0.0;  // work of the contact force on the hand up to the last time that the force vanished
+  double felt_s = -1.0;  // time from the start until 0.2 N are displayed; -1: never
+  double lead_m = 0.0;   // |goal - tool| at the end
   double lead_max_m = 0.0;
-  double goal_step_m = 0.0;   // maximum in a tick
-  double felt_step_n = 0.0;   // maximum increase in a tick
+  double goal_step_m = 0.0;   // maximum step in one tick
+  double felt_step_n = 0.0;   // maximum increase in one tick
   double hand_m_per_s = 0.0;  // maximum speed of the handle
-  double answer_s =
-      -1.0;  // from the first motion of the goal by 0.5 mm until the tool has moved by 0.5 mm; -1: never
-  bool engaged = true;         // at its end
-  bool cut = false;            // the stiffness was limited to the maximum of the device
-  double tool_m_per_s2 = 0.0;  // maximum
+  /// Time from a motion of the goal by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
+  double answer_s = -1.0;
+  bool engaged = true;         // engaged at the end
+  bool cut = false;            // the stiffness was limited to the device's maximum
+  double tool_m_per_s2 = 0.0;  // maximum acceleration of the tool
 };
 
 struct PersonSeen {
   std::vector<MoveSeen> move;
-  double front_n = 0.0;  // maximum contact force with the goal in front of every surface by over 0.5 mm
+  double front_n = 0.0;  // maximum contact force while the goal was more than 0.5 mm in front of all surfaces
   double energy_min_j = 0.0;
-  double goal_m_per_s = 0.0;  // maximum
+  double goal_m_per_s = 0.0;  // maximum speed of the goal
 };
 
 PersonSeen run_person(const PersonScenario& scenario);

@@ -3,9 +3,9 @@
 namespace longreach {
 namespace {
 
-constexpr double kAnswer_s = 0.3;  // beside one way
+constexpr double kAnswer_s = 0.3;  // response time in addition to the one-way delay
 
-/// The scene's one material.
+/// Sets the stiffness of the only material of the scene.
 std::string material(PersonScenario& s, double stiffness_n_per_m) {
   s.slave.scene.material.resize(1);
   s.slave.scene.material[0].stiffness_n_per_m = stiffness_n_per_m;

@@ -1,22 +1,23 @@
 #pragma once
-// Scenes and checks that several rows of the experiment `person` share.
+// Scenes and checks that are shared by several rows of the experiment `person`.
 
 #include "deploy/lab/person/person_rows.hpp"
 
 namespace longreach {
 
-inline constexpr double kMostLead_m = 5e-3;  // lead over a robot that is held back, once that is known
-inline constexpr double kNothing_n = 0.2;    // counts as no contact force
+/// Maximum lead of the goal over a blocked robot, once this has been reported to the master.
+inline constexpr double kMostLead_m = 5e-3;
+inline constexpr double kNothing_n = 0.2;  // contact forces below this value count as zero
 
 using PersonChecks = std::vector<PersonCheck>;
 
 void clear(PersonScenario& s);
 void in_mode(PersonScenario& s, MotionMode mode);
-/// A plane at this position in front of the tool, with its outward `normal`.
+/// Adds a plane at this position in front of the tool, with the outward normal `normal`.
 void add_wall(PersonScenario& s, double x_m, double stiffness_n_per_m,
               const Vector3& normal = -Vector3::UnitX());
 void only_wall(PersonScenario& s, double x_m, double stiffness_n_per_m);
-/// Touched at its face towards the tool.
+/// Makes a box the only surface of the scene. The tool touches the face towards it.
 void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m, double stiffness_n_per_m);
 
 double one_way(const PersonScenario& s);

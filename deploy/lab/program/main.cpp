@@ -1,5 +1,5 @@
-// longreach-lab: experiments in deterministic virtual time. The command line; each subcommand is a function
-// of its folder.
+// The command line of longreach-lab: experiments in deterministic virtual time. Each subcommand is a function
+// in its folder.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -24,7 +24,7 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-/// What the command line says, of all subcommands.
+/// The parsed options of all subcommands.
 struct Options {
   LabRunOptions run;
   SweepOptions sweep;

@@ -8,7 +8,7 @@
 namespace longreach {
 namespace {
 
-constexpr std::uint64_t kDrainAt = 1000;  // records; a tape holds four times as many
+constexpr std::uint64_t kDrainAt = 1000;  // records; a record buffer holds four times as many
 
 }  // namespace
 

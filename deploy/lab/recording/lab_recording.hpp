@@ -1,7 +1,7 @@
 #pragma once
-// A recording of a laboratory run, both sides in one file, in the format of the programs: the same record
-// buffers, but written between the ticks, so that equal runs give equal bytes. The time in the file is that
-// of the run.
+// A recording of a laboratory run with both sides in one file, in the same format as those of the programs.
+// It uses the same record buffers, but they are written to the file between ticks, so that equal runs give
+// equal bytes. Time stamps are in the virtual time of the run.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace longreach {
 
 class LabRecording {
  public:
-  /// Start of the clocks of the sides.
+  /// Initial clock readings of the two sides.
   struct Clocks {
     Time master{}, slave{};
   };
@@ -42,7 +42,7 @@ class LabRecording {
   MasterRecordBuffer master_;
   SlaveRecordBuffer slave_;
   std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
-  std::uint64_t undrained_ = 0;  // maximum number of records
+  std::uint64_t undrained_ = 0;  // upper bound of the number of buffered records
   bool finished_ = false;
 };
 

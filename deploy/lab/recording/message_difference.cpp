@@ -18,7 +18,7 @@ std::string number_text(double value) {
   return text;
 }
 
-/// A field of numbers, as bits that differ when the values do, and as text.
+/// A numeric field as bits, which differ if the values differ, and as text.
 struct Value {
   std::uint64_t bits = 0;
   std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-// The first difference of two messages of one type, bit for bit, in the order of the schema.
+// Finds the first difference between two messages of the same type, bit for bit, in the order of the schema.
 
 #include <google/protobuf/message.h>
 
@@ -9,10 +9,11 @@
 namespace longreach {
 
 struct MessageDifference {
-  std::string field;  // path, e.g. "wrench.force_n.x"
+  std::string field;  // path of the field, e.g. "wrench.force_n.x"
   std::string a, b;   // values as text; "absent" for a missing message
 };
-/// Returns none if they are equal. Repeated fields are not handled, because recorded outputs have none.
+/// Returns std::nullopt if the messages are equal. Repeated fields are not supported, because recorded
+/// outputs have none.
 std::optional<MessageDifference> first_difference(const google::protobuf::Message& a,
                                                   const google::protobuf::Message& b);
 

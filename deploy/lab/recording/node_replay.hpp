@@ -1,5 +1,6 @@
 #pragma once
-// Replay of one side: receives the messages of a recording in order.
+// Replays one side of a recording: receives its messages in order, steps the node with them, and compares the
+// results.
 
 #include <map>
 #include <memory>
@@ -23,21 +24,22 @@ class NodeReplay {
   NodeReplay(const NodeReplay&) = delete;
   NodeReplay& operator=(const NodeReplay&) = delete;
 
-  /// `name`: of the topic, without the side. Ignored after a difference or a stop.
+  /// Processes a message. `name` is the name of the topic without the side. Messages after a difference or a
+  /// stop are ignored.
   void take(std::string_view name, std::string_view bytes);
   [[nodiscard]] const SideReplay& result() const { return result_; }
 
  protected:
-  /// A message of a topic of this node.
+  /// Processes a message of a topic of this node.
   virtual void take_own(std::string_view name, std::string_view bytes) = 0;
   virtual void begin(const std::string& config) = 0;
   virtual void configure(const std::string& config) = 0;
   [[nodiscard]] virtual bool began() const = 0;
 
-  /// Returns whether the node is ready for this tick: started, in order, with its configuration and its
-  /// messages.
+  /// Returns whether the node can run this tick: it was started, the tick is the next one, and its
+  /// configuration and messages are present.
   bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete);
-  /// Records a difference, if there is one.
+  /// Stores the first difference between the two messages, if there is one.
   void compare(const char* what, const google::protobuf::Message& recorded,
                const google::protobuf::Message& replayed);
   void book_tick(std::size_t messages);
@@ -49,22 +51,22 @@ class NodeReplay {
 
   SideReplay result_{};
   std::map<std::uint32_t, std::string> configs_;
-  std::uint32_t config_ = 0;  // of the node
+  std::uint32_t config_ = 0;  // number of the node's configuration
   std::uint64_t next_tick_ = 0;
   std::int64_t first_ns_ = 0, now_ns_ = 0;
   std::string recorded_bytes_, replayed_bytes_;
 };
 
-/// Common part of both sides.
+/// Common part of the replays of both sides.
 template <class Node, class Config, class Tick, class Output, class View>
 class ReplayOf : public NodeReplay {
  public:
   using NodeReplay::NodeReplay;
 
  protected:
-  /// Steps the node with the recorded input and compares its output.
+  /// Steps the node with the recorded input and compares its output with the recorded one.
   virtual void step() = 0;
-  /// A message for the next tick.
+  /// Processes a message that the node received before the next tick.
   virtual void take_received(std::string_view name, std::string_view bytes) = 0;
   template <class Input>
   void step_node(const Input& in, std::size_t messages);

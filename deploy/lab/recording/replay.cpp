@@ -18,14 +18,15 @@ namespace {
 
 constexpr int kSame = 0, kDifferent = 1, kNotReplayed = 2;
 
-/// "tick" of "/master/tick", for the side "master"; empty: of another side.
+/// Returns "tick" for the topic "/master/tick" and the side "master", or an empty string for a topic of
+/// another side.
 std::string_view name_in(std::string_view topic, std::string_view side) {
   if (topic.size() < side.size() + 2 || topic.substr(1, side.size()) != side || topic[side.size() + 1] != '/')
     return {};
   return topic.substr(side.size() + 2);
 }
 
-/// Texts of up to 200 characters are enough for a line of result.
+/// Limits texts to 200 characters, which is enough for a result line.
 template <class... Values>
 std::string line(const char* format, Values... values) {
   char text[200];
@@ -52,7 +53,7 @@ int judge(const SideReplay& side, double spent_s, std::ostream& out) {
 
 }  // namespace
 
-/// What this program wrote about the recording; empty: nothing of this name.
+/// Returns metadata of the recording, or an empty string if there is none with this name.
 std::string fact(const McapReader& reader, const std::string& name) {
   const auto facts = reader.metadata().find("longreach");
   if (facts == reader.metadata().end()) return "";
@@ -60,7 +61,7 @@ std::string fact(const McapReader& reader, const std::string& name) {
   return found == facts->second.end() ? "" : found->second;
 }
 
-/// Messages of another wire version hold other fields, which the nodes of this one cannot be given.
+/// Messages of another wire version have other fields, which the nodes of this version cannot process.
 void refuse_other_wire(const McapReader& reader, const std::filesystem::path& file) {
   const std::string wire = fact(reader, "wire"), commit = fact(reader, "commit");
   if (wire == std::to_string(kWireVersion) || (wire.empty() && commit.empty())) return;
@@ -80,7 +81,7 @@ FileReplay replay_file(const std::filesystem::path& file) {
   try {
     std::optional<std::uint64_t> first_ns;
     while (const auto message = reader.next()) {
-      if (!first_ns) refuse_other_wire(reader, file);  // the facts come before all messages
+      if (!first_ns) refuse_other_wire(reader, file);  // metadata precedes all messages
       first_ns = first_ns.value_or(message->log_time_ns);
       last_ns = std::max({last_ns, *first_ns, message->log_time_ns});
       began_ns = *first_ns;

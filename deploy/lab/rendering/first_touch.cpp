@@ -1,6 +1,6 @@
-// The first touch of an unknown wall: fast, stiff, far away. The hand runs on for a round trip before the
-// news comes; nothing may jump then, and the second touch is felt where the wall is. The slave meanwhile has
-// its force guard (first_touch_guard.hpp).
+// The first touch of an unknown wall: fast, stiff and with a long delay. The hand continues for one round
+// trip until the report arrives. The force must not jump then, and the second touch must be displayed at the
+// position of the wall. Meanwhile the slave is protected by its force guard (first_touch_guard.hpp).
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +18,17 @@ constexpr double kRoundTrip_s = 3.0;
 constexpr double kSpeed_m_per_s = 0.05;
 constexpr double kCreep_m_per_s = 0.003;
 constexpr double kWall_n_per_m = 5000.0;
-constexpr double kWall_m = 0.03;    // from where the tool starts
+constexpr double kWall_m = 0.03;    // distance from the start of the tool
 constexpr double kStart_m = -0.06;  // of the handle
 constexpr double kEnd_m = 0.05;
 
 enum class Phase { kSettle, kRun, kCreep, kReact, kRetreat, kReturn, kPress, kDone };
 
 struct FirstTouch {
-  double crossed_s = -1.0;      // the goal passes the wall
-  double felt_s = -1.0;         // contact force at the hand over 0.5 N
-  double step_max_n = 0.0;      // of the contact force, within a tick, until felt
-  double registration_m = 0.0;  // of the second touch, in the hand
+  double crossed_s = -1.0;      // time at which the goal passes the wall
+  double felt_s = -1.0;         // time at which the contact force at the hand exceeds 0.5 N
+  double step_max_n = 0.0;      // maximum step of the contact force in one tick, until it is felt
+  double registration_m = 0.0;  // position of the second touch at the hand
   double force_max_n = 0.0;     // at the tool
   double energy_min_j = 0.0;
   double drawdown_j = 0.0;
@@ -51,7 +51,7 @@ SlaveConfig prepared(SlaveConfig config) {
   return config;
 }
 
-/// The person along x.
+/// The motion of the person along x.
 class Person {
  public:
   HandTarget step(const MasterView& view, double t, double dt_s) {

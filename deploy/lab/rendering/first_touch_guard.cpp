@@ -17,7 +17,7 @@ using test::GuardTouch;
 constexpr double kShownGuard_n = 8.0;
 constexpr double kBefore_s = 0.02, kAfter_s = 0.4;  // of the touch, that is shown
 
-/// The ones that are shown: guard, delay, deceleration, mass, servo.
+/// The cases in the trace: guard, delay, deceleration, mass, servo.
 std::array<GuardCase, 4> shown() {
   std::array<GuardCase, 4> cases{{{kShownGuard_n, 4e-3, 1.25, 10.0, 3.0},
                                   {kShownGuard_n, 4e-3, 1.25, 1.0, 20.0},

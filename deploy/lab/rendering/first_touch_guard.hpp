@@ -1,13 +1,13 @@
 #pragma once
-// The first touch at the slave: the effect of the force guard at 50 mm/s on 5 N/mm, over the robots that it
-// must support, and the same touches without it.
+// The first touch at the slave: measures the peak force with and without the force guard at 50 mm/s on a wall
+// of 5 N/mm, for the range of robots that the guard must support.
 
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/plot.hpp"
 
 namespace longreach {
 
-/// Writes the trace `first-touch-guard` to `out`.
+/// Runs the study and writes the trace `first-touch-guard` to `out`.
 std::vector<Metric> run_first_touch_guard(const std::filesystem::path& out);
 Plot first_touch_guard_plot();
 

@@ -1,8 +1,8 @@
 #pragma once
-// The first touch at the slave alone: a goal that moves at a constant speed and continues into an unknown
-// wall for one round trip. It uses the slave's node and a simulated robot: a gantry with a tool of some mass
-// on a spring and a damper behind its servo, which yields to the wall; or a rigid servo (mass 0), which
-// follows with the lag of its bandwidth.
+// The first touch, simulated at the slave only: the goal moves at a constant speed and continues into an
+// unknown wall for one round trip. The slave's node commands a simulated gantry. Its tool is either a mass
+// that is coupled to the servo by a spring and a damper and yields to the wall, or it follows the servo
+// rigidly (mass 0) with the lag of the servo bandwidth.
 
 #include <algorithm>
 #include <cmath>
@@ -21,20 +21,20 @@ enum class Then : std::uint8_t { kGoOn, kSilence, kStop };
 
 struct GuardCase {
   double guard_n = 8.0;
-  double delay_s = 4e-3;  // from sensing to setpoint; the lag of the robot is additional
+  double delay_s = 4e-3;  // delay from sensing to setpoint; the lag of the robot is additional
   double deceleration_m_per_s2 = 1.25;
   double mass_kg = 10.0;  // 0: the tool follows its servo rigidly
   double servo_hz = 10.0;
-  double round_trip_s = 3.0;  // of the link: the hand continues for this time
+  double round_trip_s = 3.0;  // of the link; the goal continues into the wall for this time
   double speed_m_per_s = 0.05;
   double wall_n_per_m = 5000.0;
   bool guarded = true;
   Then then = Then::kGoOn;
-  double then_s = 1.0;  // after the touch
+  double then_s = 1.0;  // time after the touch at which `then` takes effect
   std::uint64_t seed = 1;
 };
 
-/// Range of the guard: all corners, and points in between.
+/// The range of conditions that the guard must support: all corners and points in between.
 inline std::vector<GuardCase> guard_envelope() {
   std::vector<GuardCase> cases;
   for (const double guard_n : {8.0, 12.0, 20.0, 40.0}) {
@@ -54,8 +54,8 @@ inline std::vector<GuardCase> guard_envelope() {
   return cases;
 }
 
-/// The whole grid with LONGREACH_FULL, otherwise every 29th case, which includes every value of every factor;
-/// and the worst case.
+/// The whole grid if LONGREACH_FULL is set, otherwise every 29th case, which includes every value of every
+/// factor. The worst case is always included.
 inline std::vector<GuardCase> guard_sample() {
   const std::vector<GuardCase> all = guard_envelope();
   std::vector<GuardCase> some;
@@ -71,8 +71,8 @@ inline std::ostream& operator<<(std::ostream& out, const GuardCase& c) {
              << c.speed_m_per_s << " m/s on " << c.wall_n_per_m << " N/m, seed " << c.seed;
 }
 
-constexpr double kGuardWall_m = 0.03;  // from the start of the tool
-constexpr double kServoDamping = 0.7;  // of the critical damping
+constexpr double kGuardWall_m = 0.03;  // distance of the wall from the start of the tool
+constexpr double kServoDamping = 0.7;  // damping ratio
 constexpr double kWithoutGuard_n = 1e9;
 
 inline SlaveConfig guard_config(const GuardCase& c) {
@@ -104,7 +104,7 @@ inline SlaveConfig guard_config(const GuardCase& c) {
 }
 
 struct GuardRow {
-  double t_s, goal_m, tool_m, force_n;  // true force on the tool, along x
+  double t_s, goal_m, tool_m, force_n;  // force_n: true force on the tool along x
 };
 
 struct GuardTouch {
@@ -114,9 +114,9 @@ struct GuardTouch {
   SlaveView view{};              // at the end
 };
 
-constexpr double kPressed_s = 1.5;  // in total, after the touch
+constexpr double kPressed_s = 1.5;  // duration of the run after the touch
 
-/// The datagrams of the master, 200 per second.
+/// Generates the datagrams of the master, 200 per second.
 class GuardCommands {
  public:
   explicit GuardCommands(const GuardCase& c) : case_(c) {}

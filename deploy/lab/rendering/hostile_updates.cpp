@@ -1,5 +1,5 @@
-// A million stiffness reports that nobody should send, a thousand a second, half of which the link loses:
-// does the hand stay safe?
+// A million invalid or extreme stiffness reports at 1000 per second, half of which are lost by the link: does
+// the rendering remain safe for the hand?
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ constexpr std::array<Hand, 4> kHands = {{{"light", Grip::kLight, 0},
 
 constexpr double kLoss = 0.5;
 constexpr int kHandshake_ticks = 50;
-constexpr int kLatest_ticks = 20;  // by which reports overtake each other
+constexpr int kLatest_ticks = 20;  // jitter by which reports overtake each other
 
 class Attacker {
  public:
@@ -133,10 +133,10 @@ class Attacker {
 struct Outcome {
   double energy_min_j = 0.0;
   double drawdown_j = 0.0;
-  double force_step_excess_n = 0.0;  // over max(0.1 N, 5 %): of any step
-  double force_rise_excess_n = 0.0;  // of one that makes the force greater
+  double force_step_excess_n = 0.0;  // excess of any force step over max(0.1 N, 5 %)
+  double force_rise_excess_n = 0.0;  // excess of a step that increases the force
   double force_max_n = 0.0;
-  double unsafe = 0.0;  // wrenches that were not finite or over the limit
+  double unsafe = 0.0;  // number of wrenches that were not finite or exceeded the limit
   double delivered = 0.0;
   double reports = 0.0;
   double rejected = 0.0;
@@ -154,7 +154,7 @@ void worsen(Outcome& all, const Outcome& one) {
   all.rejected += one.rejected;
 }
 
-/// What the person does: presses to and fro, in all directions, in position mode and a while in rate mode.
+/// The person presses back and forth in all directions, in position mode and for some time in rate mode.
 HandTarget motion(double t, Grip grip) {
   HandTarget target;
   target.position_m = {0.03 * std::sin(1.3 * t), 0.02 * std::sin(0.7 * t), 0.02 * std::sin(2.1 * t)};
@@ -164,7 +164,7 @@ HandTarget motion(double t, Grip grip) {
   return target;
 }
 
-/// One master in one hand under one attack.
+/// One master with one hand under one attack.
 class AttackRun {
  public:
   AttackRun(MasterConfig config, const Hand& hand, Attack attack, const Random& random)
@@ -194,13 +194,13 @@ class AttackRun {
 
   void tick(int i) {
     const Time now = Time{} + from_seconds(1e-3 * (i + 1));
-    // A released handle is thrown by the rendering alone; at first a hand brings it there.
+    // A released handle can only be moved by the rendering; a hand places it first.
     const bool let_go = hand_.grip == Grip::kReleased && i % 4000 > 1500;
     devices_.set_target(motion(1e-3 * i, let_go ? Grip::kReleased : held_grip()));
     MasterInput in;
     in.now = now;
     in.handle = devices_.read(now);
-    in.handle.held = true;  // a device that cannot tell: everything is rendered on
+    in.handle.held = true;  // a device that does not detect the hand: rendering continues
     in.last_heard = now;
     if (i % 20000 == 10000) in.requests.mode = MotionMode::kRate;
     if (i % 20000 == 12000) in.requests.mode = MotionMode::kPosition;
@@ -215,7 +215,7 @@ class AttackRun {
     watch(out, node_.view().reports != reports);
     if (i >= kHandshake_ticks) {
       send(i);
-    } else {  // a slave that follows, before the attack
+    } else {  // a normal slave, before the attack
       pending_[static_cast<std::size_t>(i + 1) % pending_.size()].push_back(
           {.sequence = ++sequence_,
            .newest = true,
@@ -257,7 +257,7 @@ class AttackRun {
   MasterNode node_;
   Attacker attacker_;
   Random way_;
-  std::vector<std::vector<Received<StiffnessReport>>> pending_;  // by tick of arrival
+  std::vector<std::vector<Received<StiffnessReport>>> pending_;  // ordered by the tick of arrival
   std::size_t latest_arrival_ = 0;
   std::uint64_t sequence_ = 0;
   std::uint64_t newest_ = 1;

@@ -1,6 +1,6 @@
-// Is the hand quiet when nobody moves it? Many draws of devices, places, grips, modes, delays and walls, the
-// hand still or gone: energy that comes out by the true motion, ripple of the force, limit cycles. Control:
-// the same with damping on the velocity that the encoders show.
+// Is the handle quiet while it is not moved? Many random draws of device, pose, grip, mode, delay and wall,
+// with a hand at rest or a released handle. Measures the energy returned to the operator (from the true
+// motion), the ripple of the force, and limit cycles. Control: the same with damping on the encoder velocity.
 
 #include <algorithm>
 #include <string>
@@ -17,10 +17,11 @@ namespace longreach {
 namespace {
 
 constexpr double kEnergy_j = 1e-4;
-constexpr double kRipple_n = 0.02;   // besides one count times the stiffness
+constexpr double kRipple_n = 0.02;   // permitted ripple in addition to one count times the stiffness
 constexpr double kRipple_nm = 4e-4;  // the same at a fingertip 20 mm from the centre
-constexpr double kQuiet_s = 9.0;     // of a draw in which the ripple is judged
-// Control: the 0.4 m/T that a guard may inject, on one count in a sample; of that the filter leaves a third.
+constexpr double kQuiet_s = 9.0;     // minimum time of a draw that is evaluated for ripple
+// Control: the damping of 0.4 m/T that a guard may inject, for one count per sample, of which the filter
+// passes a third.
 constexpr double kRawDamping = 3.0 * 0.4;
 constexpr std::size_t kControlEvery = 4;
 
@@ -29,7 +30,8 @@ struct Judged {
   IdleResult result;
 };
 
-/// Energy that came out beyond the store, from which a wall that is learnt late loads its spring.
+/// Energy returned to the operator beyond the store, which may load the spring of a wall that is reported
+/// late.
 double beyond_store_j(const IdleDraw& draw, const IdlePort& p) {
   return std::max(0.0, p.out_j - draw.master.rendering.store_j);
 }
@@ -43,7 +45,7 @@ bool bad(const Judged& j) {
          beyond(r.translation) > kRipple_n || beyond(r.rotation) > kRipple_nm;
 }
 
-/// It was to press, and did not.
+/// The hand should have pressed but did not.
 bool missed(const Judged& j) {
   return (j.draw.wall_n_per_m > 0.0 || j.draw.wall_nm_per_rad > 0.0) && !j.result.touched;
 }

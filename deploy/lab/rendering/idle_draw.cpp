@@ -13,7 +13,7 @@ namespace longreach {
 namespace {
 
 constexpr double kEngage_s = 0.1;
-constexpr double kApproach_s = 0.3;  // begins then
+constexpr double kApproach_s = 0.3;  // start time
 constexpr double kApproach_m_per_s = 0.05;
 constexpr double kDrive_m_per_s = 0.005;  // out of the dead zone of rate mode
 constexpr double kTurn_rad_per_s = 0.5;
@@ -24,7 +24,7 @@ constexpr double kLeans_s = 5.0;   // in rate mode, as much as is felt until the
 constexpr double kQuiet_s = 10.0;  // and its ripple
 constexpr double kStill_s = 8.0;   // judged from here on
 
-/// The slave: it engages when asked, and touches where the goal has come to the surface.
+/// The slave: it engages on request, and reports a touch when the goal reaches the surface.
 class PlayedSlave {
  public:
   explicit PlayedSlave(const IdleDraw& draw) : draw_(draw) {}
@@ -51,10 +51,11 @@ class PlayedSlave {
   StiffnessReport report_{};
 };
 
-constexpr double kComes_s = 0.5;         // until the handle is where it meets the surface
-constexpr double kFeels_m_per_s = 0.01;  // on from there, where friction kept it short of it
+constexpr double kComes_s = 0.5;  // until the handle reaches the surface
+/// Further motion, because friction stops the handle before the surface.
+constexpr double kFeels_m_per_s = 0.01;
 
-/// A way of the hand at a constant speed, `since_s` after it set off.
+/// A motion of the hand at a constant speed, `since_s` after its start.
 double reach(double goal, double speed, double since_s) { return std::clamp(speed * since_s, 0.0, goal); }
 
 class IdleRun {
@@ -86,7 +87,7 @@ class IdleRun {
     const HandleState handle = devices_.read(now);
     const Vector3 x = devices_.delta().position_m();
     const Quaternion& q = devices_.spherical().orientation();
-    const Wrench& acted = waiting_[delay_];  // what the motors did since the last tick
+    const Wrench& acted = waiting_[delay_];  // force of the motors since the last tick
     linear_.moved(acted.force, x - x_);
     angular_.moved(acted.moment, log_rotation(q * q_.conjugate()));
     x_ = x;
@@ -169,8 +170,8 @@ class IdleRun {
   [[nodiscard]] double hand_n_per_m() const { return hand_model(draw_.master.hand.grip).stiffness_n_per_m; }
   [[nodiscard]] double depth_m() const { return draw_.press_n / draw_.wall_n_per_m; }
 
-  /// Where the hand wants the handle along the surface's normal, m: through the surface and as far as
-  /// pressing takes; further while it is not felt.
+  /// Target of the hand along the normal of the surface, m: behind the surface as far as needed for the
+  /// pressing force, and further while no force is displayed.
   double pressing_m(double since_s) {
     const double through_m = kSurface_m / draw_.master.mapping.scale + depth_m();
     const bool short_of_it =
@@ -179,7 +180,7 @@ class IdleRun {
     return reach(through_m + draw_.press_n / hand_n_per_m(), kApproach_m_per_s, since_s) + further_m_;
   }
 
-  /// In rate mode: out of the dead zone until the goal is as deep, then back, against what is felt.
+  /// In rate mode: out of the dead zone until the goal is that deep, then back, against the displayed force.
   double leaning_m(double since_s) {
     deep_ = deep_ || draw_.inward.dot(node_.view().goal_m) > kSurface_m + depth_m();
     if (!deep_) return driven_m_ = reach(0.02, kDrive_m_per_s, since_s);

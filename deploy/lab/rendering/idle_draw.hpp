@@ -1,12 +1,12 @@
 #pragma once
-// A hand at rest: one draw of the campaign `idle`. The master's node with the simulated devices, in virtual
-// time; the slave is replaced by its reports. The hand is placed, engages, presses on a surface or not, and
-// then stays at rest, or releases the handles.
+// A hand at rest: one draw of the campaign `idle`. The master's node runs with the simulated devices in
+// virtual time, with generated reports in place of the slave. The hand moves to a pose, engages, may press on
+// a surface, and then stays at rest or releases the handles.
 //
-// The evaluation uses only externally measurable values: the commanded force and the true motion of the
-// handle (not its encoders), E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]). Between two averages over one second
-// the energy of any linear spring differs by exactly -(f1 + f2)/2 . (x2 - x1); a further decrease of E is
-// energy returned to the operator.
+// The evaluation uses only quantities that can be measured from outside: the commanded force and the true
+// motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]).
+// Between two averages over one second, the energy of any linear spring changes by exactly -(f1 + f2)/2 . (x2
+// - x1); any further decrease of E is energy returned to the operator.
 
 #include <cstdint>
 
@@ -15,34 +15,36 @@
 namespace longreach {
 
 struct IdleDraw {
-  MasterConfig master{};                         // with resolved device and hand
-  Pose place{};                                  // pose of the handle at the engagement
-  Vector3 inward = Vector3::UnitX();             // of the surface that it presses on, or turns against
-  double wall_n_per_m = 0.0, press_n = 0.0;      // 0: free
-  double wall_nm_per_rad = 0.0, press_nm = 0.0;  // likewise
+  MasterConfig master{};  // with device and hand resolved
+  Pose place{};           // pose of the handle when it engages
+  /// Inward normal of the surface that the hand presses on or turns against.
+  Vector3 inward = Vector3::UnitX();
+  double wall_n_per_m = 0.0, press_n = 0.0;      // 0: no contact
+  double wall_nm_per_rad = 0.0, press_nm = 0.0;  // same for the rotation
   bool lets_go = false;
   double duration_s = 20.0;
-  // Control: additional damping on the filtered velocity of the encoders, as a share of m/T; 0: none.
+  // Control: additional damping on the filtered encoder velocity, as a fraction of m/T; 0: none.
   double raw_damping = 0.0;
 };
 
-/// Results of one port: N and m, or N m and rad.
+/// Results of one port, in N and m or in N m and rad.
 struct IdlePort {
   double out_j = 0.0;    // energy returned to the operator
-  double ripple = 0.0;   // of the force, peak to peak in a second
-  double allowed = 0.0;  // one count at the handle times the rendered stiffness
-  double motion = 0.0;   // true motion of the handle, back and forth within a second
-  double count = 0.0;    // maximum motion of the handle within one count of every encoder
-  double force = 0.0;    // mean at the end
-  double quiet_s = 0.0;  // evaluated for ripple: the handle moved by less than a tenth of a count
+  double ripple = 0.0;   // peak-to-peak ripple of the force within one second
+  double allowed = 0.0;  // permitted ripple: one encoder count at the handle times the rendered stiffness
+  double motion = 0.0;   // true back-and-forth motion of the handle within one second
+  double count = 0.0;    // maximum motion of the handle for one count of every encoder
+  double force = 0.0;    // mean force at the end
+  /// Time that was evaluated for ripple, i.e. with a handle motion below a tenth of a count.
+  double quiet_s = 0.0;
 };
 
 struct IdleResult {
   IdlePort translation{}, rotation{};
-  bool engaged = false;   // at the end
-  bool touched = false;   // a contact was displayed
-  bool at_cap = false;    // with the maximum stiffness of the device
-  bool injected = false;  // damping, while the hand was at rest
+  bool engaged = false;   // engaged at the end
+  bool touched = false;   // a contact force was displayed
+  bool at_cap = false;    // with the maximum stiffness that the device can render
+  bool injected = false;  // damping was injected while the hand was at rest
 };
 
 IdleResult run_idle_draw(const IdleDraw& draw);

@@ -15,10 +15,10 @@ namespace longreach {
 namespace {
 
 constexpr std::array kDevices = {"paper", "falcon", "desktop"};
-constexpr double kDepth_m = 0.005;  // that a press goes into a surface, at most
+constexpr double kDepth_m = 0.005;  // maximum depth of a press
 constexpr double kDepth_rad = 0.1;
-constexpr double kDeflects_m = 0.018;  // at most, a handle that the hand drives in rate mode
-constexpr double kFarthest = 0.98;     // of the workspace: into its soft stop
+constexpr double kDeflects_m = 0.018;  // maximum speed of a handle that the hand moves in rate mode
+constexpr double kFarthest = 0.98;     // fraction of the workspace: into its soft stop
 
 Vector3 direction(Random& random) {
   return Vector3(random.normal(), random.normal(), random.normal()).stableNormalized();
@@ -28,15 +28,15 @@ double log_uniform(Random& random, double low, double high) {
   return low * std::exp(random.uniform() * std::log(high / low));
 }
 
-/// Force that the motors can hold at the handle there, in any direction.
+/// Force that the motors can hold at the handle at this pose, in any direction.
 double motor_force_n(const DeviceConfig& device, const Vector3& x_m) {
   const DeltaDynamics d(device.delta);
   const Matrix3 rates = d.pose(d.home_m() + x_m).rates;
   return device.delta.drive.torque_max_nm * Eigen::JacobiSVD<Matrix3>(rates).singularValues()[2];
 }
 
-/// A wall that takes `press` within `depth`, up to twice the stiffness that can be rendered: every fourth
-/// beyond it by far.
+/// A wall that balances `press` within `depth`, with up to twice the maximum rendered stiffness; every fourth
+/// wall is much stiffer.
 double wall(Random& random, double press, double depth, double cap) {
   const double softest = press / depth;
   return random.chance(0.25) ? 100.0 * std::max(cap, softest)
@@ -70,10 +70,11 @@ IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed,
   m.device.delay_samples = random.chance(0.3) ? 1 : 0;
   draw.inward = direction(random);
   Vector3 to = direction(random), about = direction(random);
-  // What stands between a handle that was let go and its home eases slowly: it would not be still.
+  // A released handle would not be at rest, because the spring between it and its home relaxes slowly.
   if (draw.lets_go && draw.inward.dot(to) < 0.0) to = -to;
   if (draw.lets_go && draw.inward.dot(about) < 0.0) about = -about;
-  // The centre of rate mode comes along with a handle that goes home: it would not leave the dead zone.
+  // The centre of rate mode moves with a handle that returns home, so the handle would not leave the dead
+  // zone.
   if (m.mapping.mode == MotionMode::kRate && draw.inward.dot(to) < 0.0) to = -to;
   const double far = std::cbrt(random.uniform()), far_turned = std::cbrt(random.uniform());
   const double kind = random.uniform();

@@ -1,5 +1,5 @@
 #pragma once
-// The draws of the campaign `idle`: devices, poses, grips, modes, delays, walls.
+// The random draws of the campaign `idle`: device, pose, grip, mode, delay and wall.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace longreach {
 
-/// The complete master configurations of the device files.
+/// Returns the complete master configuration for each device file.
 std::vector<MasterConfig> idle_masters(const proto::LabConfig& config);
 
-/// The draw with this number: equal for equal seed and number.
+/// Returns the draw with this number. It depends only on the arguments.
 IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed, std::size_t number);
 
 }  // namespace longreach

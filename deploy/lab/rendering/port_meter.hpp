@@ -1,6 +1,6 @@
 #pragma once
-// Energy and ripple at one port of the hand, from the commanded force and the true motion; the equations are
-// in idle_draw.hpp.
+// Measures the energy and the ripple at one port of the hand from the commanded force and the true motion.
+// The equations are in idle_draw.hpp.
 
 #include <algorithm>
 #include <array>
@@ -11,20 +11,22 @@
 
 namespace longreach {
 
-/// External measurement of one port.
+/// Measures one port (translation or rotation) from outside the device.
 class PortMeter {
  public:
-  static constexpr std::size_t kBlock = 1000;  // ticks per second
+  static constexpr std::size_t kBlock = 1000;  // ticks per block; a block is one second
 
-  /// The handle has moved by `moved` under the previously commanded force `f`.
+  /// Adds the energy of a motion of the handle by `moved` under the previously commanded force `f`.
   void moved(const Vector3& f, const Vector3& moved) { energy_j_ -= f.dot(moved); }
   void engaged() { energy_j_ = lowest_j_ = 0.0; }
-  /// Maximum motion of the handle within one count of every encoder, at its present pose.
+  /// Sets the maximum motion of the handle for one count of every encoder at its present pose.
   void rests(double count) { count_ = count; }
-  /// Call it from the engagement on, while the hand is on the handle: springs started at rest.
+  /// Updates the minimum of the energy. Call it from the engagement on while the hand is on the handle; all
+  /// springs are unloaded at the engagement.
   void hold() { lowest_j_ = std::min(lowest_j_, energy_j_); }
 
-  /// Call it while the hand is at rest.
+  /// Adds a tick to the present block of one second. Call it while the hand is at rest. Motion and ripple are
+  /// evaluated only for blocks that end with `stable`, i.e. after the transients.
   void watch(const Vector3& f, const Vector3& x, bool stable) {
     f_[ticks_] = f;
     x_[ticks_] = x;
@@ -60,7 +62,7 @@ class PortMeter {
       fallen_j_ = std::max(fallen_j_, highest_j_ - unspent_j_);
     }
     if (stable) motion_ = std::max(motion_, to_and_fro(x_));
-    // A drifting handle is not at rest: its spring follows.
+    // A drifting handle is not at rest: the force of its spring follows the drift.
     if (stable && drift(x_, now.x) < 0.1 * count_) {
       ripple_ = std::max(ripple_, ripple(f_, now.f));
       ++quiet_s_;
@@ -72,7 +74,7 @@ class PortMeter {
 
   static constexpr double kMiddle = 0.5 * (kBlock - 1), kSpread = kBlock * (kBlock * kBlock - 1.0) / 12.0;
 
-  /// Slope of the best straight line, per tick.
+  /// Slope of the regression line, per tick.
   static Vector3 slope(const Second& y, const Vector3& mean) {
     Vector3 sum = Vector3::Zero();
     for (std::size_t i = 0; i < kBlock; ++i)
@@ -81,7 +83,7 @@ class PortMeter {
   }
   static double drift(const Second& y, const Vector3& mean) { return kBlock * slope(y, mean).norm(); }
 
-  /// Peak to peak about that line.
+  /// Peak-to-peak deviation from the regression line.
   static double ripple(const Second& y, const Vector3& mean) {
     const Vector3 rise = slope(y, mean);
     Vector3 low = Vector3::Constant(1e9), high = -low;
@@ -93,7 +95,7 @@ class PortMeter {
     return (high - low).norm();
   }
 
-  /// Distance that it moved back and forth, in either order: zero for a monotonic motion.
+  /// Distance of back-and-forth motion, starting in either direction; zero for a monotonic motion.
   static double to_and_fro(const Second& y) {
     Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
     for (const Vector3& at : y) {

@@ -1,5 +1,5 @@
-// Pressing on a wall in rate mode: there is no position to press against, so the force at the hand follows
-// the penetration that the hand has commanded; only the stiffness came back.
+// Pressing on a wall in rate mode. There is no position to press against, so the force at the hand follows
+// the commanded penetration; the slave reports only the stiffness.
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,13 @@ constexpr double kWall_m = 0.15;
 
 enum class Phase { kTowards, kWait, kPress, kHold, kLeave, kDone };
 
-/// Drives towards, waits for the news of the touch, presses gently, holds still in the dead zone, leaves.
+/// Moves towards the wall, waits for the report of the touch, presses gently, rests in the dead zone, and
+/// retreats.
 class Person {
  public:
   HandTarget step(const MasterView& m, double t) {
-    if (m.state != SafetyState::kEngaged) {  // the centre of rate mode is where the handle is when it begins
+    // The centre of rate mode is the position of the handle at its start.
+    if (m.state != SafetyState::kEngaged) {
       began_s_ = t;
       return {};
     }
@@ -42,7 +44,7 @@ class Person {
         deflection = kGentle_m;
         go(m.spring_force_n.norm() > 4.0 || since > 20.0, Phase::kHold, t);
         break;
-      case Phase::kHold:  // on the side of the wall: beyond the centre nothing is felt
+      case Phase::kHold:  // on the side of the wall; there is no force beyond the centre
         deflection = kHeld_m;
         go(since > 8.0, Phase::kLeave, t);
         break;
@@ -62,7 +64,7 @@ class Person {
   }
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] double since(double t) const { return t - began_s_; }
-  /// A hand that is a spring must reach further than the deflection that it wants.
+  /// A compliant hand must aim beyond the intended deflection.
   void lean(double gain) { gain_ = gain; }
 
  private:

@@ -1,7 +1,7 @@
-// Contacts that are more than a wall across the motion, through the whole loop (slave, estimator, link): an
-// oblique plane, a corner whose planes are met one after the other, a corner that is pressed diagonally, and
-// a stop against turning. Nobody described them. Judged by the slope of the force at the hand between two
-// rests, and by where it would be zero, against the scene.
+// Contacts other than a wall perpendicular to the motion, in the complete loop (slave, estimator, link): an
+// oblique plane, a corner whose planes are touched one after the other, a corner that is pressed diagonally,
+// and a rotational stop. None of them is known to the slave. The slope of the force at the hand between two
+// rests, and the position at which it would be zero, are compared with the scene.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 struct Wall {
   Vector3 n = Vector3::UnitX();  // inwards
-  double at_m = 0.01;            // from the start along it
+  double at_m = 0.01;            // distance from the start along it
   double n_per_m = 1000.0;
 };
 
@@ -27,7 +27,7 @@ MasterConfig master_of(const ExperimentRun& run) {
   config.safety.engage_at_start = true;
   config.mapping.mode = MotionMode::kPosition;
   config.mapping.scale = 1.0;
-  config.rendering.friction_n = config.rendering.friction_nm = 0.0;  // only the contact is of interest
+  config.rendering.friction_n = config.rendering.friction_nm = 0.0;  // all other forces are switched off
   config.rendering.rotational_stiffness_nm_per_rad = 0.0;
   return config;
 }
@@ -88,7 +88,7 @@ class Hand {
   void stay(double seconds) {
     for (double t = 0.0; t < seconds; t += lab_.period_s()) tick();
   }
-  /// Until what was met has come back and has been felt.
+  /// Until the contact has been reported and displayed.
   void wait() { stay(2.0 * rtt_s_ + 4.0); }
   [[nodiscard]] Rest rest() const {
     const MasterView& m = lab_.master();

@@ -1,5 +1,5 @@
-// In contact the one-way delay steps from 0.4 to 6 s for a minute (it happened to the Interact experiment):
-// the force eases, nothing jumps, and after a new engagement the work goes on.
+// During a contact, the one-way delay steps from 0.4 s to 6 s for one minute, as in the Interact experiment.
+// The force must decrease without jumps, and the work must continue after a new engagement.
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@
 namespace longreach {
 namespace {
 
-constexpr double kSpike_s = 30.0;  // by then the hand presses
+constexpr double kSpike_s = 30.0;  // the hand presses by this time
 constexpr double kSpikeLength_s = 60.0;
 constexpr double kDuration_s = 160.0;
 constexpr const char* kStateAxis =
     "set yrange [-0.3:3.3]\nset ytics ('idle' 0, 'observing' 1, 'engaged' 2, 'holding' 3)";
 
-/// What happened to the force, tick by tick.
+/// Evaluates the force tick by tick.
 class Spike {
  public:
   explicit Spike(double fade_s) : fade_s_(fade_s) {}
@@ -46,12 +46,12 @@ class Spike {
     last_n_ = felt_n;
   }
 
-  double in_contact_n = 0.0;  // felt when the spike began
-  double held_s = -1.0;       // from the beginning of the spike to the hold of the master
+  double in_contact_n = 0.0;  // force when the spike began
+  double held_s = -1.0;       // time from the start of the spike to the hold of the master
   double stiffness_at_hold = 0.0;
   double stiffness_later = 0.0;  // one time constant later
-  double rise_max_n = 0.0;       // of the contact force within a tick, after the spike began
-  double residual_n = 0.0;       // felt two seconds after the hold
+  double rise_max_n = 0.0;       // maximum step of the contact force in one tick after the spike began
+  double residual_n = 0.0;       // force two seconds after the hold
   int engagements = 0;
   bool pressed_again = false;
 
@@ -90,7 +90,7 @@ std::vector<Metric> run_spike(const ExperimentRun& run) {
   SlaveConfig slave = to_struct(run.config.slave());
   spike_into(master.link.impairment);
   spike_into(slave.link.impairment);
-  // A wall near by, and a script that stays in contact until the spike.
+  // A nearby wall, and a script that stays in contact until the spike.
   slave.scene.surface.resize(1);
   slave.scene.surface[0].plane = {.point_m = {0.02, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}};
   master.operator_.rate_distance_m = 0.0;
@@ -102,7 +102,7 @@ std::vector<Metric> run_spike(const ExperimentRun& run) {
   const MasterView& m = lab.master();
   const auto ticks = static_cast<std::int64_t>(kDuration_s / lab.period_s());
   for (std::int64_t i = 0; i < ticks; ++i) {
-    // The person engages anew when the slave is heard again and the spike is over.
+    // The person engages again when the slave is received again and the spike is over.
     if (lab.now_s() > kSpike_s + kSpikeLength_s + 5.0 && m.state != SafetyState::kEngaged && i % 1000 == 0)
       lab.requests().engage = true;
     lab.step();

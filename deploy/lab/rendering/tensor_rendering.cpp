@@ -1,6 +1,6 @@
-// What the master makes of reported surfaces: an oblique plane, a corner of two planes, a torque. The far
-// side is a formula that answers with the true surfaces, half a round trip late each way: no slave, no
-// estimator, no link. `six-dof-contact` is the same through the whole loop.
+// How the master renders reported surfaces: an oblique plane, a corner of two planes, a rotational stop. The
+// slave is replaced by a formula that reports the true surfaces with a delay of half a round trip in each
+// direction; there is no slave, estimator or link. `six-dof-contact` is the same in the complete loop.
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ struct World {
   std::vector<Plane> translation, rotation;
 };
 
-/// What it touches now, and since which command.
+/// The surface that is touched now, and the command since which it is.
 class FarContact {
  public:
   explicit FarContact(std::vector<Plane> planes) : planes_(std::move(planes)) {}
@@ -87,7 +87,7 @@ class Bench {
     config.safety.engage_at_start = true;
     config.mapping.mode = MotionMode::kPosition;
     config.mapping.scale = 1.0;
-    config.rendering.friction_n = 0.0;  // only the contact is of interest
+    config.rendering.friction_n = 0.0;  // all other forces are switched off
     config.rendering.rotational_stiffness_nm_per_rad = 0.0;
     return config;
   }
@@ -121,7 +121,7 @@ class Bench {
     }
   }
 
-  /// A report each 20 ms, of the command that left a round trip ago.
+  /// A report every 20 ms for the command that was sent one round trip earlier.
   bool answer(StiffnessReport& report) {
     report.engagement = node_.view().engagement;
     report.state = SafetyState::kEngaged;
@@ -158,7 +158,7 @@ HandTarget reach(const Vector3& x_m, const Vector3& rotation_rad = Vector3::Zero
   return target;
 }
 
-/// Slope of the contact force against depth between two depths, after everything has settled.
+/// Slope of the contact force over the depth between two depths, after the transients.
 struct Slope {
   Vector3 x[2], f[2];
   void take(int i, const Bench& b) {
@@ -174,9 +174,9 @@ void oblique(const MasterConfig& config, Trace& trace, std::vector<Metric>& metr
   Bench b(config, {{{n, 0.01, kStiffness}}, {}});
   b.trace_into(&trace);
   b.run(reach(Vector3::Zero()), 1.0);
-  b.run(reach(0.02 * n), 6.0);         // first touch, news, settles
+  b.run(reach(0.02 * n), 6.0);         // first touch, report, settling
   b.run(reach(Vector3::Zero()), 2.0);  // out
-  b.run(reach(0.012 * n), 4.0);        // in again: felt at once
+  b.run(reach(0.012 * n), 4.0);        // in again: the force is displayed at once
   Slope slope;
   b.run(reach(0.018 * n), 3.0);
   slope.take(0, b);

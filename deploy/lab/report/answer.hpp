@@ -1,5 +1,5 @@
 #pragma once
-// The sentence of a report on an experiment, with the values of its metrics.
+// Fills in the sentence with which the report answers the question of an experiment.
 
 #include <string>
 #include <string_view>
@@ -9,12 +9,13 @@
 
 namespace longreach {
 
-/// Three significant digits, without an exponent from 0.001 up to a million; 0 for zero.
+/// Formats a value with three significant digits. Values between 0.001 and a million have no exponent; zero
+/// is "0".
 std::string figure(double value);
 
-/// Returns `sentence` with {NAME} and {NAME*FACTOR} replaced by values of metrics. Throws
-/// std::invalid_argument that names an unknown metric, a metric of the machine (which differs between runs)
-/// or an invalid factor.
+/// Returns `sentence` with {NAME} and {NAME*FACTOR} replaced by the values of the metrics. Throws a
+/// std::invalid_argument that names the offending placeholder if the metric is unknown, if it depends on the
+/// machine and thus differs between runs, or if the factor is invalid.
 std::string answer(std::string_view sentence, const std::vector<Metric>& metrics);
 
 }  // namespace longreach

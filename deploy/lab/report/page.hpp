@@ -1,5 +1,5 @@
 #pragma once
-// The report as one self-contained HTML page, and as a Markdown table.
+// Formats the report as a self-contained HTML page and as a Markdown table.
 
 #include <string>
 #include <vector>
@@ -16,22 +16,22 @@ struct ReportPicture {
 /// Results of one experiment.
 struct ReportChapter {
   const Experiment* experiment = nullptr;
-  std::string command;  // command that reproduces it
-  std::string config;   // hash
+  std::string command;  // command line that reproduces the results
+  std::string config;   // hash of the configuration
   std::vector<Metric> metrics;
   std::vector<ReportPicture> pictures;
-  std::string failure;  // why there are no results; empty: success
+  std::string failure;  // reason why there are no results; empty: success
 };
 
 struct ReportHead {
   std::string commit;
-  std::string size;  // of the campaigns, as text
+  std::string size;  // size of the campaigns, as text
   std::uint64_t seed = 1;
 };
 
 std::string report_page(const ReportHead& head, const std::vector<ReportChapter>& chapters);
 
-/// "| experiment | question | answer |", one row per chapter that has an answer.
+/// Returns a table "| experiment | question | answer |" with one row per chapter that has an answer.
 std::string report_table(const std::vector<ReportChapter>& chapters);
 
 }  // namespace longreach

@@ -83,7 +83,7 @@ int write_report(const ReportOptions& options) {
     const std::string& failure = chapters.back().failure;
     std::fprintf(stderr, "%.1f s%s%s\n", spent, failure.empty() ? "" : ": failed: ", failure.c_str());
     failed += failure.empty() ? 0 : 1;
-    // After each, so that a long run shows what it has.
+    // Written after each experiment, so that a long run shows its intermediate results.
     const ReportHead head{std::string(commit()),
                           options.quick ? "small campaigns (--quick)" : "full campaigns", options.seed};
     write(options.out / "index.html", report_page(head, chapters));

@@ -1,6 +1,6 @@
 #pragma once
-// `longreach-lab report`: runs all experiments, one by one, into DIR/NAME, and writes DIR/index.html and
-// DIR/results.md.
+// `longreach-lab report`: runs all experiments one after the other, writes the output of each to DIR/NAME,
+// and writes DIR/index.html and DIR/results.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,13 +11,14 @@ namespace longreach {
 
 struct ReportOptions {
   std::filesystem::path out;
-  bool quick = false;  // small size of the experiments instead of full size
+  bool quick = false;  // run the experiments at their small size instead of full size
   std::uint64_t seed = 1;
-  std::vector<std::string> only;  // names; empty: all
+  std::vector<std::string> only;  // names of the experiments to run; empty: all
 };
 
-/// Prints its progress on standard error. Returns the number of failed experiments; the others are in the
-/// report. Throws ConfigError for an unknown name, std::runtime_error if a file cannot be written.
+/// Runs the experiments and writes the report, with progress on standard error. Returns the number of
+/// experiments that failed; the report contains the results of the others. Throws ConfigError for an unknown
+/// name, and std::runtime_error if a file cannot be written.
 int write_report(const ReportOptions& options);
 
 }  // namespace longreach

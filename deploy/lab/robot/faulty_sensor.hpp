@@ -1,10 +1,11 @@
 #pragma once
-// A faulty force sensor: its output for the wrench that the sensor of a robot measured. In the frame of the
-// tool, f the force, u the direction, a the amount, t since the start of the fault:
+// Simulates a faulty force sensor: changes the wrench that the sensor of a robot measured. In the tool frame,
+// with the force f, the direction u, the amount a and the time t since the start of the fault, the outputs
+// are:
 //   bias f + a u    drift f + a t u    stuck a u    frozen f at t = 0    spike a u in one sample every period
 //   saturation each channel within ±a    sign -f    frame f turned by a about u
 //   axes channel x outputs y, y outputs z, z outputs x    scale a f
-// Sign, frame, axes and scale affect the moment too; frozen, stuck and bias do not.
+// Sign, frame, axes and scale also affect the moment; the other faults do not.
 
 #include <cstdint>
 #include <optional>
@@ -33,18 +34,19 @@ std::string_view name(SensorFaultKind sensor_fault);
 
 struct SensorFault {
   SensorFaultKind sensor_fault = SensorFaultKind::kNone;
-  double amount = 0.0;                   // N, N/s, rad, or a factor; any value, including NaN
-  Vector3 direction = Vector3::UnitX();  // unit, in the frame of the tool
-  double period_s = 0.0;                 // of spikes; 0: one
+  double amount = 0.0;                   // N, N/s, rad or a factor; any value, even NaN, is allowed
+  Vector3 direction = Vector3::UnitX();  // unit vector in the tool frame
+  double period_s = 0.0;                 // period of the spikes; 0: a single spike
 };
 
 class FaultySensor {
  public:
   explicit FaultySensor(const RobotConfig& robot) : kinematics_(robot) {}
 
-  /// Sets the fault from the next sample on; kNone: no fault.
+  /// Sets the fault that applies from the next sample on; kNone ends it.
   void sensor_fault(const SensorFault& sensor_fault);
-  /// Changes the reported state of the robot at `now`. The times of samples must increase.
+  /// Applies the fault to the state that the robot reported at `now`. The times of successive samples must
+  /// increase.
   void apply(Time now, RobotState& robot);
 
   [[nodiscard]] const SensorFault& sensor_fault() const { return sensor_fault_; }

@@ -1,13 +1,15 @@
-// A wall comes towards a robot that an operator holds still, on four arms: how hard does it press while the
-// robot gives way, and what is said when the way is used up? So do walls of three layers, each four times as
-// stiff as the one before, and both while the hand goes to and fro till the robot holds. And the first walls,
-// at rest and coming, felt by a force sensor of the wrong sign. Judged from the plant (true force, place and
-// speed); of the slave only what it tells is read.
+// A wall approaches a robot that an operator holds still, for four arms. Measures the force while the robot
+// retreats, and what is reported when the retreat budget is used up. The same with walls of three layers,
+// each four times as stiff as the previous one, and with both kinds of walls while the hand moves back and
+// forth until the robot holds. Finally the first walls, fixed and approaching, with a force sensor of the
+// wrong sign. The evaluation uses the simulated plant (true force, position and speed); from the slave, only
+// its reports are used.
 //
-// The bound, k the stiffness, of layers the deepest, v the wall's speed, a the tool's acceleration:
+// The bound on the force, with the stiffness k (of the deepest layer), the speed v of the wall, and the
+// acceleration limit a of the tool:
 //   while k v <= 250 N/s    1.35 G
 //   else                    0.8 G + k (v t_d + v²/(2 a)), at least that;  t_d = 40 ms from force to tool
-// It holds for v with the hand's speed added, and not for layers, which are judged by their own metrics.
+// v includes the speed of the hand. The bound does not apply to layers, which have their own metrics.
 
 #include <algorithm>
 #include <array>
@@ -33,23 +35,24 @@ constexpr std::array kStiffness_n_per_m{200.0, 600.0, 2e3, 6e3, 2e4};
 constexpr double kTouched_s = 3.0;
 constexpr double kLonger_s = 1.0, kLongest_s = 60.0;
 constexpr double kGuard_n = 20.0, kGiveWay_m = 0.2;
-constexpr double kSoftGuard_n = 10.0;  // at rest the hand has no more than 50 mm to press a soft wall in
-constexpr double kBraking_m = 4e-3;    // of the way, from 50 mm/s with the servo's lag
+/// For a fixed wall, because the hand can press a soft wall in by at most 50 mm.
+constexpr double kSoftGuard_n = 10.0;
+constexpr double kBraking_m = 4e-3;  // braking distance from 50 mm/s, including the lag of the servo
 constexpr double kHand_m_per_s = 0.02, kWall_m = 2e-3;
 constexpr double kHaste_n_per_s = 250.0, kReact_s = 0.04;
-constexpr double kStopped = 0.1;  // of the wall's speed
+constexpr double kStopped = 0.1;  // fraction of the speed of the wall
 constexpr std::array kLayeredSpeeds_m_per_s{3e-3, 0.01, 0.03};
 constexpr std::array kLayered_n_per_m{2e3, 6e3, 2e4};
 constexpr std::array kHands_m_per_s{5e-3, 0.02};
-constexpr double kStiffer = 4.0;                       // than the layer before
-constexpr std::array kLayer_n{7.0, 17.5, 1e9};         // up to which each is pressed
-constexpr std::array kLayer{"skin", "flesh", "bone"};  // of the scene
-constexpr double kReach_m = 0.015;                     // of the hand, to and fro
+constexpr double kStiffer = 4.0;                       // stiffness ratio of successive layers
+constexpr std::array kLayer_n{7.0, 17.5, 1e9};         // force up to which each layer is pressed
+constexpr std::array kLayer{"skin", "flesh", "bone"};  // names in the scene
+constexpr double kReach_m = 0.015;                     // amplitude of the back-and-forth motion of the hand
 
 struct Cell {
   std::size_t arm = 0;
   double wall_n_per_m = 0.0;
-  double wall_m_per_s = 0.0;  // 0: at rest, the hand goes to it
+  double wall_m_per_s = 0.0;  // 0: the wall is fixed, and the hand moves to it
   bool wrong_sign = false;
   double give_way_m = kGiveWay_m;
   bool layers = false;
@@ -64,17 +67,17 @@ struct Outcome {
   std::optional<double> sign_s{};                   // a fault of the sensor is told
   double sign_force_n = 0.0;                        // true, then
   std::optional<double> near_s{};                   // 0.8 G felt
-  HoldCause held{};                                 // the first that was told
+  HoldCause held{};                                 // first reported hold cause
 };
 
-/// What the operator is to read: retreat against x.
+/// The cause that the operator must be shown: retreat towards -x.
 bool right_words(const Reason& cause) { return cause == HoldCause::kWallComes && cause.value == -1.0; }
 
 bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign;
 }
 
-/// Of a sensor whose sign is wrong, "force persists" is right, too.
+/// For a sensor with the wrong sign, "force persists" is also correct.
 bool stops_a_wrong_sign(HoldCause cause) {
   return of_the_sensor(cause) || cause == HoldCause::kForcePersists;
 }
@@ -94,13 +97,13 @@ std::string numbered(const std::string& path, double value, const char* more = "
   return path + "=" + std::to_string(value) + more;
 }
 
-/// Where a surface is at first, and how it comes.
+/// Sets the initial position and the velocity of a surface.
 void place(std::vector<std::string>& all, const std::string& surface, double at_m, double m_per_s) {
   all.push_back(numbered("scene.surface." + surface + ".plane.point_m", at_m, ",0,0"));
   all.push_back(numbered("scene.surface." + surface + ".movement.velocity_m_per_s", -m_per_s, ",0,0"));
 }
 
-/// The stiffness steps to `wall_n_per_m` from layer to layer, at the forces of kLayer_n.
+/// Adds layers whose stiffness increases to `wall_n_per_m` in steps at the forces kLayer_n.
 void place_layers(std::vector<std::string>& all, const Cell& c, double from_m) {
   all.emplace_back("scene_file=scenes/layers.txtpb");
   double above_n_per_m = 0.0, above_n = 0.0, at_m = from_m;
@@ -134,7 +137,8 @@ proto::LabConfig wall_config(const Cell& c) {
   return configure(all, find_deploy_folder());
 }
 
-/// To a wall at rest it goes; before one that comes it rests, or goes to and fro from the touch on.
+/// The hand moves to a fixed wall. In front of an approaching wall it rests, or moves back and forth from the
+/// touch on.
 double hand_m(const Cell& c, double t_s) {
   const double since_s = std::max(t_s - kTouched_s, 0.0);
   if (c.wall_m_per_s == 0.0) return kHand_m_per_s * since_s;
@@ -180,7 +184,7 @@ Outcome met(const ExperimentRun& run, const Cell& c) {
   return out;
 }
 
-/// Wall and hand at most.
+/// Maximum speed of wall and hand.
 double nears_m_per_s(const Cell& c) { return c.wall_m_per_s + c.hand_m_per_s; }
 
 double bound_n(const Cell& c) {
@@ -190,7 +194,7 @@ double bound_n(const Cell& c) {
   return std::max(kGuardOvershoot * kGuard_n, 0.8 * kGuard_n + k * (v * kReact_s + 0.5 * v * v / a));
 }
 
-/// Layers under a hand at rest; and both kinds under one that moves, on one arm after the other.
+/// Layers with a hand at rest, and both kinds of walls with a moving hand, on one arm after the other.
 void add_layered_and_moved(std::vector<Cell>& cells) {
   std::size_t arm = 0;
   for (const double k : kLayered_n_per_m) {
@@ -224,7 +228,7 @@ std::vector<Cell> all_cells() {
 struct Sum {
   double runs = 0.0, used_up = 0.0, over_guard = 0.0, over_bound = 0.0, late_s = 0.0, not_reported = 0.0,
          way_m = 0.0, false_signs = 0.0;
-  // Of layers; under a hand that moves, of walls and of layers: within 250 N/s, and beyond.
+  // Results for layers, and with a moving hand for walls and layers, up to 250 N/s and beyond.
   std::array<double, 2> layers_over_guard{};
   std::array<double, 4> moved_over_guard{};
   double moved = 0.0, moved_force_persists = 0.0;
@@ -303,7 +307,8 @@ std::vector<Metric> run_moving_wall(const ExperimentRun& run) {
                static_cast<double>(o.held)});
   }
   trace.close();
-  // The figure must come out bad for a robot that gives way by what a force without an answer may have.
+  // Control: the metric must be bad for a robot that retreats only as far as a force without a response
+  // permits.
   const Outcome control = met(run, {0, 2e3, 0.03, false, 0.02});
   return {{"runs", sum.runs, ""},
           {"force_over_guard_max", sum.over_guard, ""},

@@ -11,7 +11,7 @@ using LongRotation = Eigen::Matrix<Long, 3, 3>;
 
 constexpr Long kPi = 3.14159265358979323846264338327950288L;
 
-// The angle that a double means: right angles are meant exactly.
+// The exact angle that a double stands for: multiples of right angles are exact.
 Long meant(double angle_rad) {
   const Long quarter = std::round(static_cast<Long>(angle_rad) / (kPi / 2));
   return std::abs(static_cast<Long>(angle_rad) - quarter * (kPi / 2)) < 1e-15L ? quarter * (kPi / 2)

@@ -1,5 +1,5 @@
 #pragma once
-// Arms for tests of the robot: the supplied ones, as plain values, and random ones of each family.
+// Robot arms for tests: the arms of deploy/robots as plain values, and random arms of each family.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ constexpr double kHalfPi = 1.57079632679489661923;
 struct NamedArm {
   std::string name;
   RobotConfig robot;            // without joint limits
-  RobotConfig limited = robot;  // with those of its file, if it has one
+  RobotConfig limited = robot;  // with the joint limits of its file, if it has one
 };
 
 inline RobotConfig unlimited(RobotConfig robot) {
@@ -39,7 +39,8 @@ inline NamedArm from_rows(const std::string& name, const std::array<ShortRow, kM
   return {name, unlimited(robot), robot};
 }
 
-/// The arms of deploy/robots with six joints; tests/unit/common/config compares them with the files.
+/// Returns the six-joint arms of deploy/robots. A test in tests/unit/common/config compares them with the
+/// files.
 inline std::vector<NamedArm> ready_arms() {
   constexpr double h = kHalfPi;
   return {from_rows("space_arm", {{{0, h, 0, 0, -3.1, 3.1},
@@ -77,7 +78,7 @@ inline JointVector random_joints(Random& random, const RobotConfig& robot) {
   return q;
 }
 
-/// Slides along z, y and x, like deploy/robots/cartesian.txtpb.
+/// Returns a robot with prismatic joints along z, y and x, as in deploy/robots/cartesian.txtpb.
 inline RobotConfig cartesian() {
   RobotConfig robot;
   for (std::size_t i = 0; i < kMaxJoints; ++i) {
@@ -89,7 +90,7 @@ inline RobotConfig cartesian() {
   return robot;
 }
 
-/// Lengths in [-1, 1] m, any twist, any tool.
+/// Returns a random arm with lengths in [-1, 1] m, arbitrary twists and an arbitrary tool.
 inline RobotConfig random_arm(Random& random) {
   RobotConfig robot;
   for (JointConfig& j : robot.joint) {
@@ -105,8 +106,8 @@ inline RobotConfig random_arm(Random& random) {
   return unlimited(robot);
 }
 
-/// With axes `first` to `first + 2`, from 0, intersecting or parallel (one of them reversed in a third of the
-/// cases each).
+/// Returns a random arm whose joint axes `first` to `first + 2` (from 0) intersect in one point or are
+/// parallel. If they are parallel, each of the last two is reversed in a third of the cases.
 inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t first) {
   RobotConfig robot = random_arm(random);
   JointConfig &one = robot.joint[first], &two = robot.joint[first + 1];
@@ -120,11 +121,12 @@ inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t firs
   return robot;
 }
 
-/// Distance of the tool at `q` from `goal`: the larger of rad and share of the reach. In long double, from
-/// the rows of the table, independent of the code under test.
+/// Returns the distance of the tool at `q` from `goal`: the larger of the angle in rad and the distance as a
+/// fraction of the reach. It is computed in long double from the Denavit-Hartenberg rows, independently of
+/// the code under test.
 double exact_error(const RobotConfig& robot, const JointVector& q, const Pose& goal, double reach_m);
 
-/// Maximum difference of two sets of angles modulo whole turns, rad.
+/// Returns the maximum difference between two sets of joint angles modulo full turns, rad.
 double apart(const JointVector& a, const JointVector& b);
 
 }  // namespace longreach::test

@@ -1,11 +1,13 @@
-// A force sensor that lies, on four arms, in every state: how far does the robot go that nobody commanded,
-// how hard does it press, and when is the cause told? Judged from the plant (place, true force) alone; of the
-// slave only what it tells is read.
+// A faulty force sensor on four arms in every state. Measures the uncommanded motion of the robot, its
+// contact force, and when the fault is reported. The evaluation uses only the simulated plant (position, true
+// force); from the slave, only its reports are used.
 //
-// Way: from where the tool was when the lie began, less what relieves the true force on a wall of known
-// stiffness. Told late: after a lie is implausible by the table of slave/sensing/sensor_watch.hpp, by truth.
-// What is not to be seen, by that table, is counted: the tool rests or is free, and the lie moves nothing.
-// A drift in contact grows at rest and answers to giving way, as a wall that comes does: up to give_way_m.
+// Motion: the distance from the position at the start of the fault, minus the part that reduces the true
+// force on a wall of known stiffness. A report is late if it comes after the fault has become implausible
+// according to the table of slave/sensing/sensor_watch.hpp. Faults that are not detectable according to that
+// table are counted separately: the tool is at rest or free, and the fault causes no motion. A drift in
+// contact grows at rest and responds to a retreat like an approaching wall, so that the robot may retreat by
+// up to give_way_m.
 
 #include <algorithm>
 #include <array>
@@ -26,10 +28,10 @@
 namespace longreach {
 namespace {
 
-constexpr double kWall_m = 0.02;  // from the start, along x
+constexpr double kWall_m = 0.02;  // distance from the start, along x
 constexpr double kWall_n_per_m = 2000.0;
 constexpr double kHand_m_per_s = 0.02;
-constexpr double kFault_s = 4.5;  // when it begins, the hand rests since then
+constexpr double kFault_s = 4.5;  // start of the fault; the hand is at rest from then on
 constexpr double kWatched_s = 4.0;
 constexpr double kGuard_n = 20.0;
 constexpr double kUnanswered_m = 0.02;
@@ -49,7 +51,7 @@ constexpr std::size_t kStates = static_cast<std::size_t>(In::kCount);
 
 bool touches(In in) { return in == In::kContact || in == In::kHoldingContact; }
 
-/// `leap`: no surface makes it, so it is implausible when it begins.
+/// `leap`: no surface can cause such a change, so the fault is implausible from its start.
 struct SensorFaultOutcome {
   SensorFault sensor_fault;
   bool leap = false;
@@ -75,7 +77,7 @@ std::vector<SensorFaultOutcome> sensor_faults() {
           {{SensorFaultKind::kAxes}}};
 }
 
-/// A wrong sign or frame is there from the beginning.
+/// A wrong sign or frame is present from the beginning.
 bool built_in(SensorFaultKind sensor_fault) {
   return sensor_fault == SensorFaultKind::kSign || sensor_fault == SensorFaultKind::kFrame ||
          sensor_fault == SensorFaultKind::kAxes;
@@ -88,25 +90,26 @@ struct Outcome {
   std::optional<double> reported_s{};
 };
 
-/// Nothing moves here: what comes is the sensor's, too.
+/// No wall moves here, so that a reported approaching wall is also due to the sensor.
 bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
          cause == HoldCause::kForcePersists || cause == HoldCause::kWallComes;
 }
 
-/// What a sensor that drifts says of a wall grows at rest and answers to giving way, as one that comes does.
+/// The force reported by a drifting sensor in contact grows at rest and responds to a retreat, like that of
+/// an approaching wall.
 bool fakes_an_answer(In in, SensorFaultKind sensor_fault) {
   return touches(in) && sensor_fault == SensorFaultKind::kDrift;
 }
 
-/// The hand on its way to the wall, or not.
+/// The hand moves to the wall, or stays at rest.
 HandTarget hand_at(In in, double t_s) {
   HandTarget hand;
   if (touches(in)) hand.position_m.x() = std::clamp(kHand_m_per_s * (t_s - 1.0), 0.0, 2.5 * kWall_m);
   return hand;
 }
 
-/// Brings the side to its state by `kLie_s`.
+/// Brings the slave to its state before kFault_s.
 void bring(Laboratory& lab, In in, double t_s) {
   const auto at = [&](double s) { return std::abs(t_s - s) < 0.5 * lab.period_s(); };
   if (in == In::kIdle && at(lab.period_s())) lab.kill_master();
@@ -155,7 +158,7 @@ Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const Senso
     if (!began) continue;
     const double eased_m = std::max(from_n - force_n, 0.0) / kWall_n_per_m;
     out.way_m = std::max(out.way_m, (lab.arm().true_pose().p - from_m).norm() - eased_m);
-    // It has given way as far as it may, and nothing answered.
+    // The robot has retreated as far as permitted, and the force did not respond.
     if (!out.implausible_s && what.sensor_fault.sensor_fault != SensorFaultKind::kNone &&
         out.way_m > 0.99 * kUnanswered_m)
       out.implausible_s = lab.now_s();
@@ -216,7 +219,7 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
                static_cast<double>(cells[i].sensor_fault), o.way_m, o.force_n, o.reported_s.value_or(-1.0)});
   }
   trace.close();
-  // The figure must come out bad for a force that answers to the way, though it is none.
+  // Control: the metric must be bad for a false force that responds to the motion.
   const auto answers = [start = std::optional<Vector3>{}](const Laboratory& lab) mutable {
     const Vector3& p_m = lab.arm().true_pose().p;
     if (!start) start = p_m;

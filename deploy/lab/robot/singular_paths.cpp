@@ -1,8 +1,8 @@
-// The tool of a PUMA 560 along straight lines through a wrist, an elbow and a shoulder singularity, one after
-// the other: how far it is from its goal, and what the joints do, in shares of their speed limits.
+// The tool of a PUMA 560 moves along straight lines through a wrist, an elbow and a shoulder singularity, one
+// after the other. Measures the distance from the goal, and the joint speeds relative to their limits.
 //
-// Each line goes from the pose of joints before the singular pose to it and on to the pose of joints behind
-// it, and then waits for the tool. The singular pose is found where det J changes its sign in one joint.
+// Each line leads from a pose before the singular pose through it to a pose behind it; then the goal waits
+// for the tool. The singular pose is found where det J changes its sign as one joint moves.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -47,7 +47,7 @@ RobotConfig puma() {
 
 JointVector vector(const std::array<double, kMaxJoints>& a) { return JointVector(a.data()); }
 
-// The zero of det J in the passage's joint that is nearest to where it is looked for.
+// The zero of det J with respect to the joint of the passage that is nearest to the given position.
 JointVector singular(const Kinematics& arm, const Passage& passage) {
   constexpr double kStep = 0.01;
   JointVector q = vector(passage.near);
@@ -73,7 +73,7 @@ Pose between(const Pose& a, const Pose& b, double share) {
   return {a.p + share * (b.p - a.p), exp_rotation(share * turn) * a.q};
 }
 
-/// The passages' names in the first panel, and lines between them in all.
+/// Draws the names of the passages in the first panel, and lines between them in all panels.
 std::string passage_marks() {
   std::string commands;
   for (std::size_t i = 0; i < kPassages.size(); ++i) {

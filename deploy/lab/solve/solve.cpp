@@ -54,7 +54,8 @@ int solve(std::string_view kind, std::istream& in, std::ostream& out) {
       answer = {{"error", e.what()}};
     }
     bad |= answer.contains("error");
-    // Somebody waits for each answer at the other end of a pipe; what is not UTF-8 is replaced.
+    // Flushes every line, because a program may wait for it at the other end of a pipe. Invalid UTF-8 is
+    // replaced.
     out << answer.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
   }
   return bad ? 1 : 0;

@@ -1,14 +1,14 @@
 #pragma once
-// `longreach-lab solve KIND`: kinematics and statics of devices and robots with any geometry, and impacts.
-// One JSON object per line as input, one per line as output; {"error": "..."} for a line that cannot be
-// answered. Radians unless a key ends with _deg.
+// `longreach-lab solve KIND`: computes kinematics and statics of devices and robots of any geometry, and
+// impacts. Each input line is a request, a JSON object; each output line is the result, or {"error": "..."}
+// if the request is invalid. Angles are in radians unless a key ends with _deg.
 //
-//   delta-ik        geometry, p                 -> {"theta": [[two roots] a leg]}
+//   delta-ik        geometry, p                 -> {"theta": [[two roots] per leg]}
 //   delta-fk        geometry, theta             -> {"solutions": [[x, y, z], ...]}
-//   delta-statics   geometry, p or theta, masses, gravity -> {"tau": [3]}    torques that hold the device
-//   spherical-ik    angles or axes, R           -> {"theta": [[two roots] a leg]}
+//   delta-statics   geometry, p or theta, masses, gravity -> {"tau": [3]}    motor torques that hold the device
+//   spherical-ik    angles or axes, R           -> {"theta": [[two roots] per leg]}
 //   spherical-fk    angles or axes, theta       -> {"solutions": [R, ...]}
-//                   and near                    -> {"R": 3x3, "iterations": n, "status": "FOUND"}
+//                   with the key near           -> {"R": 3x3, "iterations": n, "status": "FOUND"}
 //
 //   robot-fk        robot or dh, convention, q  -> {"X": 4x4, "J": 6x6}      angular rows of J first
 //   robot-ik        robot or dh, convention, X, near -> {"status", "solutions": [[6], ...], "nearest": [6],
@@ -17,12 +17,12 @@
 //   impact          m, k, lambda, n, v, dt, integrator -> {"restitution", "penetration_max", "contact_time",
 //                   "energy_error", "evaluations"}           SI; a free impact at speed v, free_impact.hpp
 //
-// integrator: "discrete_gradient" (the default), "explicit_euler", "semi_implicit_euler" or "rk4". The
-// default of dt is at most a 64th of the contact time. robot: name of a file in deploy/robots; dh: six of
-// {"a", "alpha", "d", "theta"}; convention "standard" (the default) or "modified". Joint limits are ignored.
+// integrator: "discrete_gradient" (default), "explicit_euler", "semi_implicit_euler" or "rk4". The default of
+// dt is at most 1/64 of the contact time. robot: name of a file in deploy/robots. dh: six objects {"a",
+// "alpha", "d", "theta"}. convention: "standard" (default) or "modified". Joint limits are ignored.
 //
-// Unreachable: an empty list. In delta-statics a position uses the first working mode, angles the working
-// assembly (delta_kinematics.hpp).
+// The list of solutions is empty if the pose is not reachable. delta-statics uses the first working mode for
+// a position p, and the working assembly mode for angles theta (delta_kinematics.hpp).
 
 #include <iosfwd>
 #include <string>
@@ -31,10 +31,11 @@
 
 namespace longreach {
 
-/// Names of the kinds.
+/// Returns the names of the kinds.
 std::vector<std::string> solve_kinds();
 
-/// Answers every line of `in`. Returns 0; 1 after an invalid line; 2 for an unknown kind, without reading.
+/// Solves every request in `in`. Returns 0, or 1 if a request was invalid, or 2, without reading, if the kind
+/// is unknown.
 int solve(std::string_view kind, std::istream& in, std::ostream& out);
 
 }  // namespace longreach

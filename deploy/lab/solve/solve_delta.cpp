@@ -43,7 +43,7 @@ DeltaMasses masses(const Json& request) {
   return result;
 }
 
-/// A closed pose, by its position (first working mode) or its angles (working assembly).
+/// A closed pose, given by its position (first working mode) or its angles (working assembly mode).
 struct ClosedPose {
   bool exists = false;
   Vector3 theta = Vector3::Zero();

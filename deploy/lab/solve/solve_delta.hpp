@@ -1,5 +1,6 @@
 #pragma once
-// `longreach-lab solve` for the DELTA: one request, one answer. Throws BadRequest or GeometryError.
+// `longreach-lab solve` for the DELTA device. Each function maps a request to its result. Throws BadRequest
+// or GeometryError.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

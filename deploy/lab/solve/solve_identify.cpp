@@ -17,14 +17,14 @@ namespace {
 using solve_json::BadRequest;
 using Json = nlohmann::ordered_json;
 
-/// Turns rows into samples with a speed.
+/// Converts rows to samples with a speed.
 class Feed {
  public:
   void step(const ContactRow& row, std::vector<WatchedIdentifier>& identifiers) {
     if (row.v_m_per_s) {
       give({row.x_m, *row.v_m_per_s, row.f_n}, row.t_s, identifiers);
     } else if (rows_ >= 2) {
-      // The derivative at the row before of the parabola through three.
+      // The derivative, at the previous row, of the parabola through the last three rows.
       const double h1 = before_.t_s - first_.t_s, h2 = row.t_s - before_.t_s;
       const double slope1 = (before_.x_m - first_.x_m) / h1, slope2 = (row.x_m - before_.x_m) / h2;
       give({before_.x_m, (slope1 * h2 + slope2 * h1) / (h1 + h2), before_.f_n}, before_.t_s, identifiers);

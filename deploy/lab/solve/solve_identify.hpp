@@ -1,14 +1,15 @@
 #pragma once
-// `longreach-lab solve identify`: stiffness, k, λ and n of a contact from a recording. Input: JSON objects,
-// one per line, or CSV with a header (contact_table): t (s, rising), x (penetration in m; <= 0 is free
-// space), f (N, positive when pushing) and, in all lines or in none, v (m/s; without it, from x by central
-// differences, so that the answers lag by one line). Violations of the convention, such as a press with a
-// negative sign or x in mm without that unit, are refused (contact_convention), mostly after the last line.
-// Output, one answer per line:
+// `longreach-lab solve identify`: estimates the stiffness, k, λ and n of a contact from a recording. The
+// input is JSON objects, one per line, or CSV with a header (contact_table.hpp), with t (s, increasing), x
+// (penetration in m; <= 0 is free space), f (N, positive when pushing) and, in all lines or in none, v (m/s).
+// Without v, the speed is computed from x by central differences, and the output lags by one line. Violations
+// of these conventions, such as forces with the wrong sign or x in mm without that unit, are rejected
+// (contact_convention.hpp), mostly after the last line. The output is one result per line:
 //   {"t", "k", "lambda", "n", "stiffness", "secant", "sd": {of each}, "verdict"}
-// stiffness is the tangent at the present depth, secant the elastic force over the depth, both N/m. null: no
-// fit yet, or not identifiable. verdict: "not yet", "identified", "not identifiable", or a list by parameter.
-// With estimator "all" there is one line for each estimator, after the last sample.
+// stiffness is the tangent stiffness at the present depth, and secant the elastic force divided by the depth,
+// both in N/m. A value is null if there is no fit yet or if it is not identifiable. verdict is "not yet",
+// "identified" or "not identifiable", or a list with one of these per parameter. With the estimator "all" the
+// output is one line per estimator, after the last sample.
 
 #include <iosfwd>
 #include <string>
@@ -18,15 +19,15 @@ namespace longreach {
 
 struct IdentifyOptions {
   std::string estimator = "maximum-likelihood";
-  double exponent = 1.5;          // of fixed-exponent
-  double force_noise_n = 0.0;     // sd; 0: estimated from the recording
-  double position_noise_m = 0.0;  // sd; 0: estimated from the recording
+  double exponent = 1.5;          // exponent assumed by the estimator fixed-exponent
+  double force_noise_n = 0.0;     // standard deviation; 0: estimated from the recording
+  double position_noise_m = 0.0;  // standard deviation; 0: estimated from the recording
 };
 
-/// Names of the estimators, and "all".
+/// Returns the names of the estimators, and "all".
 std::vector<std::string> identify_estimators();
 
-/// Returns 0; 2 after an unreadable line, which is named on `errors`.
+/// Returns 0, or 2 after an invalid line, which is reported on `errors`.
 int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostream& out, std::ostream& errors);
 
 }  // namespace longreach

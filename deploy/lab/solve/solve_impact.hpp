@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab solve` for impacts: one request, one answer. Throws BadRequest.
+// `longreach-lab solve` for impacts. Maps a request to its result. Throws BadRequest.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

@@ -92,7 +92,7 @@ Matrix3 matrix3(const Json& object, const std::string& key) {
 }
 
 Quaternion rotation(const Json& object, const std::string& key) {
-  constexpr double kGiven = 1e-6;  // how exactly rows must be of unit length and orthogonal
+  constexpr double kGiven = 1e-6;  // tolerance for unit length and orthogonality of the rows
   const Matrix3 R = matrix3(object, key);
   const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kGiven))

@@ -38,7 +38,7 @@ JointVector joints(const Json& request, const std::string& key, const RobotConfi
 
 Json to_json(const JointVector& q) { return Json(std::vector<double>(q.begin(), q.end())); }
 
-/// An angle of a row; the limits are those of a robot's file.
+/// An angle of a row, with the limits that apply in robot files.
 double angle(const Json& row, const std::string& key, double most) {
   const double value = number(row, key);
   if (std::abs(value) <= most) return value;

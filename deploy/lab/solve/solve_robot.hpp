@@ -1,6 +1,6 @@
 #pragma once
-// `longreach-lab solve` for robots: one request, one answer. Throws BadRequest or ConfigError. Joint limits
-// are ignored, because the requests are about geometry.
+// `longreach-lab solve` for robots. Each function maps a request to its result. Joint limits are ignored,
+// because the requests are about geometry only. Throws BadRequest or ConfigError.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

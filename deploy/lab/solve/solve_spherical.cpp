@@ -27,7 +27,8 @@ SphericalGeometry geometry(const Json& request) {
 Json nearest(const SphericalKinematics& k, const Vector3& theta, const Quaternion& near) {
   const SphericalPose pose = k.forward(theta, {SolutionStatus::kFound, near});
   SolutionStatus status = pose.status;
-  // An iteration that ends at a singularity may have none beyond it, or other assembly modes.
+  // If the iteration ends at a singularity, there may be no solution beyond it, or one in another assembly
+  // mode.
   if (status != SolutionStatus::kFound && k.forward_all(theta).status == SolutionStatus::kNoSolution)
     status = SolutionStatus::kNoSolution;
   const bool found = status == SolutionStatus::kFound;

@@ -12,7 +12,7 @@
 namespace longreach {
 namespace {
 
-/// Numerator and denominator by which no leg divides by its reach: flat2 (1 - cos²γ) = flat2 - X² share.
+/// A form without a division by the reach of the leg: flat2 (1 - cos²γ) = flat2 - X² share.
 double bend(const DeltaGeometry& g, int i, const Vector3& p) {
   const Vector3 q = g.to_leg(i, p);
   const double across = q.y() - g.side_m();
@@ -49,7 +49,7 @@ DeltaFigures figures(const DeltaGeometry& g, const Vector3& p_m) {
   at.rods = smallest_singular_value(v.rods);
   if (J.status != SolutionStatus::kFound) return at;
   at.torque_m = column_norms(J.m_per_rad);
-  // σ_max(J) is 1 / σ_min of its inverse, which needs no division by the volume of the rods.
+  // σ_max(J) is 1 / σ_min(J⁻¹), which needs no division by the volume of the rods.
   const Matrix3 inverse = v.lever_m.cwiseInverse().asDiagonal() * v.rods;
   at.conditioning = std::min(smallest_singular_value(J.m_per_rad) * smallest_singular_value(inverse), 1.0);
   return at;

@@ -1,17 +1,18 @@
 #pragma once
-// Figures of merit for the dimensions of a DELTA, at a position and over a cube of positions:
+// Figures of merit for the dimensions of a DELTA device, at a position and over a cube of positions:
 //
-//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (that of J⁻ᵀ, torques to forces, is equal; all
-//                  entries of J are lengths, so the length of the arm does not matter)
+//   conditioning = 1/κ(J) = σ_min(J)/σ_max(J),  τ = Jᵀ F      (J⁻ᵀ, which maps torques to forces, has the same
+//                  conditioning; all entries of J are lengths, so that the size of the device does not matter)
 //   torque_i     = |J e_i|       torque of motor i for a unit force in its worst direction
-//   bend_i       = (l_i/arm)² = (ρ/rod)² (1 - cos²γ),  cos γ = (d² - arm² - (offset + ρ)²)/(2 arm (offset +
-//   ρ))
+//   bend_i       = (l_i/arm)² = (ρ/rod)² (1 - cos²γ)
+//                  cos γ = (d² - arm² - (offset + ρ)²)/(2 arm (offset + ρ))
 //
-// l_i is the lever, ρ the rods projected on the plane of the leg, d the distance of the platform joint from
-// the motor in it, γ the angle between arm and forearm. bend continues smoothly to negative values where the
-// leg does not reach, so that an optimiser can return. Elbows are on the outer side (mode 0).
+// Here l_i is the lever arm, ρ the length of the rods projected onto the plane of the leg, d the distance
+// between platform joint and motor in that plane, and γ the angle between arm and forearm. bend becomes
+// negative smoothly where the leg cannot reach the position, so that an optimiser can return to the reachable
+// region. The elbows are on the outer side (mode 0).
 //
-// Not handled: collisions of links, ranges of ball joints, the weight of the device.
+// Not included: collisions of links, the range of the ball joints, and the weight of the device.
 
 #include <limits>
 
@@ -19,63 +20,71 @@
 
 namespace longreach {
 
-/// At one position. Out of reach, all figures except `bend` have the values below.
+/// The figures at one position. If it is out of reach, all of them except `bend` have the default values
+/// below.
 struct DeltaFigures {
-  Vector3 bend = Vector3::Constant(-1.0);  // negative for a leg that does not reach
-  double rods = 0.0;                       // minimum singular value of the three unit rods, 0 to 1
-  double conditioning = 0.0;               // 0 to 1; 1: the same force in all directions for equal torque
+  Vector3 bend = Vector3::Constant(-1.0);  // negative for a leg that does not reach the position
+  /// Minimum singular value of the matrix of the three unit rod vectors, 0 to 1.
+  double rods = 0.0;
+  /// 0 to 1; 1: the same torques give the same force in all directions.
+  double conditioning = 0.0;
   Vector3 torque_m = Vector3::Constant(std::numeric_limits<double>::infinity());  // N m per N
-  Vector3 elbow_m = Vector3::Zero();  // end of the arm below the base: towards the working side
+  /// Distance of the end of each arm below the base, i.e. towards the working side.
+  Vector3 elbow_m = Vector3::Zero();
 };
 
 DeltaFigures figures(const DeltaGeometry& g, const Vector3& p_m);
 
-/// Edges along the axes of the base frame.
+/// A cube with edges along the axes of the base frame.
 struct DeltaCube {
   Vector3 centre_m = Vector3::Zero();
   double side_m = 0.0;
 };
 
-/// Requirements for a device in its cube, and the cylinder about the axis of the base that must contain it.
+/// Requirements for a device within its cube, and the cylinder about the axis of the base that must contain
+/// the device.
 struct DeltaDemand {
-  double conditioning = 0.0;  // minimum
-  double arm = 0.25;          // minimum |l_i| / arm: distance from type 1 singularities
-  double rods = 0.25;         // minimum: distance from type 2 singularities
-  double force_n = 0.0;       // in every direction
-  double torque_nm = 1.0;     // with at most this torque per motor
-  /// of the platform joints; the base is larger by the radius of the geometry
+  double conditioning = 0.0;  // required minimum
+  double arm = 0.25;          // required minimum of |l_i| / arm, the distance from type 1 singularities
+  double rods = 0.25;         // required minimum, the distance from type 2 singularities
+  double force_n = 0.0;       // required force in every direction
+  double torque_nm = 1.0;     // available torque per motor
+  /// Radius of the platform joints; that of the base is larger by the radius of the geometry.
   double platform_radius_m = 0.02;
-  double radius_m = 1.0;  // of the cylinder, which contains stretched arms
-  double height_m = 1.0;  // of the cylinder: from base or highest elbow to the lowest point of the platform
+  double radius_m = 1.0;  // radius of the cylinder, which must contain the stretched arms
+  /// Height of the cylinder, from the base or the highest elbow to the lowest point of the platform.
+  double height_m = 1.0;
 };
 
-/// Margins of a position of a cube: dimensionless, non-negative if the requirement is fulfilled. In this
-/// order: bend (3), torque (3, not below -1), height (3), radius, rods, conditioning.
+/// Margins at one position of a cube, dimensionless; a margin is non-negative if the requirement is
+/// fulfilled. The order is: bend (3), torque (3, limited to -1 or more), height (3), radius, rods,
+/// conditioning.
 using DeltaSlacks = Eigen::Matrix<double, 12, 1>;
 constexpr int kDeltaConditioningSlack = 11;
 DeltaSlacks slacks(const DeltaGeometry& g, const DeltaDemand& demand, const DeltaCube& cube,
                    const DeltaFigures& at);
 
-/// Over a grid of `per_edge`³ positions, corners and faces included (1: the centre). All values are the
-/// worst, except the mean.
+/// The figures over a grid of `per_edge`³ positions, including corners and faces (1: only the centre). All
+/// values except the mean are the worst over the grid.
 struct DeltaCubeFigures {
-  double slack = 0.0;  // minimum of all margins: non-negative if all requirements are fulfilled
+  double slack = 0.0;  // minimum of all margins; non-negative if all requirements are fulfilled
   double conditioning = 0.0;
   double conditioning_mean = 0.0;
-  double arm = 0.0;  // minimum |l_i| / arm; 0 out of reach
+  double arm = 0.0;  // minimum of |l_i| / arm; 0 if a position is out of reach
   double rods = 0.0;
   double torque_m = 0.0;  // N m per N
-  double radius_m = 0.0;  // of the necessary cylinder
+  double radius_m = 0.0;  // radius of the smallest cylinder that contains the device
   double height_m = 0.0;
 };
 
 DeltaCubeFigures figures(const DeltaGeometry& g, const DeltaDemand& demand, const DeltaCube& cube,
                          int per_edge);
 
-/// Side of the largest cube about `centre_m` that fulfils the requirements on the grid; 0 if the centre does
-/// not. Bisection, exact to 1e-6 of the size of the device, because larger cubes about the same centre
-/// contain smaller ones. Between the positions the torque may be higher: with 5, 9, 17 per edge the cube of
-/// the reconstructed device for 4 N at 0.3 N m is 2.5, 0.9, 0.3 % larger than with 49.
+/// Returns the side of the largest cube about `centre_m` that fulfils the requirements on the grid, or 0 if
+/// the centre itself does not. Found by bisection, accurate to 1e-6 of the size of the device; bisection is
+/// valid because larger cubes about the same centre contain the smaller ones. The torque may be higher
+/// between the grid positions: with 5, 9 and 17 positions per edge, the cube of the reconstructed device for
+/// 4 N at 0.3 N m is 2.5, 0.9 and 0.3 % larger than with 49.
 double largest_cube_m(const DeltaGeometry& g, const DeltaDemand& demand, const Vector3& centre_m,
                       int per_edge);
 

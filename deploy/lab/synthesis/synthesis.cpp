@@ -1,4 +1,4 @@
-// The experiment `synthesis`: methods compared, the design found, its pictures.
+// The experiment `synthesis`: compares the search methods, and reports and plots the best design.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,8 @@ void add_method(std::vector<Metric>& metrics, const std::string& name, const std
                                  {name + "_evaluations", median(evaluations), ""}});
 }
 
-/// `log` as found on the search's positions, and judged on a grid of 31 positions an edge.
+/// Metrics of `log`, as found on the positions of the search and evaluated on a grid of 31 positions per
+/// edge.
 void add_design(std::vector<Metric>& metrics, const std::string& name, const SearchLog& log) {
   if (!log.feasible()) {
     metrics.push_back({name + "_feasible", 0.0, ""});
@@ -77,7 +78,8 @@ void trace_progress(const ExperimentRun& run, const Comparison& all, int budget)
   trace.close();
 }
 
-/// Conditioning over the largest cube that is possible with it, of new designs and of the catalog's.
+/// Conditioning over the side of the largest cube that is possible with it, for new designs and for that of
+/// the catalog.
 void trace_front(const ExperimentRun& run, const SearchLog& a, const DeltaGeometry& catalog, int budget) {
   Trace trace(run.out, "synthesis_front", {"side_mm", "designed", "catalog"});
   SearchLog::Variables start = a.best();
@@ -183,7 +185,7 @@ std::vector<Metric> synthesise(const ExperimentRun& run, const SynthesisSize& si
   }
   trace_progress(run, all, size.budget);
 
-  // The paper's way: the best of the genetic designs that SQP has finished.
+  // As in the paper: the best of the genetic designs after refinement by SQP.
   const SearchLog& a =
       *std::max_element(all.back().begin(), all.back().end(),
                         [](const SearchLog& l, const SearchLog& r) { return l.value() < r.value(); });

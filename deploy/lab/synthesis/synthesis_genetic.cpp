@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kPopulation = 40;
 
-/// The problem as pagmo wants it: to be minimised, without constraints. The goal's variable is not a gene
-/// where it is the conditioning: the dimensions determine it.
+/// The problem in the form that pagmo requires: minimisation without constraints. If the objective is the
+/// conditioning, its variable is not a gene, because the dimensions determine it.
 struct Genes {
   SearchLog* log = nullptr;
 

@@ -1,14 +1,15 @@
 #pragma once
-// The dimensional synthesis of a DELTA as a smooth problem in five variables: the dimensions a, l1, l2, the
-// depth of the cube's centre below the base, and the goal g.
+// The dimensional synthesis of a DELTA device as a smooth optimisation problem in five variables: the
+// dimensions a, l1 and l2, the depth of the centre of the cube below the base, and the objective g.
 //
 //   maximise g  subject to  s_jk(a, l1, l2, depth, side, conditioning) >= 0    (12 slacks k, 54 positions j)
 //
-// The paper interchanges objective and constraint: either side or conditioning is g, and the other one is
-// required. The worst conditioning over the cube, a minimum, is not smooth; as a variable below the
-// conditioning of each position (epigraph) it is. Legs are at 0, 120, 240 degrees, so the half y >= 0 of the
-// cube is sufficient: nine positions per edge, where the worst values were found, and the middles of its
-// faces and of itself. Lengths in units of 0.1 m.
+// As in the paper, objective and constraint can be interchanged: either the side of the cube or the
+// conditioning is g, and the other one is prescribed. The worst conditioning over the cube is a minimum and
+// therefore not smooth; the problem becomes smooth if it is a variable that is bounded above by the
+// conditioning at each position (epigraph form). Because the legs are at 0, 120 and 240 degrees, the half y
+// >= 0 of the cube is sufficient. Its positions are nine per edge, where the worst values were found, and the
+// centres of the faces and of the cube. Lengths are in units of 0.1 m.
 
 #include <cstdint>
 #include <vector>
@@ -23,8 +24,8 @@ struct SynthesisDesign {
   double a_m = 0.0;
   double l1_m = 0.0;
   double l2_m = 0.0;
-  double depth_m = 0.0;  // of the centre of the cube below the base
-  double side_m = 0.0;   // of the cube
+  double depth_m = 0.0;  // depth of the centre of the cube below the base
+  double side_m = 0.0;   // side of the cube
 };
 DeltaGeometry geometry(const SynthesisDesign& d);
 DeltaCube cube(const SynthesisDesign& d);
@@ -35,9 +36,10 @@ class SynthesisProblem {
   static constexpr int kPositions = 54;
   static constexpr int kSlacks = 12 * kPositions;
   using Slacks = Eigen::Matrix<double, kSlacks, 1>;
-  static constexpr double kTolerance = 1e-6;  // margin below which a design is infeasible
+  static constexpr double kTolerance = 1e-6;  // violation above which a design is infeasible
 
-  /// Goal kConditioning: a cube of `side_m`; `demand.conditioning` is ignored. Goal kSide: vice versa.
+  /// With the goal kConditioning the cube has the side `side_m`, and `demand.conditioning` is ignored. With
+  /// the goal kSide, `side_m` is ignored.
   SynthesisProblem(SynthesisGoal goal, const DeltaDemand& demand, double side_m)
       : goal_(goal), demand_(demand), side_m_(side_m) {}
 
@@ -48,9 +50,11 @@ class SynthesisProblem {
   [[nodiscard]] bool aims_at_conditioning() const { return goal_ == SynthesisGoal::kConditioning; }
 
   struct Evaluation {
-    Slacks slacks;           // of the epigraph form
-    double value = 0.0;      // result of the dimensions: worst conditioning, or the side in m
-    double violation = 0.0;  // largest negative margin of the dimensions, without the variable of the goal
+    Slacks slacks;       // margins of the epigraph form
+    double value = 0.0;  // objective that the dimensions achieve: worst conditioning, or the side in m
+    /// Magnitude of the most negative margin of the dimensions, evaluated without the variable of the
+    /// objective.
+    double violation = 0.0;
   };
   [[nodiscard]] Evaluation evaluate(const Variables& x) const;
 

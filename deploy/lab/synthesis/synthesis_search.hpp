@@ -1,16 +1,18 @@
 #pragma once
-// Searches for the best design of a SynthesisProblem within a budget of evaluations (one evaluation: all
-// margins of one design, including those for gradients). Deterministic for a seed.
+// Searches for the best design of a SynthesisProblem within a budget of evaluations. One evaluation computes
+// all margins of one design; evaluations for numerical gradients count too. The search is deterministic for a
+// given seed.
 //
-//   genetic     pagmo's `sga`: simulated binary crossover, polynomial mutation, tournament. A genetic
-//               algorithm proper; NLopt's evolutionary methods are evolution strategies. Constraints by Deb's
-//               rule (2000): feasible before infeasible, these by violation.
-//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence. Gradients by central
+//   genetic     pagmo's `sga` with simulated binary crossover, polynomial mutation and tournament selection.
+//               It is a genetic algorithm proper, unlike NLopt's evolutionary methods, which are evolution
+//               strategies. Constraints by Deb's rule (2000): feasible designs rank before infeasible ones,
+//               infeasible ones by their violation.
+//   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence, with gradients by central
 //               differences.
-//   restarted   the same from further random starts until the budget is spent.
-//   genetic, then sequential: the first with four fifths of the budget, its best design starts the second.
+//   restarted   sequential, repeated from further random starts until the budget is spent.
+//   genetic, then sequential: genetic with four fifths of the budget, then sequential from its best design.
 //
-// The libraries are behind `run_genetic` and `run_sequential`, one file each.
+// Only `run_genetic` and `run_sequential`, each in its own file, depend on these libraries.
 
 #include <vector>
 
@@ -19,18 +21,19 @@
 
 namespace longreach {
 
-/// Record of all evaluations of a search, with its budget.
+/// Counts the evaluations of a search against its budget, and records its progress.
 class SearchLog {
  public:
   using Variables = SynthesisProblem::Variables;
   struct Step {
     int evaluations = 0;
-    double value = 0.0;  // best feasible value from here on
+    double value = 0.0;  // best feasible value from this evaluation on
   };
 
   SearchLog(const SynthesisProblem& problem, int budget) : problem_(problem), budget_(budget) {}
 
-  /// Evaluates a design and keeps the best: feasible before infeasible, then by value, or by violation.
+  /// Evaluates a design and keeps the best one: feasible designs rank before infeasible ones, feasible ones
+  /// by value, infeasible ones by violation.
   SynthesisProblem::Evaluation evaluate(const Variables& x);
 
   [[nodiscard]] const SynthesisProblem& problem() const { return problem_; }
@@ -52,10 +55,10 @@ class SearchLog {
   std::vector<Step> steps_;
 };
 
-constexpr int kGradientEvaluations = 11;  // of one step of the sequential method
+constexpr int kGradientEvaluations = 11;  // evaluations per step of the sequential method
 
 void run_genetic(SearchLog& log, int evaluations, Random random);
-/// One run of the method, until it converges, fails or has used up the budget.
+/// Runs the sequential method once, until it converges, fails or exhausts the budget.
 void run_sequential(SearchLog& log, const SearchLog::Variables& start);
 
 SearchLog::Variables random_start(const SynthesisProblem& problem, Random& random);

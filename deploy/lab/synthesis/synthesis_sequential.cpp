@@ -8,8 +8,8 @@ namespace {
 
 using Variables = SearchLog::Variables;
 
-constexpr double kStep = 1e-5;       // of the central differences, in the variables' units
-constexpr double kConverged = 1e-8;  // change of the variables
+constexpr double kStep = 1e-5;       // step of the central differences, in the units of the variables
+constexpr double kConverged = 1e-8;  // tolerance for the change of the variables
 
 double goal(unsigned count, const double* /*x*/ x, double* gradient, void* /*log*/) {
   if (gradient) {
@@ -56,9 +56,9 @@ void run_sequential(SearchLog& log, const Variables& start) {
   } catch (const nlopt::forced_stop&) {
     // The budget is spent.
   } catch (const nlopt::roundoff_limited&) {
-    // As good as it gets.
+    // The optimiser cannot improve the design further.
   } catch (const std::runtime_error&) {
-    // It failed; what it has found until then is in the log.
+    // The optimiser failed. The log has the best design up to then.
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// Study of the dimensional synthesis of a DELTA: the best search, the best design, and a comparison with the
-// reconstructed device of the catalog in the same envelope and with the same motors.
+// Study of the dimensional synthesis of a DELTA device: which search method is best, which design is best,
+// and how it compares with the reconstructed device of the catalog in the same envelope and with the same
+// motors.
 
 #include <span>
 #include <string_view>
@@ -13,15 +14,15 @@ namespace longreach {
 
 struct SynthesisSize {
   int seeds = 20;
-  int budget = 3000;  // evaluations of one search
+  int budget = 3000;  // evaluations per search
 };
 
-/// Requirements of the device. The envelope is that of the reconstructed device about its best 60 mm cube;
-/// force and torque are assumptions: a wall of 4 N in every direction with motors that have 0.3 N m left
-/// besides the weight of the device.
+/// Returns the requirements. The envelope is that of the reconstructed device for its best 60 mm cube. Force
+/// and torque are assumptions: 4 N in every direction, with motors that have 0.3 N m available in addition to
+/// the torque that holds the weight of the device.
 DeltaDemand synthesis_demand();
-constexpr double kSynthesisSide_m = 0.06;        // of the cube in problem A
-constexpr double kSynthesisConditioning = 0.45;  // in problem B
+constexpr double kSynthesisSide_m = 0.06;        // side of the cube in problem A
+constexpr double kSynthesisConditioning = 0.45;  // required conditioning in problem B
 
 struct MethodName {
   SearchMethod method;
@@ -32,31 +33,34 @@ inline constexpr MethodName kMethods[] = {{SearchMethod::kGenetic, "genetic"},
                                           {SearchMethod::kRestarted, "restarted"},
                                           {SearchMethod::kGeneticThenSequential, "genetic_sequential"}};
 
-/// One search per seed, for problem A.
+/// Runs one search of problem A per seed.
 std::vector<SearchLog> searches(SearchMethod method, const SynthesisSize& size, std::uint64_t seed,
                                 const std::function<void()>& each_done);
 
-/// Values of all searches after this number of evaluations, sorted; 0 while there is no feasible design.
+/// Returns the values of all searches after this number of evaluations, sorted; 0 for a search without a
+/// feasible design.
 std::vector<double> values_after(std::span<const SearchLog> searches, int evaluations);
 
-/// A, then B from its design, then A again from the design of B with its side; if B is infeasible, the last
-/// step is skipped and infeasible.
+/// Interchange of objective and constraint: problem A, then problem B started from its design, then problem A
+/// again started from the design of B with its side. If B is infeasible, the last search is not run and
+/// counts as infeasible.
 struct Interchange {
   SearchLog a, b, a_again;
 };
 Interchange interchange(const SearchLog& a, int budget);
 
-/// Problem A for another side: from `start`, then from random starts while the budget lasts.
+/// Solves problem A for another side, from `start` and then from random starts until the budget is spent.
 SearchLog search_side(double side_m, const SearchLog::Variables& start, std::uint64_t seed, int budget);
 
-/// The best height of a cube in a given device: maximum worst conditioning, on a grid of 0.5 mm.
+/// The best depth of a cube in a given device, i.e. the one with the best worst-case conditioning, on a grid
+/// of 0.5 mm.
 struct CatalogFit {
-  double conditioning = 0.0;  // 0: no height fulfils the requirements
+  double conditioning = 0.0;  // worst conditioning; 0: no depth fulfils the requirements
   double depth_m = 0.0;
 };
 CatalogFit best_depth(const DeltaGeometry& g, const DeltaDemand& demand, double side_m);
 
-/// The whole study, with its traces.
+/// Runs the whole study and writes its traces.
 std::vector<Metric> synthesise(const ExperimentRun& run, const SynthesisSize& size);
 
 }  // namespace longreach

@@ -10,19 +10,19 @@ namespace longreach {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr long kMost = 1'000'000;  // some ten seconds
+constexpr long kMost = 1'000'000;  // about ten seconds
 
-/// Never returns: stops before and after the calls that count, and ends.
+/// Never returns: stops itself before and after the counted calls, and exits.
 [[noreturn]] void be_counted(int times, const std::function<void(int)>& call) {
   if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(1);
-  call(0);  // what the first call does once is not counted
+  call(0);  // one-time work of the first call is not counted
   raise(SIGSTOP);
   for (int i = 0; i < times; ++i) call(i);
   raise(SIGSTOP);
   _exit(0);
 }
 
-/// Between the two stops.
+/// Counts between the two stops.
 double count(int times, const std::function<void(int)>& call) {
   const pid_t child = fork();
   if (child < 0) return kUnknown;

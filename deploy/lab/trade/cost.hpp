@@ -1,5 +1,5 @@
 #pragma once
-// Cost of a call on this machine.
+// Measures the cost of a function call on this machine.
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,8 @@
 
 namespace longreach {
 
-/// ns per call of call(0) to call(times - 1), in the fastest of some rounds, which is the least disturbed.
+/// Returns the mean duration of call(0) to call(times - 1), ns, in the fastest of several rounds, because
+/// that one was disturbed least by other load.
 template <class Call>
 double cost_ns(int times, Call&& call) {
   constexpr int kRounds = 7;
@@ -22,8 +23,9 @@ double cost_ns(int times, Call&& call) {
   return best;
 }
 
-/// Instructions per call, counted by single-stepping a child process (ptrace): exact, independent of the load
-/// of the machine. NaN if the system does not permit it.
+/// Returns the number of instructions per call, counted by single-stepping a child process (ptrace). The
+/// count is exact and does not depend on the load of the machine. Returns NaN if the system does not permit
+/// ptrace.
 double instructions(int times, const std::function<void(int)>& call);
 
 }  // namespace longreach

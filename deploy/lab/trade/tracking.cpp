@@ -34,7 +34,7 @@ HandTarget hand_at(double t_s) {
 }
 
 struct Ways {
-  std::vector<Vector3> goal_m, tool_m;  // a row a tick
+  std::vector<Vector3> goal_m, tool_m;  // one row per tick
 };
 
 /// Root of the mean square of tool(t) - goal(t - ticks).

@@ -1,6 +1,6 @@
 #pragma once
-// Complete runs of the laboratory for `trade`: tracking error of the tool, and error of the displayed
-// stiffness.
+// Complete laboratory runs for the experiment `trade`: the tracking error of the tool, and the error of the
+// displayed stiffness.
 
 #include <string>
 #include <vector>
@@ -9,23 +9,25 @@
 
 namespace longreach {
 
-/// The hand moves back and forth in three dimensions for a minute, at up to 20 mm/s, in free space; the tool
-/// is compared with the command of one link delay before.
+/// Results of a run in which the hand moves back and forth in three dimensions in free space for one minute,
+/// at up to 20 mm/s. The tool is compared with the command that was sent one link delay earlier.
 struct Tracking {
   double error_rms_m = 0.0;
-  double late_s = 0.0;              // delay of the best fit, in addition to that of the link
-  double bent_rms_m = 0.0;          // remaining error
-  double roughness_m_per_s2 = 0.0;  // acceleration of the tool, rms; that of the hand is 0.02
-  double kbit_per_s = 0.0;          // commands, including headers
-  double cost_us = 0.0;             // of both sides and the simulation, per millisecond of virtual time
+  double late_s = 0.0;              // delay that fits best, in addition to that of the link
+  double bent_rms_m = 0.0;          // error that remains with this delay
+  double roughness_m_per_s2 = 0.0;  // rms acceleration of the tool; that of the hand is 0.02
+  double kbit_per_s = 0.0;          // data rate of the commands, including headers
+  /// Run time of both sides and the simulation, per millisecond of virtual time.
+  double cost_us = 0.0;
 };
-/// `settings`: PATH=VALUE, in addition to those of the run; over `analog` unless they name a profile.
+/// Runs it. `settings` (PATH=VALUE) are applied in addition to those of the run. The link is `analog` unless
+/// they name a profile.
 Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
-/// The experiment `touch` over the same link, with some seeds.
+/// Results of the experiment `touch` over the same link with several seeds.
 struct Touched {
-  double stiffness_error = 0.0;   // the worst of them
-  double return_bit_per_s = 0.0;  // their mean
+  double stiffness_error = 0.0;   // largest over the seeds
+  double return_bit_per_s = 0.0;  // mean over the seeds
 };
 Touched touched(const ExperimentRun& run, std::vector<std::string> settings);
 

@@ -1,4 +1,5 @@
-// Every stage that can trade speed for accuracy: its ways, their fronts, and where the defaults are on them.
+// Every stage that can trade speed for accuracy: its methods, their Pareto front, and the position of the
+// defaults.
 
 #include "deploy/lab/trade/trade.hpp"
 
@@ -21,8 +22,8 @@ const std::vector<TradeStage>& stages() {
 
 std::string trace_name(const TradeStage& stage) { return "trade_" + std::string(stage.name); }
 
-/// One row a point, those of the front first, by their cost, so that a line can join them; its error in the
-/// column of its series, so that each is drawn with its own mark.
+/// One row per point. The points of the front come first, ordered by cost, so that a line can join them. The
+/// error is in the column of its series, so that each series is drawn with its own mark.
 void write(const ExperimentRun& run, const TradeStage& stage, const std::vector<TradePoint>& points) {
   struct Row {
     const TradePoint* point;

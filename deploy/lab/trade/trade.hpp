@@ -1,6 +1,6 @@
 #pragma once
-// Cost against error of the methods of each stage. A point is on the front if no other point is both cheaper
-// and more accurate.
+// Cost against error of the methods of each stage. A point is on the Pareto front if no other point dominates
+// it.
 
 #include <limits>
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace longreach {
 
-/// One method of a stage.
+/// One method of a stage, with one setting.
 struct TradePoint {
-  std::string series;   // one of the stage's
-  std::string setting;  // within the series; empty: there is only one
+  std::string series;   // name of its series, one of TradeStage::series
+  std::string setting;  // setting within the series; empty: there is only one
   double cost = 0.0;    // > 0
   double error = 0.0;   // >= 0
   double instructions = std::numeric_limits<double>::quiet_NaN();  // per call; NaN: not counted
@@ -22,19 +22,20 @@ struct TradePoint {
 };
 
 struct TradeStage {
-  std::string_view name;  // of its metrics and its trace
+  std::string_view name;  // used for the names of its metrics and its trace
   std::string_view title;
   std::string_view cost, cost_unit;    // "time of a call", "ns"
   std::string_view error, error_unit;  // "largest error", "rad"
-  bool of_machine = true;              // the cost is a time of this machine
+  bool of_machine = true;              // the cost is a time measured on this machine
   std::vector<std::string_view> series;
   std::vector<TradePoint> (*measure)(const ExperimentRun& run);
 };
 
-/// Whether no other point is cheaper and at least as accurate, or more accurate and at most as expensive.
+/// Returns whether no other point is cheaper and at least as accurate, or more accurate and at most as
+/// expensive.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 
-// The stages, one file each.
+// The stages. Each stage has its own source file.
 TradeStage trade_spherical_forward();
 TradeStage trade_delta_forward();
 TradeStage trade_arm_inverse();

@@ -1,5 +1,5 @@
-// The preset `accuracy`, end to end: what a millisecond of both sides costs, against how well the tool
-// follows the hand and how right the worst of four walls of 500 to 4000 N/m feels.
+// The preset `accuracy`, end to end: the computing time of both sides per millisecond, against the tracking
+// error of the tool and the worst stiffness error of four walls of 500 to 4000 N/m.
 
 #include "deploy/lab/trade/tracking.hpp"
 #include "deploy/lab/trade/trade.hpp"

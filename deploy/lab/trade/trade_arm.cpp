@@ -1,5 +1,5 @@
-// The arm's inverse: a goal a tenth of a radian away in every joint, for the three arms with six joints that
-// ship. KDL's is measured on the same goals (tests/peers).
+// Inverse kinematics of the arm for goals that are 0.1 rad away in every joint, for the three supplied
+// six-joint arms. KDL is measured with the same goals in tests/peers.
 
 #include "deploy/lab/robot/random_arm.hpp"
 #include "deploy/lab/trade/arm_goals.hpp"

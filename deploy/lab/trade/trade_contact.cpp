@@ -1,5 +1,5 @@
-// A free impact (n 1.5, a v 0.5, 1e6 N/m^1.5, 1 kg, 0.1 m/s: it lasts 3 ms): integrators by their step, and
-// one that begins and ends its steps exactly at touch and separation.
+// A free impact (n 1.5, a v 0.5, 1e6 N/m^1.5, 1 kg, 0.1 m/s; it lasts 3 ms): integrators with different
+// steps, and one whose steps start and end exactly at touch and separation.
 
 #include <cmath>
 

@@ -13,7 +13,7 @@
 namespace longreach {
 namespace {
 
-/// The ways of `fk-network`, which says what each is.
+/// The methods of `fk-network`, which describes them.
 std::vector<TradePoint> measure_spherical(const ExperimentRun& run) {
   constexpr std::pair<const char*, const char*> kWays[] = {{"tracking", "tracking"},
                                                            {"newton_step", "one_newton_step"},
@@ -37,7 +37,7 @@ std::vector<TradePoint> measure_spherical(const ExperimentRun& run) {
 
 constexpr int kTicks = 4000, kCounted = 32;
 
-/// The handle on a way through its workspace at 1 kHz, up to 0.4 m/s.
+/// The handle on a path through its workspace at 1 kHz, up to 0.4 m/s.
 struct DeltaMotion {
   std::vector<Vector3> p_m, theta_rad;
 };

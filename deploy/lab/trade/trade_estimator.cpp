@@ -1,7 +1,7 @@
-// What an estimator learns of a contact in 2 s at 1 kHz (k 1e4 N/m^1.5, λ/k 0.15 s/m, noise 0.05 N), against
-// what a sample costs it; FIXED_EXPONENT with the right exponent and, the surface unknown, with 1; the
-// default, MAXIMUM_LIKELIHOOD with the surface unknown; all others know the surface; Ceres Solver's batch fit
-// beside them.
+// The error of each estimator after 2 s of a contact at 1 kHz (k 1e4 N/m^1.5, λ/k 0.15 s/m, noise 0.05 N)
+// against its cost per sample. FIXED_EXPONENT is run with the true exponent and, with an unknown surface,
+// with the exponent 1. The default is MAXIMUM_LIKELIHOOD with an unknown surface; all others know the
+// surface. A batch fit by Ceres Solver is included for comparison.
 
 #include <cmath>
 
@@ -39,7 +39,7 @@ double tangent(double k, double n, double x) { return k * n * std::pow(x, n - 1.
 TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vector<test::Samples>& records) {
   TradePoint point{way.name, ""};
   point.standard = way.standard;
-  // Where the hand works: the depth of half of the force.
+  // The working point: the depth at half of the force.
   const double x = std::pow(5.0 / cell.k, 1.0 / cell.n), right = tangent(cell.k, cell.n, x);
   for (const test::Samples& record : records) {
     Identifier identifier(way.config);

@@ -1,6 +1,5 @@
-// What crosses the link: how often commands are sent, how long they are kept for a smooth goal, when a
-// stiffness is reported again; over `analog` (0.85 s, 20 ms jitter, 1.5 % loss) unless the run names another
-// link.
+// Settings of the link: the send rate of commands, the playout delay for a smooth goal, and the deadband of
+// the stiffness reports, over `analog` (0.85 s, 20 ms jitter, 1.5 % loss) unless the run names another link.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// float against double: the same textbook formula in both, against long double.
+// float against double: the same textbook formula in both types, compared with long double.
 
 #include <array>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kCases = 512;
 
-/// Six numbers of a case, each in 0 to 1.
+/// The six inputs of a case, each from 0 to 1.
 using Case = std::array<double, 6>;
 
-/// Motor angle of a DELTA's leg: a cos θ + b sin θ + c = 0.
+/// Motor angle of a leg of a DELTA device: a cos θ + b sin θ + c = 0.
 template <class T>
 T delta_leg(const Case& u) {
   const T x = T(0.05) * (T(u[0]) - T(0.5)), y = T(0.05) * (T(u[1]) - T(0.5)), z = T(0.13) + T(0.05) * T(u[2]);
@@ -95,7 +95,7 @@ TradePoint point_of(const char* series, const Kernel& kernel, T (*compute)(const
     const long double exact = kernel.exact(c);
     point.error = std::max(point.error, static_cast<double>(std::abs((compute(c) - exact) / exact)));
   }
-  T sum = 0;  // so that nothing is left out
+  T sum = 0;  // prevents the compiler from removing the computation
   const auto call = [&](int i) { sum += compute(cases[static_cast<std::size_t>(i) % cases.size()]); };
   point.cost = cost_ns(kernel.cases, call);
   if (!std::isfinite(sum)) point.error = 1.0;

@@ -1,5 +1,5 @@
-// How often a master ticks, against the stiffest wall that a hand can then feel: by the exact model of the
-// sampled wall, for the three grips; and what the ticks cost, on this machine.
+// The sample rate of the master against the maximum stiffness that can then be rendered, from the exact model
+// of the sampled wall for the three grips, and the cost of the ticks on this machine.
 
 #include "common/config/config.hpp"
 #include "deploy/lab/devices/wall_bench.hpp"
@@ -17,7 +17,7 @@ constexpr std::pair<const char*, Grip> kGrips[] = {
     {"light_hand", Grip::kLight}, {"firm_hand", Grip::kFirm}, {"released", Grip::kReleased}};
 constexpr double kPress_n = 10.0;
 
-/// Of a master's tick, device and all; ns.
+/// Cost of a tick of the master, including the device, ns.
 double tick_ns(const MasterConfig& config) {
   MasterNode node(config);
   SimulatedDevices devices(config.device);

@@ -1,6 +1,6 @@
 #pragma once
-// A ball above the half space z < 0 in Simbody, with its Hunt-Crossley force. Simbody's headers are C++17, so
-// this header does not include them.
+// A ball above the half-space z < 0 in Simbody, with Simbody's Hunt-Crossley force. This header does not
+// include Simbody's headers, because they are C++17.
 
 #include <array>
 #include <memory>
@@ -9,11 +9,11 @@ namespace longreach::oracle {
 
 class SimbodyBall {
  public:
-  /// Both surfaces have the same plane-strain modulus, Pa, and dissipation, s/m; no friction.
+  /// Both surfaces have the same plane-strain modulus (Pa) and dissipation (s/m). There is no friction.
   SimbodyBall(double radius_m, double modulus_pa, double dissipation_s_per_m);
   ~SimbodyBall();
 
-  /// Force on the ball with its centre at p, m, and the velocity v, m/s.
+  /// Returns the force on the ball for the centre p (m) and the velocity v (m/s).
   std::array<double, 3> force_n(const std::array<double, 3>& p, const std::array<double, 3>& v);
 
  private:

@@ -1,4 +1,6 @@
 #pragma once
+// The slave's node and the simulated arm in a loop with a minimal master, which sends 200 commands per second
+// that arrive after 20 ms.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +14,6 @@
 
 namespace longreach::test {
 
-// Slave node and simulated arm with a minimal master: 200 commands per second, delayed by 20 ms.
 struct Loop {
   explicit Loop(const SlaveConfig& config) : node(config), arm(config, Random(9)) {
     command.request = Request::kHold;
@@ -29,12 +30,12 @@ struct Loop {
   bool echo = true;
   RobotState broken{};
   bool use_broken = false;
-  std::function<void(RobotState&)> sensor_fault{};  // changes the robot's report of its state
+  std::function<void(RobotState&)> sensor_fault{};  // modifies the state that the robot reports
   std::vector<Received<MotionCommand>> commands;
   std::optional<Time> last_heard;
   SlaveOutput out;
   std::optional<StiffnessReport> last_report;
-  std::vector<double> goals_x;  // by sequence
+  std::vector<double> goals_x;  // by sequence number
   int reports = 0, telemetry = 0;
 
   const SlaveView& view() const { return node.view(); }
@@ -83,7 +84,7 @@ struct Loop {
     run(0.1);
     ASSERT_TRUE(node.engaged());
   }
-  // Moves the goal in x at `speed` up to `x`.
+  // Moves the goal along x to `x` at `speed`.
   void move_to(double x, double speed) {
     while (std::abs(command.position_m.x() - x) > 1e-9) {
       const double left = x - command.position_m.x();

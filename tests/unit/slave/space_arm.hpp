@@ -1,5 +1,5 @@
 #pragma once
-// The space arm of deploy/robots and a wall, as plain values.
+// The configuration of the space arm of deploy/robots, and of a wall, as plain values.
 
 #include "slave/config/slave_config.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The text of an expected ConfigError.
+// Captures the message of an expected ConfigError.
 
 #include <string>
 #include <utility>
@@ -8,7 +8,8 @@
 
 namespace longreach {
 
-/// Returns the text of the ConfigError; "no error" if `call` throws none. Other exceptions pass.
+/// Returns the message of the ConfigError that `call` throws, or "no error" if it throws none. Other
+/// exceptions propagate.
 template <class Call>
 std::string error_of(Call&& call) {
   try {

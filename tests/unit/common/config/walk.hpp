@@ -1,5 +1,5 @@
 #pragma once
-// Visits all fields of messages by reflection, so that tests cannot omit a field.
+// Visits all fields of a message by reflection, so that tests cannot miss a field.
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -12,8 +12,8 @@
 
 namespace longreach {
 
-/// Sets every leaf to a valid value that is not its default; all numbers differ. Lists have the number of
-/// elements that the schema requires, or two.
+/// Sets every leaf field to a valid value other than its default; all numbers are different. Lists get the
+/// number of elements that the schema requires, or two elements.
 class DistinctValues {
  public:
   void fill(google::protobuf::Message& message) {
@@ -101,7 +101,7 @@ inline void add_leaf_paths(const google::protobuf::Message& root, const google::
   }
 }
 
-/// Paths of all leaves of `message`, set or not.
+/// Returns the paths of all leaf fields of `message`, whether set or not.
 inline std::vector<std::string> leaf_paths(const google::protobuf::Message& message) {
   FieldPath path;
   std::vector<std::string> paths;

@@ -1,5 +1,5 @@
 #pragma once
-// Sends numbered datagrams through an impairment in virtual time and records the output with its times.
+// Sends numbered datagrams through an impairment in virtual time, and records what arrives and when.
 
 #include <cstring>
 #include <map>
@@ -10,7 +10,7 @@
 namespace longreach {
 
 struct DatagramArrival {
-  std::uint32_t number = 0;  // as sent, from 0
+  std::uint32_t number = 0;  // number of the datagram in the order of sending, from 0
   double sent_s = 0.0;
   double received_s = 0.0;
   std::size_t bytes = 0;
@@ -27,7 +27,7 @@ struct ImpairmentRun {
 
 struct ImpairmentOutcome {
   std::vector<DatagramArrival> arrivals;
-  std::map<std::uint32_t, int> copies;  // by number
+  std::map<std::uint32_t, int> copies;  // copies received, by datagram number
   ImpairmentCounts counts{};
 };
 

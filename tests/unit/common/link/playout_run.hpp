@@ -1,5 +1,6 @@
 #pragma once
-// A sender, a link and a playout in virtual time: goals move along x at 0.1 m/s of the sender's clock.
+// A sender, a link and a playout buffer in virtual time. The goals move along x at 0.1 m/s according to the
+// sender's clock.
 
 #include <functional>
 #include <vector>
@@ -15,18 +16,19 @@ struct PlayoutRun {
   double duration_s = 20.0;
   double period_s = 0.005;
   double tick_s = 0.001;
-  double clock_ratio = 1.0;      // seconds of the receiver per second of the sender
+  double clock_ratio = 1.0;      // seconds on the receiver's clock per second on the sender's
   double clock_offset_s = -1e4;  // the sender's clock minus the receiver's
-  /// One-way delay of the datagram sent at `sent_s` after the start; negative: lost.
+  /// Returns the one-way delay of the datagram that is sent at `sent_s` after the start, s; negative: the
+  /// datagram is lost.
   std::function<double(double sent_s)> delay_s;
 };
 
 struct PlayedTick {
-  double now_s = 0.0;  // receiver, since the start
+  double now_s = 0.0;  // receiver's clock, since the start
   double sequence = 0.0;
   double x_m = 0.0;
   double delay_s = 0.0;
-  double newest = 0.0;  // highest sequence that has arrived
+  double newest = 0.0;  // highest sequence number that has arrived
 };
 
 inline std::vector<PlayedTick> run(const PlayoutRun& r) {

@@ -1,5 +1,5 @@
 #pragma once
-// A simulated side that accepts all requests and records them.
+// A fake backend of a side. It records all requests and accepts them by default.
 
 #include <atomic>
 #include <chrono>
@@ -22,7 +22,7 @@ class FakeBackend : public ControlBackend {
     config_.mutable_estimator()->set_forgetting(0.99);
   }
 
-  /// Sets the answer to all further changes.
+  /// Makes all further changes fail with this refusal; std::nullopt accepts them again.
   void refuse(std::optional<Refusal> refusal) {
     const std::lock_guard lock(mutex_);
     refusal_ = std::move(refusal);
@@ -39,14 +39,14 @@ class FakeBackend : public ControlBackend {
     const std::lock_guard lock(mutex_);
     link_ = link;
   }
-  /// Adds a mesh of this size to the configuration.
+  /// Adds a mesh file of this size to the configuration.
   void put_mesh(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     config_.mutable_scene()->mutable_bodies()->add_file()->set_text(std::string(bytes, 'v'));
   }
-  /// Changes of the configuration block until this is false again.
+  /// While true, changes of the configuration block.
   void block_changes(bool block) { blocked_ = block; }
-  /// Highest number of concurrent changes so far.
+  /// Returns the highest number of concurrent changes so far.
   [[nodiscard]] int overlap() const { return overlap_; }
 
   proto::Status status() override {
@@ -131,7 +131,8 @@ class FakeBackend : public ControlBackend {
     if (auto refusal = change("stop_recording", [] {})) return *std::move(refusal);
     return "/recordings/x-" + side_ + ".mcap: 1.5 s, 0.2 MB";
   }
-  /// Sets the session that it opens; a caller that has it keeps it.
+  /// Sets the number of the session that open_session returns. A caller that already has this session keeps
+  /// it.
   void put_session(std::uint64_t number) {
     const std::lock_guard lock(mutex_);
     present_session_ = number;
@@ -143,7 +144,7 @@ class FakeBackend : public ControlBackend {
     explicit Inside(FakeBackend& backend) : backend_(backend), lock_(backend.mutex_, std::defer_lock) {
       const int now = ++backend_.inside_;
       if (now > backend_.overlap_) backend_.overlap_ = now;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));  // time for a second call to enter
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // gives a second call time to enter
       lock_.lock();
     }
     ~Inside() { --backend_.inside_; }
@@ -168,7 +169,7 @@ class FakeBackend : public ControlBackend {
   std::atomic<int> inside_ = 0;
   std::atomic<int> overlap_ = 0;
   std::atomic<bool> blocked_ = false;
-  std::vector<std::string> calls_;  // changes, in order
+  std::vector<std::string> calls_;  // recorded changes, in order
   std::optional<Refusal> refusal_;
   proto::SlaveConfig config_;
   proto::Impairment link_;

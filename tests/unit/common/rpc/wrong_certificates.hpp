@@ -1,5 +1,5 @@
 #pragma once
-// Certificates that must be refused: each has exactly one defect.
+// Certificates that must be rejected. Each has exactly one defect.
 
 #include <openssl/bn.h>
 #include <openssl/core_names.h>
@@ -37,7 +37,7 @@ inline BIO* reader(const std::string& pem) {
   return BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size()));
 }
 
-/// The certificate with one bit of its signature flipped; it can still be parsed.
+/// Returns the certificate with one bit of its signature flipped. It can still be parsed.
 inline std::string tampered(const std::string& certificate_pem) {
   BIO* bio = reader(certificate_pem);
   X509* certificate = PEM_read_bio_X509(bio, nullptr, nullptr, nullptr);
@@ -50,8 +50,8 @@ inline std::string tampered(const std::string& certificate_pem) {
   return out;
 }
 
-/// A key that claims the public number of `public_pem` and signs with the private one of `private_pem`: the
-/// situation of an attacker who copied a certificate without its key.
+/// Returns a key pair with the public key of `public_pem` and the private key of `private_pem`. An attacker
+/// who copied a certificate without its key could only use such a pair.
 inline std::string mismatched(const std::string& public_pem, const std::string& private_pem) {
   const auto read = [](const std::string& pem) {
     BIO* bio = reader(pem);
@@ -86,12 +86,12 @@ inline std::string mismatched(const std::string& public_pem, const std::string& 
 
 }  // namespace wrong
 
-/// Wrong certificates of a caller `name` at a site of this authority.
+/// Returns wrong certificates of a client `name` for the site of this authority.
 inline std::vector<WrongCertificate> wrong_certificates(const Certificate& authority,
                                                         const std::string& name) {
   const Certificate other = make_authority("another site");
   const Certificate good = issue(authority, {.name = name}), unknown_peer = issue(other, {.name = name});
-  // The holder of a valid certificate acts as an authority with it.
+  // The holder of a valid client certificate uses it to issue another certificate.
   Certificate delegated = issue(good, {.name = name});
   delegated.certificate_pem += good.certificate_pem;
   const auto with = [&](const Certificate& own) {

@@ -1,5 +1,5 @@
 #pragma once
-// Encodes and decodes bodies with the codec, and with the generated protobuf classes.
+// Encodes and decodes message bodies with the codec and with the generated protobuf classes.
 
 #include <gtest/gtest.h>
 

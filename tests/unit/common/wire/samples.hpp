@@ -1,5 +1,5 @@
 #pragma once
-// Test datagrams for a port: ordinary and extreme messages, and bytes sealed by the test.
+// Test datagrams for a port: ordinary and extreme messages, and bodies that the test seals itself.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace longreach::samples {
 
-/// A session with its own secret for each number.
+/// Returns a session whose secret depends on its number.
 inline Session session(std::uint64_t number = 1000, Cipher cipher = Cipher::kChaCha20Poly1305) {
   Session s{.number = number, .cipher = cipher};
   for (std::size_t i = 0; i < s.secret.size(); ++i) s.secret[i] = static_cast<std::byte>(7 * number + i);
@@ -46,7 +46,7 @@ inline MotionCommand turn() {
   return c;
 }
 
-// Numbers that floats represent exactly.
+// All numbers are exactly representable as floats.
 inline ContactReport contact(double scale) {
   ContactReport c;
   c.surfaces[0] = {.normal = -Vector3::UnitX(),
@@ -100,7 +100,7 @@ inline Telemetry telemetry() {
   return t;
 }
 
-// Every field has its maximum length on the wire.
+// Messages in which every field has its maximum length on the wire.
 inline MotionCommand extreme_command() {
   MotionCommand c;
   c.engagement = std::numeric_limits<std::uint32_t>::max();
@@ -148,7 +148,7 @@ inline Telemetry extreme_telemetry() {
   return t;
 }
 
-/// Seals the body as the sender of such a datagram does.
+/// Seals a body as the sender of such a datagram does.
 template <class Bytes>
 std::vector<std::byte> sealed(DatagramType type, std::uint64_t sequence, const Bytes& body,
                               const Session& with = session()) {

@@ -1,5 +1,5 @@
 #pragma once
-// The daemon of a SpaceMouse, simulated by the test.
+// A fake of the SpaceMouse daemon.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -17,8 +17,8 @@
 
 namespace longreach {
 
-/// spacenavd: events of eight numbers over a socket of the file system. Answers the handshake of protocol 1
-/// and the request for the name of the device.
+/// Imitates spacenavd: sends events of eight numbers over a UNIX socket, and replies to the handshake of
+/// protocol version 1 and to the request for the name of the device.
 class FakeDaemon {
  public:
   explicit FakeDaemon(const std::string& path) : path_(path) {
@@ -63,8 +63,8 @@ class FakeDaemon {
     }
   }
 
-  // The first request is one number, which is sent back; later ones are eight numbers, answered with a status
-  // >= 0 in the last number.
+  // The first request is one number, which is echoed. Later requests are eight numbers; the reply has a
+  // status >= 0 in the last number.
   void answer() {
     std::array<std::int32_t, 8> asked{};
     const ssize_t n = ::recv(client_, asked.data(), greeted_ ? sizeof asked : sizeof asked[0], 0);

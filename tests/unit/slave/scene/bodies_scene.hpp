@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with free bodies, as text.
+// Scenes with free bodies for tests, given as MJCF text.
 
 #include <string>
 

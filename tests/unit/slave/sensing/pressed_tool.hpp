@@ -1,6 +1,7 @@
 #pragma once
-// A tool that moves as commanded on a wall of known stiffness, and a force sensor that may be rotated: the
-// inputs of the force checks, tick by tick. The law of the wall is F = k d n, with the depth d of the tool.
+// Generates the inputs of the force checks tick by tick: a tool moves as commanded against a wall of known
+// stiffness, and its force sensor may be rotated. The force of the wall is F = k d n, where d is the depth of
+// the tool.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ struct PressedTool {
 
   double wall_n_per_m = 1e3;
   Vector3 normal = -Vector3::UnitX();  // outward normal of the wall
-  double wall_m = 0.0;                 // position of its surface from 0, along -normal
+  double wall_m = 0.0;                 // position of the surface along -normal, from the origin
   Matrix3 sensor = Matrix3::Identity();
   double noise_n = 0.0;
   double bandwidth_hz = 0.0;
@@ -23,18 +24,18 @@ struct PressedTool {
   Vector3 reported_n = Vector3::Zero();
   Random random{1};
   GrowthWatch watch{GrowthBounds{}};
-  bool suspected = false;  // ever
+  bool suspected = false;  // true if the check has suspected the sensor at any time
 
   explicit PressedTool(double stiffness_n_per_m) : wall_n_per_m(stiffness_n_per_m) {}
 
-  /// A sensor with a bandwidth that the check knows.
+  /// Limits the bandwidth of the sensor and configures the check accordingly.
   void slow_sensor(double hz) {
     bandwidth_hz = hz;
     watch.configure({.bandwidth_hz = hz});
   }
   [[nodiscard]] double force_n() const { return wall_n_per_m * std::max(0.0, -normal.dot(p_m) - wall_m); }
 
-  /// Runs a tick with the tool at this velocity.
+  /// Runs one tick with the tool at this velocity.
   void go(const Vector3& m_per_s) {
     p_m += kDt * m_per_s;
     const Vector3 true_n = sensor * (force_n() * normal);
@@ -43,7 +44,7 @@ struct PressedTool {
     const Vector3 noise(random.normal(), random.normal(), random.normal());
     report(reported_n + noise_n * noise);
   }
-  /// Runs a tick in which the sensor reports this force, independent of the wall.
+  /// Runs one tick in which the sensor reports this force, independently of the wall.
   void report(const Vector3& force_n) {
     watch.step({p_m, force_n, force_n.norm() > 0.1, kDt});
     suspected = suspected || !watch.direction().isZero(0.0);
