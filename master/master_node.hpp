@@ -1,5 +1,5 @@
 #pragma once
-// The master without I/O. The node connects mapping and rendering, decides about engagements and numbers the
+// The master without I/O. The node connects mapping and rendering, decides on engagements and numbers the
 // commands. Its inputs are the time, the handle and the received messages; its outputs are the wrench and the
 // command. step() has no side effects except on the state of the node, and neither allocates nor throws.
 
@@ -68,10 +68,11 @@ struct MasterView {
   Vector3 p_MH = Vector3::Zero();    // handle from home, m, M
   Vector3 goal_m = Vector3::Zero();  // goal from the anchor, W
   Vector3 goal_rad = Vector3::Zero();
-  /// Goal predicted one one-way delay ahead, from the anchor, W, for the predictive overlay of the display.
+  /// Goal extrapolated by the one-way delay, from the anchor, W, for the predictive overlay of the display.
   Pose forecast{};
   Wrench F_H_M{};                            // rendered wrench on the hand
-  Vector3 spring_force_n = Vector3::Zero();  // on the hand by the contact spring with the largest force, M
+  /// Force on the hand from the contact spring with the largest force, M.
+  Vector3 spring_force_n = Vector3::Zero();
   bool in_contact = false;                   // as reported by the slave
   bool surface_known = false;
   double surface_m = 0.0;  // position of the registered surface along `inward`, from the handle's home, m
@@ -79,7 +80,8 @@ struct MasterView {
   double stiffness_n_per_m = 0.0;    // rendered stiffness along the inward normal
   /// Maximum stiffness that can be rendered: the limit of the device or the configured one.
   double stiffness_max_n_per_m = 0.0;
-  Vector3 spring_moment_nm = Vector3::Zero();    // the same for a rotational contact, M
+  /// Moment on the hand from the spring with the largest moment, M.
+  Vector3 spring_moment_nm = Vector3::Zero();
   double rotational_stiffness_nm_per_rad = 0.0;  // rendered stiffness about the axis with the largest moment
   double rotational_stiffness_max_nm_per_rad = 0.0;  // maximum stiffness that can be rendered
   double force_step_n = 0.0;   // change of the spring force caused by the last applied report
@@ -104,7 +106,7 @@ struct MasterView {
   bool cause_is_far = false;    // `cause` was reported by the slave
   Reason refusal{};             // why the last requested engagement has not been granted
   bool refusal_is_far = false;  // `refusal` was reported by the slave
-  std::uint64_t holds = 0;      // number of holds so far, that is of exits from Engaged
+  std::uint64_t holds = 0;      // number of holds so far, that is, of exits from Engaged
   Reason last_hold{};           // cause of the last hold
   double far_age_s = 0.0;       // time since the newest telemetry arrived
   double hold_silence_s = 0.0;  // longest time without a datagram during the current or last hold

@@ -5,7 +5,7 @@
 
 namespace longreach {
 
-/// Sets those fields controlled by `accuracy` that the configuration leaves unset.
+/// Sets the fields that `accuracy` controls, unless the configuration sets them explicitly.
 void apply_accuracy(proto::MasterConfig& config);
 void apply_accuracy(proto::SlaveConfig& config);
 

@@ -6,10 +6,10 @@
 
 namespace longreach {
 
-/// Returns an empty string if the text has the form of an adapter address; otherwise what is wrong with it
-/// and what to write instead. Does not access the socket.
+/// Returns an empty string if the text is a well-formed adapter address; otherwise describes the error and
+/// the expected form. Does not access the socket.
 std::string adapter_address_trouble(const std::string& address);
-/// Returns the path that an adapter address contains.
+/// Returns the path in an adapter address.
 std::string adapter_path(const std::string& address);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
 // The limits with which a side starts are upper bounds: clients can only tighten them, and can change only
-// the fields that the schema permits (proto/options.proto, Remote). One check covers every field of both
-// sides; plan_change makes `set` atomic.
+// the fields that the schema permits (proto/options.proto, Remote). The same check serves all fields of both
+// sides.
 
 #include <google/protobuf/message.h>
 
@@ -12,13 +12,13 @@
 
 namespace longreach {
 
-/// Returns none if clients may change the configuration from `start` to `after`. Otherwise returns one
-/// sentence that names the first field that they may not change like this, its bound, and a remedy.
+/// Returns none if clients may change the configuration from `start` to `after`. Otherwise returns a sentence
+/// that names the first field whose change is not allowed, its bound, and a remedy.
 std::optional<std::string> beyond_ceiling(const google::protobuf::Message& start,
                                           const google::protobuf::Message& after);
 
-/// Describes the values that clients may give a field of `start`, such as "20 or less"; empty if they may not
-/// change it.
+/// Describes the values to which clients may set a field of `start`, such as "20 or less"; empty if clients
+/// may not change the field.
 std::string room_below_ceiling(const google::protobuf::Message& start, const PathStep& step);
 
 }  // namespace longreach

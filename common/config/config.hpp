@@ -1,7 +1,7 @@
 #pragma once
-// Loads, validates and addresses configuration. One reflection-based validator handles all messages
-// (proto/config.proto). Errors name the file, line and column or the path of the field, the value, and what
-// is allowed.
+// Loads and validates configurations, and accesses their fields by path. One reflection-based validator
+// handles all messages (proto/config.proto). An error states the position (file, line and column, or the path
+// of the field), the value, and what is allowed.
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +16,8 @@
 
 namespace longreach {
 
-/// Describes an invalid configuration in one sentence: file and line or field, value, problem, and what is
-/// allowed. Control characters in quoted text are escaped.
+/// Describes an invalid configuration in one sentence: the position (file and line, or field), the value, the
+/// problem, and what is allowed. Control characters in quoted text are escaped.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::string& sentence);
@@ -25,16 +25,15 @@ class ConfigError : public std::runtime_error {
 
 /// Parses a protobuf text file into `message` and validates it. Throws ConfigError "FILE:LINE:COLUMN: ..."
 /// and then leaves `message` unchanged. Lines and columns count from 1, and a tab advances to the next
-/// multiple of 8; there is no position if the file cannot be read.
+/// multiple of 8; the position is omitted if the file cannot be read.
 void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
 
-/// Does the same for text in memory; errors refer to it as `name`.
+/// Parses and validates text in memory in the same way; errors refer to it as `name`.
 void load_text(const std::string& name, const std::string& text, google::protobuf::Message& message);
 
 /// Checks every field that is set: range, finiteness, number of elements, known enum value, known field. Then
-/// checks that the fields are consistent: the order of joint limits and start position, release threshold
-/// below touch threshold, dead zone below radius, names of materials and surfaces, directions of non-zero
-/// length. Throws ConfigError with the path of the field.
+/// checks that the fields are consistent; for example, start positions must be within the joint limits, and
+/// the release threshold must be below the touch threshold. Throws ConfigError with the path of the field.
 void validate(const google::protobuf::Message& message);
 
 /// Sets one field from text, e.g. "estimator.forgetting" to "0.995". An element of a repeated message is
@@ -46,23 +45,25 @@ void validate(const google::protobuf::Message& message);
 void set_field(google::protobuf::Message& message, std::string_view path, std::string_view value);
 
 /// Returns a field or sub-message as text, or the whole message if the path is empty. Unset fields are
-/// printed with their defaults. set_field accepts the text of a field, and load_text_file that of a message.
-/// Throws ConfigError if the path is unknown. If `start`, the configuration with which the side started, is
-/// given, comments state which values clients may set.
+/// printed with their defaults. The text of a field can be passed to set_field, and that of a message can be
+/// read by load_text_file. Throws ConfigError if the path is unknown. If `start`, the configuration with
+/// which the side started, is given, comments state which values clients may set.
 std::string get_field(const google::protobuf::Message& message, std::string_view path,
                       const google::protobuf::Message* start = nullptr);
 
-/// Sets "path=value" for a laboratory run, like set_field. The prefix `master.` or `slave.` may be omitted if
-/// only one side (or the LabConfig itself) has the path. loop.rate_hz and accuracy must agree, so they are
-/// set on both sides. Throws ConfigError; for any other ambiguous path, the error names both alternatives.
+/// Applies a setting "path=value" to the configuration of a laboratory run, as set_field does for one side.
+/// The prefix `master.` or `slave.` may be omitted if only one side (or the LabConfig itself) has the path.
+/// loop.rate_hz and accuracy must agree, so they are set on both sides. Throws ConfigError; for any other
+/// ambiguous path, the error lists both alternatives.
 void set_lab_field(proto::LabConfig& config, std::string_view setting);
 
 /// Returns the full paths of the fields that set_lab_field sets for `path`, on one or both sides. Returns
 /// `path` itself if it is unknown.
 std::vector<std::string> lab_fields(const std::string& path);
 
-/// Compares the effective values of two messages of one type. Returns the paths of the fields that differ but
-/// may not change: AT_START fields and their content while the program runs, others while `engaged`.
+/// Returns the paths of the fields that differ between two messages of the same type although they may not be
+/// changed now: AT_START fields and everything inside them, and, while `engaged`, NOT_WHILE_ENGAGED fields.
+/// Unset fields have their default values.
 std::vector<std::string> refused_changes(const google::protobuf::Message& before,
                                          const google::protobuf::Message& after, bool engaged);
 
@@ -71,9 +72,9 @@ std::vector<std::string> refused_changes(const google::protobuf::Message& before
 std::filesystem::path find_deploy_folder();
 
 /// Reads the robot and scene files that a slave configuration names (in robots/ and scenes/) into its `robot`
-/// and `scene`. An inline robot that has joints replaces the file; the fields of one without joints override
-/// those of the file. An inline scene replaces the file (an empty scene is free space). Then sets the fields
-/// that `accuracy` controls and validates everything, including the number of joints (six). Throws
+/// and `scene`. An inline robot with joints replaces the file; an inline robot without joints only overrides
+/// the fields that it sets. An inline scene replaces the file (an empty scene is free space). Then sets the
+/// fields that `accuracy` controls and validates everything, including the number of joints (six). Throws
 /// ConfigError and then leaves `config` unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
@@ -82,7 +83,7 @@ void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& depl
 /// validates everything. Throws ConfigError and then leaves `config` unchanged.
 void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
 
-/// Loads deploy/links/NAME.txtpb. If the file does not set `name`, the profile is called NAME. Throws a
+/// Loads deploy/links/NAME.txtpb. The name of the profile is NAME unless the file sets `name`. Throws a
 /// ConfigError that lists the known names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 

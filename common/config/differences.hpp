@@ -1,6 +1,6 @@
 #pragma once
-// Finds the fields with different effective values in two messages of one type. An unset field has its
-// default value.
+// Finds the fields whose effective values differ between two messages of the same type. An unset field has
+// its default value.
 
 #include <google/protobuf/message.h>
 
@@ -12,7 +12,7 @@ namespace longreach {
 
 struct Difference {
   FieldPath path;  // a field that contains no messages, or a list that has a different length
-  /// Strictest option of the field and the messages that contain it.
+  /// The strictest `change` option of the field and of the messages that contain it.
   proto::Change change = proto::NOT_WHILE_ENGAGED;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
-// Finds the files that a configuration, a scene or a command line names. The same rule applies to all of
-// them. An absolute name is used unchanged. A relative name is searched for in the folder of the file that
-// contains the name and in its parent folder (for a command line: in the working folder), then in
-// LONGREACH_HOME, then in the installation.
+// Finds the files that are named in a configuration, in a scene or on a command line. An absolute name is
+// used unchanged. A relative name is searched for in the folder of the file that contains the name and in its
+// parent folder (for a command line: in the working folder), then in LONGREACH_HOME, then in the
+// installation.
 
 #include <filesystem>
 #include <string>
@@ -25,8 +25,8 @@ class FileSearch {
   /// Returns the path of the file `name`; an absolute name is returned unchanged. Throws a ConfigError that
   /// lists the searched folders and names `what`, the field or option.
   [[nodiscard]] std::filesystem::path find(std::string_view what, const std::string& name) const;
-  /// Finds a file given as a path that ends with .txtpb or as NAME, which stands for FOLDER/NAME.txtpb. For
-  /// example, `what` is "link profile" and `folder` is "links".
+  /// Finds a file that is given either as a path ending with .txtpb or as NAME, which stands for
+  /// FOLDER/NAME.txtpb. For a link profile, for example, `what` is "link profile" and `folder` is "links".
   [[nodiscard]] std::filesystem::path find_named(const std::string& what, const std::string& folder,
                                                  const std::string& name) const;
 
@@ -54,7 +54,7 @@ struct FileRead {
   std::filesystem::path path;
 };
 
-/// Same as the functions in config.hpp; in addition, the files that were read are appended to `read`.
+/// Same as the functions in config.hpp, but also append the files that were read to `read`.
 void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read);
 void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read);
 /// Loads a profile that a command line gives as a name or as a path relative to the working folder.

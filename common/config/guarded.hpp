@@ -1,8 +1,8 @@
 #pragma once
-// Checks whether the force guard can limit the force with the configured robot, sensor and loop rate. The
-// force of a first touch must stay below 1.35 times the guard, at 50 mm/s (or the speed limit of the tool, if
-// that is lower) on 5 N/mm (or the maximum stiffness that the guard assumes, if that is lower); see
-// slave/config/guard_config.hpp.
+// Checks whether the force guard can limit the force with the configured robot, sensor and loop rate. At the
+// first touch, the force must stay below 1.35 times the guard's limit. The check assumes a speed of 50 mm/s
+// (or the speed limit of the tool, if lower) and a stiffness of 5 N/mm (or the maximum stiffness that the
+// guard assumes, if lower); see slave/config/guard_config.hpp.
 
 #include <string>
 
@@ -14,8 +14,8 @@ namespace longreach {
 /// the reason, as the continuation of a sentence that starts with command.force_guard_n.
 std::string unguarded(const proto::SlaveConfig& config);
 
-/// Returns the touch threshold that the checks of the guards assume, N: the configured one, or the upper
-/// bound of one that is derived from the sensor noise.
+/// Returns the touch threshold that these checks assume, N: the configured threshold, or, if it is derived
+/// from the sensor noise, its upper bound.
 double guarded_touch_n(const proto::Sensing& sensing);
 /// Returns a description of this threshold, with its value.
 std::string touch_text(const proto::Sensing& sensing);

@@ -18,8 +18,8 @@ std::optional<std::string> nearest_name(std::string_view word, const Names& name
 /// Returns "; did you mean "NAME"?" or an empty string.
 std::string did_you_mean(std::string_view word, const Names& names);
 
-/// Returns the alternatives, as "; did you mean "NAME"? It has: a, b" or "; it has: a, b". `lead` is the
-/// introduction (here "it has"), in lower case.
+/// Returns the end of an error message: did_you_mean(), then `lead` (in lower case, e.g. "it has") and the
+/// list of names.
 std::string instead_of(std::string_view word, const Names& names, const std::string& lead);
 
 /// Returns the names as "a, b, c", or "none" if there are none.

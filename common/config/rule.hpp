@@ -29,7 +29,8 @@ struct Named {
   double value;
 };
 
-// Returns none if `low` < `high`; otherwise a violation at the field that the message sets.
+// Returns none if `low` < `high`; otherwise a violation at `high` if only that field is set, or else at
+// `low`.
 inline Finding in_order(const Message& message, const Named& low, const Named& high) {
   if (low.value < high.value) return std::nullopt;
   const auto* high_field = message.GetDescriptor()->FindFieldByName(high.name);

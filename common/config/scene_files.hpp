@@ -1,7 +1,7 @@
 #pragma once
-// Reads the MJCF file of a scene with bodies, and its meshes, into the configuration, so that they are part
-// of the identity of a run. A mesh must be a closed surface: each edge belongs to two triangles, once in each
-// direction.
+// Reads the MJCF file of a scene with bodies, and its meshes, into the configuration, so that the hash of the
+// configuration covers them. A mesh must be a closed surface: each edge belongs to two triangles, once in
+// each direction.
 
 #include <filesystem>
 #include <functional>

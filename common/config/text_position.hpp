@@ -1,5 +1,5 @@
 #pragma once
-// Lines and columns of a text file, counted from 0 like in protobuf's tokenizer: each byte is a column, and a
+// Lines and columns of a text file, counted from 0 as in protobuf's tokenizer: each byte is a column, and a
 // tab advances to the next multiple of 8.
 
 #include <cstddef>

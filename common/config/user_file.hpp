@@ -1,7 +1,7 @@
 #pragma once
 // Reads files that a user names: configuration, robots, scenes, MJCF, meshes, devices. Only regular files of
-// limited size are read, because a FIFO would block until a process writes to it, and a device has no end.
-// The check is done on the open descriptor.
+// limited size are read, because reading a FIFO could block forever, and a device may have no end. The type
+// is checked after opening, so the file cannot be exchanged in between.
 
 #include <cstddef>
 #include <filesystem>

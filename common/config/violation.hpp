@@ -1,6 +1,6 @@
 #pragma once
-// Finds errors in a message and their positions. The two checks do not access files: the caller adds the line
-// of a text file, or the path of the field in a setting.
+// Finds errors in a message and the fields that contain them. The functions do not access files: the caller
+// adds the line of a text file, or the path of the field in a setting.
 
 #include <google/protobuf/message.h>
 
@@ -21,8 +21,8 @@ struct Violation {
 std::optional<Violation> find_violation(const google::protobuf::Message& message);
 
 /// Finds the first fields that are valid individually but inconsistent with each other: order of limits,
-/// references by name, directions of zero length. Unset fields count with their defaults. Missing parts, such
-/// as the joints of a robot, are not checked.
+/// references by name, directions of zero length. Unset fields are checked with their default values. Missing
+/// parts, such as the joints of a robot, are not checked.
 std::optional<Violation> find_inconsistency(const google::protobuf::Message& message);
 
 /// Applies the two checks above, in this order.

@@ -1,14 +1,13 @@
 #pragma once
-// Parameters that both programs share. proto/config.proto defines the meaning, unit and range of each field
-// under the same name.
+// Parameters that both programs share. Each field is documented under the same name in proto/config.proto.
 
 #include <cstdint>
 #include <string>
 
 namespace longreach {
 
-/// Trade-off between speed and accuracy. It sets other fields when a configuration is read
-/// (common/config/accuracy.cpp).
+/// Trade-off between speed and accuracy. When a configuration is read, it determines the values of other
+/// fields (common/config/accuracy.cpp).
 enum class Accuracy : std::uint8_t { kFast, kBalanced, kExact };
 
 struct LoopConfig {

@@ -1,6 +1,6 @@
 #pragma once
 // Seeded random streams, the only source of randomness in the system. A stream is identified by its seed and
-// the path of child names, so adding a consumer never changes the numbers that another one draws. The
+// the path of child names, so adding a consumer never changes the numbers that other consumers draw. The
 // generator is xoshiro256++ (Blackman, Vigna 2019), seeded by SplitMix64. Normal deviates use Marsaglia's
 // polar method, implemented here because std::normal_distribution differs between standard libraries.
 

@@ -2,9 +2,9 @@
 // Running least squares of a straight line, y = intercept + slope x, in one pass and without storing the
 // samples:
 //   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
-// The centred moments are updated as in Welford (1962), so that a large mean costs no precision. Samples that
-// are not finite are skipped and counted. There is no forgetting, weighting or outlier rejection. Samples may
-// come in groups that share the slope but not the intercept (analysis of covariance).
+// The centred moments are updated as in Welford (1962), so that a large mean does not reduce the precision.
+// Samples that are not finite are skipped and counted. There is no forgetting, weighting or outlier
+// rejection. Samples may come in groups that share the slope but not the intercept (analysis of covariance).
 
 #include <cmath>
 #include <cstdint>
@@ -44,8 +44,8 @@ class LineFit {
   [[nodiscard]] double mean_x() const { return mean_x_; }
   [[nodiscard]] double mean_y() const { return mean_y_; }
 
-  /// Returns whether the samples determine a line. They do not if there are fewer than two, if all have the
-  /// same x, or if a sum overflows; slope, intercept and slope_sd are then zero.
+  /// Returns whether the samples determine a line. If there are fewer than two samples, if all have the same
+  /// x, or if a sum overflows, the result is false, and slope, intercept and slope_sd are zero.
   [[nodiscard]] bool valid() const {
     return count_ >= 2 && sxx_ > 0.0 && std::isfinite(sxx_) && std::isfinite(sxy_ / sxx_);
   }

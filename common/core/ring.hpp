@@ -27,7 +27,7 @@ class Ring {
 
   /// Appends an element; drops the oldest one when full.
   void push(const T& value) { extend() = value; }
-  /// Appends an element for the caller to fill in. Until then it has the content of an older element.
+  /// Appends an element for the caller to fill in. It initially has the content of an older element.
   T& extend() {
     if (full()) pop();
     if (size_ == round_) widen();
@@ -50,7 +50,7 @@ class Ring {
  private:
   static constexpr std::size_t kFirstRound = 64;
 
-  /// Wraps an index below twice round_. A division here would dominate the run time.
+  /// Wraps an index that is less than twice round_. A division here would dominate the run time.
   [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i < round_ ? i : i - round_; }
   void widen() {
     const auto begin = slots_.begin();

@@ -1,7 +1,7 @@
 #pragma once
-// Instants and durations in 64-bit nanoseconds, which suffice for 292 years. Each side has one monotonic
-// clock. Instants of the two sides have different types, so that they cannot be compared by accident. This
-// header does not read a clock: the program or the laboratory supplies the time.
+// Instants and durations in 64-bit nanoseconds, which cover 292 years. Each side has one monotonic clock.
+// Instants of the two sides have different types, so that they cannot be compared by accident. This header
+// does not read a clock: the program or the laboratory supplies the time.
 
 #include <chrono>
 #include <cmath>

@@ -6,8 +6,8 @@
 //   K     = BLAKE2b-256(random characters, key "longreach pairing token")
 //   tag   = HMAC-SHA-512-256(K; label | 0 | text)
 //
-// A tag does not reveal the token, which would take 2^99 guesses to find. common/site/pairing limits the
-// lifetime of a token and the number of attempts.
+// A tag does not reveal the token; finding it would take 2^99 guesses on average. common/site/pairing limits
+// the lifetime of a token and the number of attempts.
 
 #include <array>
 #include <cstdint>

@@ -38,7 +38,7 @@ struct Session {
 /// Returns whether this processor has the instructions for AES-256-GCM in libsodium.
 bool has_aes256gcm();
 
-/// Overwrites the text; call it for each copy of a secret after use.
+/// Overwrites the text; call this for each copy of a secret after use.
 void wipe(std::string& text);
 
 /// Generates a session with a non-zero number and an unpredictable secret.

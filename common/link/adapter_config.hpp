@@ -1,6 +1,6 @@
 #pragma once
-// Parameters of the adapter of a real device or robot. proto/config.proto defines the meaning, unit and range
-// of each field under the same name.
+// Parameters of the adapter of a real device or robot. Each field is documented under the same name in
+// proto/config.proto.
 
 #include <string>
 

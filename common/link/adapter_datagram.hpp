@@ -1,14 +1,15 @@
 #pragma once
-// The adapter protocol, version 1. Through it your program gives longreach access to a haptic device or a
+// The adapter protocol, version 1. With it, your program gives longreach access to a haptic device or a
 // robot. Copy this file; it needs only C++14 and its standard library. deploy/adapters contains an example of
 // each kind with the command that compiles it, and `longreach adapter check` tests your adapter.
 //
-// Adapter and longreach run on the same machine and exchange datagrams over a Unix socket (SOCK_SEQPACKET).
-// Your adapter listens at a path that only its user may access (mode 0600). longreach connects to unix:/PATH,
-// as that user or as root. Each end requests the user of the other end from the system (SO_PEERCRED) and
-// closes the socket if it is a different user. longreach sends one datagram in every tick of its loop (1000
-// per second by default, loop.rate_hz). Your adapter sends 500 to 4000 datagrams per second, by its own clock
-// or in response. It serves one program at a time; after a disconnect it accepts the next one that connects.
+// The adapter and longreach run on the same machine and exchange datagrams over a Unix socket
+// (SOCK_SEQPACKET). Your adapter listens at a path that only its user may access (mode 0600). longreach
+// connects to unix:/PATH, as that user or as root. Each end checks the user ID of the other end (SO_PEERCRED)
+// and closes the socket if that user is not allowed. longreach sends one datagram in every tick of its loop
+// (1000 per second by default, loop.rate_hz). Your adapter sends 500 to 4000 datagrams per second, timed by
+// its own clock or in response to the received datagrams. It serves one program at a time; after a disconnect
+// it accepts the next one that connects.
 //
 //   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
 //   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
@@ -83,7 +84,7 @@ struct HandleDatagram {
 struct WrenchDatagram {
   static constexpr std::uint8_t kKind = kWrench;
   enum Flag : std::uint32_t {
-    kLive = 1  // the wrench is to be rendered; without this flag, render no wrench
+    kLive = 1  // render the wrench; without this flag, render no wrench
   };
   Header header{};
   std::uint32_t flags = 0;
@@ -99,9 +100,9 @@ struct SetpointDatagram {
   static constexpr std::uint8_t kKind = kSetpoint;
   enum Flag : std::uint32_t {
     kMove = 1,  // engaged: the joints follow joint_rad; without this flag they brake and stay at rest
-    kGrip = 2,  // the gripper is to be closed
-    // The gripper state was requested; without this flag, for example after a restart of the slave, the
-    // gripper keeps its state.
+    kGrip = 2,  // close the gripper
+    // The operator requested a gripper state; without this flag, for example after a restart of the slave,
+    // the gripper keeps its state.
     kGripAsked = 4
   };
   Header header{};
@@ -124,8 +125,9 @@ struct RobotDatagram {
   double joint_rad[kJoints] = {};  // measured positions; m for a prismatic joint
   /// Measured speeds; m/s for a prismatic joint.
   double joint_rad_per_s[kJoints] = {};
-  double force_n[3] = {};    // by the environment on the tool, along the axes of E; 0 without a sensor
-  double moment_nm[3] = {};  // the same for the moment, about the origin of E
+  double force_n[3] = {};    // force of the environment on the tool, along the axes of E; 0 without a sensor
+  /// Moment of the environment on the tool, about the origin of E; 0 without a sensor.
+  double moment_nm[3] = {};
 };
 
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
@@ -183,7 +185,7 @@ class Exchange {
   }
 
   template <class Datagram>
-  /// Fills the header of a datagram that is sent next.
+  /// Fills in the header of the next datagram to be sent.
   void stamp(Datagram& out) {
     out.header = {};
     out.header.kind = Datagram::kKind;
@@ -193,7 +195,7 @@ class Exchange {
     out.header.echo = newest_;
   }
 
-  /// Returns whether no valid datagram has arrived within the watchdog time, or none ever.
+  /// Returns true if no valid datagram has arrived within the watchdog time, or none at all.
   bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
   std::uint64_t sessions() const { return sessions_; }  // number of sessions of the other end so far
 

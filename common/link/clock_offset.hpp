@@ -1,8 +1,8 @@
 #pragma once
 // The only relation between the two clocks: maps an instant of the peer to the earliest possible arrival on
 // this side's clock. The offset is the minimum of (received - sent) over a window, and includes the shortest
-// one-way delay. It follows drift of up to 500 ppm because old minima expire (two half-windows). Nothing that
-// stops or starts motion uses it.
+// one-way delay. Old minima expire (two half-windows), so the offset follows a drift of up to 500 ppm. It is
+// not used by any code that starts or stops motion.
 
 #include <optional>
 

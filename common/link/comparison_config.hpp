@@ -1,11 +1,11 @@
 #pragma once
-// Parameters of the textbook laws with which the laboratory compares the rendering. Both sides use the same
-// values.
+// Parameters of the textbook control laws with which the laboratory compares the rendering. Both sides use
+// the same values.
 
 namespace longreach {
 
 struct ComparisonConfig {
-  double handle_mass_kg = 0.2;           // m; bounds the injected damping to 2 m/T
+  double handle_mass_kg = 0.2;           // m in the limit 2 m/T of the injected damping
   double wave_n_s_per_m = 10.0;          // WAVE: characteristic impedance b
   double coupling_n_per_m = 100.0;       // POSITION_POSITION: Kc
   double coupling_n_s_per_m = 10.0;      // POSITION_POSITION: B

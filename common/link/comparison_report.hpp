@@ -1,6 +1,6 @@
 #pragma once
-// Data that the textbook laws of bilateral teleoperation exchange in every tick. They exist only in the
-// laboratory, for comparison; the rendering of this system uses only StiffnessReports.
+// Data that the textbook control laws of bilateral teleoperation exchange in every tick. These laws exist
+// only in the laboratory, for comparison; the rendering of this system uses only StiffnessReports.
 
 #include "common/spatial/spatial.hpp"
 

@@ -2,16 +2,16 @@
 // Measures the link as seen from one side: round-trip time, variation of the one-way delay, packet loss,
 // reordering and age of the data. The round-trip time of a sample is now - echo.sent - echo.held, all on the
 // clock of this side except the duration `held`. The one-way variation is relative to the running minimum of
-// (received - sent), so that the unknown clock offset cancels. The windows are short (2 s), so that a change
-// of the link shows quickly. Pure: the caller supplies the time.
+// (received - sent), so that the unknown clock offset cancels. The windows are short (2 s), so that changes
+// of the link become visible quickly. Pure: the caller supplies the time.
 //
 // Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, derived from the gaps
-// in the sequence numbers of each type. A datagram that was overtaken is not lost. If datagrams overtake each
-// other, the window therefore ends earlier, by the observed lateness of the overtaken datagrams (up to 1 s).
-// Datagrams sent before the first one received in a session are not counted.
+// in the sequence numbers of each type. A datagram that was overtaken does not count as lost. Therefore, if
+// datagrams overtake each other, the window ends earlier, by the observed lateness of the overtaken datagrams
+// (up to 1 s). Datagrams sent before the first one received in a session are not counted.
 //
-// A datagram that the peer sent more than 0.5 s before another one that has already arrived counts in all
-// statistics except the time of the last datagram, because it does not show that the peer is alive.
+// A datagram that was sent more than 0.5 s earlier than one that has already arrived does not show that the
+// peer is alive. It therefore counts in all statistics except the time of the last datagram.
 
 #include <algorithm>
 #include <array>

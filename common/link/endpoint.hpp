@@ -1,10 +1,10 @@
 #pragma once
 // One end of the link without the encoding of datagrams: numbers sent datagrams, checks received ones
-// (session, replay), and keeps the echo and the delay monitor. Pure: the caller supplies the time.
+// (session, replay), and maintains the echo and the delay monitor. Pure: the caller supplies the time.
 //
 // Both ends use one session at a time, which the caller sets; without a session nothing is sent or accepted.
 // A received datagram passes three steps: `judge` checks the header and changes nothing; after
-// authentication, `mark` uses up its sequence number; after decoding, `learn` records its timing.
+// authentication, `mark` marks its sequence number as used; after decoding, `learn` records its timing.
 
 #include <array>
 #include <optional>
@@ -24,22 +24,23 @@ constexpr std::optional<Time> echo_sent(Time now, const Stamp& stamp) {
 
 class Endpoint {
  public:
-  /// Starts a session; `session` is not 0. All data of the previous session is discarded.
+  /// Starts a session; `session` must not be 0. All data of the previous session is discarded.
   void follow(std::uint64_t session);
   /// Ends the session. Nothing is accepted or numbered until the next session.
   void leave();
 
   /// Returns why a datagram with this header is rejected, or none if it is acceptable.
   [[nodiscard]] std::optional<Rejection> judge(const Header& header) const;
-  /// Uses up the sequence number of a checked, authentic header. Returns whether no newer datagram of this
-  /// type has arrived.
+  /// Marks the sequence number of a checked, authentic header as used. Returns whether no newer datagram of
+  /// this type has arrived.
   bool mark(const Header& header);
-  /// Records a marked datagram. Returns its round-trip time, which is below zero if unknown.
+  /// Records the timing of a marked datagram. Returns its round-trip time, or a negative value if it is
+  /// unknown.
   Duration learn(Time now, const Header& header, const Stamp& stamp, std::size_t bytes);
 
   /// Returns the header of the next datagram. Returns none if there is no session, if this number or a
-  /// greater one of the same type was already sent in this session, or if the numbers are exhausted. No
-  /// number is therefore sent twice.
+  /// greater one of the same type was already sent in this session, or if the numbers are exhausted.
+  /// Therefore no number is sent twice.
   std::optional<Header> number(DatagramType type, std::uint64_t sequence);
   /// Returns the stamp of a datagram that is sent at `now`.
   [[nodiscard]] Stamp stamp_for(Time now) const;

@@ -36,7 +36,7 @@ struct Stamp {
   std::optional<Echo> echo{};  // none: the sender has not received a datagram yet
 };
 
-constexpr Duration kNoRtt{-1};  // unknown round-trip time, like any value below zero
+constexpr Duration kNoRtt{-1};  // an unknown round-trip time; so is any other negative value
 
 /// A message with the metadata of its transmission.
 template <class Message>

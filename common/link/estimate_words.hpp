@@ -9,11 +9,12 @@
 
 namespace longreach {
 
-/// Returns for example "1.02e+03 N/m within 0.5 %" (one standard deviation). `unit` is the unit of the
-/// stiffness. Empty without an estimate.
+/// Returns, for example, "1.02e+03 N/m within 0.5 %" (one standard deviation), or an empty string if there is
+/// no estimate. `unit` is the unit of the stiffness.
 std::string stiffness_in_words(const ContactEstimate& estimate, std::string_view unit);
 
-/// Returns for example "n 1.5 within 0.02, lambda not identifiable apart from k". Empty without an estimate.
+/// Returns, for example, "n 1.5 within 0.02, lambda not identifiable apart from k", or an empty string if
+/// there is no estimate.
 std::string law_in_words(const ContactEstimate& estimate);
 
 /// Returns the state of the gripper: open, closed, or holding a load, with its mass in kg if that is known.

@@ -1,8 +1,8 @@
 #pragma once
-// The causes for which a side stops following or refuses to engage. One table serves both sides and all code
-// that displays, logs, records or evaluates a cause. The enumerators have the same numbers on the wire and in
-// recordings (proto/recording.proto, Cause). The name of a cause in status and log consists of a few
-// lower-case words.
+// The causes for which a side stops following goals or refuses to engage. One table serves both sides and all
+// code that displays, logs, records or evaluates a cause. The enumerators have the same numbers on the wire
+// and in recordings (proto/recording.proto, Cause). In the status and the log, the name of a cause consists
+// of a few lower-case words.
 
 #include <cstdint>
 #include <string>
@@ -37,7 +37,7 @@ enum class HoldCause : std::uint8_t {
   kJointOutside,
   kJointTooFast,
   kJointLimit,   // a joint is too far beyond its limit to engage
-  kRobotMoves,   // the robot is not at rest, so that it cannot engage
+  kRobotMoves,   // the robot is not at rest and therefore cannot engage
   kToolOutside,  // the tool is outside command.workspace_m
   kSensorZeroing,
   /// A surface is approaching: the force responds to the retreat but keeps growing, and the retreat distance
@@ -53,7 +53,7 @@ enum class HoldAttribution : std::uint8_t { kSystem, kMachine, kOperator, kOutag
 
 struct CauseText {
   std::string_view name;
-  std::string_view sentence;  // no joint or values; no trailing full stop
+  std::string_view sentence;  // contains neither joint nor values; without a full stop
   std::string_view remedy;    // suggested action
   HoldAttribution attribution = HoldAttribution::kSystem;
 };
@@ -81,7 +81,7 @@ constexpr bool operator==(const Reason& a, HoldCause b) { return a.cause == b; }
 constexpr bool operator==(const Reason& a, const Reason& b) {
   return a.cause == b.cause && a.joint == b.joint;
 }
-/// Returns for example "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094".
+/// Returns, for example, "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094".
 std::string sentence(const Reason& reason);
 /// Returns the same sentence followed by the remedy.
 std::string with_remedy(const Reason& reason);

@@ -1,10 +1,10 @@
 #pragma once
-// Simulates the network as a seeded, pure queue: datagrams are pushed with the present time, and popped when
-// they are due unless they were dropped. The effects act on a datagram in this order: blackout, loss
+// Simulates the network as a seeded, pure queue: datagrams are pushed with the present time and, unless they
+// were dropped, popped when they are due. The effects act on a datagram in this order: blackout, loss
 // (independent or Gilbert-Elliott bursts), corruption (one bit flipped), duplication, rate limit (a queue
 // that drops when full), delay with steps, drift and normally distributed jitter (never below zero),
-// reordering (a selected datagram passes its predecessors). The same class serves the laboratory and, on the
-// receiving side, the real UDP channel of both programs.
+// reordering (a selected datagram passes its predecessors). The laboratory uses this class for its simulated
+// link, and both programs use it for the datagrams that they receive.
 //
 // Jitter is drawn independently for each datagram and therefore changes the order, as in tc netem. Datagrams
 // with equal due times keep the order of arrival. Each effect has its own random stream, so that enabling one
@@ -67,7 +67,8 @@ class Impairment {
   [[nodiscard]] bool clear() const { return clear_ && heap_.empty(); }
   void pass() { ++counts_.in, ++counts_.out; }
 
-  /// Returns the next due datagram, valid until the next call, or none. Call it until it returns none.
+  /// Returns the next due datagram, valid until the next call, or none. Call this repeatedly until it returns
+  /// none.
   std::optional<std::span<const std::byte>> pop(Time now);
   /// Returns the origin of the datagram that pop() returned last.
   [[nodiscard]] const Origin& origin() const { return origin_; }

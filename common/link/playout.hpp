@@ -67,7 +67,7 @@ class Playout {
   };
   struct Lateness {
     Time received{};
-    std::int64_t transit_ns = 0;  // received - sent, the difference of two clocks
+    std::int64_t transit_ns = 0;  // received - sent, which are read from different clocks
     std::int64_t late_ns = 0;     // lateness relative to the earliest arrival known at that time
   };
 
@@ -85,7 +85,7 @@ class Playout {
   Ring<Entry> entries_;      // in ascending order of sequence
   Ring<Lateness> lateness_;  // samples of the last 5 s
   std::vector<std::int64_t> scratch_;
-  Duration lag_{0};       // now - lag_ is the send time of the goal played now: offset + playout delay
+  Duration lag_{0};       // offset + playout delay; now - lag_ is the send time of the goal played now
   Duration quantile_{0};  // last computed adaptive delay
   std::optional<Time> quantile_at_{};  // time of that computation
   std::optional<Time> stepped_at_{};   // time of the last play()

@@ -19,8 +19,8 @@ enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, k
 /// that no stiffness is identifiable.
 inline constexpr double kStiffnessMaxNPerM = 1e12;
 
-/// A surface that the tool presses on or has pressed on, described by the tangent to its force law at the
-/// working depth. Lengths are in m and forces in N, or rad and N m.
+/// A surface that the tool is pressing on or has pressed on before, described by the tangent to its force law
+/// at the working depth. Units are m and N in translation, rad and N m in rotation.
 struct ReportedSurface {
   Vector3 normal = Vector3::Zero();  // unit vector, W: direction in which the surface pushes the tool
   double stiffness = 0.0;            // slope of the tangent, N/m or N m/rad; 0: not identified yet

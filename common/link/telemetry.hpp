@@ -21,7 +21,8 @@ struct Clamps {
   bool force_guard = false;
   bool singularity = false;
   bool unreachable = false;
-  /// Acceleration limit of tool or joints. For statistics only: every change of motion reaches it.
+  /// Acceleration limit of tool or joints. For statistics only, because every change of motion reaches this
+  /// limit.
   bool acceleration = false;
   bool moment_guard = false;
 };

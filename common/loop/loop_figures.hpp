@@ -27,7 +27,7 @@ struct LoopFigures {
   /// Returns the number of ticks per octave of lateness: up to 1, 2, 4, ... us. The last octave is unbounded.
   [[nodiscard]] std::array<std::uint64_t, (kBuckets + 3) / 4 + 1> lateness_octaves() const;
   /// Returns the upper edge of the bucket that contains the quantile (0 to 1), s, but at most the maximum
-  /// lateness. It is 0 before the first tick.
+  /// lateness. Returns 0 before the first tick.
   [[nodiscard]] double lateness_quantile_s(double quantile) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Absolute deadlines for periodic updates, so that the period does not drift. Deadlines that a slow reader
+// Absolute deadlines for periodic updates, so that the period does not drift. Deadlines that a slow caller
 // has missed are skipped.
 
 #include <chrono>

@@ -14,8 +14,8 @@ namespace longreach {
 /// Sleeps until `deadline` on the side's clock.
 void sleep_until(Time deadline);
 
-/// Requests real-time priority and locked memory for the calling thread. For each request that the system
-/// refused, the result contains one sentence with a remedy.
+/// Requests real-time priority and locked memory for the calling thread. Returns one sentence with a remedy
+/// for each request that the system refused.
 std::vector<std::string> ask_for_real_time(const LoopConfig& config);
 
 /// Time source of a loop. Tests pass a different one.

@@ -1,6 +1,6 @@
 #pragma once
-// Passes a stop from any thread to the loop on a path of its own: a flag that the next tick reads,
-// independent of the mailbox and of any lock. The loop side needs two atomic operations.
+// Passes a stop request from any thread to the loop, independently of the mailbox and of any lock: the next
+// tick reads a flag. The loop side needs two atomic operations.
 
 #include <atomic>
 #include <chrono>

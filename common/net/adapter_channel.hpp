@@ -17,10 +17,10 @@ std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config);
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device);
 
 /// Shortens silence_s by one tick of a loop at `rate_hz`, so that a timeout is reported by the last tick
-/// within silence_s instead of the first tick after it.
+/// before silence_s has passed instead of the first tick after it.
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz);
 
-/// Describes the problem of an adapter and how to solve it; empty if there is no problem. `device` is "haptic
+/// Describes what is wrong with an adapter and how to fix it; empty if nothing is wrong. `device` is "haptic
 /// device" or "robot".
 struct AdapterFigures;
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,

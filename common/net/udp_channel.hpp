@@ -4,7 +4,7 @@
 //
 // The master has a fixed peer: it sends to this address, and drops and counts datagrams from other addresses.
 // The slave has no fixed peer: it receives from any address and sends to the origin of the newest authentic
-// datagram (`answer_to`). It sends nothing before the first one.
+// datagram (`answer_to`). Before the first authentic datagram, it sends nothing.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>

@@ -16,10 +16,11 @@ namespace longreach {
 /// Returns the path in an adapter address. Does not connect yet. Throws AddressError for an invalid address.
 std::string unix_path(const std::string& address);
 
-/// Connects to the program that listens at `path`. Returns -1 and sets errno if there is none. Never blocks.
+/// Connects to the program that listens at `path`. Returns the socket, or -1 (with errno set) if there is no
+/// such program. Never blocks.
 int connect_unix(const std::string& path);
-/// The same, but the other end sees a connection by `user`. The permissions of the path are ignored. Requires
-/// root.
+/// Same as connect_unix, but the connection appears to come from `user`. The permissions of the path are
+/// ignored. Requires root.
 int connect_unix_as(uid_t user, const std::string& path);
 /// Returns why there is no socket at `path`, e.g. "there is no such file" or "it is a folder, not a socket";
 /// empty if there is one.
@@ -44,7 +45,7 @@ class UnixChannel : public Channel {
   void send(std::span<const std::byte> datagram) override;
 
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
-  /// User of the listening program, if the last attempt to connect was refused because it is another user.
+  /// User of the listening program, if the last connection was refused because that user is not allowed.
   [[nodiscard]] std::optional<uid_t> unknown_peer() const { return unknown_peer_; }
 
  private:

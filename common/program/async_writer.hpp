@@ -1,6 +1,6 @@
 #pragma once
 // Writes text to a terminal, pipe or file, even if its reader stalls: a separate thread writes, so the caller
-// never waits. At most `bytes_max` bytes are queued. If there is no space, the oldest texts are dropped and
+// never waits. At most `bytes_max` bytes are queued. If the queue is full, the oldest texts are dropped and
 // counted; the newest text is always kept. A text is written completely or not at all.
 
 #include <chrono>
@@ -42,7 +42,8 @@ class AsyncWriter {
   std::thread thread_;
 };
 
-/// Writes text synchronously. Returns false if it is not completely written within AsyncWriter::kFarewell.
+/// Writes text synchronously. Returns false if it could not be written completely within
+/// AsyncWriter::kFarewell.
 bool put(int fd, std::string_view text);
 
 /// After this call, output of CHECK and of the runtime library to `stderr` blocks for at most 0.2 s, so that

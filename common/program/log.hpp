@@ -18,7 +18,7 @@ void set_up_log(const std::string& side, const std::string& file);
 /// another way.
 void hush_log();
 
-/// Waits for a short time until the log is written. Call it at the end of the program.
+/// Waits briefly for the log to be written. Call this at the end of the program.
 void close_log();
 
 /// Returns the number of lines that were dropped or could not be written since the program started.

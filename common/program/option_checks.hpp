@@ -46,8 +46,8 @@ inline CLI::Validator address_by_its_form() {
           ""};
 }
 
-/// Rejects empty option values, because a script with an unset variable does not mean the default. Positional
-/// arguments may be empty. Call it after all options are defined.
+/// Rejects empty option values: a script whose variable is unset should fail instead of silently using the
+/// default. Positional arguments may be empty. Call this after all options are defined.
 inline void refuse_empty_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options(
            [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_items_expected_max() > 0; }))

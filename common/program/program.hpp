@@ -88,8 +88,8 @@ inline std::filesystem::path site_of(const ProgramOptions& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Returns the credentials of `role`, and disables core dumps unless the options permit them. Call it before
-/// the program has a secret. Throws SiteError.
+/// Returns the credentials of `role`, and disables core dumps unless the options permit them. Call this
+/// before the program has a secret. Throws SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();
   if (options.insecure) {
@@ -116,9 +116,9 @@ inline bool concerns_named_file(const std::string& setting) {
   return setting.starts_with("scene.") || setting.starts_with("robot.");
 }
 
-/// Applies the configuration file, then the profile, then the settings. Files that the settings name are read
-/// before the settings that override their content. Appends the files that were read to `read`. Throws
-/// ConfigError.
+/// Applies the configuration file, then the profile, then the settings. A file named by a setting is read
+/// before the settings that override its content are applied. Appends the files that were read to `read`.
+/// Throws ConfigError.
 template <class Message>
 Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
   Message message;
@@ -138,7 +138,7 @@ Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) 
     if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
   }
   if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
-    resolve_files(message, search, nullptr);  // again, because the settings may have changed the files
+    resolve_files(message, search, nullptr);  // again, because the settings may name other files
   validate(message);
   return message;
 }

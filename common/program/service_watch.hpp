@@ -23,7 +23,8 @@ class ServiceWatch {
   ServiceWatch(const ServiceWatch&) = delete;
   ServiceWatch& operator=(const ServiceWatch&) = delete;
 
-  /// Call it often, in a thread other than the loop. `ticks` is the number of ticks of the loop so far.
+  /// Call this frequently, in a thread other than the loop. `ticks` is the number of ticks of the loop so
+  /// far.
   void update(std::uint64_t ticks);
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 // Exports a recording as tables, with one CSV file per topic, one row per message and one column per number.
-// It uses the schemas in the recording, so recordings of every version can be exported. Numbers are printed
-// with all their digits.
+// It uses the schemas in the recording, so recordings of any version can be exported. Numbers are printed in
+// full precision.
 
 #include <cstdint>
 #include <filesystem>

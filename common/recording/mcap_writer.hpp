@@ -5,7 +5,7 @@
 //
 // Messages are collected in a chunk, which is written as a whole when it is large enough or when flush() is
 // called. A file that ends after a chunk lacks only the summary, which finish() writes. After a write error,
-// no call has an effect.
+// all further calls have no effect.
 //
 // Attachments, compression and other encodings are not supported.
 
@@ -27,7 +27,7 @@ class McapWriter {
   /// `file` must be empty and outlive the writer. `library` is the name of the writing program.
   McapWriter(RecordingFile& file, const std::string& library);
 
-  /// Call it before the first message, so that the metadata is in the file even if it is truncated.
+  /// Call this before the first message, so that even a truncated file contains the metadata.
   void add_metadata(const std::string& name, const TextMap& entries);
   std::uint16_t add_channel(const std::string& topic, const google::protobuf::Descriptor& type);
   void write(std::uint16_t channel, std::uint64_t log_time_ns, const google::protobuf::Message& message);
@@ -37,7 +37,7 @@ class McapWriter {
   /// Writes the current chunk, the summary and the footer.
   void finish();
 
-  /// Size CRC of the file so far, including the current chunk, but not the summary.
+  /// Size of the file so far, including the current chunk but not the summary.
   [[nodiscard]] std::uint64_t size() const { return file_.size() + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages() const { return messages_; }
 
@@ -78,7 +78,7 @@ class McapWriter {
   void add_summary(std::uint64_t start);
 
   RecordingFile& file_;
-  std::uint32_t data_crc_ = 0;  // of the file so far
+  std::uint32_t data_crc_ = 0;  // CRC of the file so far
   ByteBuffer out_;
   ByteBuffer chunk_;
   Span chunk_span_{}, span_{};

@@ -1,6 +1,6 @@
 #pragma once
 // While an instance exists, protobuf does not print to standard error, because the caller reports damaged
-// files itself. For programs that read files in one thread.
+// files itself. Use it only in programs that read files in a single thread.
 
 #include <google/protobuf/stubs/logging.h>
 

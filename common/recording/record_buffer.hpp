@@ -1,7 +1,7 @@
 #pragma once
 // Buffer between the threads of a side and the recorder. The loop adds records in its ticks; other threads
-// add configurations and events. The part for the loop is specific to each side (master_record_buffer,
-// slave_record_buffer). This class contains the common part, for the other threads.
+// add configurations and events. This class contains the part for the other threads, which both sides share;
+// master_record_buffer and slave_record_buffer add the part for the loop.
 
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace longreach {
 
-/// Periodic sample of the statistics of link and loop that the RPC status also contains.
+/// Periodic sample of the link and loop statistics that the RPC status also contains.
 struct LinkSample {
   Time now{};
   LinkFigures link{};
@@ -40,7 +40,7 @@ class RecordBuffer {
   void add_config(Time now, std::uint32_t number, std::string text);
   void add_event(Time now, std::string text);
 
-  /// Declares the topics. The recorder calls it once, before the first drain().
+  /// Declares the topics. Called once by the recorder, before the first drain().
   void declare(McapWriter& writer);
   /// Writes all collected records. Called by the recorder.
   void drain(McapWriter& writer);
@@ -86,7 +86,7 @@ class RecordBuffer {
   recording::Link link_;
 };
 
-/// Returns the text of a configuration for a recording: the fields that are set, with all digits.
+/// Returns the text of a configuration for a recording: the fields that are set, in full precision.
 std::string recorded_text(const google::protobuf::Message& config);
 
 /// Returns the current offset from the clock of the loop (CLOCK_BOOTTIME) to Unix time.

@@ -1,5 +1,5 @@
 #pragma once
-// Rates of the records that are not stored in every tick, and capacities of a record buffer.
+// Rates of the records that are not stored in every tick, and capacities of the record buffers.
 
 #include <algorithm>
 #include <cmath>

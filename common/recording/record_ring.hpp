@@ -17,7 +17,7 @@ class RecordRing {
  public:
   explicit RecordRing(std::size_t capacity) : slots_(capacity) { CHECK(capacity > 0); }
 
-  /// Writer: returns the number of free slots. At least this number stays free until the next publish().
+  /// Writer: returns the number of free slots. At least this number remains free until the next publish().
   [[nodiscard]] std::size_t room() const {
     return slots_.size() - static_cast<std::size_t>(written_.load(std::memory_order_relaxed) + pending_ -
                                                     read_.load(std::memory_order_acquire));

@@ -3,7 +3,8 @@
 // is exact: doubles keep all bits, and times are exact to the nanosecond. Reading throws RecordingError for
 // values that the struct cannot represent.
 //
-// Every new field of a recorded struct must be recorded; static assertions of the struct sizes enforce that.
+// Every field added to a recorded struct must be recorded, too; static assertions on the struct sizes are a
+// reminder.
 
 #include <string>
 #include <type_traits>
@@ -19,7 +20,7 @@
 
 namespace longreach {
 
-/// Reads an enumeration with the values zero to `last`.
+/// Reads an enumeration whose values range from zero to `last`.
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))

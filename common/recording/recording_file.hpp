@@ -13,8 +13,8 @@ namespace longreach {
 
 class RecordingFile {
  public:
-  /// Creates the file. Throws RecordingError, even if the file merely exists, so that no recording is
-  /// overwritten.
+  /// Creates the file. Creates the file. Throws RecordingError if that fails or the file already exists, so
+  /// that no recording is overwritten.
   explicit RecordingFile(const std::filesystem::path& path);
   ~RecordingFile();
   RecordingFile(const RecordingFile&) = delete;

@@ -16,8 +16,8 @@ std::filesystem::path default_recordings();
 void check_recording_name(const std::string& name);
 
 /// Returns FOLDER/NAME-SIDE.mcap, and creates the folder if it does not exist. Throws RecordingError if this
-/// fails or the name is invalid. A name has at most 100 letters, digits and characters . _ -, and does not
-/// start with a dot or a dash.
+/// fails or the name is invalid. A name has at most 100 characters (letters, digits, '.', '_' or '-') and
+/// does not start with a dot or a dash.
 std::filesystem::path recording_path(const std::filesystem::path& folder, const std::string& name,
                                      const std::string& side);
 

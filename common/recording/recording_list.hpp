@@ -13,8 +13,8 @@ struct ListedRecording {
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
   double seconds = 0.0;   // from the first message to the last
-  std::string began{};    // start time that the file states, e.g. 20261122T204500Z
-  std::string side{};     // side that the file states
+  std::string began{};    // start time according to the file, e.g. 20261122T204500Z
+  std::string side{};     // side according to the file
   bool whole = false;     // false if the file is truncated or still being written
   std::string trouble{};  // why the file cannot be read; empty if it can
 };
@@ -23,9 +23,9 @@ struct ListedRecording {
 /// RecordingError if it cannot be read.
 std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder);
 
-/// Finds recordings by name. `name` is the path of a file; otherwise NAME, NAME.mcap, or both
-/// NAME-master.mcap and NAME-slave.mcap are searched for in `folder`. Throws a RecordingError that lists the
-/// searched folders.
+/// Finds recordings by name. `name` is either the path of a file or the name of recordings in `folder`, where
+/// NAME, NAME.mcap, and then NAME-master.mcap and NAME-slave.mcap are tried. If nothing is found, throws a
+/// RecordingError that lists the searched folders.
 std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& folder,
                                                    const std::string& name);
 

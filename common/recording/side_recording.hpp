@@ -110,8 +110,8 @@ class SideRecording {
             {"began", recording_name_now()}};
   }
 
-  /// Replaces buffer and recorder. The previous recorder is ended outside of the lock, because this takes as
-  /// long as the disk needs.
+  /// Replaces buffer and recorder. The previous recorder is ended outside of the lock, because the disk may
+  /// be slow.
   void keep(std::unique_ptr<RecordType> record_buffer, std::unique_ptr<Recorder> recorder) {
     {
       const std::lock_guard lock(mutex_);

@@ -1,7 +1,7 @@
 #pragma once
 // Converts assignments by path into a complete, valid configuration, or returns why the change is refused.
-// The schema defines which fields may change at which time. Whether the robot is engaged is checked by the
-// loop, in the tick that applies the change.
+// The schema defines when each field may change. The loop checks whether the robot is engaged, in the tick
+// that applies the change.
 
 #include <chrono>
 #include <memory>
@@ -21,7 +21,7 @@ struct ConfigChange {
 };
 
 struct Configured {
-  /// configuration with which the side started; it bounds the limits
+  /// configuration with which the side started; an upper bound for the limits
   const google::protobuf::Message& start;
   const google::protobuf::Message& present;
 };
@@ -30,7 +30,8 @@ struct Configured {
 inline constexpr std::size_t kAssignmentsMax = 256;
 inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
 
-/// Plans the change without applying it: `after` is a copy of the current configuration with the assignments.
+/// Plans the change without applying it: `after` is a copy of the current configuration with the assignments
+/// made.
 std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const Assignments& assignments);
 
 enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master has control
@@ -43,7 +44,7 @@ inline std::optional<Refusal> ask(StopLevel& stops) {
 }
 
 /// Passes a command to the loop. Returns none if the loop carried it out. `not_while_engaged` is the member
-/// of the ConfigChange, which the refusal names.
+/// of the ConfigChange; a refusal names these fields.
 template <class Command>
 std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command command,
                             const std::string& not_while_engaged = {}) {

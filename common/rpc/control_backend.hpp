@@ -23,7 +23,7 @@ struct Refusal {
     kUnavailable
   };  // invalid value; impossible in this state or on this side; no response in time
   Kind kind = Kind::kInvalid;
-  std::string message;   // one sentence with field, reason and remedy
+  std::string message;   // one sentence that states the field, the reason and a remedy
   std::string holder{};  // address of the master that has control of the robot, if this is the reason
 };
 
@@ -36,7 +36,7 @@ class ControlBackend {
   virtual proto::Status status() = 0;
   /// Returns the effective configuration (MasterConfig or SlaveConfig).
   virtual std::shared_ptr<const google::protobuf::Message> config() = 0;
-  /// Returns the configuration with which the side started, which bounds its limits.
+  /// Returns the configuration with which the side started, whose limits are upper bounds.
   virtual std::shared_ptr<const google::protobuf::Message> start_config() = 0;
   virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
   virtual proto::Impairment link() = 0;

@@ -1,7 +1,7 @@
 #pragma once
 // Implements the calls of proto/control.proto independently of their transport. Validates each request,
 // merges it with the current state and passes it to the backend of the side. Changes are processed one at a
-// time, so that a change of the link is read, merged and written atomically; stop and status do not wait for
+// time, so that a link change is read, merged and written atomically; stop and status do not wait for
 // changes. A refused call changes nothing. Thread-safe.
 //
 // The backend handles field paths of the configuration, and RpcServer handles the rate of Watch.
@@ -17,8 +17,9 @@
 namespace longreach {
 
 /// Returns an impairment that continues `link` after `elapsed_s`: the drift so far is added to the delay, and
-/// the times of the delay step and the blackout are shifted or have passed. Changing another field therefore
-/// does not repeat a blackout. A periodic blackout that is in progress ends; the next one starts on time.
+/// the times of the delay step and the blackout are counted from now. A blackout that has passed is therefore
+/// not repeated when another field is changed. A periodic blackout that is in progress ends; the next one
+/// starts on time.
 proto::Impairment continued(proto::Impairment link, double elapsed_s);
 
 class ControlService {

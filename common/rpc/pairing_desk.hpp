@@ -1,7 +1,7 @@
 #pragma once
 // Implements longreach-slave --pair, which prints a token and waits for a host to join the site with it. This
-// is a separate process: it works whether or not the slave is running, and shares only the site folder with
-// it.
+// is a separate process, which shares only the site folder with the slave and works whether or not the slave
+// is running.
 
 #include <atomic>
 #include <filesystem>

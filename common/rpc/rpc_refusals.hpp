@@ -1,8 +1,8 @@
 #pragma once
 // Counts and logs refused RPC connections and calls. Failed handshakes (no TLS, or a certificate that is
-// missing, expired, forged or from another site) are found in gRPC's own log, which does not contain the
-// address of the peer. Calls are refused if the role of the caller does not permit them. At most one line per
-// second is logged; it contains the number of refusals since the previous line.
+// missing, expired, forged or from another site) are extracted from gRPC's own log, which does not contain
+// the address of the peer. Calls are refused if the role of the caller does not permit them. At most one line
+// per second is logged; it contains the number of refusals since the previous line.
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@
 namespace longreach {
 
 /// Replaces gRPC's log output, which would otherwise appear between the error messages: refused connections
-/// are counted, and all other lines are dropped. It affects the whole program, and every channel and server
-/// of longreach calls it.
+/// are counted, and all other lines are dropped. This affects the whole program; every longreach channel and
+/// server calls it.
 void take_rpc_log();
 
 /// Counts and logs a refusal. `who` is an address or "connection", followed by "role=... certificate=..." if

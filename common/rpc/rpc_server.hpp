@@ -4,8 +4,8 @@
 // open sessions. Without encryption, only the loopback interface is served. Connections pass through a
 // ConnectionLimiter. The server raises the descriptor limit of the program.
 //
-// A refusal by the backend is reported as INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE, with the
-// trailing metadata kRefusedBy, which distinguishes it from an unreachable side.
+// A refusal by the backend is reported as INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE. The trailing
+// metadata kRefusedBy distinguishes it from an unreachable side.
 
 #include <memory>
 #include <string>
@@ -33,8 +33,8 @@ inline constexpr double kWatchHzDefault = 4.0;
 class RpcServer {
  public:
   /// Starts the server. `listen` is address:port; port 0 stands for any free port, and an empty string for
-  /// the default address of the side. `side` is "master" or "slave". `more` contains services in addition to
-  /// Control. These and `backend` must outlive the server. Throws std::runtime_error with a one-sentence
+  /// the default address of the side. `side` is "master" or "slave". `more` lists further services besides
+  /// Control. They and `backend` must outlive the server. Throws std::runtime_error with a one-sentence
   /// message if the server cannot listen, or if it would serve other machines without encryption.
   RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
             const RpcSecurity& security = {}, const std::vector<grpc::Service*>& more = {});

@@ -1,9 +1,9 @@
 #pragma once
 // Keeps the master in a session with its slave. It requests a session at the start, and again if no datagram
-// of the slave arrived for some time, because the slave may have restarted. A session that the slave still
-// has is kept. After a failure it retries, first after 0.1 s and then at intervals of up to 2 s. If another
-// master has taken control of the robot, it retries until that master returns control. Runs in its own
-// thread, for which the loop never waits.
+// from the slave has arrived for some time, because the slave may have restarted. If the slave still has the
+// session, it is kept. After a failure it retries, first after 0.1 s and then at intervals of up to 2 s. If
+// another master has taken control of the robot, it retries until that master returns control. Runs in its
+// own thread, for which the loop never waits.
 
 #include <chrono>
 #include <condition_variable>
@@ -24,11 +24,11 @@ namespace longreach {
 
 class SessionClient {
  public:
-  /// State of the loop that determines whether a session is needed.
+  /// State of the loop, which determines whether a session is needed.
   struct Present {
     std::uint64_t session = 0;  // 0: no session
     double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite if none
-    std::string slave{};        // address to which datagrams are sent
+    std::string slave{};        // address to which the master sends datagrams
     double delay_s = 0.0;       // artificial round-trip delay of datagrams, which does not apply to RPC
   };
   using Presence = std::function<Present()>;
@@ -40,13 +40,13 @@ class SessionClient {
   /// called in the thread of this object.
   SessionClient(std::string address, const RpcSecurity& security, bool take, double send_hz,
                 Presence presence, Adopt adopt);
-  /// Cancels a call call in progress and returns control of the robot. Takes at most 2 s.
+  /// Cancels a call in progress and returns control of the robot. Takes at most 2 s.
   ~SessionClient();
   SessionClient(const SessionClient&) = delete;
   SessionClient& operator=(const SessionClient&) = delete;
 
-  /// Returns why there is no session or why none of its datagrams arrive: one sentence with the address of
-  /// the slave and a remedy. Empty if there is a session or the first response is pending.
+  /// Returns why there is no session or why no datagrams of the session arrive, in one sentence with the
+  /// address of the slave and a remedy. Empty if there is no problem or the first response is pending.
   [[nodiscard]] std::string trouble() const;
   /// Returns the address of the master that took control of the robot. Empty if this master has control or
   /// never had it.

@@ -1,6 +1,6 @@
 #pragma once
-// The configuration of a side for its RPC threads: the one with which the side started, and the current one,
-// which is replaced as a whole. Readers do not wait while a change is prepared.
+// The configurations of a side for its RPC threads: the initial one, and the current one, which is replaced
+// as a whole. Readers do not wait while a change is prepared.
 
 #include <memory>
 #include <mutex>

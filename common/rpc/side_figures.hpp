@@ -1,6 +1,6 @@
 #pragma once
-// Statistics that the loops of both sides publish in addition to their view: link, loop and dropped
-// datagrams. Contains only plain values.
+// Statistics of link, loop and dropped datagrams, which the loops of both sides publish in addition to their
+// views. Contains only plain values.
 
 #include "common/loop/loop_figures.hpp"
 #include "common/net/udp_channel.hpp"

@@ -18,21 +18,22 @@ namespace longreach {
 
 std::string_view to_string(SafetyState state);  // name as in proto/control: Idle, Observing, ...
 std::string_view to_string(HoldCause cause);    // name of the cause
-std::string because(const Reason& reason);  // because="..." for a log line; empty if no joint is the reason
+/// because="..." for a log line; empty if the reason is not a joint
+std::string because(const Reason& reason);
 
 void add_count(proto::Status& status, std::string_view name, std::uint64_t count);
-/// Adds rejected, and rejected_REASON for each reason.
+/// Adds the counters `rejected` and, for each reason, `rejected_REASON`.
 void add_counts(proto::Status& status, const RejectionCounts& counts);
 /// Adds ticks, missed_ticks, ticks_late_100ms, lateness_p99_us, lateness_max_us and busy_max_us.
 void add_counts(proto::Status& status, const LoopFigures& loop);
-/// Adds impaired_REASON for each effect of the artificial impairment.
+/// Adds a counter `impaired_REASON` for each effect of the artificial impairment.
 void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 /// Adds adapter_accepted, adapter_malformed, adapter_late, adapter_restarts and adapter_silent_after_us, if
 /// there is an adapter.
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Adds the names of the active limits.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
-/// Fills in the link and all counters of the side: those above except the adapter's, and accepted,
+/// Fills in the link statistics and all counters of the side except the adapter's: those above, and accepted,
 /// peer_restarts, strangers and unsent.
 void fill(proto::Status& status, const SideFigures& figures);
 proto::Figures to_message(const LinkFigures& figures);

@@ -1,10 +1,10 @@
 #pragma once
-// Detects an increase of the delay of a link. It compares the median round-trip time of the last half second
-// with its minimum since the engagement; the minimum itself may rise by at most 1 ms per second. This reveals
-// an attacker who delays authentic datagrams in either direction, in a step or a ramp. Medians are used so
-// that a single datagram, a late tick or a stalled side does not set the minimum; the median is unknown until
-// datagrams have arrived for a quarter of a second. Pure: the caller supplies the time. A delay that already
-// existed when the engagement began is not detected.
+// Detects an increase of the delay of a link. It compares the median round-trip time over the last half
+// second with the minimum of this median since the engagement; the minimum itself may rise by at most 1 ms
+// per second. This detects an attacker who delays authentic datagrams in either direction, suddenly or
+// gradually. Medians are used so that the minimum is not determined by a single datagram, a late tick or a
+// stalled side; the median is unknown until datagrams have arrived for a quarter of a second. Pure: the
+// caller supplies the time. A delay that already existed when the engagement began is not detected.
 
 #include <cstdint>
 #include <optional>
@@ -23,7 +23,7 @@ class DelayWatch {
   void rebase();
   /// Adds the round-trip time of a datagram. A value below zero (unknown) is ignored.
   void add(Time now, Duration rtt);
-  /// Updates median and minimum, at most 50 times a second. Call it in each tick, after add().
+  /// Updates the median and the minimum, at most 50 times a second. Call this in each tick, after add().
   void step(Time now);
 
   /// Median round-trip time of the last half second; none until it is known.

@@ -1,7 +1,7 @@
 #pragma once
-// Detects a loop that does not keep its rate: more than half of the ticks of a second were missed or late by
-// more than one period. A single stall counts as at most half a second; the gap timer detects stalls that are
-// too long. Pure.
+// Detects a loop that cannot keep its rate: within one second, more than half of the ticks were missed or
+// late by more than one period. A single stall counts as at most half a second; the gap timer detects stalls
+// that are too long. Pure.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ class OverrunWatch {
       : half_(static_cast<std::uint64_t>(0.5 * rate_hz)),
         late_(static_cast<std::size_t>(2.0 * rate_hz) + 1) {}
 
-  /// Call it in each tick. `overdue` is the total number of ticks so far that were missed or late by more
+  /// Call this in each tick. `overdue` is the total number of ticks so far that were missed or late by more
   /// than one period.
   void step(Time now, std::uint64_t overdue) {
     const std::uint64_t more = std::min(overdue - std::min(overdue, overdue_), half_);
@@ -31,7 +31,7 @@ class OverrunWatch {
     late_.push({now, more});
     count_ += more;
   }
-  /// Forgets all lateness before this call.
+  /// Discards all lateness before this call.
   void clear() {
     late_.clear();
     count_ = 0;

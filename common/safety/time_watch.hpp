@@ -1,7 +1,7 @@
 #pragma once
 // Monitors the timing of a side: the time since its previous tick, and the delay of received datagrams. It
-// reports a stall longer than the gap timer, a loop that does not keep its rate, and an increased delay. A
-// datagram whose echo is more than 0.25 s older than the newest echo reflects a past delay and is ignored.
+// reports stalls longer than the gap timer, a loop that cannot keep its rate, and an increased delay. A
+// datagram with an echo more than 0.25 s older than the newest echo reflects a past delay and is ignored.
 // Pure: the caller supplies the time.
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class TimeWatch {
     return stepped_at_ && to_seconds(now - *stepped_at_) > gap_s;
   }
 
-  /// Processes the datagrams received in this tick. Call it before step().
+  /// Processes the datagrams received in this tick. Call this before step().
   template <class Message>
   void receive(Time now, std::span<const Received<Message>> messages) {
     for (const auto& received : messages) {

@@ -1,6 +1,6 @@
 #pragma once
 // Certificates of a site (X.509 v3, ECDSA P-256, OpenSSL): an authority and the certificates that it issues.
-// By default they are valid from 1970 to 9999, because clocks may be wrong. A site does not expire; it has to
+// By default they are valid from 1970 to 9999, because clocks may be wrong. A site does not expire; it must
 // be replaced explicitly.
 
 #include <string>
@@ -44,10 +44,10 @@ std::string certify(const Certificate& authority, const std::string& request_pem
 /// Returns whether the text is a valid certificate; false for a damaged file.
 bool is_certificate(const std::string& certificate_pem);
 bool is_key(const std::string& key_pem);
-/// Returns whether certificate and key are valid and belong together.
+/// Returns whether the certificate and the key are valid and match.
 bool belong_together(const Certificate& certificate);
 
-/// Returns the fingerprint, e.g. "SHA256:5f0c...", that `openssl x509 -fingerprint -sha256` prints. Throws
+/// Returns the fingerprint as printed by `openssl x509 -fingerprint -sha256`, e.g. "SHA256:5f0c...". Throws
 /// std::runtime_error if the text is not a certificate.
 std::string fingerprint(const std::string& certificate_pem);
 
@@ -56,8 +56,8 @@ std::string fingerprint(const std::string& certificate_pem);
 std::string valid_until(const std::string& certificate_pem);
 
 /// Returns why a peer that trusts the authority would reject the certificate, as a clause such as "it is not
-/// signed by the authority". Empty if the certificate is valid. If `key_pem` is not empty, it must be the
-/// matching private key.
+/// signed by the authority". Empty if the certificate is valid. If `key_pem` is not empty, also checks that
+/// it is the matching private key.
 std::string certificate_trouble(const std::string& authority_pem, const std::string& certificate_pem,
                                 const std::string& key_pem, const std::string& name);
 

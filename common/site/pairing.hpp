@@ -32,7 +32,7 @@
 
 namespace longreach {
 
-/// Error for the user who pairs a host, in one sentence.
+/// Error for the user who pairs a host; the message is one sentence.
 class PairingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -25,13 +25,13 @@ void record_pairing(const std::filesystem::path& site, const std::string& host, 
                     const std::string& client_pem);
 /// Lists the certificates in the order of pairing. Throws SiteError.
 std::vector<PairedCertificate> paired_certificates(const std::filesystem::path& site);
-/// Revokes certificates. Each name is a host, which stands for all its certificates, or a fingerprint, which
-/// does not have to be known here. Returns the fingerprints. Throws SiteError, for example if a host is
+/// Revokes certificates. Each name is either a host, which stands for all its certificates, or a fingerprint,
+/// which need not be known here. Returns the fingerprints. Throws SiteError, for example if a host is
 /// unknown, and then revokes nothing.
 std::vector<std::string> revoke(const std::filesystem::path& site, const std::vector<std::string>& names);
 
 /// Makes the servers of this program reject the certificates that are revoked in this folder. Throws
-/// SiteError if its list is damaged.
+/// SiteError if the list of revoked certificates is damaged.
 void refuse_revoked(const std::filesystem::path& site);
 /// Returns whether a fingerprint is revoked; false if refuse_revoked() was not called.
 bool is_revoked(const std::string& fingerprint);

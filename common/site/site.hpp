@@ -16,7 +16,7 @@
 
 namespace longreach {
 
-/// Error in one sentence, which names the file and a remedy.
+/// Error whose message is one sentence that names the file and a remedy.
 class SiteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -46,7 +46,7 @@ using SiteFiles = std::map<std::string, std::string>;  // file name -> text
 
 /// Returns whether there is a folder that write_site would rename.
 bool site_exists(const std::filesystem::path& site);
-/// Creates the folder with these files atomically. An existing folder is renamed; returns its new name, or an
+/// Creates the folder with these files atomically. Renames an existing folder and returns its new name, or an
 /// empty path if there was none. Throws SiteError.
 std::filesystem::path write_site(const std::filesystem::path& site, const SiteFiles& files);
 

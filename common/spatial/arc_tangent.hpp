@@ -1,9 +1,9 @@
 #pragma once
-// Fast arc tangent: the angle of the direction (x, y) in (-π, π], with a third of the instructions of the C
-// library's atan2, for code that computes many angles per step. It uses one division, the reduction to |t| <=
-// tan(π/8) by atan t = π/4 + atan((t - 1)/(t + 1)), and the polynomial of fdlibm's atan (Sun Microsystems
-// 1993). The error is at most 2.5 units in the last place. Infinities and subnormal numbers are not
-// supported. NaN gives NaN, and (0, 0) gives 0.
+// Fast arc tangent, with a third of the instructions of the C library's atan2, for code that computes many
+// angles per step: returns the angle of the direction (x, y) in (-π, π]. It uses one division, the reduction
+// to |t| <= tan(π/8) by atan t = π/4 + atan((t - 1)/(t + 1)), and the polynomial of fdlibm's atan (Sun
+// Microsystems 1993). The error is at most 2.5 units in the last place. Infinities and subnormal numbers are
+// not supported. NaN gives NaN, and (0, 0) gives 0.
 
 #include <cmath>
 #include <cstddef>
@@ -53,7 +53,7 @@ inline double arc_of_small_sine(double s) {
                                          z * (35.0 / 1152.0 + z * (63.0 / 2816.0 + z * (231.0 / 13312.0))))));
 }
 
-/// Computes the angles of several directions at once, without branches: two directions take the time of one.
+/// Computes the angles of several directions at once, without branches: two directions take as long as one.
 template <std::size_t n>
 inline void arc_tangents(const double (&y)[n], const double (&x)[n], double (&angle)[n]) {
   constexpr double kEighth = 0.41421356237309503, kTiny = 1e-300;

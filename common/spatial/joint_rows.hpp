@@ -1,12 +1,11 @@
 #pragma once
-// Computes Denavit-Hartenberg rows for a chain of joint axes, independently of the frames in which it was
-// described:
+// Computes Denavit-Hartenberg rows for a chain of joint axes, whatever frames were used to describe it:
 //   X_WE = B A₁(q₁) ... Aₙ(qₙ) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
 // For axes that are far from parallel, a row follows their common normal, and β = 0 (Denavit, Hartenberg
-// 1955). The common normal of parallel axes is not unique, and that of nearly parallel axes is far away. In
-// these cases the next origin is the point where the next axis intersects the plane through the current
+// 1955). The common normal of parallel axes is not unique, and that of nearly parallel axes may be far away.
+// In these cases the next origin is the point where the next axis intersects the plane through the current
 // origin that is normal to the current axis; d = 0, and α and β together define the direction of the next
-// axis (Hayati 1983). Therefore no length in a row is much greater than the arm.
+// axis (Hayati 1983). Therefore no length in a row is much greater than the length of the arm.
 
 #include <span>
 #include <vector>
@@ -27,7 +26,7 @@ struct JointRow {
 };
 
 /// Returns the rotation of Tz(d) Tx(a) Rx(α) Ry(β), the part of a row that follows the joint. Sines and
-/// cosines below 4e-16 are set to zero, because a right angle in a file is meant exactly.
+/// cosines below 4e-16 are set to zero, because a right angle in a file is meant to be exact.
 Matrix3 rotation_behind(const JointRow& row);
 
 struct JointRows {

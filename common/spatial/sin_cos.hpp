@@ -1,9 +1,9 @@
 #pragma once
 // Fast sine and cosine of the same angle, with a third of the instructions of the C library (which also saves
-// the rounding mode), for code that computes many per step. It uses the reduction to [-π/4, π/4] with π/2 in
-// two parts (33 + 53 bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems
-// 1993). The error is at most one unit in the last place of 1. The C library is used beyond kReducible
-// radians and for arguments that are not finite.
+// the rounding mode), for code that computes many of them per step. It uses the reduction to [-π/4, π/4] with
+// π/2 in two parts (33 + 53 bits) and the polynomials of fdlibm's __kernel_sin and __kernel_cos (Sun
+// Microsystems 1993). The error is at most one unit in the last place of 1. The C library is used for
+// arguments that are not finite or exceed kReducible radians.
 
 #include <array>
 #include <bit>
@@ -50,7 +50,7 @@ inline ReducedSinCos reduced_sin_cos(double x) {
 }
 
 inline SinCos in_quadrant(const ReducedSinCos& r) {
-  // Selects by bits instead of branches, because the quadrant is unpredictable.
+  // Selects with bit operations instead of branches, because the quadrant is unpredictable.
   const auto quadrant = std::bit_cast<std::uint64_t>(r.quadrant);
   const auto s = std::bit_cast<std::uint64_t>(r.s), c = std::bit_cast<std::uint64_t>(r.c);
   const std::uint64_t swapped = (s ^ c) & (0 - (quadrant & 1));
@@ -63,7 +63,7 @@ inline SinCos sin_cos(double x) {
   return in_quadrant(reduced_sin_cos(x));
 }
 
-/// Computes sine and cosine of several angles at once: two angles take the time of one.
+/// Computes sine and cosine of several angles at once: two angles take as long as one.
 template <std::size_t n>
 inline std::array<SinCos, n> sin_cos(const std::array<double, n>& x) {
   double s[n], c[n];

@@ -20,10 +20,11 @@ struct AdapterFigures {
   bool failed = false;   // the adapter reports a failure
   std::uint64_t accepted = 0;
   std::uint64_t malformed = 0;  // datagrams that violate the protocol or contain a number that is not finite
-  std::uint64_t late = 0;       // overtaken, repeated, or from another session during a session
+  /// Overtaken, repeated, or from a different session while the current one was active.
+  std::uint64_t late = 0;
   std::uint64_t restarts = 0;
   double silent_after_s = 0.0;  // time without a datagram when the last timeout was detected
-  /// user that runs the listening program, if it was refused because it is another user
+  /// user that runs the listening program, if the connection was refused because of this user
   std::optional<std::uint32_t> unknown_peer{};
 };
 

@@ -13,13 +13,13 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  /// Receives the next datagram into `buffer`. Returns its true size, which may exceed that of the buffer if
-  /// the datagram was truncated, or none if there is no datagram. Never blocks.
+  /// Receives the next datagram into `buffer`. Returns its original size, which exceeds the size of the
+  /// buffer if the datagram was truncated, or none if there is no datagram. Never blocks.
   virtual std::optional<std::size_t> receive(std::span<std::byte> buffer) = 0;
   /// Returns the origin of the last datagram that receive() returned.
   [[nodiscard]] virtual const Origin& origin() const { return kNowhere; }
-  /// Reports the origin of an authentic datagram. From now on, a channel without a fixed peer sends to this
-  /// address, or not at all if the address is all zero.
+  /// Reports the origin of an authentic datagram. From then on, a channel without a fixed peer sends to this
+  /// address, or does not send if the address is all zero.
   virtual void answer_to(const Origin&) {}
 
   /// Sends the datagram, or drops it if it cannot be sent immediately. Never blocks.

@@ -1,9 +1,9 @@
 #pragma once
 // Converts the bodies of datagrams from protobuf (proto/motion, stiffness, telemetry) to the structs of
 // common/link and back. Decoding checks every value, so that the result is complete, finite and within the
-// bounds below. A body that cannot be parsed gives kDecode, and an invalid value gives kValue. Decoding
-// messages of this codec does not allocate memory. Unknown fields are ignored, but each of them costs an
-// allocation.
+// bounds below. A body that cannot be parsed is rejected with kDecode, and an invalid value with kValue.
+// Decoding messages of this codec does not allocate memory. Unknown fields are ignored, but each of them
+// requires an allocation.
 
 #include <cstddef>
 #include <memory>
@@ -19,8 +19,8 @@
 namespace longreach {
 
 constexpr std::size_t kBodyMaxBytes = kDatagramMaxBytes - kOverheadBytes;
-constexpr double kGoalMaxM = 1e3;    // each component of the displacement from the anchor
-constexpr double kGoalMaxRad = 1e2;  // each component of the rotation vector from the anchor
+constexpr double kGoalMaxM = 1e3;    // bound on each component of the displacement from the anchor
+constexpr double kGoalMaxRad = 1e2;  // bound on each component of the rotation vector from the anchor
 constexpr double kScaleMin = 0.05;
 constexpr double kScaleMax = 1.0;
 constexpr std::int64_t kInstantMaxNs =
@@ -28,7 +28,7 @@ constexpr std::int64_t kInstantMaxNs =
 constexpr std::int64_t kHeldMaxNs = 1'000'000'000'000'000'000;  // 31 years
 
 /// Encodes and decodes MotionCommand, StiffnessReport and Telemetry. Each side and thread needs its own
-/// codec, because it keeps the protobuf objects, which are allocated only once.
+/// codec, because a codec reuses its protobuf objects.
 class Codec {
  public:
   Codec();
@@ -39,7 +39,7 @@ class Codec {
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 
-  /// Reads a body. If it is rejected, the content of `stamp` and `message` is unspecified.
+  /// Reads a body. If the body is rejected, the content of `stamp` and `message` is unspecified.
   template <class Message>
   [[nodiscard]] std::optional<Rejection> decode(std::span<const std::byte> body, Stamp& stamp,
                                                 Message& message);

@@ -1,6 +1,6 @@
 #pragma once
 // Stores the messages that one receive() accepted, in order of arrival. The memory is allocated once. If
-// there are too many, only the newest messages are kept.
+// there are more messages than it can hold, only the newest ones are kept.
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +26,7 @@ class Inbox {
     size_ = std::min(size_ + 1, slots_.size() - 1);
   }
 
-  /// Sorts the items by arrival. Call it once, after the last keep() and before items().
+  /// Sorts the items by arrival. Call this once, after the last keep() and before items().
   void close() {
     if (next_ == size_) return;  // the slots did not wrap around
     std::rotate(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>((next_ + 1) % slots_.size()),

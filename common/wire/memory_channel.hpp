@@ -1,7 +1,7 @@
 #pragma once
 // Two channels that are connected in memory, for the laboratory and for tests. Datagrams that are sent at one
-// end are received at the other immediately and in order. The queues are bounded: if one is full, datagrams
-// are dropped, as by a socket, and counted. Not thread-safe.
+// end are received at the other immediately and in order. The queues are bounded: when a queue is full,
+// further datagrams are dropped, as by a socket, and counted. Not thread-safe.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,8 @@ class MemoryChannelPair {
   [[nodiscard]] std::uint64_t dropped() const { return a_.dropped + b_.dropped; }
 
  private:
-  /// A longer datagram is truncated, as by a receive buffer that is too short, but `size` is its true size.
+  /// A datagram that is too long is truncated, as by a receive buffer that is too short, but `size` is its
+  /// original size.
   struct Datagram {
     std::array<std::byte, kDatagramMaxBytes> bytes;
     std::size_t size = 0;

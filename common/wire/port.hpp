@@ -4,12 +4,11 @@
 // encrypted. The programs and the laboratory use the same code, so they exchange the same bytes.
 //
 // Without a session (`follow`), no datagram is sent or accepted. Accepted messages stay available until the
-// next receive(). A datagram that is not authentic only changes a counter. An authentic one uses up its
-// sequence number, even if its values are invalid. No memory is allocated after construction. Datagrams that
-// arrived while this side was stalled (`stalled`) are too old to be obeyed: they use up their sequence number
-// and are counted as stalled, but otherwise ignored, except for a stop, which is always obeyed. Each call
-// reads at most kDatagramsPerReceive datagrams and keeps the newest kInboxCapacity accepted messages of each
-// type.
+// next receive(). A datagram that is not authentic only changes a counter. The sequence number of an
+// authentic datagram is used up, even if its values are invalid. No memory is allocated after construction.
+// Datagrams that arrived while this side was stalled (`stalled`) are too old to follow: their sequence
+// numbers are used up and they are counted as stalled, but only a stop in them takes effect. Each call reads
+// at most kDatagramsPerReceive datagrams and keeps the newest kInboxCapacity accepted messages of each type.
 
 #include <array>
 #include <cstdint>
@@ -111,7 +110,7 @@ class MasterPort : public Port {
  public:
   MasterPort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToSlave) {}
-  /// `stalled`: this side was stalled since the last call.
+  /// `stalled`: this side has stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
@@ -128,7 +127,7 @@ class SlavePort : public Port {
  public:
   SlavePort(Channel& channel, const ImpairmentConfig& impairment, Random random)
       : Port(channel, impairment, random, Way::kToMaster) {}
-  /// `stalled`: this side was stalled since the last call.
+  /// `stalled`: this side has stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
   /// Returns the size of the sent datagram in bytes, or 0 if none was sent.

@@ -1,7 +1,7 @@
 #pragma once
 // Converts the values of a body, except for its stamp, from structs of common/link to protobuf messages and
-// back, and checks every value. Used only by the codec. `read` returns false if a value is missing, not
-// finite or out of range; the content of `out` is then unspecified.
+// back, and checks every value. Used only by the codec. `read` returns false, and leaves `out` unspecified,
+// if a value is missing, not finite or out of range.
 
 #include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"

@@ -1,7 +1,6 @@
 #pragma once
-// Parameters of the simulated devices, the simulated hand and its operator. proto/config.proto defines the
-// meaning, unit and range of each field under the same name. The defaults here equal
-// deploy/devices/desktop.txtpb.
+// Parameters of the simulated devices, the simulated hand and its operator. Each field is documented under
+// the same name in proto/config.proto. The defaults here equal deploy/devices/desktop.txtpb.
 
 #include <cstdint>
 #include <string>

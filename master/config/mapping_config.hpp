@@ -1,6 +1,6 @@
 #pragma once
-// Parameters of the mapping from the motion of the handle to the goal of the robot. proto/config.proto
-// defines the meaning, unit and range of each field under the same name.
+// Parameters of the mapping from the motion of the handle to the goal of the robot. Each field is documented
+// under the same name in proto/config.proto.
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-// All parameters of the master as plain values. proto/config.proto defines the meaning, unit, default and
-// range of each field under the same name.
+// All parameters of the master as plain values. Each field is documented under the same name in
+// proto/config.proto.
 
 #include <algorithm>
 #include <cstdint>

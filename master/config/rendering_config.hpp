@@ -1,6 +1,5 @@
 #pragma once
-// Parameters of the rendering. proto/config.proto defines the meaning, unit and range of each field under the
-// same name.
+// Parameters of the rendering. Each field is documented under the same name in proto/config.proto.
 
 #include <cstdint>
 
@@ -48,8 +47,8 @@ struct RenderingConfig {
   bool ke_by_scale = false;
 };
 
-/// Maximum energy that the port may return beyond what it received since the start of an engagement, J. It is
-/// the initial store plus the apparent energy that encoder quantization can produce without a real leak.
+/// Maximum energy that the port may return beyond what it received since the start of an engagement, J. This
+/// is the initial store plus the apparent energy that encoder quantization can produce without a real leak.
 inline double returned_most_j(const RenderingConfig& c = {}) {
   constexpr double kSteps_j = 1e-3;
   return c.store_j + kSteps_j;

@@ -20,7 +20,7 @@ struct HoldRecord {
   HoldAttribution attribution = HoldAttribution::kSystem;
 };
 
-/// Why the handle counts as released since `began_s`, with a remedy.
+/// Why the handle has counted as released since `began_s`, with a remedy.
 struct HandTrouble {
   double began_s = 0.0;
   std::string text;
@@ -38,7 +38,7 @@ class HoldLog {
   [[nodiscard]] std::uint64_t count(HoldAttribution attribution) const {
     return counts_[static_cast<std::size_t>(attribution)] + (now() == attribution ? 1 : 0);
   }
-  /// Returns the number of all holds, including the current one.
+  /// Returns the total number of holds, including the current one.
   [[nodiscard]] std::uint64_t count() const;
   /// Returns the attribution of the current hold, or none if there is no hold.
   [[nodiscard]] std::optional<HoldAttribution> now() const {
@@ -51,9 +51,9 @@ class HoldLog {
     std::string text;
     bool fault = false;  // the hold is a fault of the system
   };
-  /// Returns one sentence for each of the first holds, including the current one. `hand` contains the input
-  /// problems of the run in order of time. A device fault that starts together with one of them is described
-  /// by its text.
+  /// Returns one sentence for each of the first few holds, including any hold in progress. `hand` contains
+  /// the input problems of the run in chronological order. A device fault that starts at the same time as
+  /// such a problem is described by the text of the problem.
   [[nodiscard]] std::vector<Sentence> words(const std::vector<HandTrouble>& hand = {}) const;
 
  private:

@@ -23,7 +23,7 @@ struct ConsoleSnapshot {
   std::string notice{};                  // notice about the keyboard; empty if there is none
   double seconds = 0.0;                  // time since the start
   std::optional<double> seconds_left{};  // remaining length of the run; none: no limit
-  double force_max_n = 15.0;             // force at full length of the force bars
+  double force_max_n = 15.0;             // force at which the force bars have their full length
   bool show_keys = false;                // list the keys below the view
   bool turns = true;                     // the handle of the device can rotate
   bool hand_outside = false;             // a remote client holds the handle

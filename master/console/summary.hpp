@@ -1,11 +1,11 @@
 #pragma once
-// Results of a run and the verdict.
+// The results of a run and the verdict on it.
 //
 // The displayed stiffness is the least-squares slope of the contact spring's force over the position of the
-// handle, both along the inward normal. It is computed from the samples in position mode in which the spring
-// force exceeds 0.2 N and no value is clamped, from RTT + 1 s after the first touch. It should equal ke times
-// the estimate of the slave. add() does not allocate. It may be called in every tick or at any lower, steady
-// rate.
+// handle, both along the inward normal. It is computed from the samples that are taken in position mode, more
+// than RTT + 1 s after the first touch, with a spring force above 0.2 N and no value clamped. It should equal
+// ke times the estimate of the slave. add() does not allocate. It may be called in every tick or at any
+// lower, steady rate.
 
 #include <cstdint>
 #include <optional>
@@ -39,7 +39,7 @@ struct RunCounters {
   std::uint64_t late_ticks = 0;  // ticks of both sides that were more than 100 ms late
   std::uint64_t missed_ticks = 0;
   std::uint64_t rejected_values = 0;     // values rejected in otherwise valid messages
-  std::uint64_t rejected_datagrams = 0;  // dropped by both sides, all reasons
+  std::uint64_t rejected_datagrams = 0;  // dropped by either side, for any reason
   std::uint64_t limit_violations = 0;    // violations at the slave
 };
 
@@ -66,7 +66,7 @@ struct Summary {
 
   /// Returns whether all checks passed.
   [[nodiscard]] bool passed() const;
-  /// Returns the results and the verdict as several lines, each ended by '\n'.
+  /// Returns the results and the verdict as several lines, each terminated by '\n'.
   [[nodiscard]] std::string text() const;
 };
 
@@ -77,7 +77,7 @@ class RunSummary {
   /// Adds a sample of the run. `seconds` is the time since the start; it must not decrease.
   void add(double seconds, const MasterView& view, std::optional<double> rtt_s);
   /// Returns the summary. The counters come from `last`, the final snapshot. `hand` contains the reasons why
-  /// the handle counted as released, in order of time.
+  /// the handle counted as released, in chronological order.
   [[nodiscard]] Summary finish(const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand = {}) const;
 
  private:
@@ -96,7 +96,7 @@ class RunSummary {
   LineFit fit_;
   double estimate_sum_n_per_m_ = 0.0;
   std::uint64_t estimates_ = 0;
-  /// Limit of the device if it is below the stiffness of the wall; otherwise 0.
+  /// Stiffness limit of the device if the wall was stiffer; otherwise 0.
   double cut_to_n_per_m_ = 0.0;
   double energy_min_j_ = 0.0;
   double energy_drawdown_j_ = 0.0;

@@ -3,7 +3,7 @@
 // TerminalView draws it on the screen: it is redrawn in place at most ten times a second, with one write per
 // frame so that it does not flicker. If live drawing is not possible, it prints plain lines: the state
 // whenever it changes, and the measured values every five seconds. A stalled terminal or pipe does not delay
-// the caller: complete frames are skipped if there is no room for them.
+// the caller: while the output is blocked, whole frames are skipped.
 
 #include <optional>
 #include <string>
@@ -13,8 +13,8 @@
 
 namespace longreach {
 
-/// Returns the whole view as lines ended by '\n', each of at most max(width, 60) columns. ANSI colours are
-/// included if `color` is true.
+/// Returns the whole view as lines terminated by '\n', each at most max(width, 60) columns wide. ANSI colours
+/// are included if `color` is true.
 std::string render(const ConsoleSnapshot& snapshot, int width, bool color);
 
 /// Returns the measured values in one line of at most 120 columns without a newline, for logs and pipes.
@@ -33,11 +33,11 @@ class TerminalView {
   TerminalView(const TerminalView&) = delete;
   TerminalView& operator=(const TerminalView&) = delete;
 
-  /// Draws the snapshot. It may be called at any rate: a snapshot that comes too soon after the previous one,
+  /// Draws the snapshot. It may be called at any rate: a snapshot that follows the previous one too soon,
   /// according to `snapshot.seconds`, is skipped.
   void show(const ConsoleSnapshot& snapshot);
-  /// Restores the screen, even if the terminal is stalled. Later calls of show() draw nothing. Call it before
-  /// printing the summary.
+  /// Restores the screen, even if the terminal is stalled. Later calls of show() draw nothing. Call this
+  /// before printing the summary.
   void close();
 
   /// Returns whether the view is redrawn in place.

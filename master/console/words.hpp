@@ -26,8 +26,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view);
 std::optional<double> age_of_news_s(const ConsoleSnapshot& snapshot);
 
 /// Returns one sentence that describes the current state and what the operator can do. Statements about the
-/// robot are as old as the delay of the link; the sentence mentions this if that is more than a tenth of a
-/// second.
+/// robot lag by the delay of the link; the sentence mentions this if the lag exceeds 0.1 s.
 std::string happening(const ConsoleSnapshot& snapshot);
 
 }  // namespace longreach

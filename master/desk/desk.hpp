@@ -13,14 +13,14 @@
 
 namespace longreach {
 
-// Maximum numbers of streams. Each stream uses a thread of the server; further ones are refused with
+// Maximum numbers of streams. Each stream uses a thread of the server; further streams are refused with
 // RESOURCE_EXHAUSTED.
 inline constexpr int kFollowersMax = 16;
 inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
-  /// Radii of the workspace around the home of the handles. Aims are limited to it.
+  /// Radii of the workspace around the home of the handles. Targets outside the workspace are clamped to it.
   struct Reach {
     double translation_m = 0.075;
     double rotation_rad = 0.8;
@@ -37,17 +37,17 @@ class DeskService final : public proto::Desk::Service {
  private:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// Takes one of `places` places. Returns false if all are taken.
+  /// Reserves one of `places` slots. Returns false if all are in use.
   bool take(int& taken, int places);
   void leave(int& taken);
   grpc::Status follow_hand(grpc::ServerContext& context, grpc::ServerReader<proto::HandAim>& reader,
                            proto::Outcome& answer);
-  /// Returns the number of the new hand, or 0 if another hand has the handle. A new hand replaces one that
-  /// has stopped sending. If many streams are open, the replaced stream is closed, because it would otherwise
-  /// occupy its thread forever.
+  /// Gives control of the handle to a new client. Returns the number of the client, or 0 if another client
+  /// has control. A client that has stopped sending is replaced. If many streams are open, the replaced
+  /// stream is closed, because it would otherwise occupy its thread forever.
   std::uint64_t take_handle(grpc::ServerContext& context);
   void leave_handle(const grpc::ServerContext& context);
-  /// Passes an aim to the loop. Returns false if `hand` no longer has the handle.
+  /// Passes a target to the loop. Returns false if the client `hand` no longer controls the handle.
   bool pass(std::uint64_t hand, const RemoteAim& aim);
 
   Reach reach_;
@@ -55,10 +55,10 @@ class DeskService final : public proto::Desk::Service {
   std::function<void(const RemoteAim&)> aim_;
   std::mutex mutex_;
   int followers_ = 0;
-  int hands_there_ = 0;  // number of open streams, including those that do not have the handle
-  grpc::ServerContext* holder_ = nullptr;  // stream of the hand that has or last had the handle
-  std::uint64_t hands_ = 0;                // number of hands so far; identifies the newest one
-  bool held_ = false;                      // the newest hand has the handle
+  int hands_there_ = 0;  // number of open streams, including those without control of the handle
+  grpc::ServerContext* holder_ = nullptr;  // stream of the client that controls or last controlled the handle
+  std::uint64_t hands_ = 0;                // number of clients so far; identifies the newest client
+  bool held_ = false;                      // the newest client controls the handle
   Instant said_{};                         // time of its last message
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Target of the person who holds the simulated handles.
+// Target of the simulated hand on the handles.
 
 #include "common/spatial/spatial.hpp"
 #include "master/config/device_config.hpp"

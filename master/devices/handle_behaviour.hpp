@@ -1,14 +1,14 @@
 #pragma once
 // Behaviour of the handles that does not depend on the robot. A released handle returns to its home position
-// or stays in place. On request, the handle keeps to one axis at a time. It is stopped softly before the edge
-// of the workspace.
+// or stays in place. On request, the handle can move only along one axis at a time. A soft stop keeps it away
+// from the edge of the workspace.
 //
 //   idle     F = -k (x - a) - b v          anchor a: where the handle was released; with HOME it glides home
 //   guide    F = -k (x - (x . e) e - o)    decoupled: e is the axis that was moved first, o the offset from e then
 //   stop     F = -k (|x| - r) x/|x|        beyond the radius r, a fraction of the workspace
 //
-// All springs start without force, so that the force never steps. Only the gliding anchor supplies energy,
-// which it reports. The same applies to rotations, with x the rotation vector from home.
+// Each spring starts with zero force, so that the force never steps. Only the gliding anchor supplies energy;
+// supplied_j() reports how much. The same equations apply to rotations, with x the rotation vector from home.
 
 #include "master/config/device_config.hpp"
 #include "master/devices/handle_state.hpp"

@@ -1,18 +1,18 @@
 #pragma once
 // Velocity of a handle from quantized positions, and detection of a handle at rest. Encoders determine a
-// position only to within a cell; the reading of a handle at rest may jump by one cell in a sample and back
-// again. The position is tracked with a play (backlash) r of half a cell:
+// position only to within a cell; the reading of a handle at rest may jump by one cell from one sample to the
+// next, and back again. The position is tracked with a play (backlash) r of half a cell:
 //
 //   z' = z + Δx,   c = z' max(0, 1 - r/|z'|),   z = z' - c,   v += dt/(dt + filter) (a c/dt - v)
 //
-// c is the motion that is certain, whatever the true positions within the cells are. It never points against
-// the motion and is zero while the handle stays within a cell, so that damping -B v can only extract energy.
-// When the handle reverses, the velocity is zero over the width of a cell; while it moves, the velocity is
-// that of the encoders. A single count at time t after the previous one is treated as a speed of at most c/t
-// instead of an impulse: a = min(1, 20 ms/t).
+// c is the certain motion, which is independent of the true positions within the cells. It never points
+// against the motion and is zero while the handle stays within a cell, so that damping -B v can only extract
+// energy. When the handle reverses, the velocity is zero over the width of a cell; while it moves, the
+// velocity is that of the encoders. A single count at time t after the previous one is treated as a speed of
+// at most c/t instead of an impulse: a = min(1, 20 ms/t).
 //
-// A spring that acts on the cells of the encoders is a relay. With the delay of a sample, the relay sustains
-// a limit cycle within a cell, where no damping can act. A handle whose measured path is longer than ten
+// Within a cell, a spring on quantized positions acts as a relay. With a delay of one sample, the relay
+// sustains a limit cycle, on which damping has no effect. A handle whose measured path is longer than ten
 // cells without any certain motion is therefore considered at rest: its position is x - z, which is constant,
 // until there is certain motion. A handle at rest supplies no energy. Both handles are processed in the same
 // way; Δx is the displacement, m, or the rotation vector, rad.
@@ -50,7 +50,7 @@ class QuantizedVelocityFilter {
     return rate_;
   }
 
-  /// Returns whether the measurement only moves back and forth without certain motion.
+  /// Returns whether the reading only jumps back and forth without any certain motion.
   [[nodiscard]] bool rests() const { return wandered_ > kNowhere * cell_; }
   /// Measured position relative to the tracked one.
   [[nodiscard]] const Vector3& play() const { return play_; }
@@ -73,7 +73,7 @@ class QuantizedMotionFilter {
       : linear_(cell.m), angular_(cell.rad), filter_s_(filter_s) {}
 
   /// Returns the measured state with the filtered velocities; a handle without certain motion keeps its pose.
-  /// The input must be finite. Call it once per tick of `dt_s` > 0.
+  /// The input must be finite. Call this once per tick of `dt_s` > 0.
   HandleState step(HandleState handle, double dt_s) {
     if (!started_) {
       x_ = handle.p_MH;

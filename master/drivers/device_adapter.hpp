@@ -11,16 +11,17 @@ namespace longreach {
 
 class DeviceAdapter : public HapticDevice {
  public:
-  /// `channel` must outlive this object. `session` is drawn at random at each start and is not 0.
+  /// `channel` must outlive this object. `session` is a non-zero number that is chosen randomly at each
+  /// start.
   DeviceAdapter(Channel& channel, const AdapterConfig& config, std::uint64_t session)
       : port_(channel, session, config.silence_s) {}
 
-  /// Returns the state from the newest datagram. Before the first datagram, and without one for silence_s, it
-  /// is that of a failed device.
+  /// Returns the state from the newest datagram. Before the first datagram, or if none has arrived for
+  /// silence_s, this is the state of a failed device.
   HandleState read(Time now) override;
-  /// Sends a wrench to the device. A wrench that is not finite counts as no wrench.
+  /// Sends a wrench to the device. If the wrench is not finite, no wrench is rendered.
   void write(const Wrench& F_H_M) override;
-  /// Sends a datagram without a wrench, to establish contact before the first tick.
+  /// Sends a datagram without a wrench, to establish the connection before the first tick.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }

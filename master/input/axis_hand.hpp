@@ -7,7 +7,7 @@
 //
 // After a reconnection, deflections have no effect until every axis has been released once; buttons act when
 // they are pressed. A deflection without a new report for silence_s counts as released, because a wireless
-// receiver stays connected even if its pad is gone.
+// receiver stays connected even if its pad is switched off.
 
 #include <cstdint>
 
@@ -37,8 +37,8 @@ struct AxisHandConfig {
   double reach_m = 0.04, reach_rad = 0.4;
   double speed_m_per_s = 0.03, speed_rad_per_s = 0.4;
   double workspace_m = 0.075, workspace_rad = 0.8;  // limits of the hand's motion
-  // A hand is never perfectly still, so a device in use reports continuously, except that a stick at its end
-  // stop gives constant values.
+  // A hand is never perfectly still, so a device in use reports continuously. Only a stick at its end stop
+  // gives constant values.
   double silence_s = 0.3, silence_at_stop_s = 1.0;
 };
 /// Returns the configuration for an operator and a device.

@@ -5,8 +5,8 @@
 // key. Sources: ECMA-48 section 5.4; XTerm Control Sequences; the finals `$` and a to d of rxvt.
 //
 // Text that the terminal sends as a bracketed paste or a control string has no effect until it ends, even if
-// the input pauses. If it has not ended within 1 s, it is overdue: then the stop key, and only that key, acts
-// inside the text. Esc also ends the text, as does 1 s without input after a stop.
+// the input pauses. If the text has not ended within 1 s, it is overdue: from then on the stop key, and no
+// other key, acts inside the text. Esc also ends the text, as does 1 s without input after a stop.
 
 #include <cstdint>
 #include <optional>
@@ -20,10 +20,10 @@ namespace longreach {
 
 class KeyParser {
  public:
-  /// Parses `bytes`. Returns the keys that they complete.
+  /// Parses `bytes`. Returns the keys that these bytes complete.
   std::vector<Key> feed(std::string_view bytes);
 
-  /// Marks the start of a poll; there is one every 20 ms. Call it before feeding the bytes that the poll
+  /// Marks the start of a poll. Polls occur every 20 ms. Call this before feeding the bytes that the poll
   /// reads. Timeouts count polls instead of measuring time, so that a delayed thread does not time out input
   /// that it has not read yet.
   void tick();

@@ -1,7 +1,7 @@
 #pragma once
 // Reads keys from a terminal without blocking. The terminal is in raw mode during the lifetime of the object;
-// its mode is restored on destruction, at exit and by every signal that ends the program. A pipe is read as
-// well, without raw mode. Poll it outside the loop.
+// its mode is restored on destruction, at exit and by every signal that ends the program. A pipe can be read
+// as well, without raw mode. Poll the keyboard outside the loop.
 //
 // If the input has ended (end of file, closed terminal, read error) or the terminal belongs to another
 // program (the master is in the background), the handle counts as released: the target is home, there are no
@@ -23,8 +23,8 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads pending input without waiting. The returned requests are those since the last poll. Call it at 50
-  /// Hz.
+  /// Reads pending input without waiting. The returned requests are those since the last poll. Call this at
+  /// 50 Hz.
   KeyboardState poll(MotionMode mode);
 
   /// Returns why the keyboard is not available, and a remedy; empty if it is available.

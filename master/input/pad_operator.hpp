@@ -1,5 +1,5 @@
 #pragma once
-// Operator with a gamepad, joystick or SpaceMouse. Poll it in one thread, outside the loop.
+// Operator with a gamepad, joystick or SpaceMouse. Poll it from a single thread, not from the loop.
 
 #include <optional>
 #include <string>
@@ -22,8 +22,8 @@ class PadOperator {
   /// Throws std::runtime_error if the library for the device cannot be loaded.
   explicit PadOperator(const MasterConfig& config);
 
-  /// Polls the device and returns the state of the hand. `felt` is the force on the hand relative to the
-  /// maximum rendered force, which the rumble motor displays. `dt_s` is the time since the last call, s.
+  /// Polls the device and returns the state of the hand. The rumble motor displays `felt`, the force on the
+  /// hand relative to the maximum rendered force. `dt_s` is the time since the last call, s.
   const AxisHandState& poll(MotionMode mode, double felt, double dt_s);
 
   /// Returns why the hand does not hold the handle, and a remedy; empty if it does.

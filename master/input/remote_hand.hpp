@@ -1,11 +1,11 @@
 #pragma once
-// A hand that a remote client controls by messages. It holds the handle while they arrive. If the messages
-// stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an explicit release
-// only releases the handle. In both cases the handle stays released until the next engagement, so that no
-// script or keyboard resumes motion from there.
+// A hand that a remote client controls by messages. It holds the handle while messages arrive. If the
+// messages stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an explicit
+// release only releases the handle. In both cases the handle stays released until the next engagement, so
+// that no script or keyboard resumes motion from there.
 //
-// The handle moves at most as fast as a human hand. Aims are relative to the position of the handle when the
-// client took control, so that neither taking nor returning control causes motion.
+// The handle moves at most as fast as a human hand. Targets are relative to the position of the handle when
+// the client took control, so that neither taking nor returning control causes motion.
 
 #include <cstdint>
 #include <optional>
@@ -66,7 +66,7 @@ class RemoteHand {
   bool gripped_ = false;
   Vector3 led_m_ = Vector3::Zero();  // current position of the hand, from home
   Vector3 led_rad_ = Vector3::Zero();
-  Vector3 from_m_ = Vector3::Zero();  // offset added to aims
+  Vector3 from_m_ = Vector3::Zero();  // offset added to targets
   Vector3 from_rad_ = Vector3::Zero();
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 // A SpaceMouse, accessed through spacenavd: the six deflections of the puck and its buttons. libspnav is
-// loaded when the first object is created; only one object may exist at a time. Poll it in one thread,
-// outside the loop. If the daemon ends, or reports that the device is unplugged, no device is present; the
-// search for daemon and device then starts again.
+// loaded when the first object is created; only one object may exist at a time. Poll it from a single thread,
+// not from the loop. If the daemon ends, or reports that the device is unplugged, no device is present; the
+// search for the daemon and the device then starts again.
 //
 //   push the puck away: x, to the left: y, up: z; rotations about the same axes
 
@@ -16,7 +16,7 @@ namespace longreach {
 
 class SpaceMouse {
  public:
-  /// Throws std::runtime_error with one sentence if libspnav cannot be loaded.
+  /// Throws std::runtime_error with a one-sentence message if libspnav cannot be loaded.
   SpaceMouse();
   ~SpaceMouse();
   SpaceMouse(const SpaceMouse&) = delete;

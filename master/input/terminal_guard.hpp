@@ -9,15 +9,15 @@ struct termios;
 
 namespace longreach {
 
-/// Opens the terminal of `fd` a second time in non-blocking mode, because the shell shares `fd`, whose mode
-/// must therefore not change. The caller closes the returned descriptor.
+/// Opens the terminal of `fd` a second time in non-blocking mode, because `fd` is shared with the shell, so
+/// its mode must not change. The caller closes the returned descriptor.
 int open_anew(int fd);
 
 /// Returns whether the terminal `fd` currently belongs to another program. Reading or changing it would then
 /// stop this program (SIGTTIN, SIGTTOU).
 bool in_background(int fd);
 
-/// Saves `mode`, the current mode of `fd`. Call it before changing the mode.
+/// Saves `mode`, the current mode of `fd`. Call this before changing the mode.
 void keep_terminal_mode(int fd, const termios& mode);
 /// Restores the saved mode, if there is one.
 void give_back_terminal_mode();

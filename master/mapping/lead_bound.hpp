@@ -1,7 +1,7 @@
 #pragma once
 // Determines when the lead of the goal is bounded: from the report that a limit holds the robot back until
-// the robot has reached a goal that was commanded within the bound. Ending the bound as soon as the report
-// ends would not suffice: because of the delay, the goal would repeatedly run ahead and be drawn back.
+// the robot has reached a goal that was commanded within the bound. Ending the bound together with the report
+// would not suffice: because of the delay, the goal would repeatedly run ahead and be pulled back.
 
 #include <cstdint>
 #include <optional>
@@ -44,7 +44,7 @@ class LeadBound {
  private:
   double lead_;
   GoalBound bound_{};
-  /// First command since which all goals were within the bound.
+  /// The command since which all goals have been within the bound.
   std::optional<std::uint64_t> within_{};
 };
 

@@ -10,12 +10,12 @@
 // of mode, clutch, freeze or (in position mode) scale sets new references at the current handle and goal, so
 // that the goal never steps. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
 // began. It moves home together with the handle, so that a released handle commands no motion. The literal
-// law jumps at the edge of the dead zone. The commanded motion ends only when the deflection is a tenth
-// further inside, so that noise at the edge causes a single jump and no chatter.
+// law is discontinuous at the edge of the dead zone. With it, the commanded motion ends only when the
+// deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
 //
-// The lead of the goal is bounded. Where a limit holds the robot back at `place`, in the direction d, the
-// goal is drawn back along d to `place` + kLead, at most at its maximum speed, and goes no further in this
-// direction (lead_bound.hpp), whether frozen or not. In position mode the reference shifts by the same
+// The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
+// is pulled back along d to `place` + kLead, no faster than its maximum speed, and advances no further in
+// this direction (lead_bound.hpp), even while it is frozen. In position mode the reference shifts by the same
 // amount. Rotations of the handle by more than π from its reference are not supported.
 
 #include <array>
@@ -68,8 +68,8 @@ class Mapping {
   /// Starts an engagement with a zero goal and references at the handle.
   void reset(const HandleState& handle);
 
-  /// Advances by `dt_s` > 0 and returns the goal. It is always finite: a handle with non-finite values leaves
-  /// it unchanged.
+  /// Advances by `dt_s` > 0 and returns the goal. The goal is always finite: it does not change if the handle
+  /// has non-finite values.
   const Goal& step(const MappingInput& input, double dt_s);
 
   [[nodiscard]] const Goal& goal() const { return goal_; }
@@ -108,7 +108,7 @@ class Mapping {
   double scale_ = 1.0;
   bool frozen_ = true;
   bool outside_m_ = false, outside_rad_ = false;  // outside the dead zones
-  Vector3 x_ref_ = Vector3::Zero();               // handle when the references were set
+  Vector3 x_ref_ = Vector3::Zero();               // position of the handle when the references were set
   Vector3 g_ref_ = Vector3::Zero();               // goal when the references were set
   Quaternion q_ref_ = Quaternion::Identity();
   Quaternion q_gref_ = Quaternion::Identity();
@@ -116,8 +116,8 @@ class Mapping {
   Vector3 speed_rad_per_s_ = Vector3::Zero();
 };
 
-/// Returns the velocity that a deflection x commands, divided by kv. It is zero inside the dead zone and
-/// limited as at `radius_max`. Its magnitude is |x| - dead_zone for the continuous law and |x| for the
+/// Returns the velocity that a deflection x commands, divided by kv. It is zero inside the dead zone and does
+/// not increase beyond `radius_max`. Its magnitude is |x| - dead_zone for the continuous law and |x| for the
 /// literal one.
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law);
 

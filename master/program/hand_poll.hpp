@@ -1,6 +1,6 @@
 #pragma once
-// The thread that polls keyboard and pad, and passes the state of the hand with its time to the loop. It
-// writes to no terminal, pipe or file, so that a stalled reader cannot block it.
+// The thread that polls keyboard and pad, and passes the state of the hand, with the time of the poll, to the
+// loop. It writes to no terminal, pipe or file, so that a stalled reader cannot block it.
 
 #include <atomic>
 #include <mutex>
@@ -21,7 +21,7 @@ class HandPoll {
     bool show_keys = false;
     bool quit = false;  // latched
     std::string pad_keys;
-    std::string notice;   // for the user at the keyboard; empty if there is none
+    std::string notice;   // notice for the user at the keyboard; empty if there is none
     std::string trouble;  // why the hand does not hold the handle, and a remedy; empty if it does
   };
 

@@ -34,7 +34,7 @@ class MasterService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Starts a recording. Call it before the loop starts, because a replay requires that the first tick is
+  /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick is
   /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
@@ -46,8 +46,8 @@ class MasterService : public ControlBackend {
   /// Passes a session to the loop. Returns false if the loop did not respond. Callable from any thread except
   /// that of the loop.
   bool adopt(const Session& session);
-  /// Returns why there is no session with the slave, or another problem of the link or hand; empty if there
-  /// is none.
+  /// Returns why there is no session with the slave, or another problem of the link or the hand; empty if
+  /// there is no problem.
   std::string trouble();
   /// Sets the text that trouble() returns, and the address of the other master that has control of the robot.
   /// Empty means none.

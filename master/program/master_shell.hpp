@@ -45,7 +45,7 @@ struct MasterChange {
 struct MasterRecordingChange {
   MasterRecordBuffer* record_buffer = nullptr;
 };
-/// Another master has control of the robot, so that the slave no longer sends datagrams to this one.
+/// Another master has control of the robot, so the slave no longer sends datagrams to this one.
 struct MasterPreempted {};
 using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
                                    MasterRecordingChange>;
@@ -53,16 +53,16 @@ using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentCon
 class MasterShell {
  public:
   /// Throws AddressError for an invalid address, or std::runtime_error if the socket cannot be opened. `seed`
-  /// is for the simulated impairment of the link.
+  /// initializes the random numbers of the simulated link impairment.
   MasterShell(const MasterConfig& config, std::uint64_t seed);
 
   /// Waits until the adapter of the device responds, for at most 2 s. Returns immediately if no adapter is
-  /// configured. Call it before the first tick.
+  /// configured. Call this before the first tick.
   void wait_for_device();
   /// Runs one tick at `now`.
   void tick(Time now, const LoopFigures& loop);
 
-  /// Sets the record buffer. Call it before the first tick; later, use MasterRecordingChange.
+  /// Sets the record buffer. Call this before the first tick; later, use MasterRecordingChange.
   void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   /// Returns the snapshot of the last tick. Only for the loop thread.

@@ -1,6 +1,6 @@
 #pragma once
-// The thread that updates the view and the log until the end of the run, in addition to the loop thread. It
-// also owns the thread that polls the hand.
+// Updates the view and the log until the end of the run, in a thread other than the loop thread. It also owns
+// the thread that polls the hand.
 
 #include <atomic>
 #include <optional>
@@ -62,7 +62,7 @@ class StatusLoop {
   [[nodiscard]] bool live() const { return view_.live(); }
   /// Runs until `stop` is true, the user presses the quit key, or the run ends.
   void run(const std::atomic<bool>& stop, const SessionClient& session_client);
-  /// Returns the reasons why the handle counted as released during the run, in order of time, for the
+  /// Returns the reasons why the handle counted as released during the run, in chronological order, for the
   /// summary.
   [[nodiscard]] const std::vector<HandTrouble>& hand_troubles() const { return troubles_; }
 
@@ -82,7 +82,7 @@ class StatusLoop {
   ServiceWatch watch_;
   HoldLog holds_;
   std::vector<HandTrouble> troubles_;
-  std::string hand_said_;  // the present problem of the hand; empty if there is none
+  std::string hand_said_;  // the present problem with the input of the hand; empty if there is none
   Resumption resumption_{};
   Time began_ = boottime_now();
   bool quit_ = false;

@@ -10,8 +10,8 @@
 // x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
 // vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the
 // springs fade until a hand holds it again. A spring has no force while the goal is in front of its surface
-// or the clutch is pressed. A surface that the slave only remembers is displayed like one that it currently
-// presses on; a surface that is no longer reported fades. A spring changes its direction only while its force
+// or the clutch is pressed. A surface that the tool has left is displayed like one on which it is pressing,
+// as long as the slave reports it; after that, it fades. A spring changes its direction only while its force
 // is zero.
 
 #include <array>
@@ -29,7 +29,7 @@ namespace longreach {
 struct ContactConfig {
   ContactSpringConfig spring{};
   double ke = 1.0;
-  /// True: the rendered stiffness is ke k_scale times the estimate; false: ke times it.
+  /// True: the rendered stiffness is ke k_scale times the estimate; false: ke times the estimate.
   bool ke_by_scale = false;
   double damping = 0.0;     // B, N s/m
   bool by_arrival = false;  // place surfaces at the newest goal (comparison only)
@@ -42,12 +42,12 @@ struct ContactHandle {
   Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) from home, M
   Vector3 rate = Vector3::Zero();  // time derivative of x
   Vector3 goal = Vector3::Zero();  // commanded goal from the anchor, W
-  /// In rate mode the handle has no position at which to press against the surface, so the depth of the goal is
-  /// displayed instead.
+  /// In rate mode, the position of the handle does not correspond to a depth in the surface, so the depth of
+  /// the goal is displayed instead.
   bool rate_mode = false;
   bool held = true;                      // a hand is on the handle; otherwise the springs fade
   bool clutched = false;                 // the handle moves without the robot
-  Vector3 deflection = Vector3::Zero();  // handle from the centre of rate mode, M
+  Vector3 deflection = Vector3::Zero();  // displacement of the handle from the centre of rate mode, M
 };
 
 /// Effect of a report.
@@ -86,9 +86,9 @@ class Contact {
   ContactChange on_report(const ContactReport& report, const GoalHistory& history,
                           const ContactHandle& handle, const Mapping& mapping);
 
-  /// Advances the springs by `dt_s` and returns the force (N) or moment (N m) on the hand, in M. If `stale`
-  /// is true, no datagrams arrive, and all springs fade and are removed. `source` supplies the energy for
-  /// moving spring anchors outwards.
+  /// Advances the springs by `dt_s` and returns the force (N) or moment (N m) on the hand, in M. `stale`
+  /// means that no datagrams are arriving; all springs then fade and are removed. `source` supplies the
+  /// energy for moving spring anchors outwards.
   Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                double dt_s);
   /// Same as step() but without the passivity rules, for comparison.

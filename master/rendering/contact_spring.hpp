@@ -10,10 +10,10 @@
 //   in contact         The anchor moves inwards at no cost, and outwards only as far as the energy source permits.
 //   force limit        Above `force_max_n` the spring yields: the anchor moves with the handle.
 //
-// The outward rule makes the force of a wall that is identified late grow with the time constant kLoad_s.
-// Growing from zero to the limit takes at least kFullForce_s while the hand presses inwards, and at least
-// kAtRest_s while it rests or retreats, because energy spent during a fast retreat is lost. The motion ends
-// one encoder count before the surface, and restarts only when the hand or the surface has moved by two
+// If a wall is identified late, the outward rule makes its force grow with the time constant kLoad_s. The
+// growth from zero to the limit takes at least kFullForce_s while the hand presses inwards, and at least
+// kAtRest_s while it rests or retreats, because energy spent during a fast retreat is lost. The anchor stops
+// one encoder count before the surface and moves again only when the hand or the surface has moved by two
 // counts, so that it does not ratchet.
 //
 // Pure. Any input is accepted; the set_* functions reject non-finite values. Lengths and forces may also be

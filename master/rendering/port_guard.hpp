@@ -39,14 +39,14 @@ class PortGuard {
   void configure(const PortGuardConfig& config) { config_ = config; }
   /// Resets the energy balance. The rate limit continues from the present force.
   void reset();
-  /// Sets the ramp to full force; call it after reset(), with all springs unloaded.
+  /// Sets the ramp to full force; call this after reset(), with all springs unloaded.
   void open() { gain_ = 1.0; }
 
-  /// Returns the energy that entered the port by the motion `moved` since the last tick, J. Call it once per
-  /// tick, before apply().
+  /// Returns the energy that entered the port by the motion `moved` since the last tick, J. Call this once
+  /// per tick, before apply().
   double observe(const Vector3& moved);
 
-  /// Starts damping for kFreed_s. Call it when the contact force ends although the hand may still be
+  /// Starts damping for kFreed_s. Call this when the contact force ends although the hand may still be
   /// pressing.
   void free_hand() { freed_s_ = kFreed_s; }
 
@@ -77,7 +77,7 @@ class PortGuard {
   static constexpr double kFreed_s = 0.6;
 
   PortGuardConfig config_;
-  Vector3 f_last_ = Vector3::Zero();   // force whose work observe() adds
+  Vector3 f_last_ = Vector3::Zero();   // force whose work observe() adds to the port energy
   Vector3 f_given_ = Vector3::Zero();  // present force on the hand
   double port_energy_j_ = 0.0;
   double deficit_j_ = 0.0;

@@ -8,8 +8,8 @@
 //
 // φ is the rotation vector of the handle, φ' = D(φ) ω. The moment of a spring in φ uses the transpose of D,
 // so that its work equals the stored energy. A released handle has no resistance; its behaviour continues
-// when disengaged. The law NAIVE applies stiffness and surfaces as they arrive, for comparison, but keeps the
-// limits.
+// when disengaged. For comparison, the law NAIVE applies stiffness and surfaces immediately on arrival, but
+// keeps the limits.
 
 #include <cstdint>
 #include <optional>
@@ -39,7 +39,7 @@ struct RenderedDevice {
 
 /// Result of the handle's own behaviour (handle_behaviour.hpp), which is active whether engaged or not.
 struct HandleBehaviourOutput {
-  Vector3 force = Vector3::Zero();  // on the hand, N in M; the moment, N m, for the rotation
+  Vector3 force = Vector3::Zero();  // force (N) or moment (N m) on the hand, in M
   double stored_j = 0.0;            // energy in its springs
   double supplied_j = 0.0;          // energy supplied by its moving anchor in this tick
 };
@@ -72,11 +72,11 @@ struct HandPort {
            double cell_radius)
       : contact(motion, touch), guard(limits), tank(tank_j), cell(cell_radius) {}
 
-  /// Updates the energy balance with the last tick. The energy that entered or was supplied and is not stored
-  /// was dissipated, or has leaked if it is negative. `force` is the commanded force. The positions have
-  /// errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1]) apart from the
-  /// end terms. The balance of a tick is therefore uncertain by `cell` |f[k] - f[k-1]|, and only the part
-  /// beyond that counts. Returns the dissipated energy that did not fit into the tank, J.
+  /// Updates the energy balance with the last tick. Energy that entered or was supplied but is not stored was
+  /// dissipated; if this balance is negative, energy has leaked. `force` is the commanded force. The
+  /// positions have errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1])
+  /// apart from the end terms. The balance of a tick is therefore uncertain by `cell` |f[k] - f[k-1]|, and
+  /// only the part that exceeds this counts. Returns the dissipated energy that did not fit into the tank, J.
   double account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
 
   Contact contact;

@@ -9,11 +9,10 @@
 // The friction model is elastic-perfectly plastic (Prandtl 1928; one element of Iwan 1966; Dahl's model with
 // exponent 0). It is quiet at rest, because encoder noise is only multiplied by σ.
 //
-// No transition causes a step of the force or by itself increases the stored energy. A reduced force (coarser
-// scale, load released, end of rate mode, clutch) fades with fade_s. A stiffer spring starts with the present
-// force. A spring is stretched further only as far as its own dissipation permits. A spring that is held for
-// a sample returns up to k|dx|²/2, which the caller must account for. The values of the handle must be
-// finite.
+// No transition causes a force step or increases the stored energy by itself. A reduced force (coarser scale,
+// load released, end of rate mode, clutch) fades with fade_s. A stiffer spring starts with the present force.
+// A spring is stretched further only as far as its own dissipation permits. A spring that is held for a
+// sample returns up to k|dx|²/2, which the caller must account for. The values of the handle must be finite.
 
 #include <cstdint>
 

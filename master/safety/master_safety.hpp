@@ -30,16 +30,16 @@
 // presence = HOLD, a hand is on the handle. This is possible in any state and is the only way out of Stopped
 // and Fault. While an engagement is pending or active, another request has no effect.
 //
-// A tick later than gap_s after the previous one causes a hold, discards the last state of the slave and
-// accepts no engagement. Round trip and late ticks are treated as in slave/safety/slave_safety.hpp. The state
-// that the slave reports counts only if it refers to the current engagement. A stop is also requested in
-// Fault, until the next engagement.
+// A tick that comes more than gap_s after the previous one causes a hold; the last state of the slave is
+// discarded, and no engagement is accepted. Round-trip time and late ticks are treated as in
+// slave/safety/slave_safety.hpp. The state that the slave reports is used only if it refers to the current
+// engagement. A stop is also requested in Fault, until the next engagement.
 //
 // The cause is the first one since Engaged, with two exceptions: preemption replaces `link silent`, which it
-// explains, and a fault has its own cause. An engagement that is requested but not granted has a reason. If
-// this side does not forward the request to the slave, the reason is set immediately. Otherwise it is the
-// slave's reason when that arrives, or `unanswered` if none has arrived 1 s after the round trip. The reason
-// stays until another engagement is requested or granted.
+// explains, and a fault has its own cause. If an engagement is requested but not granted, refusal() returns
+// the reason. If this side does not forward the request to the slave, the reason is set immediately.
+// Otherwise it is the reason that the slave sends, or `unanswered` if none has arrived 1 s after the
+// round-trip time. The reason is kept until another engagement is requested or granted.
 
 #include <cstdint>
 #include <optional>
@@ -74,7 +74,7 @@ class MasterSafety {
   void configure(const MasterSafetyConfig& config) { config_ = config; }
   [[nodiscard]] const MasterSafetyConfig& config() const { return config_; }
 
-  /// Processes the state that the slave reports. Call it in order of arrival.
+  /// Processes the state that the slave reports. Call this in the order of arrival.
   void on_report(const StiffnessReport& report);
 
   /// Advances by one tick. Returns true if an engagement has just been confirmed, so that everything must
@@ -142,7 +142,7 @@ class MasterSafety {
   bool reported_ = false;
   bool confirmed_ = false;  // the slave has confirmed the current engagement
   Time asked_at_{};         // time of the request for the current engagement
-  Time held_since_{};       // time since which the slave reports Holding
+  Time held_since_{};       // time since which the slave has been reporting Holding
   /// Time at which the present hold began; after a stall, the start of the stall.
   Time left_at_{};
   std::uint64_t false_holds_ = 0;

@@ -1,8 +1,8 @@
 #pragma once
 // A passive model of the hand on the handle: a mass that moves with the handle, coupled by a spring and
-// damper to the position that the person intends. The parameters for translation are a light and a firm grip,
-// as measured on people. Those for rotation are assumed: a wrist whose stiffness has the order of magnitude
-// of the handle's.
+// damper to the position that the person intends. The parameters for translation represent a light and a firm
+// grip, from measurements on people. Those for rotation are assumed: the stiffness of the wrist has the same
+// order of magnitude as that of the handle.
 
 #include "master/config/device_config.hpp"
 

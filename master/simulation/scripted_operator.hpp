@@ -87,7 +87,8 @@ class ScriptedOperator {
   double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
   bool relocating_ = false;  // the clutch is pressed to move the handle home
-  /// Time since which the handle has not followed; while relocating_, the start of that.
+  /// Time since which the handle has not followed its target; while relocating_, the time at which this
+  /// began.
   Time blocked_{};
 };
 

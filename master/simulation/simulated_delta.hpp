@@ -24,7 +24,7 @@ class SimulatedDelta {
   bool place(const Vector3& x_m);
 
   /// Advances by `dt_s` > 0. `hand_m` (from home) and `hand_m_per_s` are the position and velocity of the
-  /// hand's target at the beginning.
+  /// hand's target at the beginning of the step.
   void step(double dt_s, const HandModel& hand, const Vector3& hand_m, const Vector3& hand_m_per_s);
 
   /// Sets the commanded motor torques.

@@ -23,8 +23,8 @@ class SimulatedDevices : public HapticDevice {
   HandleState read(Time now) override;
   void write(const Wrench& F_H_M) override;
 
-  /// Places both handles at a pose, at rest. Call it before the first read. Returns false if a device cannot
-  /// reach the pose.
+  /// Places both handles at a pose, at rest. Call this before the first read. Returns false if a device
+  /// cannot reach the pose.
   bool place(const Pose& X_MH);
 
   [[nodiscard]] const SimulatedDelta& delta() const { return delta_; }
@@ -53,7 +53,7 @@ struct DeviceFigures {
 /// Returns half of the maximum displacement of the handle when each axis moves by `step_rad` or not at all, m
 /// or rad. `rates` maps the velocity of the handle to the axis rates.
 double cell_radius(double step_rad, const Matrix3& rates);
-/// Returns the properties of a device that is sampled with `period_s`. Throws GeometryError like
+/// Returns the properties of a device with the sampling period `period_s`. Throws GeometryError like
 /// SimulatedDevices.
 DeviceFigures device_figures(const DeviceConfig& config, double period_s);
 

@@ -11,9 +11,9 @@
 //   β_i = ((q'² - o v_t²/ρ)/rod + n . A θ'²) / l_i
 //
 // Here o is the offset of a general leg, q the vector from DeltaGeometry::elbow() to the centre of the
-// platform, ρ the length of q in the plane of the leg, v_t the speed of q' across q in that plane, and A the
-// vector of the arm. The equations are exact except for the lumping (Codourey, The International Journal of
-// Robotics Research 17(12), 1998).
+// platform, ρ the length of q in the plane of the leg, v_t the component of q' perpendicular to q in that
+// plane, and A the vector of the arm. The equations are exact except for the lumping (Codourey, The
+// International Journal of Robotics Research 17(12), 1998).
 
 #include "master/config/device_config.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
@@ -21,7 +21,7 @@
 
 namespace longreach {
 
-/// A pose with the quantities that the equation of motion needs. If `closed` is false (out of reach or
+/// A pose with the quantities that occur in the equation of motion. If `closed` is false (out of reach or
 /// singular), the other values are invalid.
 struct DeltaPose {
   bool closed = false;

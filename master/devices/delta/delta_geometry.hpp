@@ -77,7 +77,7 @@ class DeltaGeometry {
 
   [[nodiscard]] double arm_m() const { return arm_; }
   [[nodiscard]] double rod_m() const { return rod_; }
-  /// d + e; if 0, the forward kinematics has a closed form.
+  /// Returns d + e. If this is 0, the forward kinematics has a closed form.
   [[nodiscard]] double offset_m() const { return offset_; }
   [[nodiscard]] double radius_m() const { return radius_; }  // as DeltaDimensions::radius_m
   [[nodiscard]] double side_m() const { return side_; }      // s - f
@@ -104,7 +104,7 @@ class DeltaGeometry {
     return to_world(i, {radius_ + arm_ * cos_theta, side_, arm_ * sin_theta});
   }
 
-  /// Returns the same for all legs.
+  /// Returns elbow() for all legs.
   [[nodiscard]] DeltaLegVectors elbows(const DeltaTurns& turn) const {
     const DeltaLegs out = radius_ + arm_ * turn.cosine;
     return {cos_ * out - side_ * sin_, sin_ * out + side_ * cos_, (up_ * arm_) * turn.sine};

@@ -13,8 +13,8 @@ class DeltaHandle {
  public:
   explicit DeltaHandle(const DeviceConfig& config);
 
-  /// Updates position and velocity from the encoder angles. Call it once per sample, with `dt_s` = 0 for the
-  /// first one. Returns false if no position closes the loops; the last position is then kept.
+  /// Updates position and velocity from the encoder angles. Call this once per sample, with `dt_s` = 0 for
+  /// the first one. Returns false if no position closes the loops; the last position is then kept.
   bool read(const Vector3& theta_rad, double dt_s);
 
   /// Returns the motor torques, N m, that apply the force `force_n` to the hand and compensate the weight of
@@ -31,7 +31,7 @@ class DeltaHandle {
   Vector3 gravity_;  // compensated gravity, m/s²
   double filter_s_;
   Vector3 p_;
-  /// Displacement in the last sample, which extrapolates the initial guess of the next search.
+  /// Displacement in the last sample, from which the initial guess for the next search is extrapolated.
   Vector3 stride_ = Vector3::Zero();
   Vector3 v_ = Vector3::Zero();
   Vector3 theta_ = Vector3::Zero();

@@ -20,8 +20,8 @@ struct DeltaSingularity {
   /// Type 1: minimum of |l_i| / arm. At zero, arm and forearm are in line: the edge of the workspace, where the
   /// platform loses a degree of freedom.
   double arm = 0.0;
-  /// Type 2: smallest singular value of the three unit vectors along the rods. At zero, no motor resists a
-  /// certain motion of the platform.
+  /// Type 2: smallest singular value of the three unit vectors along the rods. At zero, there is a motion of
+  /// the platform that no motor resists.
   double rods = 0.0;
 };
 
@@ -59,7 +59,7 @@ DeltaSingularity singularity(const DeltaGeometry& g, const DeltaVelocity& at);
 /// Returns J, which maps motor rates to the velocity of the platform.
 DeltaJacobian jacobian(const DeltaVelocity& at);
 
-/// Returns the motor torques for which the device applies the force `force_n` to the hand.
+/// Returns the motor torques with which the device applies the force `force_n` to the hand.
 DeltaTorques statics(const DeltaVelocity& at, const Vector3& force_n);
 
 /// Returns the motor torques that compensate the weight of the device.

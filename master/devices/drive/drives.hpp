@@ -25,8 +25,8 @@ class Drives {
 
   Drives(const DriveConfig& config, std::uint32_t delay_samples);
 
-  /// Sets the torques commanded by the controller, N m. Call it once per sample. A non-finite value counts as
-  /// zero.
+  /// Sets the torques commanded by the controller, N m. Call this once per sample. A non-finite value counts
+  /// as zero.
   void command(const Vector3& tau_nm);
 
   /// Advances the motors by `dt_s`. Returns their mean torque over that time, N m.

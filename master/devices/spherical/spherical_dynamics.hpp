@@ -16,8 +16,8 @@
 
 namespace longreach {
 
-/// An orientation with the quantities that the equation of motion needs. If `closed` is false (unreachable or
-/// singular), the other values are invalid.
+/// An orientation with the quantities that occur in the equation of motion. If `closed` is false (unreachable
+/// or singular), the other values are invalid.
 struct SphericalAttitude {
   bool closed = false;
   Quaternion q = Quaternion::Identity();

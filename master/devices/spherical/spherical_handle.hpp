@@ -13,8 +13,8 @@ class SphericalHandle {
  public:
   explicit SphericalHandle(const DeviceConfig& config);
 
-  /// Updates orientation and angular velocity from the encoder angles. Call it once per sample, with `dt_s` =
-  /// 0 for the first one. Returns false if tracking fails; the last orientation is then kept.
+  /// Updates orientation and angular velocity from the encoder angles. Call this once per sample, with `dt_s`
+  /// = 0 for the first one. Returns false if tracking fails; the last orientation is then kept.
   bool read(const Vector3& theta_rad, double dt_s);
 
   /// Sets the orientation from which tracking starts, for a device that does not start at home.

@@ -78,8 +78,8 @@ class SphericalKinematics {
 
   /// Returns the orientation for these motor angles that is connected to `previous`. `previous.q` must be a
   /// unit quaternion; otherwise the identity is used. If `previous.side` is 0, the side is computed from the
-  /// previous orientation and the new angles. That may be wrong for a step across a singularity, so pass the
-  /// last result.
+  /// previous orientation and the new angles. This may be wrong for a step across a singularity, so pass the
+  /// previous result.
   [[nodiscard]] SphericalPose forward(const Vector3& theta_rad, const SphericalPose& previous) const;
   /// Returns the orientations for these motor angles in all assembly modes.
   [[nodiscard]] SphericalPoses forward_all(const Vector3& theta_rad) const;

@@ -16,8 +16,8 @@ namespace longreach {
 struct SphericalSingularity {
   /// Type 1: minimum of |u . (w x v)| / (sin alpha1 sin alpha2). At zero, a leg is stretched or folded.
   double legs = 0.0;
-  /// Type 2: smallest singular value of the three unit vectors along w x v. At zero, no motor resists a certain
-  /// rotation of the platform.
+  /// Type 2: smallest singular value of the three unit vectors along w x v. At zero, there is a rotation of
+  /// the platform that no motor resists.
   double platform = 0.0;
 };
 
@@ -49,7 +49,7 @@ SphericalJacobian jacobian(const SphericalVelocity& at);
 /// Returns J^-1, which maps motor rates to the angular velocity. It is singular at a type 2 singularity.
 SphericalJacobian inverse_jacobian(const SphericalVelocity& at);
 
-/// Returns the motor torques for which the device applies `moment_nm` to the hand: τ = J^-T M.
+/// Returns the motor torques with which the device applies `moment_nm` to the hand: τ = J^-T M.
 SphericalTorque statics(const SphericalVelocity& at, const Vector3& moment_nm);
 
 }  // namespace longreach
