@@ -70,10 +70,10 @@ struct MasterView {
   Vector3 goal_rad = Vector3::Zero();
   /// Goal extrapolated by the one-way delay, from the anchor, W, for the predictive overlay of the display.
   Pose forecast{};
-  Wrench F_H_M{};                            // rendered wrench on the hand
+  Wrench F_H_M{};  // rendered wrench on the hand
   /// Force on the hand from the contact spring with the largest force, M.
   Vector3 spring_force_n = Vector3::Zero();
-  bool in_contact = false;                   // as reported by the slave
+  bool in_contact = false;  // as reported by the slave
   bool surface_known = false;
   double surface_m = 0.0;  // position of the registered surface along `inward`, from the handle's home, m
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, M
@@ -136,8 +136,8 @@ class MasterNode {
   [[nodiscard]] const MasterView& view() const;
   /// Returns true while the fields that must not change during an engagement are locked.
   [[nodiscard]] bool engaged() const;
-  /// Returns whether a tick at `now` comes more than safety.gap_s after the previous one. Data that arrived
-  /// in between is then too old to use.
+  /// Returns whether a tick at `now` would come more than safety.gap_s after the previous one. If so, data
+  /// that arrived in between is too old to use.
   [[nodiscard]] bool stalled(Time now) const;
 
  private:

@@ -47,7 +47,7 @@ void set_field(google::protobuf::Message& message, std::string_view path, std::s
 /// Returns a field or sub-message as text, or the whole message if the path is empty. Unset fields are
 /// printed with their defaults. The text of a field can be passed to set_field, and that of a message can be
 /// read by load_text_file. Throws ConfigError if the path is unknown. If `start`, the configuration with
-/// which the side started, is given, comments state which values clients may set.
+/// which the side started, is given, comments in the text state which values clients may set.
 std::string get_field(const google::protobuf::Message& message, std::string_view path,
                       const google::protobuf::Message* start = nullptr);
 

@@ -125,7 +125,7 @@ struct RobotDatagram {
   double joint_rad[kJoints] = {};  // measured positions; m for a prismatic joint
   /// Measured speeds; m/s for a prismatic joint.
   double joint_rad_per_s[kJoints] = {};
-  double force_n[3] = {};    // force of the environment on the tool, along the axes of E; 0 without a sensor
+  double force_n[3] = {};  // force of the environment on the tool, along the axes of E; 0 without a sensor
   /// Moment of the environment on the tool, about the origin of E; 0 without a sensor.
   double moment_nm[3] = {};
 };

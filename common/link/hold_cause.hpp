@@ -1,8 +1,8 @@
 #pragma once
-// The causes for which a side stops following goals or refuses to engage. One table serves both sides and all
-// code that displays, logs, records or evaluates a cause. The enumerators have the same numbers on the wire
-// and in recordings (proto/recording.proto, Cause). In the status and the log, the name of a cause consists
-// of a few lower-case words.
+// The causes for which a side stops following goals or refuses to engage. Both sides use the same table, as
+// does all code that displays, logs, records or evaluates a cause. The enumerators have the same numbers on
+// the wire and in recordings (proto/recording.proto, Cause). In the status and the log, the name of a cause
+// consists of a few lower-case words.
 
 #include <cstdint>
 #include <string>
@@ -53,11 +53,11 @@ enum class HoldAttribution : std::uint8_t { kSystem, kMachine, kOperator, kOutag
 
 struct CauseText {
   std::string_view name;
-  std::string_view sentence;  // contains neither joint nor values; without a full stop
+  std::string_view sentence;  // contains neither the joint nor the values, and no full stop
   std::string_view remedy;    // suggested action
   HoldAttribution attribution = HoldAttribution::kSystem;
 };
-/// Returns the texts of `cause`. All are empty for kNone; an invalid number gives the name "unknown".
+/// Returns the texts of `cause`. All are empty for kNone; the name of an invalid number is "unknown".
 const CauseText& text_of(HoldCause cause);
 
 /// A cause with the joint and values that it refers to. Converts to and from a bare HoldCause.

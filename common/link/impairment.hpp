@@ -1,5 +1,5 @@
 #pragma once
-// Simulates the network as a seeded, pure queue: datagrams are pushed with the present time and, unless they
+// Simulates the network as a seeded, pure queue: datagrams are pushed with the current time and, unless they
 // were dropped, popped when they are due. The effects act on a datagram in this order: blackout, loss
 // (independent or Gilbert-Elliott bursts), corruption (one bit flipped), duplication, rate limit (a queue
 // that drops when full), delay with steps, drift and normally distributed jitter (never below zero),
@@ -10,7 +10,7 @@
 // with equal due times keep the order of arrival. Each effect has its own random stream, so that enabling one
 // does not change the numbers of another. Memory is bounded: at most 16384 datagrams are queued (more count
 // as queue_dropped), and a datagram longer than 600 bytes is truncated to 600, so that every receiver rejects
-// it by its length. A datagram keeps its origin.
+// it by its length. The origin of each datagram is preserved.
 
 #include <array>
 #include <cstddef>

@@ -30,7 +30,7 @@ struct ReportedSurface {
   // the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
-  /// Number of the touch, from 1, in which the tool last pressed on this surface; 0: no surface.
+  /// Number of the touch, counted from 1, in which the tool last pressed on this surface; 0: no surface.
   std::uint32_t touch = 0;
   bool pressed = false;
 };
@@ -41,8 +41,8 @@ inline constexpr std::size_t kSurfaces = 3;
 struct ContactReport {
   // All known surfaces. Their normals differ by at least 26 degrees. Unused entries are at the end.
   std::array<ReportedSurface, kSurfaces> surfaces{};
-  // Position of the tool at which a limit holds it back, from the engagement's anchor, in W: a displacement
-  // (m) or a rotation vector (rad).
+  // Position at which a limit holds the tool back, from the engagement's anchor, in W: a displacement (m) or
+  // a rotation vector (rad).
   Vector3 place = Vector3::Zero();
   // Unit vector in W from the tool towards the goal that a limit keeps it from reaching; zero: no limit is
   // active.

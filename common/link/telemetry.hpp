@@ -33,14 +33,14 @@ enum class Verdict : std::uint8_t { kNotYet, kIdentified, kNotIdentifiable, kNoP
 
 /// Current result of the estimator for the law F = k p^n + λ p^n p', p the depth.
 struct ContactEstimate {
-  double stiffness_n_per_m = 0.0;     // tangent stiffness dF/dp of the elastic force at the present depth
+  double stiffness_n_per_m = 0.0;     // tangent stiffness dF/dp of the elastic force at the current depth
   double stiffness_sd_n_per_m = 0.0;  // one standard deviation
   double k = 0.0;                     // N/m^n
   double lambda = 0.0;                // N s/m^(n+1)
   double n = 1.0;                     // exponent
-  double depth_m = 0.0;               // present depth below the estimated surface
+  double depth_m = 0.0;               // current depth below the estimated surface
   bool valid = false;                 // false: not yet identified, or no contact
-  double secant_n_per_m = 0.0;        // secant stiffness F/p at the present depth: tangent stiffness over n
+  double secant_n_per_m = 0.0;        // secant stiffness F/p at the current depth: tangent stiffness over n
   double k_sd = 0.0, lambda_sd = 0.0, n_sd = 0.0;
   double correlation = 0.0;  // correlation of k and λ
   Verdict stiffness_verdict = Verdict::kNotYet;

@@ -1,7 +1,7 @@
 #pragma once
 // Passes one command at a time from any thread to the loop, and returns its reply. The loop side (take,
-// answer) needs a few atomic operations: it never waits, locks or wakes a thread. The posting side polls for
-// the reply.
+// answer) uses only a few atomic operations: it never waits, locks or wakes a thread. The posting side polls
+// for the reply.
 
 #include <atomic>
 #include <chrono>

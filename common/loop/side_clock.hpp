@@ -8,7 +8,7 @@
 
 namespace longreach {
 
-/// Returns the present time of the side's clock.
+/// Returns the current time of the side's clock.
 inline Time boottime_now() {
   timespec t{};
   clock_gettime(CLOCK_BOOTTIME, &t);

@@ -1,6 +1,6 @@
 #pragma once
 // Passes a stop request from any thread to the loop, independently of the mailbox and of any lock: the next
-// tick reads a flag. The loop side needs two atomic operations.
+// tick reads a flag. The loop side uses only two atomic operations.
 
 #include <atomic>
 #include <chrono>

@@ -6,8 +6,8 @@
 
 namespace longreach {
 
-/// Returns a flag that becomes true when the end of the program is requested. The first call installs the
-/// signal handlers.
+/// Returns a flag that becomes true when the program is requested to end. The first call installs the signal
+/// handlers.
 std::atomic<bool>& stop_requested();
 
 }  // namespace longreach

@@ -1,8 +1,8 @@
 #pragma once
 // Channel to a program on this machine over a Unix socket (SOCK_SEQPACKET). The other program listens at a
 // path and must run as the same user or as root, as reported by the operating system; otherwise the channel
-// disconnects. The other program may start later and may restart. The channel never blocks, and it does not
-// allocate memory after construction.
+// disconnects. The other program may start later than this one, and may restart. The channel never blocks,
+// and it does not allocate memory after construction.
 
 #include <sys/types.h>
 

@@ -14,8 +14,8 @@ namespace longreach {
 /// remedy.
 void set_up_log(const std::string& side, const std::string& file);
 
-/// Stops logging to standard error; logging to a file continues. For programs that display the events in
-/// another way.
+/// Stops logging to standard error; logging to a file continues. Intended for programs that display the
+/// events in another way.
 void hush_log();
 
 /// Waits briefly for the log to be written. Call this at the end of the program.

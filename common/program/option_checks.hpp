@@ -29,7 +29,7 @@ inline CLI::Validator number_above_zero() {
           ""};
 }
 
-/// Needed because CLI11 accepts -1 and numbers that are too large.
+/// This is needed because CLI11 accepts -1 and numbers that are too large.
 inline CLI::Validator whole_number() {
   return {[](const std::string& text) {
             return parse_integer<std::uint64_t>(text)

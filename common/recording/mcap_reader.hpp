@@ -1,8 +1,8 @@
 #pragma once
 // Reads the messages of an MCAP file from start to end, in the order in which they were written. The summary
-// is not required: reading a truncated file ends after its last complete record. Lengths are checked before
-// memory is allocated, and chunks are checked against their CRC. Compressed chunks (zstd, lz4), which other
-// programs write, are supported.
+// is not required: a truncated file is read up to its last complete record. Lengths are checked before memory
+// is allocated, and chunks are checked against their CRC. Compressed chunks (zstd, lz4), which other programs
+// write, are supported.
 //
 // Attachments are skipped.
 

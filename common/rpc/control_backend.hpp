@@ -1,8 +1,8 @@
 #pragma once
 // Interface between the RPC service and a side, with one implementation per side. It is called from RPC
 // threads. stop() and the queries (status, config, start_config, link) may be called at any time and return
-// quickly; the other operations are called one at a time. An operation that changes something returns none if
-// it was carried out completely; otherwise it changes nothing and returns the reason for the refusal.
+// quickly; the other operations are called one at a time. An operation that changes something is either
+// carried out completely and returns none, or changes nothing and returns the reason for the refusal.
 
 #include <memory>
 #include <optional>

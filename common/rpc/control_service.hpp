@@ -33,7 +33,7 @@ class ControlService {
   proto::Status status();
   Result<proto::GetConfigResponse> get_config(const proto::GetConfigRequest& request);
   Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
-  /// Returns the impairment from now on; see continued().
+  /// Returns the impairment relative to the current time; see continued().
   proto::Impairment get_link();
   Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
   Result<proto::Outcome> set_mode(const proto::SetModeRequest& request);

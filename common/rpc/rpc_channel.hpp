@@ -18,7 +18,7 @@ namespace longreach {
 std::shared_ptr<grpc::Channel> connect_rpc(const std::string& address, RpcRole side,
                                            const RpcSecurity& security);
 
-/// Returns an unencrypted connection to any address. Only for pairing, which has its own protection.
+/// Returns an unencrypted connection to any address. Use it only for pairing, which has its own protection.
 std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
 
 /// Returns whether a call failed because the program at the address has a different role in the same site.

@@ -27,9 +27,10 @@ class SessionClient {
   /// State of the loop, which determines whether a session is needed.
   struct Present {
     std::uint64_t session = 0;  // 0: no session
-    double silence_s = 0.0;     // since the last datagram of the slave in this session; infinite if none
-    std::string slave{};        // address to which the master sends datagrams
-    double delay_s = 0.0;       // artificial round-trip delay of datagrams, which does not apply to RPC
+    // Time since the last datagram from the slave in this session; infinite if there was none.
+    double silence_s = 0.0;
+    std::string slave{};   // address to which the master sends datagrams
+    double delay_s = 0.0;  // artificial round-trip delay of datagrams, which does not apply to RPC
   };
   using Presence = std::function<Present()>;
   /// Passes a session to the loop. Returns false if the loop did not accept it.
@@ -46,10 +47,11 @@ class SessionClient {
   SessionClient& operator=(const SessionClient&) = delete;
 
   /// Returns why there is no session or why no datagrams of the session arrive, in one sentence with the
-  /// address of the slave and a remedy. Empty if there is no problem or the first response is pending.
+  /// address of the slave and a remedy. Returns an empty string if there is no problem or the first response
+  /// is pending.
   [[nodiscard]] std::string trouble() const;
-  /// Returns the address of the master that took control of the robot. Empty if this master has control or
-  /// never had it.
+  /// Returns the address of the master that took control of the robot. Returns an empty string if this master
+  /// has control or never had it.
   [[nodiscard]] std::string taken_by() const;
 
  private:

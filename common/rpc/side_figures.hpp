@@ -17,7 +17,7 @@ struct SideFigures {
   LoopFigures loop{};
   std::uint64_t session = 0;        // 0 before the first session
   std::uint32_t peer_restarts = 0;  // number of sessions after the first
-  std::uint64_t unknown_peers = 0;  // datagrams from addresses other than that of the peer
+  std::uint64_t unknown_peers = 0;  // datagrams from addresses other than the peer's
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 

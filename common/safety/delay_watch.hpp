@@ -3,7 +3,7 @@
 // second with the minimum of this median since the engagement; the minimum itself may rise by at most 1 ms
 // per second. This detects an attacker who delays authentic datagrams in either direction, suddenly or
 // gradually. Medians are used so that the minimum is not determined by a single datagram, a late tick or a
-// stalled side; the median is unknown until datagrams have arrived for a quarter of a second. Pure: the
+// stalled side; the median is unknown until datagrams have arrived for a quarter of a second. It is pure: the
 // caller supplies the time. A delay that already existed when the engagement began is not detected.
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class DelayWatch {
  public:
   DelayWatch();
 
-  /// Starts an engagement: accepts the present delay, but no increase from now on.
+  /// Starts an engagement: accepts the current delay, but no later increase.
   void rebase();
   /// Adds the round-trip time of a datagram. A value below zero (unknown) is ignored.
   void add(Time now, Duration rtt);

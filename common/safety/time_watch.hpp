@@ -1,8 +1,8 @@
 #pragma once
 // Monitors the timing of a side: the time since its previous tick, and the delay of received datagrams. It
 // reports stalls longer than the gap timer, a loop that cannot keep its rate, and an increased delay. A
-// datagram with an echo more than 0.25 s older than the newest echo reflects a past delay and is ignored.
-// Pure: the caller supplies the time.
+// datagram with an echo more than 0.25 s older than the newest echo reflects a past delay and is ignored. It
+// is pure: the caller supplies the time.
 
 #include <algorithm>
 #include <optional>
@@ -18,7 +18,7 @@ class TimeWatch {
  public:
   explicit TimeWatch(double rate_hz) : overrun_(rate_hz) {}
 
-  /// Returns whether a tick at `now` comes more than `gap_s` after the previous one.
+  /// Returns whether a tick at `now` would come more than `gap_s` after the previous one.
   [[nodiscard]] bool stalls(Time now, double gap_s) const {
     return stepped_at_ && to_seconds(now - *stepped_at_) > gap_s;
   }
@@ -43,7 +43,7 @@ class TimeWatch {
     if (stalled_since_) overrun_.clear();
     delay_.step(now);
   }
-  /// Starts an engagement: accepts the present delay.
+  /// Starts an engagement: accepts the current delay.
   void rebase() { delay_.rebase(); }
 
   /// Returns the time from the previous tick to this one; none at the first tick.

@@ -56,8 +56,8 @@ std::string fingerprint(const std::string& certificate_pem);
 std::string valid_until(const std::string& certificate_pem);
 
 /// Returns why a peer that trusts the authority would reject the certificate, as a clause such as "it is not
-/// signed by the authority". Empty if the certificate is valid. If `key_pem` is not empty, also checks that
-/// it is the matching private key.
+/// signed by the authority". Returns an empty string if the certificate is valid. If `key_pem` is not empty,
+/// also checks that it is the matching private key.
 std::string certificate_trouble(const std::string& authority_pem, const std::string& certificate_pem,
                                 const std::string& key_pem, const std::string& name);
 

@@ -57,8 +57,8 @@ class PairingOffer {
 
   [[nodiscard]] State state(Time now) const;
   [[nodiscard]] int tries_left() const { return tries_left_; }
-  /// Returns the paired host for the log, with its name and the fingerprints of its certificates. Empty if no
-  /// host was paired.
+  /// Returns the paired host for the log, with its name and the fingerprints of its certificates. Returns an
+  /// empty string if no host was paired.
   [[nodiscard]] const std::string& paired() const { return paired_; }
 
  private:

@@ -5,8 +5,8 @@
 //   paired   host=NAME role=ROLE since=TIME expires=DATE fingerprint=SHA256:...
 //   revoked  SHA256:... since=TIME
 //
-// A server checks the file in each call, so it rejects a revoked certificate from the next call on
-// (common/rpc/caller_certificate); it also ends calls in progress. Other hosts of the site have their own
+// A server checks the file in each call, so a revocation takes effect with the next call
+// (common/rpc/caller_certificate); calls in progress are ended, too. Other hosts of the site have their own
 // folders and are not notified.
 
 #include <filesystem>

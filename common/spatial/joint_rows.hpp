@@ -32,7 +32,7 @@ Matrix3 rotation_behind(const JointRow& row);
 struct JointRows {
   Pose base{};  // B, in W
   std::vector<JointRow> row{};
-  Pose tool{};  // E, in the frame of the last row
+  Pose tool{};  // pose of E in the frame of the last row
 };
 
 /// Computes the rows for at least one axis. `X_WE` is the pose of the tool with all joints at zero. The

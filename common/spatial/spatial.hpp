@@ -46,12 +46,12 @@ inline Matrix3 cross_matrix(const Vector3& v) {
   return m;
 }
 
-/// Converts a rotation vector (axis times angle, rad) to a unit quaternion. Exact at zero, and valid for
-/// every finite vector.
+/// Converts a rotation vector (axis times angle, rad) to a unit quaternion. The result is exact at zero and
+/// valid for every finite vector.
 Quaternion exp_rotation(const Vector3& rotation_rad);
 
-/// Converts a unit quaternion to the shortest rotation vector, |result| <= pi. Accurate near zero and near
-/// pi.
+/// Converts a unit quaternion to the shortest rotation vector, |result| <= pi. The result is accurate near
+/// zero and near pi.
 Vector3 log_rotation(const Quaternion& q);
 
 /// Composes two poses: X_AC = X_AB * X_BC.

@@ -1,6 +1,6 @@
 #pragma once
-// States, causes and limits of the system as text for the operator. Pure; the texts have no trailing full
-// stop.
+// States, causes and limits of the system as text for the operator. The functions are pure, and their texts
+// have no trailing full stop.
 
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@
 namespace longreach {
 
 std::string_view state_in_words(SafetyState state);
-/// Returns the cause of the state, including whether the slave reported it and whether it is over. Empty if
-/// there is no cause.
+/// Returns the cause of the state, including whether the slave reported it and whether it is over. Returns an
+/// empty string if there is no cause.
 std::string cause_in_words(const MasterView& view);
 /// Returns why the requested engagement was not granted, and a remedy.
 std::string refusal_in_words(const MasterView& view);

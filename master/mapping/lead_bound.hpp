@@ -28,8 +28,8 @@ class LeadBound {
     }
   }
 
-  /// Records that the command `sequence` is sent with a goal that is `ahead` of the position of the bound, m
-  /// or rad, along its direction.
+  /// Records that command `sequence` is sent. Its goal is `ahead` (m or rad) beyond the position of the
+  /// bound, along its direction.
   void on_command(std::uint64_t sequence, double ahead) {
     constexpr double kRounding = 1e-9;
     if (bound_.direction.isZero(0.0) || ahead > lead_ + kRounding) {

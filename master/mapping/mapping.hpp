@@ -90,7 +90,8 @@ class Mapping {
   [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
 
   /// Returns the rotation vector of the handle, in M from home, at which it commands `goal_rotation`. It is
-  /// limited to 2 rad from the reference of the handle, which no device can reach. Position mode only.
+  /// limited to 2 rad from the reference of the handle, an angle that no device can reach. Position mode
+  /// only.
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
 
  private:
@@ -107,7 +108,7 @@ class Mapping {
   MotionMode mode_ = MotionMode::kPosition;
   double scale_ = 1.0;
   bool frozen_ = true;
-  bool outside_m_ = false, outside_rad_ = false;  // outside the dead zones
+  bool outside_m_ = false, outside_rad_ = false;  // the deflections are outside the dead zones
   Vector3 x_ref_ = Vector3::Zero();               // position of the handle when the references were set
   Vector3 g_ref_ = Vector3::Zero();               // goal when the references were set
   Quaternion q_ref_ = Quaternion::Identity();

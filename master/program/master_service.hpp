@@ -38,13 +38,13 @@ class MasterService : public ControlBackend {
   /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Returns the newest snapshot of the loop. Callable from any thread except that of the loop.
+  /// Returns the newest snapshot of the loop. May be called from any thread except that of the loop.
   MasterSnapshot snapshot();
-  /// Passes requests to the loop. Returns the reason if they are refused. Callable from any thread except
-  /// that of the loop.
+  /// Passes requests to the loop. Returns the reason if they are refused. May be called from any thread
+  /// except that of the loop.
   std::optional<Refusal> request(const OperatorRequests& requests);
-  /// Passes a session to the loop. Returns false if the loop did not respond. Callable from any thread except
-  /// that of the loop.
+  /// Passes a session to the loop. Returns false if the loop did not respond. May be called from any thread
+  /// except that of the loop.
   bool adopt(const Session& session);
   /// Returns why there is no session with the slave, or another problem of the link or the hand; empty if
   /// there is no problem.

@@ -65,7 +65,7 @@ class MasterShell {
   /// Sets the record buffer. Call this before the first tick; later, use MasterRecordingChange.
   void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
-  /// Returns the snapshot of the last tick. Only for the loop thread.
+  /// Returns the snapshot of the last tick. May be called only in the loop thread.
   [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
 
   Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }

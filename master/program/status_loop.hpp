@@ -82,7 +82,7 @@ class StatusLoop {
   ServiceWatch watch_;
   HoldLog holds_;
   std::vector<HandTrouble> troubles_;
-  std::string hand_said_;  // the present problem with the input of the hand; empty if there is none
+  std::string hand_said_;  // the current problem with the input of the hand; empty if there is none
   Resumption resumption_{};
   Time began_ = boottime_now();
   bool quit_ = false;

@@ -53,7 +53,7 @@ struct ContactHandle {
 /// Effect of a report.
 enum class ContactChange : std::uint8_t {
   kNone,      // no change, or not enough data to place a surface yet
-  kRejected,  // the values are impossible, or the touch is at a command that this side never sent
+  kRejected,  // the values are impossible, or the touch refers to a command that this side never sent
   kUpdated,   // surfaces or stiffness have changed
 };
 

@@ -79,7 +79,8 @@ class ContactSpring {
   double paid_j_ = 0.0;
   double last_n_ = 0.0;   // force in the last step
   double depth_m_ = 0.0;  // depth in the last step
-  /// Low-pass filtered position (time constant fade_s); gives the direction of motion without tremor.
+  /// Low-pass filtered position (time constant fade_s), from which the direction of motion is determined
+  /// without tremor.
   double s_slow_m_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;

@@ -24,8 +24,8 @@ class GoalHistory {
   void push(std::uint64_t sequence, const Vector3& goal_m);
 
   /// Returns the goal at a fractional sequence number, interpolated linearly between two commands, or none
-  /// outside the stored range. A number before the start of a complete history gives the first goal, because
-  /// an engagement starts at the position of the robot.
+  /// outside the stored range. If the history is complete, a number before its start returns the first goal,
+  /// because an engagement starts at the position of the robot.
   [[nodiscard]] std::optional<Vector3> at(double sequence) const;
 
   /// Returns whether the command is so old that its goal is no longer stored.

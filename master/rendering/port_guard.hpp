@@ -7,8 +7,8 @@
 // A spring whose force is held for a sample acts like negative damping K T/2. If E_port - E_stored decreases
 // for this reason and the tank is empty, the deficit is repaid by injected damping of at most 0.4 m/T, within
 // the limits of force and rate; m is the mass of the handle alone (bounded as in Hannaford and Ryu 2002).
-// Damping computed from single encoder counts would supply energy to the handle, so the velocity is that of
-// quantized_motion_filter.hpp. Forces are in N and motions in m, or N m and rad.
+// Damping computed from single encoder counts would supply energy to the handle, so the velocity from
+// quantized_motion_filter.hpp is used. Forces are in N and motions in m, or N m and rad.
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ class PortGuard {
  public:
   explicit PortGuard(const PortGuardConfig& config) : config_(config) {}
   void configure(const PortGuardConfig& config) { config_ = config; }
-  /// Resets the energy balance. The rate limit continues from the present force.
+  /// Resets the energy balance. The rate limit continues from the current force.
   void reset();
   /// Sets the ramp to full force; call this after reset(), with all springs unloaded.
   void open() { gain_ = 1.0; }
@@ -77,8 +77,8 @@ class PortGuard {
   static constexpr double kFreed_s = 0.6;
 
   PortGuardConfig config_;
-  Vector3 f_last_ = Vector3::Zero();   // force whose work observe() adds to the port energy
-  Vector3 f_given_ = Vector3::Zero();  // present force on the hand
+  Vector3 f_last_ = Vector3::Zero();   // force from which observe() computes the port energy
+  Vector3 f_given_ = Vector3::Zero();  // current force on the hand
   double port_energy_j_ = 0.0;
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;

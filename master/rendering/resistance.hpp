@@ -10,7 +10,7 @@
 // exponent 0). It is quiet at rest, because encoder noise is only multiplied by σ.
 //
 // No transition causes a force step or increases the stored energy by itself. A reduced force (coarser scale,
-// load released, end of rate mode, clutch) fades with fade_s. A stiffer spring starts with the present force.
+// load released, end of rate mode, clutch) fades with fade_s. A stiffer spring starts with the current force.
 // A spring is stretched further only as far as its own dissipation permits. A spring that is held for a
 // sample returns up to k|dx|²/2, which the caller must account for. The values of the handle must be finite.
 

@@ -65,7 +65,7 @@ struct MasterSafetyInput {
   std::optional<double> rtt_s{};        // round-trip time of the link; none until it is known
   std::optional<Time> stalled_since{};  // time of the previous tick if it was more than gap_s ago
   bool delay_rose = false;              // the round-trip time has increased by more than delay_rise_max_s
-  bool overrun = false;                 // the loop of this side does not keep its rate
+  bool overrun = false;                 // the loop of this side cannot keep its rate
 };
 
 class MasterSafety {
@@ -143,7 +143,7 @@ class MasterSafety {
   bool confirmed_ = false;  // the slave has confirmed the current engagement
   Time asked_at_{};         // time of the request for the current engagement
   Time held_since_{};       // time since which the slave has been reporting Holding
-  /// Time at which the present hold began; after a stall, the start of the stall.
+  /// Time at which the current hold began; after a stall, the start of the stall.
   Time left_at_{};
   std::uint64_t false_holds_ = 0;
 };

@@ -12,7 +12,7 @@ struct DeltaDesign {
 };
 
 /// Returns a **reconstruction** of the device of Liu, Geng, Liu, Wang (Chinese Journal of Aeronautics 32(3),
-/// 2019), because its tables of dimensions are not available. The parameters were chosen so that the gravity
+/// 2019), whose tables of dimensions are not available. The parameters were chosen so that the gravity
 /// torques (gravity along -z) agree within 7 % with those measured in the paper: 16.3 mN m at home, and 15.6,
 /// 13.5 and 18.8 mN m at the position [1.5, 17.7, 33.3] mm from home.
 DeltaDesign reconstructed_delta();

@@ -43,7 +43,7 @@ struct DeltaGeneral {
 struct DeltaDimensions {
   double arm_m = 0.0;     // > 0
   double rod_m = 0.0;     // > 0
-  double radius_m = 0.0;  // radius of the motor axis minus that of the platform joint
+  double radius_m = 0.0;  // radius at the motor axis minus radius at the platform joint
   double offset_m = 0.0;  // d + e, >= 0
   double side_m = 0.0;    // s - f
   bool upwards = false;   // positive θ turns the arms towards +z

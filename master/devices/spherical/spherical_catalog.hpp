@@ -5,8 +5,8 @@
 
 namespace longreach {
 
-/// Returns a **reconstruction** of the device of Liu, Geng, Liu, Wang (2019), because its table of angles is
-/// not available. All link angles are 90 degrees, and the base axes and the platform axes are mutually
+/// Returns a **reconstruction** of the device of Liu, Geng, Liu, Wang (2019), whose table of angles is not
+/// available. All link angles are 90 degrees, and the base axes and the platform axes are mutually
 /// orthogonal. The device is in its usual attitude, with z as the axis of symmetry.
 SphericalGeometry reconstructed_spherical();
 

@@ -6,7 +6,7 @@
 //   W = E_in,slave[k-d] - E_out + E_pc;  W < 0:  F -= α v,  α = min(-W/(T v²), 2m/T),  E_pc += α v² T
 //
 // The energy that leaves this port, minus the dissipated energy, never exceeds the energy that entered at the
-// slave, except for the part that the bound on α defers to later motion. The slave corrects the position
+// slave, except for energy whose dissipation is postponed by the bound on α. The slave corrects the position
 // drift.
 
 #include "common/link/comparison_config.hpp"
