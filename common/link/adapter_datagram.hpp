@@ -117,7 +117,7 @@ struct RobotDatagram {
   enum Flag : std::uint32_t {
     kOk = 1,      // the robot works and may be moved
     kLoad = 2,    // the gripper holds a load
-    kStopped = 4  // at rest without a setpoint, until the next setpoint arrives
+    kStopped = 4  // stopped; the robot stays at rest until the next setpoint arrives
   };
   Header header{};
   std::uint32_t flags = 0;

@@ -68,7 +68,7 @@ struct Reason {
   // the centre of the workspace, m. For an approaching surface the axis of W along which the tool can retreat:
   // 1, 2, 3 for x, y, z, negative for the opposite direction.
   double value = 0.0;
-  double limit = 0.0;  // limit of `value`, or the previous position of the joint, in the same unit
+  double limit = 0.0;  // limit of `value` or previous position of the joint, in the same unit
 
   constexpr Reason() = default;
   constexpr Reason(HoldCause of) : cause(of) {}

@@ -1,6 +1,6 @@
 #pragma once
 // Source address of a datagram, in the format of the channel that received it; no other code interprets it.
-// All zero means none.
+// If all bytes are zero, there is no address.
 
 #include <array>
 #include <cstdint>

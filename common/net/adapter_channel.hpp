@@ -20,8 +20,8 @@ void refuse_insecure(bool insecure, const AdapterConfig& config, const std::stri
 /// before silence_s has passed instead of the first tick after it.
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz);
 
-/// Describes what is wrong with an adapter and how to fix it; empty if nothing is wrong. `device` is "haptic
-/// device" or "robot".
+/// Describes what is wrong with an adapter and how to fix it; empty if there is no problem. `device` is
+/// "haptic device" or "robot".
 struct AdapterFigures;
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address);

@@ -24,8 +24,8 @@ struct ListedRecording {
 std::vector<ListedRecording> list_recordings(const std::filesystem::path& folder);
 
 /// Finds recordings by name. `name` is either the path of a file or the name of recordings in `folder`, where
-/// NAME, NAME.mcap, and then NAME-master.mcap and NAME-slave.mcap are tried. If nothing is found, throws a
-/// RecordingError that lists the searched folders.
+/// NAME, NAME.mcap, and then NAME-master.mcap and NAME-slave.mcap are tried. If there is no such recording,
+/// throws a RecordingError that lists the searched folders.
 std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& folder,
                                                    const std::string& name);
 
