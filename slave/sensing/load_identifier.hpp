@@ -48,8 +48,10 @@ class LoadIdentifier {
   /// The mass is known within 10 %, or it is known to be negligible.
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
-  /// Uncertainty of the mass, in addition to load(), kg.
-  [[nodiscard]] double uncertainty_kg() const;
+  /// Part of the mass of load() whose effect the bond may change, kg.
+  [[nodiscard]] double unmodelled_kg() const;
+  /// Mass that there may be in addition to load(), kg.
+  [[nodiscard]] double unknown_kg() const;
 
  private:
   static constexpr int kStates = 10;  // m, h, b_f, b_τ

@@ -86,9 +86,19 @@ double ToolCompensation::tool_uncertainty_n() const {
          (plausibility_.m_per_s2() + config_.tool.com_m.norm() * plausibility_.rad_per_s2());
 }
 
+void LoadPeak::step(const SensorMotion& motion, double dt) {
+  const double turned = motion.angular_acceleration.norm() + motion.angular.squaredNorm();
+  push_.step((motion.gravity - motion.acceleration).norm() + kReach_m * turned, dt);
+  turn_.step(turned, dt);
+}
+
+double ToolCompensation::load_n() const {
+  return load_.unmodelled_kg() * at_once_.push_m_per_s2() + load_.unknown_kg() * in_time_.push_m_per_s2();
+}
+
 double ToolCompensation::uncertainty_n() const {
   const double tool_n = tracks() ? kToolUnknown * config_.tool.mass_kg * tool_push_.m_per_s2() : 0.0;
-  return tool_uncertainty_n() + std::min(tool_n + load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
+  return tool_uncertainty_n() + std::min(tool_n + load_n(), limits_.load_n);
 }
 
 void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
@@ -99,7 +109,9 @@ void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
 }
 
 double ToolCompensation::uncertainty_nm() const {
-  const double by_load = kReach_m * load_.uncertainty_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
+  const double turned_nm =
+      load_.unmodelled_kg() * at_once_.turn_rad_per_s2() + load_.unknown_kg() * in_time_.turn_rad_per_s2();
+  const double by_load = kReach_m * (load_n() + kReach_m * turned_nm);
   return config_.tool.com_m.norm() * tool_uncertainty_n() +
          config_.tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2() +
          std::min(by_load, limits_.load_nm);
@@ -122,9 +134,8 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
   follow(slow_, motion, kBond_s);
   follow(quick_, motion, kQuick_s);
   follow(decided_, quick_, config_.filter_s);
-  const double turned = decided_.angular_acceleration.norm() + decided_.angular.squaredNorm();
-  push_.step((decided_.gravity - decided_.acceleration).norm() + kReach_m * turned, dt);
-  turn_.step(turned, dt);
+  at_once_.step(quick_, dt);
+  in_time_.step(decided_, dt);
   const Wrench load = tool_wrench(load_.load(), slow_);
   return {left.moment - load.moment, left.force - load.force};
 }

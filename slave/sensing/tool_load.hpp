@@ -74,6 +74,17 @@ class AccelerationPeak {
   double most_ = 0.0, age_s_ = 0.0;
 };
 
+/// Maximum acceleration of any point of a load in the last 0.3 s, and its part by rotation.
+class LoadPeak {
+ public:
+  void step(const SensorMotion& motion, double dt);
+  [[nodiscard]] double push_m_per_s2() const { return push_.m_per_s2(); }
+  [[nodiscard]] double turn_rad_per_s2() const { return turn_.m_per_s2(); }
+
+ private:
+  AccelerationPeak push_{}, turn_{};
+};
+
 /// Sample for identifying a load.
 struct LoadSample {
   bool free = false;  // there is no contact
@@ -151,6 +162,7 @@ class ToolCompensation {
   [[nodiscard]] double tool_uncertainty_n() const;
   [[nodiscard]] bool tracks() const { return !(config_.touch_n > 0.0); }
   void follow_tool(const SensorMotion& motion, double dt);
+  [[nodiscard]] double load_n() const;
   Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
@@ -158,8 +170,10 @@ class ToolCompensation {
   SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
-  std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
-  AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
+  std::optional<Pose> X_WF_{};  // pose of the sensor at the previous sample
+  // Peaks of the load's motion: before and after the filter of the force that decides about contact. The known part of
+  // a load is compensated with some bond, so the error of that is as short as the first; the unknown part is not.
+  LoadPeak at_once_{}, in_time_{};
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
