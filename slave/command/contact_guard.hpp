@@ -41,13 +41,13 @@ struct ContactForce {
   /// Unit vector, direction in which the force grows unexpectedly; zero: none.
   Vector3 grows = Vector3::Zero();
   double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
-  /// Unit vector, direction of the whole force, and its magnitude, if it is far from `reaction`; otherwise
-  /// zero.
+  /// Direction (unit vector) and magnitude of the total force if its direction is far from `reaction`;
+  /// otherwise zero.
   Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;
   double elsewhere_lead_m = 0.0;  // lead of the setpoint against the force `elsewhere`
   bool trusted = true;            // false: the force is in doubt, and the tool does not retreat
-  /// Speed of a retreat without a goal that tests whether the force responds.
+  /// Speed of the retreat that, without a goal, tests whether the force responds.
   double ease_m_per_s = 0.0;
   /// The tool retreats from a force that grows at rest (force_answer.hpp), with the speed `retreat_m_per_s`.
   bool gives_way = false;
@@ -59,7 +59,7 @@ struct ContactForce {
 
 struct GuardLimits {
   double guard_n = 20.0;           // G
-  double hold_n = 10.0;            // limit of the force in a hold
+  double hold_n = 10.0;            // force limit in a hold
   double stiffness_n_per_m = 2e4;  // k_max
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a

@@ -1,7 +1,8 @@
 #pragma once
 // Models how far a setpoint leads a tool that follows it through a first-order servo of bandwidth f:
 //   x' = 2π f (s - x),   lead = s - x
-// The deflection of the tool by the contact is not modelled: that part of the lead never becomes motion.
+// The deflection of the tool by the contact is not modelled, because that part of the lead never becomes
+// motion.
 
 #include <cmath>
 #include <numbers>

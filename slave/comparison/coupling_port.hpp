@@ -9,7 +9,7 @@
 namespace longreach {
 
 struct CouplingInput {
-  std::optional<ComparisonCommand> command{};  // newest command that arrived in this tick; none: no arrival
+  std::optional<ComparisonCommand> command{};  // newest command that arrived in this tick, if any
   Vector3 force_n = Vector3::Zero();           // measured force of the environment on the tool
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The smallest force guard G for which the force of a first touch stays below 1.35 G. At the speed v into the
+// The smallest force guard G for which the force of a first touch stays below 1.35 G. At a speed v into a
 // stiffness k, the tool advances by v T before it slows down, where T includes the lag of the loop and the
 // setpoint and the time to detect the contact. Then the setpoint brakes at a and turns back until the tool,
 // which lags it by the time constant τ of the servo, has come to rest after the time t. If the guard is high,

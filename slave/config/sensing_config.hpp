@@ -39,7 +39,7 @@ struct SensingConfig {
 
 /// Returns the drift of the force that the thresholds allow for: its standard deviation after one second, N.
 inline double expected_drift_n(const SensingConfig& c) {
-  constexpr double kUsualDrift_n = 0.05;  // if the drift is not configured
+  constexpr double kUsualDrift_n = 0.05;  // used if no drift is configured
   return std::max(c.force_drift_n, kUsualDrift_n);
 }
 
