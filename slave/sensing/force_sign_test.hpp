@@ -1,8 +1,8 @@
 #pragma once
 // Tests whether the sensor or the contact causes an unexpected growth of the force. The robot brakes, and the
-// test observes how the force changes. If the sensor is faulty, the wall is at rest and the force stops
-// changing with the robot. An approaching wall continues to push. The force of a carried object ends with the
-// motion. The change of the force is evaluated after 60 ms, over the whole time and over the last 20 ms:
+// test observes how the force changes. If the sensor is faulty, the wall is at rest, and the force changes
+// only while the robot moves. An approaching wall continues to push. The force of a carried object ends with
+// the motion. The change of the force is evaluated after 60 ms, over the whole time and over the last 20 ms:
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the
 //                                                    sensor is wrong; this is decided as soon as an
 //                                                    approaching wall would differ by twice that tolerance

@@ -1,5 +1,5 @@
 #pragma once
-// Scenario of a run, drawn from its seed: robot, scene, device, link, limits and behaviour of the operator.
+// Scenario of a run, drawn from the seed: robot, scene, device, link, limits and behaviour of the operator.
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// Records what the master sent and what the slave received, with times, independently of both. This
-// determines whether the robot is permitted to move.
+// Records, independently of the two sides, what the master sent and what the slave received, with times. The
+// record determines whether the robot is permitted to move.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,9 +20,9 @@ struct SentCommand {
   MotionCommand command{};
 };
 
-/// Permission to move the robot, as it follows from the commands that the slave received.
+/// Permission to move the robot, derived from the commands that the slave received.
 struct MotionAuthority {
-  /// The newest command requests this engagement, which has not ended.
+  /// True if the newest command requests this engagement and the engagement has not ended.
   bool engaged = false;
   double received_s = -1e9;  // arrival of the newest command
   double sent_s = -1e9;      // time at which that command was sent
@@ -35,8 +35,8 @@ struct MotionAuthority {
 
 class SentLog {
  public:
-  /// `gap_s`, `resume_s`: times of the slave's safety. It holds after a silence of `gap_s` and may resume by
-  /// itself within `resume_s`.
+  /// `gap_s` and `resume_s` are parameters of the slave's safety state machine. The slave holds after `gap_s`
+  /// without a datagram and may resume automatically within `resume_s`.
   SentLog(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
   /// From now on the slave follows `session`; if `to_master`, the master sends in this session.
