@@ -42,7 +42,7 @@ class ToolHeldBack {
   [[nodiscard]] const Vector3& turn() const { return turn_.direction(); }
 
  private:
-  /// Distance from the goal, in m and in rad, above which the tool counts as held back.
+  /// Distance from the goal, in m and in rad, above which the tool is considered held back.
   HeldBack place_{2e-3}, turn_{0.02};
 };
 

@@ -33,12 +33,12 @@ namespace longreach {
 /// What the guard needs to know about the contact.
 struct ContactForce {
   bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();  // unit vector, direction of the force on the tool
+  Vector3 reaction = Vector3::Zero();  // unit vector in the direction of the force on the tool
   double force_n = 0.0;                // component of the force along `reaction`
   double stiffness_n_per_m = 0.0;      // identified stiffness; 0: unknown
   /// Distance that the tool will still move into the contact because the servo lags the setpoint.
   double lead_m = 0.0;
-  /// Unit vector, direction in which the force grows unexpectedly; zero: none.
+  /// Unit vector in the direction in which the force grows unexpectedly; zero if there is none.
   Vector3 grows = Vector3::Zero();
   double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
   /// Direction (unit vector) and magnitude of the total force if its direction is far from `reaction`;

@@ -25,7 +25,7 @@ namespace longreach {
 constexpr double kSingularBand = 0.08;
 
 struct MotionInput {
-  std::optional<Pose> X_WE_goal{};  // none: the tool brakes and stays in place
+  std::optional<Pose> X_WE_goal{};  // if unset, the tool brakes and stays in place
   ContactForce contact{};
   double dt = 0.0;        // > 0, s, the same in every step
   bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit

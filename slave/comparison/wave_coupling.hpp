@@ -5,7 +5,7 @@
 //   F_s = √(2b) u_s - b v_s,   w_s = √(2b) v_s - u_s,   so  F_s v_s = (u_s² - w_s²)/2
 //   m a = F_s - Bs v_s + F_e       the damping is integrated implicitly
 //
-// A wave that does not arrive counts as zero.
+// A wave that does not arrive is treated as zero.
 
 #include <cmath>
 

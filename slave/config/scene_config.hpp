@@ -74,7 +74,7 @@ struct SurfaceConfig {
   std::optional<BoxConfig> box{};
   std::optional<CylinderConfig> cylinder{};
   std::optional<HingeConfig> hinge{};
-  /// Surfaces with the same body form a union; empty: the surface is a body of its own.
+  /// Surfaces with the same body form a union; if empty, the surface is a separate body.
   std::string body{};
   std::optional<MovementConfig> movement{};
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The sums over all samples that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs, for every
-// exponent n at once:
+// The sums over all samples that are needed for a least squares fit of F = c0 ξⁿ + c1 ξⁿ v with ξ = x/x_ref,
+// for all exponents n at once:
 //   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
 // They are smooth functions of n, so no linearization about an unknown n is necessary. They are stored either
 // on a grid for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Growing the

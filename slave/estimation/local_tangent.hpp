@@ -1,8 +1,8 @@
 #pragma once
-// Tangent stiffness of a contact without a force law: a least squares fit of the force as a function of
-// depth, and of depth times speed, about the mean depth x̄ of the last seconds, F = c + S (x - x̄) + b (x -
-// x0) v. It is used where no power law fits, for example for a progressive foam, a pad on steel or a material
-// with hysteresis. It is valid only in the range of depths that the tool covered.
+// Tangent stiffness of a contact, identified without assuming a force law: a least squares fit of the force
+// as a function of depth, and of depth times speed, about the mean depth x̄ of the last seconds, F = c + S (x
+// - x̄) + b (x - x0) v. It is used where no power law fits, for example for a progressive foam, a pad on
+// steel or a material with hysteresis. It is valid only in the range of depths that the tool covered.
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -54,7 +54,7 @@ class WorkingDepth {
 
  private:
   static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
-  /// Duration without an oscillation after which the tool counts as resting, in multiples of the memory.
+  /// Duration without an oscillation after which the tool is considered at rest, in multiples of the memory.
   static constexpr double kRests = 2.5;
   /// Minimum amplitude of an oscillation, in standard deviations of the depth.
   static constexpr double kSwing = 0.5;

@@ -58,7 +58,7 @@ struct InverseSolutions {
 
 class Inverse {
  public:
-  static constexpr double kSingular = 1e-7;  // conditioning below which a direction counts as lost
+  static constexpr double kSingular = 1e-7;  // conditioning below which a direction is considered lost
 
   explicit Inverse(const RobotConfig& robot);
 

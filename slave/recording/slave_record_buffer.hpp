@@ -1,8 +1,7 @@
 #pragma once
 // Buffers the records of the slave's loop for a recording: the exact inputs and outputs of each tick, so that
 // the node can be replayed, and, less often, its view. The functions for the loop copy into preallocated
-// memory; they do not block, allocate or make system calls. A tick for which there is no space is dropped and
-// counted.
+// memory; they do not block, allocate or make system calls. Ticks that do not fit are dropped and counted.
 
 #include <cstdint>
 #include <variant>

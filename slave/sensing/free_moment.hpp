@@ -12,7 +12,7 @@
 namespace longreach {
 
 constexpr double kToolLever_m = 0.3;
-/// A smaller force counts as noise.
+/// A smaller force is treated as noise.
 constexpr double kForceSeen_n = 0.2;
 
 /// Returns the moment that a rotational contact exerts on the tool at E, in W, N m.

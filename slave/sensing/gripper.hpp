@@ -28,7 +28,7 @@ class Gripper {
 
  private:
   bool holds_ = false;           // the robot reports that it holds a load
-  std::optional<bool> asked_{};  // none: not requested yet
+  std::optional<bool> asked_{};  // unset: not requested yet
 };
 
 }  // namespace longreach

@@ -11,9 +11,9 @@
 //
 // If the samples are irregular, the uncertainty of the acceleration is its change between samples; the
 // uncertainty of the force is the effect of these changes on the tool. The load in the gripper is compensated
-// in the same way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered like
-// the bond. Its unknown part counts as uncertainty while the tool accelerates and for another 0.3 s. If the
-// touch threshold is derived, the bias is also tracked in free motion with an open gripper
+// in the same way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered as the
+// bond filters it. Its unknown part is treated as uncertainty while the tool accelerates and for another 0.3
+// s. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
 // (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
 #include <limits>
@@ -135,7 +135,7 @@ class ToolCompensation {
     load_.grip(closed);
     closed_ = closed;
   }
-  /// Returns whether the load in the gripper is known or there is none.
+  /// Returns true if the load in the gripper is known or the gripper is empty.
   [[nodiscard]] bool load_known() const { return !closed_ || !loads_ || load_.known(); }
   [[nodiscard]] const BiasTracker& tracker() const { return tracker_; }
 

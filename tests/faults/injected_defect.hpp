@@ -34,7 +34,7 @@ enum class InjectedDefect : std::uint8_t {
 struct DefectFacts {
   std::string_view name;
   std::string_view invariant;  // the invariant that must detect it
-  std::string_view fault{};    // fault that makes the defect visible; empty: none is needed
+  std::string_view fault{};    // fault that makes the defect visible; empty if no fault is needed
 };
 constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCount)> kInjectedDefects = {{
     {"none", ""},

@@ -1,6 +1,6 @@
 #pragma once
 // The simulated operator of a run: moves the handle, presses on the wall, pauses, and requests an engagement
-// whenever the display shows that there is none. Between two positions the hand moves on minimum-jerk
+// whenever the display shows no active engagement. Between two positions the hand moves on minimum-jerk
 // trajectories.
 
 #include "common/core/random.hpp"

@@ -42,19 +42,20 @@ class SentLog {
   /// From now on the slave follows `session`; if `to_master`, the master sends in this session.
   void lease(double t_s, std::uint64_t session, bool to_master);
   void master_sent(double t_s, std::uint64_t sequence, const MotionCommand& command);
-  /// The operator requested an engagement, so the next new number of the master may be an engagement.
+  /// Call this when the operator has requested an engagement; the next new number of the master may then be
+  /// an engagement.
   void asked() { ++asks_; }
 
   /// Checks the commands that the slave received. Returns false if a command was not sent in this form, has a
-  /// number that does not increase, or belongs to another session. `slept_s`: time between the previous tick
-  /// of the slave and this one. If it exceeds the gap timer, commands that queued up are ignored, except a
-  /// stop.
+  /// number that does not increase, or belongs to another session. `slept_s` is the time between the previous
+  /// tick of the slave and this one. If it exceeds the gap timer, all queued commands except a stop are
+  /// ignored.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
   [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this number have ended
-  /// The slave reports that it is in this engagement. From now on a long silence ends the engagement; before
-  /// that, it does not.
+  /// Call this when the slave reports that it is in this engagement. From then on, a long time without
+  /// datagrams ends the engagement; before that, it does not.
   void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
-  /// An event at the slave ended all engagements up to now.
+  /// Call this when an event at the slave has ended all engagements up to now.
   void ended(double t_s);
 
   [[nodiscard]] const MotionAuthority& authority() const { return authority_; }

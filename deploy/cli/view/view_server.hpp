@@ -39,7 +39,7 @@ class ViewServer {
   /// URL of the page, including the token.
   [[nodiscard]] const std::string& address() const;
 
-  // These functions may be called from any thread. All texts are JSON.
+  // These functions may be called from any thread. All strings are JSON.
   /// Sends a frame to all viewers. A frame that has not been sent when the next one arrives is skipped.
   void show(std::string frame);
   /// Publishes persistent data: every viewer receives the newest text of each topic, even if it connects
