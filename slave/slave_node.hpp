@@ -53,7 +53,7 @@ struct SlaveView {
   double reported_stiffness_n_per_m = 0.0;
   ContactEstimate turn_estimate{};  // rotational contact: N and m stand for N m and rad
   double reported_stiffness_nm_per_rad = 0.0;
-  /// Position in W to which the reported stiffness belongs.
+  /// Position in W to which the reported stiffness applies.
   Vector3 reported_at_m = Vector3::Zero();
   double touch_sequence = 0.0;
   std::uint32_t touch = 0;

@@ -12,7 +12,7 @@
 // After the force has been far above G for a second, k is estimated from the decrease of the force.
 //
 // Without a goal, for example in a hold, the setpoint retreats until F has reached the hold limit. This takes
-// at most 1 s if the limits of speed and acceleration permit; k is again estimated from the decrease of the
+// at most 1 s if the speed and acceleration limits permit; k is again estimated from the decrease of the
 // force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
 //
 // If the force grew in a direction other than into the contact, the speed in that direction is limited in the
@@ -79,7 +79,7 @@ class ContactGuard {
  public:
   explicit ContactGuard(const GuardScale& scale) : scale_(scale), retreat_budget_(scale.retreat_budget) {}
 
-  /// Sets the limits for the following calls.
+  /// Sets the limits for subsequent calls.
   void limit(const GuardLimits& limits) {
     limits_ = limits;
     retreat_budget_.limit(limits.give_way_m);

@@ -44,8 +44,8 @@ class GoalLimiter {
 
   /// Restarts with the setpoint at rest at `X_WE`.
   void reset(const Pose& X_WE);
-  /// Replaces the last setpoint by `X_WE` because the joints cannot reach that setpoint; `dt` is the time
-  /// since the previous one, s.
+  /// Replaces the last setpoint with `X_WE` because the joints cannot reach it; `dt` is the time since the
+  /// setpoint before it, s.
   void correct(const Pose& X_WE, double dt);
 
   /// Starts an engagement, which resets the retreat distances.

@@ -18,7 +18,7 @@ namespace longreach {
 /// `distance` (>= 0). Any unit of length.
 double braking_speed(double distance, double acceleration, double dt);
 
-/// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed demands motion in the
+/// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed requires motion in the
 /// opposite direction.
 struct VelocityCap {
   Vector3 direction = Vector3::Zero();

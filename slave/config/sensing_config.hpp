@@ -4,7 +4,7 @@
 // noise σ of the filtered force along an axis and from the drift d of the sensor:
 //   touch = 8 σ + d √(10 s),   release = 0.4 touch
 // Until σ has been measured (slave/sensing/touch_threshold.hpp), the configured noise determines σ, and the
-// threshold is at least 0.3 N. The configuration checks of the guards use that threshold, too.
+// threshold is at least 0.3 N. The configuration checks of the guards also use that threshold.
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ inline double configured_touch_n(const SensingConfig& c) {
   return std::max(kMinimum_n, derived_touch_n(c, noise_n * std::sqrt(share / (2.0 - share))));
 }
 
-/// Returns the release threshold that belongs to `touch_n`, N.
+/// Returns the release threshold that corresponds to `touch_n`, N.
 inline double release_of_n(const SensingConfig& c, double touch_n) {
   constexpr double kReleaseShare = 0.4;
   return c.touch_n > 0.0 ? c.release_n : kReleaseShare * touch_n;

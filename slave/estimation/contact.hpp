@@ -105,7 +105,7 @@ class SlaveContact {
   ContactForce force_{};
   std::optional<Vector3> onset_{};  // position of the tool when the force last was within the noise
   Aside aside_{};
-  /// The only pressed surface determines the direction of the force, so its normal follows the force.
+  /// True if only one surface is pressed, so that its normal follows the direction of the force.
   bool turning_ = true;
   std::uint32_t touches_ = 0;
 };

@@ -1,11 +1,10 @@
 #pragma once
 // Identifies the position of a surface together with k, λ and n of the material behind it:
 //   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref for x > x0, else 0;   m = n, Kelvin-Voigt: m = 0
-// For white Gaussian noise of the force this is the maximum likelihood estimate from all samples. For given n
-// and x0 the law is linear in f and f a, so these two parameters are projected out (Golub and Pereyra 1973),
-// and damped Gauss-Newton steps on the binned samples (depth_bins.hpp) find n and x0. Samples before the
-// touch are included, because their zero force excludes some positions of the surface. n is either free or
-// given.
+// Under white Gaussian force noise this is the maximum likelihood estimate from all samples. For given n and
+// x0 the law is linear in f and f a, so these two parameters are projected out (Golub and Pereyra 1973), and
+// damped Gauss-Newton steps on the binned samples (depth_bins.hpp) find n and x0. Samples before the touch
+// are included, because their zero force excludes some positions of the surface. n is either free or given.
 //
 // At constant speed, a and k are not distinguishable without a prior. The priors are weak: n = 1.5 ± 0.5 and
 // a = 0 ± 2.5 s/m (known materials have less than 1 s/m). With a = 0 ± 10 s/m instead, identifying a free n

@@ -93,7 +93,8 @@ class DepthBins {
   double first_m_ = 0.0;
   double width_m_ = 0.0;  // 0: no sample yet
   double weight_ = 1.0;
-  double sum_ = 0.0, square_sum_ = 0.0;  // sums of the weights and of their squares, relative to the last one
+  /// Sums of the weights and of their squares, relative to the last weight.
+  double sum_ = 0.0, square_sum_ = 0.0;
 };
 
 }  // namespace longreach

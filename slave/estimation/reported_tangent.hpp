@@ -41,7 +41,7 @@ class ReportedTangent {
   [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: no value yet
   /// Relative standard deviation of the value at the last change.
   [[nodiscard]] double sd() const { return sd_; }
-  [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value belongs
+  [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value applies
   [[nodiscard]] double foot_m() const { return foot_m_; }    // depth of the foot behind the surface, >= 0
   [[nodiscard]] const Vector3& normal() const { return normal_; }  // outward normal at the last change
 

@@ -61,8 +61,8 @@ class Surface {
   /// Returns whether a touch with this normal, during which the tool moved from `from` to `to`, is a touch of
   /// this surface.
   [[nodiscard]] bool crossed(const Vector3& normal, const Vector3& from, const Vector3& to) const;
-  /// Starts a touch. `again`: the surface is known, and its values are still valid. `before`: samples before
-  /// the touch.
+  /// Starts a touch. `again` is true if the surface is known and its values are still valid; `before`
+  /// contains samples from before the touch.
   void begin(const Touch& touch, bool again, const Ring<TouchSample>& before);
   /// Processes one tick in which the tool presses on the surface.
   void press(const Press& press);
@@ -81,8 +81,8 @@ class Surface {
   void release();
   void forget() { there_ = pressed_ = known_ = false; }
 
-  /// Finds the goal that was being followed at the position of the surface, if the playout still stores that
-  /// goal.
+  /// Finds the goal that was being followed when the tool was at the surface, if the playout still stores
+  /// that goal.
   void locate(const Playout& playout, const Vector3& anchor, double played_sequence);
   /// Call this when the goals restart. The new goals did not cross the surface, so its position is reported
   /// relative to the anchor.
@@ -108,14 +108,14 @@ class Surface {
   /// Depth behind the surface beyond which the absence of force proves that the surface is gone, m.
   [[nodiscard]] double proof_depth_m() const;
   [[nodiscard]] const ReportedTangent& reported() const { return reported_; }
-  /// Position to which the reported value belongs, in W.
+  /// Position to which the reported value applies, in W.
   [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] ContactEstimate estimate() const;
   /// Returns the surface for the report. `anchor`: origin of its position, in W.
   [[nodiscard]] ReportedSurface report(const Vector3& anchor) const;
 
  private:
-  /// Direction of the force. It cannot change by more than the tool can have caused by sliding around an
+  /// Direction of the force. It cannot change by more than the tool could have caused by sliding around an
   /// edge.
   struct Direction {
     /// Last accepted direction, and the position of the tool at that time.
@@ -181,7 +181,7 @@ class Surface {
   double inward_m_ = 0.0;                // motion of the tool against the force since the touch
   double marked_m_ = 0.0;                // value of inward_m_ at the mark
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
-  double surface_m_ = 0.0;               // position of the surface in this coordinate
+  double surface_m_ = 0.0;               // position of the surface along the same coordinate
   double scale_ = 1.0;
   double played_at_touch_ = 0.0;
   double touch_sequence_ = 0.0;

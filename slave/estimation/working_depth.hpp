@@ -58,8 +58,8 @@ class WorkingDepth {
   static constexpr double kRests = 2.5;
   /// Minimum amplitude of an oscillation, in standard deviations of the depth.
   static constexpr double kSwing = 0.5;
-  /// If the distance of the tool from the mean depth exceeds this fraction of it, the tool is only passing
-  /// through.
+  /// If the distance of the tool from the mean depth exceeds this fraction of the mean depth, the tool is
+  /// only passing through.
   static constexpr double kThere = 0.3;
 
   bool hold(double depth_m) {

@@ -1,6 +1,6 @@
 #pragma once
 // A rigid displacement as a rotation matrix and a translation, for products along chains of joints. Pose
-// (common/spatial) represents the same with a quaternion and is used in interfaces.
+// (common/spatial) represents the same displacement with a quaternion and is used in interfaces.
 
 #include <cmath>
 

@@ -47,7 +47,7 @@ class Bodies {
   [[nodiscard]] Pose displaced(int i) const;
   void push(int i, const Vector3& v_m_per_s,
             const Vector3& w_rad_per_s);  // sets the velocities of a body, in W
-  void place(int i, const Pose& X_S);     // sets the pose of its inertial frame in S
+  void place(int i, const Pose& X_S);     // sets the pose of the body's inertial frame in S
   /// Vector from E to the fixture of the gripper, in W; zero if there is no gripper.
   [[nodiscard]] Vector3 to_fixture_m() const;
 

@@ -11,7 +11,7 @@
 // Growth perpendicular to the force can also come from a surface stiffer than k_max on which the tool slides.
 // If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. If
 // there is such a surface, the force then decreases by more than k_max times half that distance, or the
-// contact ends. Either result clears the sensor at any time.
+// contact ends. Either result, at any time, clears the sensor of suspicion.
 
 #include <algorithm>
 #include <cmath>

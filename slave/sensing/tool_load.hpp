@@ -92,7 +92,7 @@ struct CompensationLimits {
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
-  /// Returns the limits that belong to the force and moment guards.
+  /// Returns the limits that correspond to the force and moment guards.
   static CompensationLimits of(const CommandConfig& c) {
     return {c.force_guard_n, 0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
   }
