@@ -95,7 +95,7 @@ class SlaveNode {
 
   SlaveOutput step(const SlaveInput& input);
 
-  /// Changes the configuration from the next step on. Fields that can only be set at start are ignored.
+  /// Changes the configuration from the next step on. Fields that can only be set at startup are ignored.
   void configure(const SlaveConfig& config);
 
   [[nodiscard]] const SlaveView& view() const;

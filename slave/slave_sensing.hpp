@@ -1,8 +1,8 @@
 #pragma once
-// Processes the samples of the robot's force sensor. Each sample is checked (sensor_watch.hpp). Tool, load
-// and bias are compensated (tool_load.hpp), contacts are detected in the remainder (contact.hpp), and the
-// plausibility of the force is monitored (force_plausibility.hpp). If a sensor fault is detected, the
-// surfaces that were identified from its force are discarded.
+// Processes the samples of the robot's force sensor. Each sample is checked (sensor_watch.hpp). The effects
+// of tool, load and bias are compensated (tool_load.hpp), contacts are detected in the remainder
+// (contact.hpp), and the plausibility of the force is monitored (force_plausibility.hpp). If a sensor fault
+// is detected, the surfaces that were identified from its force are discarded.
 
 #include <optional>
 
@@ -44,7 +44,7 @@ class SlaveSensing {
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
   /// Starts zeroing the sensor.
   void zero() { load_.zero(); }
-  /// Returns the state of the zero and of the thresholds, for status and log.
+  /// Returns the zeroing state and the thresholds, for status and log.
   [[nodiscard]] SensorZero sensor_zero() const;
 
   [[nodiscard]] bool ok() const { return ok_; }
@@ -88,7 +88,7 @@ class SlaveSensing {
   Twist V_WE_{};
   Wrench F_E_W_{};
   bool ok_ = true;
-  bool zeroed_ = false;  // the first zero was subtracted from the contact force
+  bool zeroed_ = false;  // the bias found by the first zeroing was subtracted from the contact force
 };
 
 }  // namespace longreach

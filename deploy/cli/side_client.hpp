@@ -1,5 +1,5 @@
 #pragma once
-// RPC client of one side. Every call, including connecting, returns within the timeout.
+// RPC client for one side. Every call, including connecting, returns within the timeout.
 
 #include <memory>
 #include <optional>

@@ -109,7 +109,8 @@ struct SceneConfig {
   std::optional<BodiesConfig> bodies{};
 };
 
-/// Returns the components to build: those that the scene states, otherwise those that its surfaces require.
+/// Returns the components to build: those listed in the scene or, if it lists none, those that its surfaces
+/// require.
 NeedsConfig needs(const SceneConfig& scene);
 
 }  // namespace longreach

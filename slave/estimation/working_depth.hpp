@@ -58,8 +58,8 @@ class WorkingDepth {
   static constexpr double kRests = 2.5;
   /// Minimum amplitude of an oscillation, in standard deviations of the depth.
   static constexpr double kSwing = 0.5;
-  /// If the distance of the tool from the mean depth exceeds this fraction of the mean depth, the tool is
-  /// only passing through.
+  /// A tool whose distance from the mean depth exceeds this fraction of the mean depth is only passing
+  /// through.
   static constexpr double kThere = 0.3;
 
   bool hold(double depth_m) {
@@ -86,8 +86,8 @@ class WorkingDepth {
   double held_m_ = 0.0;  // depth that is held instead of the usual depth; 0: none
   double held_s_ = 0.0;  // time since the depth was last set
   double mean_m_ = 0.0, variance_m2_ = 0.0;
-  /// `below_`: the depth was less than the mean in this period. `whole_`: the period started at the end of a
-  /// previous one.
+  /// `below_`: the depth was less than the mean in this period. `whole_`: the period is complete because it
+  /// started at the end of the previous period.
   bool below_ = false, whole_ = false;
   /// Integral of the depth over the current period, m s, and the duration of the period, s.
   double swing_sum_ = 0.0, swing_s_ = 0.0;

@@ -58,10 +58,10 @@ class ClosedInverse {
   [[nodiscard]] bool applies() const { return loop_.family != ArmFamily::kNone; }
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
-  /// `X_WE` must be finite. `nearest`: returns only the branch nearest to `before` (minimum Σ Δq², each angle
-  /// shifted by full turns), among those that miss by at most ArmLoop::miss_max. A branch is skipped as soon
-  /// as one of its angles alone is farther away than the best result; near known joints, all branches except
-  /// the current one are skipped.
+  /// `X_WE` must be finite. If `nearest`, returns only the branch nearest to `before` (minimum Σ Δq², each
+  /// angle shifted by full turns) among those that miss by at most ArmLoop::miss_max. A branch is skipped as
+  /// soon as one of its angles alone is farther away than the best result; near known joints, all branches
+  /// except the current one are skipped.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
 
   /// Prepares the current joints; `joint_rad` must be finite.

@@ -3,17 +3,16 @@
 // mm/s, and the gripper is open. (If the gripper were closed, an error in the load's mass would be treated as
 // bias, and the force could exceed the guard by that error.)
 //
-// The first zero is the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
+// The first zeroing uses the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
 // threshold of that mean. The sensor is not zeroed at rest, because the reading could be the force of a
-// contact. Until the first zero, a bias of zero is assumed, so the guards receive the whole force. However,
-// the force at the start may be bias; it does not count as a contact while it does not change
-// (contact_detector.hpp).
+// contact. Before that, a bias of zero is assumed, so the guards receive the whole force. However, the force
+// at the start may be bias; it does not count as a contact while it does not change (contact_detector.hpp).
 //
-// After the first zero, the bias follows the force with a time constant of 1 s, and its rate is limited to
+// After the first zeroing, the bias follows the force with a time constant of 1 s, and its rate is limited to
 // three times the drift per second. A contact whose force grows more slowly, while the tool moves faster than
 // 5 mm/s, is not distinguishable from drift. A contact that is touched at less than 5 mm/s never counts as
-// drift. A bias above 0.6 of the guard at the first zero, or above 0.75 of it later, is refused because it
-// would hide too much force.
+// drift. A bias above 0.6 of the guard at the first zeroing, or above 0.75 of the guard later, is refused
+// because it would hide too much force.
 //
 // Pure; allocates nothing.
 
@@ -31,9 +30,9 @@ struct SensorZero {
   /// How often the sensor was zeroed: once initially, and again each time the bias has drifted by the touch
   /// threshold.
   std::uint32_t count = 0;
-  double bias_n = 0.0;     // magnitude of the bias at the last zero
-  double refused_n = 0.0;  // magnitude of the zero that is currently refused; 0: none
-  double missing_m = 0.0;  // free motion still needed for the first zero; 0: zeroing is complete
+  double bias_n = 0.0;     // magnitude of the bias when the sensor was last zeroed
+  double refused_n = 0.0;  // magnitude of the bias that is currently refused; 0: none
+  double missing_m = 0.0;  // free motion still needed for the first zeroing; 0: complete
   double drift_n = 0.0;    // standard deviation of the bias due to drift
   double touch_n = 0.0;    // current touch threshold
   double noise_n = 0.0;    // measured noise of the filtered force along an axis; 0: unknown
@@ -64,7 +63,7 @@ class BiasTracker {
   void step(const Sample& sample);
 
   [[nodiscard]] const Vector3& bias_n() const { return bias_n_; }
-  /// Part of the force that may be bias in addition to bias_n(); zero after the first zero.
+  /// Part of the force that may be bias in addition to bias_n(); zero after the first zeroing.
   [[nodiscard]] const Vector3& possible_n() const { return possible_n_; }
   /// True while possible_n() has not been determined; no force counts as a contact until then.
   [[nodiscard]] bool starting() const { return start_s_ < kStart_s; }
@@ -84,8 +83,8 @@ class BiasTracker {
 
   double drift_n_, guard_n_;
   Vector3 bias_n_ = Vector3::Zero(), possible_n_ = Vector3::Zero(), logged_n_ = Vector3::Zero();
-  Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zero
-  /// Smoothed force before the first zero; afterwards its difference from the bias.
+  Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zeroing
+  /// Smoothed force before the first zeroing; afterwards its difference from the bias.
   Vector3 smooth_n_ = Vector3::Zero();
   double way_m_ = 0.0, time_s_ = 0.0, start_s_ = 0.0, age_s_ = 0.0, refused_n_ = 0.0;
   bool known_ = false;

@@ -7,7 +7,7 @@
 // outward normal of a frictionless wall:
 //   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact
 // Above ten times the touch threshold, w falls as 1/|f̄|, so that an earlier large force does not hide the
-// current one. Before the first zero, a part u of the force may be the bias of the sensor. A force then
+// current one. Until the sensor is zeroed for the first time, a part u of the force may be bias. A force then
 // counts as a contact only if both |f̄| and |f̄ - u| exceed the threshold. Samples that are not finite are
 // skipped and counted.
 

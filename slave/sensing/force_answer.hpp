@@ -26,8 +26,8 @@
 // If the force does not respond, the retreat ends when its distance is used up (retreat_budget.hpp). After a
 // response, D/s is the stiffness k, and the speed of the retreat is
 //   u = v + (F - F_bound)/(k τ),   v = speed of the tool + F'/k, smoothed
-// Before the response, the tool accelerates with the fraction g/(250 N/s) of its acceleration limit, at least
-// 5 %. A faulty sensor that imitates a response is not detected.
+// Before the response, the tool accelerates at the fraction g/(250 N/s) of its acceleration limit, but at no
+// less than 5 %. A faulty sensor that imitates a response is not detected.
 
 #include <cstdint>
 

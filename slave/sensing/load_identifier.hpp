@@ -7,10 +7,10 @@
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
 // The bond that holds a load spreads an impulse over about 10 ms, so the integrals of f and m a agree, but
-// not the individual samples. Therefore both sides are filtered equally (two first-order filters of
-// kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias processes them every
-// kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as noise. An open gripper is
-// empty; a closed one may hold up to robot.load_max_kg.
+// not the individual samples. Therefore both sides are filtered in the same way (two first-order filters with
+// the time constant kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias
+// processes them every kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as
+// noise. An open gripper is empty; a closed one may hold up to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 

@@ -7,8 +7,8 @@
 
 namespace longreach {
 
-/// Returns the threshold, noise and bias, or what is still needed for the first zero; empty if the thresholds
-/// are configured.
+/// Returns the threshold, noise and bias, or what is still needed to zero the sensor for the first time;
+/// empty if the thresholds are configured.
 std::string in_words(const SensorZero& zero);
 /// Returns the reason why contacts may be missed or falsely detected, and a remedy; empty if there is no
 /// problem.

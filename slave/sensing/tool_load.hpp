@@ -166,10 +166,10 @@ class ToolCompensation {
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
   /// Motion as transmitted by the bond, as transmitted by the stiffest possible bond, and the latter after
-  /// the filter of the force that decides about contact.
+  /// the filter of the force that is used to detect contacts.
   SensorMotion slow_{}, quick_{}, decided_{};
   Wrench bias_{}, sum_{};
-  Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
+  Vector3 first_n_ = Vector3::Zero();  // bias found by the first zeroing
   double time_s_ = 0.0;
   int samples_ = 0;
   bool zeroing_, first_, loads_, zeroed_ = false, closed_ = false;

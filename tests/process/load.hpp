@@ -1,6 +1,6 @@
 #pragma once
-// Puts load on a program on loopback: idle connections, requests, or forged datagrams. Every load is bounded
-// in number and time. BareLoops distinguishes a stall of the machine from a stall of a program, and
+// Puts load on a program on loopback: idle connections, requests, or forged datagrams. Every load is limited
+// in number and duration. BareLoops distinguishes a stall of the machine from a stall of a program, and
 // Disturbance checks that a load does not affect the two sides.
 
 #include <atomic>
