@@ -129,7 +129,7 @@ class ContactGuard {
   double pushed_in_s_ = 0.0;
   double seen_n_per_m_ = 0.0;  // stiffness used for the speed of the retreat
   bool backs_off_ = false;     // the tool retreats without a goal in this step
-  /// Unit vector, direction of the retreat and of the braking after it; zero: neither.
+  /// Unit vector in the direction of the retreat and of the braking after it; zero if there is neither.
   Vector3 back_ = Vector3::Zero();
   double stable_s_ = 0.0;  // how long the force has been below the guard, s
 };

@@ -38,7 +38,7 @@ class ForcePlausibility {
     answer_.reset();
   }
 
-  /// Processes one tick; `felt` is the measured force, `force` the one that the guard uses.
+  /// Processes one tick; `felt` is the measured force, and `force` is the force that the guard uses.
   void step(GrowthSample felt, const ContactForce& force, const Robot& robot) {
     felt.trend_n_per_s = answer_.trend_n_per_s();
     growth_.step(felt);

@@ -1,6 +1,6 @@
 #pragma once
-// The comparison laws at the slave as one variant type. They are the textbook couplings that the laboratory
-// compares with the product.
+// Combines the comparison laws at the slave in one variant type. They are the textbook couplings that the
+// laboratory compares with the product.
 
 #include <variant>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Objects that the robot can touch, as described by the file of the scene.
+// Objects that the robot can touch, as described by the scene file.
 
 #include <optional>
 #include <string>

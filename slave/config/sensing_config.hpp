@@ -49,7 +49,8 @@ inline double derived_touch_n(const SensingConfig& c, double filtered_noise_n) {
   return kTouchSds * filtered_noise_n + expected_drift_n(c) * std::sqrt(kDriftTime_s);
 }
 
-/// Returns the configured touch threshold or, if it is derived, the one for the configured noise at 1 kHz, N.
+/// Returns the configured touch threshold or, if it is to be derived, the threshold for the configured noise
+/// at 1 kHz, N.
 inline double configured_touch_n(const SensingConfig& c) {
   constexpr double kMinimum_n = 0.3, kPeriod_s = 1e-3;
   if (c.touch_n > 0.0) return c.touch_n;

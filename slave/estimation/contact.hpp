@@ -75,7 +75,7 @@ class SlaveContact {
  private:
   /// Observed force perpendicular to the normals of the pressed surfaces.
   struct Aside {
-    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force last was within the noise
+    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force was last within the noise
     /// Motion of the tool against that force, and the ratio of that force to the force on the pressed surfaces,
     /// at the last evaluation.
     double way_m = 0.0, share = 0.0;
@@ -103,7 +103,7 @@ class SlaveContact {
   Ring<TouchSample> before_;  // samples shortly before the touch
   ContactReading reading_{};
   ContactForce force_{};
-  std::optional<Vector3> onset_{};  // position of the tool when the force last was within the noise
+  std::optional<Vector3> onset_{};  // position of the tool when the force was last within the noise
   Aside aside_{};
   /// True if only one surface is pressed, so that its normal follows the direction of the force.
   bool turning_ = true;

@@ -33,7 +33,7 @@ struct Touch {
   std::uint32_t number = 0;
   Vector3 force_n = Vector3::Zero();  // force of this surface on the tool
   Vector3 p_WE = Vector3::Zero();
-  /// Position of the tool when that force last was within the noise.
+  /// Position of the tool when that force was last within the noise.
   Vector3 onset = Vector3::Zero();
   /// Sequence number of the goal being followed; 0: none.
   double played_sequence = 0.0;
@@ -46,9 +46,9 @@ struct Press {
   Vector3 v_WE = Vector3::Zero();
   /// Unit vector in the direction of the force; depth is measured against it.
   Vector3 outward = Vector3::UnitX();
-  Vector3 force_n = Vector3::Zero();   // force of this surface on the tool
-  double dt = 0.0;                     // s
-  bool guarded = false;                // the force guard held the tool back in the last step
+  Vector3 force_n = Vector3::Zero();  // force of this surface on the tool
+  double dt = 0.0;                    // s
+  bool guarded = false;               // the force guard held the tool back in the last step
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
 };
@@ -173,9 +173,9 @@ class Surface {
   // like a moving surface.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();
   Direction pushes_{}, reported_normal_{};
-  double placed_sd_m_ = 0.0;             // standard deviation of the reported position; 0: none reported yet
-  double reported_s_ = 0.0;              // time since the surface was first reported
-  bool touched_anew_ = false;            // the position was reported in a previous touch
+  double placed_sd_m_ = 0.0;   // standard deviation of the reported position; 0: none reported yet
+  double reported_s_ = 0.0;    // time since the surface was first reported
+  bool touched_anew_ = false;  // the position was reported in a previous touch
   /// Current position of the tool, or its position when it left the surface.
   Vector3 tool_m_ = Vector3::Zero();
   double inward_m_ = 0.0;                // motion of the tool against the force since the touch

@@ -1,7 +1,7 @@
 #pragma once
 // All joint angles for a tool pose in closed form, for arms whose loop arm_loop.hpp recognizes.
 //
-// The loop leaves two equations in one angle c and one more angle β:
+// The loop leads to two equations in an angle c and a further angle β:
 //   a X = x(c),  sin α Y = y(c),  (X, Y) = Rot(β) r(c)          x, y, r: k + k' cos c + k'' sin c
 // (spherical: X and Y belong to the intersection point of the axes, seen from the axes a and b, β = φ_b;
 // parallel: to the common direction of the axes, β = -φ_a). With a = 0 or sin α = 0, one equation contains

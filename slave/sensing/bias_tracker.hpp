@@ -5,8 +5,9 @@
 //
 // The first zeroing uses the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
 // threshold of that mean. The sensor is not zeroed at rest, because the reading could be the force of a
-// contact. Before that, a bias of zero is assumed, so the guards receive the whole force. However, the force
-// at the start may be bias; it does not count as a contact while it does not change (contact_detector.hpp).
+// contact. Before the first zeroing, a bias of zero is assumed, so the guards receive the whole force.
+// However, the force at the start may be bias; it does not count as a contact while it does not change
+// (contact_detector.hpp).
 //
 // After the first zeroing, the bias follows the force with a time constant of 1 s, and its rate is limited to
 // three times the drift per second. A contact whose force grows more slowly, while the tool moves faster than

@@ -17,7 +17,7 @@ struct Scenario {
   proto::LabConfig config{};  // complete configuration
   MasterConfig master{};
   SlaveConfig slave{};
-  /// Settings of the scenario, as `longreach-lab run --set` accepts them.
+  /// Settings of the scenario, in the form accepted by `longreach-lab run --set`.
   std::vector<std::string> settings;
   double round_trip_s = 0.0;  // round-trip time of the link without faults
   bool metamorphic = false;   // the link has no random jitter, loss or reordering
