@@ -80,7 +80,7 @@ struct SlaveView {
 struct SlaveOutput {
   /// If unset, the robot is not commanded and holds its position by itself.
   std::optional<JointVector> joint_setpoint_rad{};
-  /// True closes the gripper, and false opens it; if unset, its state does not change.
+  /// True closes the gripper, and false opens it; if unset, the gripper does not change.
   std::optional<bool> grip{};
   std::optional<StiffnessReport> report{};
   std::uint64_t report_sequence = 0;

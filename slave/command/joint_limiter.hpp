@@ -50,8 +50,8 @@ class JointLimiter {
 
   /// Returns true if one step reaches the goal and all joints move slowly.
   [[nodiscard]] bool reaches(const JointVector& wanted_rad, double dt) const;
-  /// Moves towards `wanted_rad` (finite). `dt` > 0, s, is the same in every step; a step with another value
-  /// restarts at rest.
+  /// Moves towards `wanted_rad` (finite). `dt` > 0 is in s and should be the same in every step; a step with
+  /// a different value restarts at rest.
   JointsLimited step(const JointVector& wanted_rad, const ToolBound& tool, double dt);
 
   [[nodiscard]] const JointVector& path_rad() const { return path_rad_; }
